@@ -5,10 +5,11 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
 use rayon::prelude::*;
+use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
-/// The models that are read when they are first asked for: not everybody has ellipses or heat.
-const LATE: [Embedded; 3] = [Embedded::Ellipse, Embedded::HeatedLine, Embedded::HeatedCircle];
+/// The models that are read when they are first asked for: not everybody has ellipses, heat or oils that thin.
+const LATE: [Embedded; 4] = [Embedded::Ellipse, Embedded::HeatedLine, Embedded::HeatedCircle, Embedded::EyringLine];
 
 /// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
 #[derive(Clone, Default)]
@@ -51,12 +52,16 @@ impl Models {
     pub fn shaped(&self, kind: ContactKind, ellipse: bool, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
         let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
         let akin = |model: &&Arc<ReducedModel>| thins(&model.domain.lubricant) == thins(lubricant);
+        let of_law = |model: &&Arc<ReducedModel>| law(&model.domain.lubricant) == law(lubricant);
         let own = self.place(kind, ellipse, lubricant).and_then(|place| self.models.get(place));
         let shaped = |model: &&Arc<ReducedModel>| model.contact() == kind && model.of_ellipses() == ellipse;
         let warm = |model: &&Arc<ReducedModel>| model.domain.heat.is_some();
         let alike = || self.models.iter().filter(shaped).filter(akin);
+        let cold = || alike().filter(|model| !warm(model));
         let wanted = lubricant.heat.is_some();
-        own.or_else(|| alike().find(|model| warm(model) && wanted)).or_else(|| alike().find(|model| !warm(model)))
+        own.or_else(|| alike().find(|model| warm(model) && wanted))
+            .or_else(|| cold().find(of_law))
+            .or_else(|| cold().next())
     }
 
     /// Puts a model in place of the one of its kind of contact and fluid, which is returned.
@@ -78,8 +83,8 @@ impl Models {
     /// Whether contacts of a model's kind, with a fluid like its own, have one.
     pub fn serves(&self, model: &ReducedModel) -> bool {
         let kind = |model: &ReducedModel| {
-            let Lubricant { shear, heat, .. } = model.domain.lubricant;
-            (model.contact(), model.of_ellipses(), shear == ShearLaw::Newtonian, heat.is_some())
+            let laws = &model.domain.lubricant;
+            (model.contact(), model.of_ellipses(), law(laws), laws.heat.is_some())
         };
         self.models.iter().any(|known| kind(known) == kind(model))
     }
@@ -90,11 +95,15 @@ impl Models {
     }
 
     fn place(&self, kind: ContactKind, ellipse: bool, lubricant: &Lubricant) -> Option<usize> {
-        let wanted = lubricant.of_the_liquid();
-        let same = |model: &Arc<ReducedModel>| model.domain.lubricant.of_the_liquid() == wanted;
+        let same = |model: &Arc<ReducedModel>| model.domain.is_of(lubricant);
         let shaped = |model: &Arc<ReducedModel>| model.contact() == kind && model.of_ellipses() == ellipse;
         self.models.iter().position(|model| shaped(model) && same(model))
     }
+}
+
+/// Which law of shear a lubricant has, whatever its constants.
+fn law(lubricant: &Lubricant) -> Discriminant<ShearLaw> {
+    discriminant(&lubricant.shear)
 }
 
 #[cfg(test)]

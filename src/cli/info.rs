@@ -143,6 +143,12 @@ pub fn describe(model: &ReducedModel) -> String {
         let modulus = sliding.modulus_pa / 1e9;
         let _ = writeln!(text, "  SRR {srr}…{most}, NPR {npr}…{full}, E′ {modulus:.3} GPa, {:?}", d.lubricant.shear);
     }
+    if let Some(eyring) = d.eyring {
+        let ((srr, most), (low, high), (from, to)) = (eyring.srr, eyring.modulus_pa, eyring.limit_slope);
+        let [low, high] = [low, high].map(|modulus| modulus * 1e-9);
+        let law = d.lubricant.shear;
+        let _ = writeln!(text, "  SRR {srr}…{most}, E′ {low:.3}…{high:.3} GPa, {law:?}, Λ of limiting stresses {from}…{to}");
+    }
     if let Some((heat, laws)) = d.heat.zip(d.lubricant.heat) {
         let ((srr, most), inlet) = (heat.srr, laws.inlet_temperature);
         let interval = |(low, high): (f64, f64), scale: f64| {

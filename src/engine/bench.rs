@@ -15,7 +15,7 @@ use crate::solver::full::dense::{dense_kernel, dense_newton};
 use crate::solver::full::transient::{FullMarch, Inputs, Keep, Marching, Signal, Trajectory, Transient};
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
-use crate::solver::physics::lubricant::{Lubricant, Sliding};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{Online, ReducedOptions, distance, traction_curve};
@@ -118,7 +118,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     rows.extend(cold_and_warm(names, ROW_BUDGET[size], &shear, |problem, start| {
         solver.solve_problem(problem, start, &())
     })?);
-    if let Some(mut online) = bench.online("line/reduced", ContactKind::Line, false) {
+    if let Some(mut online) = bench.online("line/reduced", ContactKind::Line, ShearLaw::Newtonian) {
         rows.push(reduced_row("line/reduced", &mut online, (&points, lubricant), true, ROW_BUDGET[size])?);
     }
     let names = ["line/shear/reduced", "line/shear/traction-curve"];
@@ -129,7 +129,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     bench.add(rows, HEAT_BASELINE);
     let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut rows = point_rows(size, &shear)?;
-    if let Some(mut online) = bench.online("point/reduced", ContactKind::Point, false) {
+    if let Some(mut online) = bench.online("point/reduced", ContactKind::Point, ShearLaw::Newtonian) {
         let range = Range::Box(QuantityBox::TABLE_3_4);
         let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
         for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
@@ -156,7 +156,7 @@ impl Bench {
         kind: ContactKind,
         size: usize,
     ) -> Result<Vec<Timing>, EngineError> {
-        let Some(mut online) = self.online(solve, kind, true) else { return Ok(Vec::new()) };
+        let Some(mut online) = self.online(solve, kind, named_lubricant::SQUALANE_PIP.shear) else { return Ok(Vec::new()) };
         let problems = shear_problems(kind, REDUCED_SHEAR_POINTS[size])?;
         let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
         let lubricant = named_lubricant::SQUALANE_PIP;
@@ -166,8 +166,8 @@ impl Bench {
     }
 
     /// The embedded model of a row; a note where there is none.
-    fn online(&mut self, row: &str, kind: ContactKind, thins: bool) -> Option<Online> {
-        let model = Store::default().embedded(Embedded::of_kind(kind, thins));
+    fn online(&mut self, row: &str, kind: ContactKind, shear: ShearLaw) -> Option<Online> {
+        let model = Store::default().embedded(Embedded::of_kind(kind, shear));
         let missing = |reason: &ModelFileError| self.notes.push(format!("{row} is missing: {reason}"));
         model.inspect_err(missing).ok().map(|model| Online::new(model, ReducedOptions::default()))
     }

@@ -24,11 +24,13 @@ pub enum Embedded {
     HeatedLine,
     /// Circular contacts of oils with heat: `scenes/training/point_heat.ron`.
     HeatedCircle,
+    /// Line contacts of oils that thin by Eyring's law: `scenes/training/line_sliding_oils.ron`.
+    EyringLine,
 }
 
 impl Embedded {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Line,
         Self::ThinningLine,
         Self::Circle,
@@ -36,16 +38,18 @@ impl Embedded {
         Self::Ellipse,
         Self::HeatedLine,
         Self::HeatedCircle,
+        Self::EyringLine,
     ];
 
-    /// The one of a kind of contact, circular where it is one of points, and of a lubricant that thins under shear or
-    /// not.
-    pub fn of_kind(kind: ContactKind, thins: bool) -> Self {
-        match (kind, thins) {
-            (ContactKind::Line, false) => Self::Line,
-            (ContactKind::Line, true) => Self::ThinningLine,
-            (ContactKind::Point, false) => Self::Circle,
-            (ContactKind::Point, true) => Self::ThinningCircle,
+    /// The one of a kind of contact, circular where it is one of points, and of a lubricant that thins under shear by
+    /// such a law.
+    pub fn of_kind(kind: ContactKind, shear: ShearLaw) -> Self {
+        match (kind, shear) {
+            (ContactKind::Line, ShearLaw::Newtonian) => Self::Line,
+            (ContactKind::Line, ShearLaw::Eyring { .. }) => Self::EyringLine,
+            (ContactKind::Line, ShearLaw::Carreau { .. } | ShearLaw::Ellis { .. }) => Self::ThinningLine,
+            (ContactKind::Point, ShearLaw::Newtonian) => Self::Circle,
+            (ContactKind::Point, _) => Self::ThinningCircle,
         }
     }
 
@@ -64,7 +68,7 @@ impl Embedded {
         if lubricant.heat.is_some() {
             return Self::with_heat(point.kind);
         }
-        if point.radius_ratio() != 1.0 && !thins { Self::Ellipse } else { Self::of_kind(point.kind, thins) }
+        if point.radius_ratio() != 1.0 && !thins { Self::Ellipse } else { Self::of_kind(point.kind, lubricant.shear) }
     }
 
     /// The content of its file.
@@ -77,6 +81,7 @@ impl Embedded {
             Self::Ellipse => include_bytes!("../../assets/ellipse.rom"),
             Self::HeatedLine => include_bytes!("../../assets/line_heat.rom"),
             Self::HeatedCircle => include_bytes!("../../assets/point_heat.rom"),
+            Self::EyringLine => include_bytes!("../../assets/line_sliding.rom"),
         }
     }
 
@@ -123,6 +128,8 @@ mod tests {
         assert_eq!(Embedded::of(&ellipse, &SQUALANE_PIP), Embedded::ThinningCircle);
         let line = si_from_moes(&MoesRequest::new(ContactKind::Line, 50.0, 5.0)).unwrap();
         assert_eq!(Embedded::of(&line, &SQUALANE_PIP), Embedded::ThinningLine);
+        let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..oil };
+        assert_eq!(Embedded::of(&line, &eyring), Embedded::EyringLine);
         let warm = Lubricant { heat: Some(Heat::default()), ..oil };
         let [of_line, of_circle, of_ellipse] = [line, circle, ellipse].map(|point| Embedded::of(&point, &warm));
         assert_eq!([of_line, of_circle], [Embedded::HeatedLine, Embedded::HeatedCircle]);

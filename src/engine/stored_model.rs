@@ -12,7 +12,7 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, Ellipse, Moes};
 use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Beside, CIRCLES, Calibration, Combined, Domain, HeatDomain, OilDomain, PodBasis, PressureModes, ReducedModel,
+    Beside, CIRCLES, Calibration, Combined, Domain, EyringDomain, HeatDomain, OilDomain, PodBasis, PressureModes, ReducedModel,
     SampledRows, Sampling, Scheme, Shapes, SharedBasis, SlidingDomain, Snapshot, TractionRule, Window,
 };
 use faer::Mat;
@@ -92,8 +92,18 @@ struct StoredHeatedOils {
     fastest_sliding_m_per_s: f64,
 }
 
-/// What follows the oils of a model whose pressure modes are made of one basis, or that leaves thin films out, or has heat;
-/// others end without it.
+/// What follows what oils have in common in a model of oils that thin under shear by Eyring's law; others end without it.
+#[derive(Serialize, Deserialize)]
+struct StoredEyring {
+    /// T₀ \[K\] of a model with heat, which would begin with it: none.
+    no_inlet_temperature: f64,
+    srr: (f64, f64),
+    modulus_pa: (f64, f64),
+    limit_slope: (f64, f64),
+}
+
+/// What follows the oils of a model whose pressure modes are made of one basis, or that leaves thin films out, or has heat
+/// or Eyring's law; others end without it.
 #[derive(Default, Serialize, Deserialize)]
 struct StoredInCommon {
     thinnest_film: f64,
@@ -188,6 +198,11 @@ pub(super) fn sound_domain(domain: &Domain) -> bool {
     let Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, heat, .. } = domain;
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let thins = lubricant.shear != ShearLaw::Newtonian;
+    let eyring_is_sound = |EyringDomain { srr, modulus_pa, limit_slope }: &EyringDomain| {
+        let intervals = [(*srr, f64::MAX), (*modulus_pa, f64::MAX), (*limit_slope, 1.0)];
+        let law = matches!(lubricant.shear, ShearLaw::Eyring { .. }) && sliding.is_none() && heat.is_none();
+        law && positive(modulus_pa.0) && intervals.into_iter().all(|(interval, most)| sound_interval(interval, most))
+    };
     let sliding_is_sound = |sliding: &SlidingDomain| {
         sound_interval(sliding.srr, f64::MAX) && sound_interval(sliding.npr, 1.0) && positive(sliding.modulus_pa)
     };
@@ -199,7 +214,8 @@ pub(super) fn sound_domain(domain: &Domain) -> bool {
         let sound = |(interval, most)| sound_interval(interval, most);
         kind && lowest && heat.fastest_sliding_m_per_s > 0.0 && intervals.into_iter().all(sound)
     };
-    (heat.is_some() || thins == sliding.is_some())
+    (heat.is_some() || thins == domain.thins())
+        && domain.eyring.as_ref().is_none_or(eyring_is_sound)
         && heat.as_ref().is_none_or(heat_is_sound)
         && lubricant.check().is_ok()
         && [m, l, alpha_per_pa].into_iter().all(|interval| sound_interval(*interval, f64::MAX))
@@ -293,11 +309,11 @@ impl StoredWindow {
         if self.snapshots.is_empty() || !snapshots_fit {
             return damaged("snapshots");
         }
-        let (sliding, heat) = (domain.sliding.is_some(), domain.heat.is_some());
-        let slides = sliding || heat;
+        let (thins, heat) = (domain.thins(), domain.heat.is_some());
+        let slides = thins || heat;
+        // Older ones of contacts that do not slide know less of them.
         let of_kind = |known: &Calibration| {
-            let sliding_too = known.is_of(Beside::Sliding) == sliding;
-            sliding_too && (!heat || known.is_of(Beside::of(domain)))
+            if slides { known.is_of(Beside::of(domain)) } else { !known.is_of(Beside::Sliding) }
         };
         if heat && scheme != Scheme::Galerkin {
             return damaged("heat");
@@ -356,6 +372,7 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     let (windows, cavitation) = (&model.windows, model.domain.lubricant.cavitation);
     let usual = cavitation == Cavitation::Penalty && windows.iter().all(|window| window.scheme == Scheme::Galerkin);
     let (shapes, oils, heated) = (stored_shapes(model), stored_oils(model), stored_heat(model));
+    let eyring = stored_eyring(model);
     if usual && shapes.is_none() && oils.is_none() && heated.is_none() {
         return Some(payload);
     }
@@ -369,12 +386,14 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
         (Some(shapes), ..) => postcard::to_extend(&shapes, payload).ok(),
         (None, Some(oils), heated) => {
             let payload = postcard::to_extend(&oils, postcard::to_extend(&circles(), payload).ok()?).ok()?;
-            match (stored_in_common(model), heated) {
-                (in_common, Some(heated)) => {
-                    let in_common = in_common.unwrap_or_default();
-                    postcard::to_extend(&heated, postcard::to_extend(&in_common, payload).ok()?).ok()
-                }
-                (Some(in_common), None) => postcard::to_extend(&in_common, payload).ok(),
+            let in_common = stored_in_common(model);
+            if in_common.is_none() && heated.is_none() && eyring.is_none() {
+                return Some(payload);
+            }
+            let payload = postcard::to_extend(&in_common.unwrap_or_default(), payload).ok()?;
+            match (heated, eyring) {
+                (Some(heated), _) => postcard::to_extend(&heated, payload).ok(),
+                (None, Some(eyring)) => postcard::to_extend(&eyring, payload).ok(),
                 (None, None) => Some(payload),
             }
         }
@@ -441,6 +460,12 @@ fn stored_heat(model: &ReducedModel) -> Option<(StoredHeated, StoredHeatedOils)>
     let heat = model.domain.lubricant.heat?.into();
     let further = StoredHeatedOils { largest_radius_m, largest_modulus_pa, speed_m_per_s, fastest_sliding_m_per_s };
     Some((StoredHeated { heat, srr, radius_m, modulus_pa }, further))
+}
+
+/// What only a model of oils that thin by Eyring's law has.
+fn stored_eyring(model: &ReducedModel) -> Option<StoredEyring> {
+    let EyringDomain { srr, modulus_pa, limit_slope } = model.domain.eyring?;
+    Some(StoredEyring { no_inlet_temperature: 0.0, srr, modulus_pa, limit_slope })
 }
 
 /// A snapshot as its window keeps it: coefficients of windows around anchors have a place of their own.
@@ -580,7 +605,7 @@ fn anchor(model: &mut ReducedModel, StoredOils { oils, windows }: StoredOils) ->
         return None;
     }
     for (window, (m, l)) in model.windows.iter_mut().zip(anchors) {
-        window.anchor = Some(Moes { m, l });
+        (window.anchor, window.thins) = (Some(Moes { m, l }), model.domain.eyring.is_some());
     }
     Some(())
 }
@@ -626,11 +651,12 @@ struct Further {
     oils: Option<StoredOils>,
     in_common: Option<StoredInCommon>,
     heated: Option<(StoredHeated, StoredHeatedOils)>,
+    eyring: Option<StoredEyring>,
 }
 
 /// What follows the model in a payload; `None` where it cannot be understood.
 fn further(rest: &[u8], windows: usize) -> Option<Further> {
-    let Further { mut further, mut shapes, mut oils, mut in_common, mut heated } = Further::default();
+    let Further { mut further, mut shapes, mut oils, mut in_common, mut heated, mut eyring } = Further::default();
     if !rest.is_empty() {
         let (known, rest) = postcard::take_from_bytes::<StoredFurther>(rest).ok()?;
         if known.schemes.len() != windows {
@@ -650,7 +676,11 @@ fn further(rest: &[u8], windows: usize) -> Option<Further> {
                     let (known, rest) = postcard::take_from_bytes::<StoredInCommon>(rest).ok()?;
                     in_common = of_circles.then_some(Some(known))?;
                     oils = Some(known_oils);
-                    if !rest.is_empty() {
+                    let without_heat = |known: &StoredEyring| known.no_inlet_temperature == 0.0;
+                    let thins = postcard::take_from_bytes(rest).ok().filter(|(known, _)| without_heat(known));
+                    if let Some((known, rest)) = thins {
+                        eyring = rest.is_empty().then_some(Some(known))?;
+                    } else if !rest.is_empty() {
                         let (known, rest) = postcard::take_from_bytes::<(StoredHeated, StoredHeatedOils)>(rest).ok()?;
                         heated = rest.is_empty().then_some(Some(known))?;
                     }
@@ -664,7 +694,7 @@ fn further(rest: &[u8], windows: usize) -> Option<Further> {
         }
     }
     further.schemes.resize_with(windows, Default::default);
-    Some(Further { further, shapes, oils, in_common, heated })
+    Some(Further { further, shapes, oils, in_common, heated, eyring })
 }
 
 /// Gives the windows of a model their law of rupture; `None` where it does not fit them.
@@ -702,7 +732,7 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
         .map_err(|_| ModelFileError::Damaged { what: "its content cannot be decoded" })?;
     let StoredModel { mut title, mut domain, mut windows, scene, mut log } = stored;
     let damaged = |what| ModelFileError::Damaged { what };
-    let Further { further, shapes, mut oils, in_common, heated } =
+    let Further { further, shapes, mut oils, in_common, heated, eyring } =
         further(rest, windows.len()).ok_or(damaged("rupture and schemes"))?;
     if let Some((StoredHeated { heat, srr, radius_m, modulus_pa }, further)) = heated {
         let StoredHeatedOils { largest_radius_m, largest_modulus_pa, speed_m_per_s, fastest_sliding_m_per_s } = further;
@@ -710,6 +740,7 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
         let of_heat = HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s };
         (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
     }
+    domain.eyring = eyring.map(|StoredEyring { srr, modulus_pa, limit_slope, .. }| EyringDomain { srr, modulus_pa, limit_slope });
     if !sound_domain(&domain) {
         return Err(ModelFileError::Damaged { what: "its domain" });
     }

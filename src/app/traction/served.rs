@@ -42,7 +42,11 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
                 Err(why) => (ends, Err(why)),
             },
             None => {
-                let what = if varied == Varied::RadiusRatio { "circles only" } else { "no such speed" };
+                let what = match varied {
+                    Varied::RadiusRatio => "circles only",
+                    Varied::Plateau => "one plateau ratio only",
+                    Varied::SlideToRoll | Varied::Speed => "no such speed",
+                };
                 (varied.everywhere(&point), Err(format!("the reduced model was trained for {what}")))
             }
         },

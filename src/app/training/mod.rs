@@ -12,7 +12,6 @@ use super::answers::Answers;
 use super::document::Document;
 use crate::engine::job::{Background, Standing};
 use crate::engine::{Embedded, Store, training_file};
-use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Plan, Range, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;
@@ -228,11 +227,10 @@ impl Training {
     pub fn comparable(&self, answers: &Answers, document: &Document) -> Vec<(String, Arc<ReducedModel>)> {
         let Some(spec) = self.compared_spec(document) else { return Vec::new() };
         let kind = spec.contact();
-        let (ellipses, thins) =
-            (matches!(spec.range, Range::Ellipses { .. }), spec.lubricant.shear != ShearLaw::Newtonian);
+        let ellipses = matches!(spec.range, Range::Ellipses { .. });
         // That of ellipses is large: it stands here once it is in use.
-        let heats = spec.range.heats();
-        let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, thins) };
+        let (heats, shear) = (spec.range.heats(), spec.lubricant.shear);
+        let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, shear) };
         let round = (!ellipses).then_some(of_kind);
         let embedded = round.and_then(|which| answers.store.embedded(which).ok());
         let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant).cloned();

@@ -231,7 +231,7 @@ impl FilmStress {
         let (across_pa, mid_pa) = match &problem.shear {
             None => {
                 // κ₁ and κ₂ of (3.27).
-                let kappa_1 = hertz.pressure_pa * hertz.half_width_m / point.radius_m;
+                let kappa_1 = point.gradient_stress_pa();
                 let slip = point.speed_m_per_s * point.sliding.slide_to_roll_ratio;
                 let kappa_2 = point.viscosity_pa_s * slip / point.film_scale_m();
                 (gradient.map(|p| kappa_1 * film * p), [kappa_2 * viscosity / film, 0.0])

@@ -1,5 +1,9 @@
 //! What a reduced model was trained for, and whether a contact lies inside.
 
+mod eyring;
+
+pub use eyring::EyringDomain;
+
 use super::oils::expected_film;
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::OperatingPoint;
@@ -34,6 +38,10 @@ pub struct Domain {
     /// place of their own.
     #[serde(skip)]
     pub heat: Option<HeatDomain>,
+    /// What a model of many oils that thin under shear by Eyring's law was trained for beside these. Files keep it in a
+    /// place of its own.
+    #[serde(skip)]
+    pub eyring: Option<EyringDomain>,
 }
 
 /// What a model of contacts with heat is trained for beside M, L, α, η₀ and p_H.
@@ -101,7 +109,13 @@ impl Domain {
 
     /// |SRR| that was trained; none where films know no sliding.
     pub fn srr(&self) -> Option<(f64, f64)> {
-        self.sliding.map(|sliding| sliding.srr).or(self.heat.map(|heat| heat.srr))
+        let heat_or_eyring = || self.heat.map(|heat| heat.srr).or(self.eyring.map(|eyring| eyring.srr));
+        self.sliding.map(|sliding| sliding.srr).or_else(heat_or_eyring)
+    }
+
+    /// Whether lubricants of the model thin under shear.
+    pub fn thins(&self) -> bool {
+        self.sliding.is_some() || self.eyring.is_some()
     }
 
     /// Whether a problem lies inside; boundaries count as inside to rounding.
@@ -127,6 +141,8 @@ impl Domain {
             ));
         }
         let sliding = self.sliding.and_then(|sliding| sliding.outside(point));
+        let stresses = self.eyring.zip(self.stresses(&problem.lubricant));
+        let sliding = sliding.or_else(|| stresses.and_then(|(eyring, stresses)| eyring.outside(problem, stresses)));
         if let Some(outside) = sliding.or_else(|| self.heat.and_then(|heat| heat.outside(problem))) {
             return Trust::Outside(outside);
         }
@@ -145,7 +161,7 @@ impl Domain {
             _ => {}
         }
         let without_heat = |laws: Lubricant| Lubricant { heat: None, ..laws.of_the_liquid() };
-        if without_heat(asked) != without_heat(own) {
+        if without_heat(self.with_own_stress(asked)) != without_heat(own) {
             return Some("the model was trained with other lubricant laws");
         }
         // Under heat a limit cuts the heat that shear makes.
@@ -322,6 +338,7 @@ mod tests {
             radius_ratio: CIRCLES,
             oils: None,
             heat: None,
+            eyring: None,
         };
         let trust = |m, l| {
             let point = si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap();

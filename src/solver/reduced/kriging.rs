@@ -6,24 +6,30 @@
 
 use super::dense;
 use super::model::Window;
-use super::oils::{apart, oil_place};
+use super::oils::{OilPlace, apart, oil_place};
 use super::start::{Guess, film_number};
 use crate::solver::physics::contact::OperatingPoint;
 use faer::Mat;
 
-/// Terms of the trend: of a quadratic in four numbers.
-const TERMS: usize = 15;
-/// Solutions without which there is no trend.
-const FEWEST: usize = 2 * TERMS;
+/// Terms of the trend, a quadratic in as many numbers as tell contacts apart; and of the longest one.
+const fn terms(numbers: usize) -> usize {
+    (numbers + 1) * (numbers + 2) / 2
+}
+const MOST_TERMS: usize = terms(6);
+/// Solutions per term without which there is no trend.
+const FEWEST: usize = 2;
 /// What trends that the solutions cannot tell apart are held by.
 const RIDGE: f64 = 1e-9;
 
 /// Interpolates between the training solutions of a window.
 pub(super) struct Kriging {
-    centre: [f64; 4],
+    /// How many numbers tell contacts apart, and whether stresses are among them.
+    apart_by: usize,
+    thins: bool,
+    centre: OilPlace,
     /// Length in which places are counted.
     length: f64,
-    places: Vec<[f64; 4]>,
+    places: Vec<OilPlace>,
     /// Of each solution, then of each term, what it contributes: coefficients, ln of the film, fronts.
     weights: Vec<f64>,
     modes: usize,
@@ -37,15 +43,17 @@ impl Kriging {
         let snapshots = &window.snapshots;
         let (count, modes) = (snapshots.len(), window.pressure.count());
         let lines = snapshots.first()?.fronts.len();
-        if count < FEWEST {
+        let (thins, apart_by) = (window.thins, if window.thins { 6 } else { 4 });
+        let trends = terms(apart_by);
+        if count < FEWEST * trends {
             return None;
         }
-        let own: Vec<[f64; 4]> = snapshots.iter().map(|snapshot| oil_place(&snapshot.point)).collect();
-        let centre: [f64; 4] = std::array::from_fn(|k| own.iter().map(|place| place[k]).sum::<f64>() / count as f64);
+        let own: Vec<OilPlace> = snapshots.iter().map(|snapshot| oil_place(&snapshot.point, thins)).collect();
+        let centre: OilPlace = std::array::from_fn(|k| own.iter().map(|place| place[k]).sum::<f64>() / count as f64);
         let length = (own.iter().map(|place| apart(*place, centre)).sum::<f64>() / count as f64).sqrt();
-        let places: Vec<[f64; 4]> = own.iter().map(|place| scaled(*place, centre, length)).collect();
-        let terms: Vec<[f64; TERMS]> = places.iter().map(|place| trend(*place)).collect();
-        let system = Mat::from_fn(count + TERMS, count + TERMS, |i, j| match (i < count, j < count) {
+        let places: Vec<OilPlace> = own.iter().map(|place| scaled(*place, centre, length)).collect();
+        let terms: Vec<[f64; MOST_TERMS]> = places.iter().map(|place| trend(*place, apart_by)).collect();
+        let system = Mat::from_fn(count + trends, count + trends, |i, j| match (i < count, j < count) {
             (true, true) => cubed(apart(places[i], places[j])),
             (true, false) => terms[i][j - count],
             (false, true) => terms[j][i - count],
@@ -58,7 +66,7 @@ impl Kriging {
             }
         });
         let numbers = modes + 1 + lines;
-        let known = Mat::from_fn(count + TERMS, numbers, |i, k| match (snapshots.get(i), k.checked_sub(modes)) {
+        let known = Mat::from_fn(count + trends, numbers, |i, k| match (snapshots.get(i), k.checked_sub(modes)) {
             (None, _) => 0.0,
             (Some(snapshot), None) => snapshot.coefficients[k],
             (Some(snapshot), Some(0)) => (snapshot.h_c / film_number(&snapshot.point)).ln(),
@@ -66,17 +74,18 @@ impl Kriging {
         });
         let solved = dense::solved(system.as_ref(), known);
         let weights: Vec<f64> =
-            (0..count + TERMS).flat_map(|i| (0..numbers).map(move |k| (i, k))).map(|at| solved[at]).collect();
+            (0..count + trends).flat_map(|i| (0..numbers).map(move |k| (i, k))).map(|at| solved[at]).collect();
         let sound = weights.iter().all(|weight| weight.is_finite());
-        sound.then_some(Self { centre, length, places, weights, modes, numbers })
+        sound.then_some(Self { apart_by, thins, centre, length, places, weights, modes, numbers })
     }
 
     /// The start for a contact; `None` where it is none.
     pub fn start(&self, point: &OperatingPoint) -> Option<Guess> {
-        let place = scaled(oil_place(point), self.centre, self.length);
+        let place = scaled(oil_place(point, self.thins), self.centre, self.length);
         let mut coefficients = vec![0.0; self.numbers];
         let near = self.places.iter().map(|other| cubed(apart(place, *other)));
-        for (factor, weights) in near.chain(trend(place)).zip(self.weights.chunks_exact(self.numbers)) {
+        let trends = trend(place, self.apart_by);
+        for (factor, weights) in near.chain(trends).zip(self.weights.chunks_exact(self.numbers)) {
             coefficients.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += factor * weight);
         }
         let fronts = coefficients[self.modes + 1..].iter().map(|front| (front + 0.5).max(0.0) as usize).collect();
@@ -87,17 +96,17 @@ impl Kriging {
     }
 }
 
-fn scaled(place: [f64; 4], centre: [f64; 4], length: f64) -> [f64; 4] {
+fn scaled(place: OilPlace, centre: OilPlace, length: f64) -> OilPlace {
     std::array::from_fn(|k| (place[k] - centre[k]) / length)
 }
 
-/// 1, the numbers, and their products.
-fn trend(place: [f64; 4]) -> [f64; TERMS] {
-    let mut terms = [1.0; TERMS];
-    terms[1..5].copy_from_slice(&place);
-    let mut at = 5;
-    for i in 0..4 {
-        for j in i..4 {
+/// 1, so many numbers, and their products.
+fn trend(place: OilPlace, numbers: usize) -> [f64; MOST_TERMS] {
+    let mut terms = [1.0; MOST_TERMS];
+    terms[1..=numbers].copy_from_slice(&place[..numbers]);
+    let mut at = numbers + 1;
+    for i in 0..numbers {
+        for j in i..numbers {
             terms[at] = place[i] * place[j];
             at += 1;
         }

@@ -36,14 +36,14 @@ pub use calibration::{
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
-pub use domain::{CIRCLES, Domain, HeatDomain, OilDomain, SlidingDomain, Trust};
+pub use domain::{CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, Trust};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
 pub use model::{ModelSize, ReducedModel, SHAPE_WEIGHT, Snapshot, Window, deformation_weights, distance, separation};
 pub use oils::expected_film;
-pub(crate) use oils::{BLENDED, apart, from_anchor, oil_place};
+pub(crate) use oils::{BLENDED, OilPlace, apart, from_anchor, oil_place};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub use operators::Warmth;
 pub(crate) use operators::{Iterate, fronts};

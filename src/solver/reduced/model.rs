@@ -63,6 +63,8 @@ pub struct Window {
     /// Of a window that serves the contacts around a place in (ln M, ln L) that place; M then says no more than how far
     /// these reach.
     pub anchor: Option<Moes>,
+    /// Whether SRR and stresses tell its contacts apart as well: of many oils that thin under shear.
+    pub thins: bool,
     /// The grid of its solutions.
     pub grid: ContactGrid,
     /// Penalty factor γ̄ of (2.36) in the reduced equations. Sampled rows of a point contact want it softer than the
@@ -180,6 +182,7 @@ impl Window {
         Self {
             m,
             anchor: None,
+            thins: false,
             grid,
             penalty: PENALTY,
             cavitation: Cavitation::Penalty,
@@ -230,8 +233,9 @@ impl Window {
     /// The nearest training solution by [`separation`], or by what tells oils apart where it knows many.
     pub fn nearest(&self, point: &OperatingPoint) -> Option<(&Snapshot, f64)> {
         if self.anchor.is_some() {
-            let place = oil_place(point);
-            let all = self.snapshots.iter().map(|snapshot| (snapshot, apart(place, oil_place(&snapshot.point))));
+            let place = |point: &OperatingPoint| oil_place(point, self.thins);
+            let own = place(point);
+            let all = self.snapshots.iter().map(|snapshot| (snapshot, apart(own, place(&snapshot.point))));
             return all.min_by(|a, b| a.1.total_cmp(&b.1));
         }
         self.snapshots.iter().map(|s| (s, separation(point, &s.point))).min_by(|a, b| a.1.total_cmp(&b.1))
@@ -273,7 +277,7 @@ impl ReducedModel {
 
     /// Whether its rows want gradients of the pressure: of a lubricant that thins under shear, and of films with heat.
     pub(crate) fn slides(&self) -> bool {
-        self.domain.sliding.is_some() || self.domain.heat.is_some()
+        self.domain.thins() || self.domain.heat.is_some()
     }
 
     /// Whether it is a model of this kind of contact: of lines, of circles, or of ellipses.

@@ -3,7 +3,8 @@
 //! Under Roelands' and Dowson and Higginson's laws a contact is four numbers: M, L, p_H and Roelands' exponent z =
 //! α p_Roe/(ln η₀ + 9.67). Registered pressures vary most with ln M and ln L, three times less over the range of oils with
 //! ln p_H, and little with z; a window narrow in one of the latter needs hardly fewer modes than a wide one. So windows
-//! are the cells of anchors in (ln M, ln L), whatever the oil.
+//! are the cells of anchors in (ln M, ln L), whatever the oil. Where oils thin under shear SRR and p_H a/R over τ₀ are two
+//! numbers more.
 
 use super::calibration::{ErrorEstimate, Estimated};
 use super::model::{ReducedModel, Window};
@@ -15,11 +16,25 @@ use crate::solver::physics::lubricant::roelands_exponent;
 /// How much farther than the nearest anchor, in ln M and ln L, another one may be to be blended in.
 pub(crate) const BLENDED: f64 = 0.1;
 
-/// ln M, ln L, ln p_H and z in lengths that add up to the distance of registered pressures.
-pub(crate) fn oil_place(point: &OperatingPoint) -> [f64; 4] {
-    let Moes { m, l } = point.moes();
-    [0.27 * m.ln(), 0.29 * l.ln(), 0.18 * point.hertz().pressure_pa.ln(), 0.34 * roelands_exponent(point)]
+/// Where a contact lies among those of many oils: the first numbers tell them apart, the others are zero.
+pub(crate) type OilPlace = [f64; 6];
+
+/// ln M, ln L, ln p_H and z in lengths that add up to the distance of registered pressures; of oils that thin under shear,
+/// whose contacts have one τ₀, ln(p_H a/R) and |SRR| as well.
+pub(crate) fn oil_place(point: &OperatingPoint, thins: bool) -> OilPlace {
+    let (Moes { m, l }, pressure) = (point.moes(), point.hertz().pressure_pa);
+    let [stress, srr] = if thins {
+        let srr = point.sliding.slide_to_roll_ratio.abs();
+        [STRESS_LENGTH * point.gradient_stress_pa().ln(), SRR_LENGTH * srr]
+    } else {
+        [0.0; 2]
+    };
+    [0.27 * m.ln(), 0.29 * l.ln(), 0.18 * pressure.ln(), 0.34 * roelands_exponent(point), stress, srr]
 }
+
+/// Units of ln(p_H a/R), and of |SRR|, in the lengths of [`oil_place`].
+const STRESS_LENGTH: f64 = 0.1;
+const SRR_LENGTH: f64 = 0.4;
 
 /// H_c in units of a²/R that Moes' formula expects of M and L.
 pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {
@@ -75,10 +90,10 @@ const NEIGHBOURS: usize = 8;
 impl Window {
     /// What the grid costs H_c of a contact, by those of the training solutions around it; none where these do not say.
     pub fn grid_cost(&self, point: &OperatingPoint) -> Option<GridCost> {
-        let place = oil_place(point);
+        let place = oil_place(point, self.thins);
         let known = self.snapshots.iter().filter_map(|snapshot| {
             let cost = snapshot.grid_cost.filter(|cost| cost.total().is_finite())?;
-            Some((apart(place, oil_place(&snapshot.point)), cost))
+            Some((apart(place, oil_place(&snapshot.point, self.thins)), cost))
         });
         let mut near: Vec<(f64, GridCost)> = known.collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -118,6 +133,8 @@ impl ReducedSolution {
         (self.h_0, self.h_c) = (mix(self.h_0, &|other| other.h_0), mix(self.h_c, &|other| other.h_c));
         self.residual_estimate = mix(self.residual_estimate, &|other| other.residual_estimate);
         self.iterations += beside.iter().map(|(_, other)| other.iterations).sum::<usize>();
+        let tractions: Option<f64> = beside.iter().map(|(share, other)| Some(share * other.traction?)).sum();
+        self.traction = self.traction.zip(tractions).map(|(mine, others)| own * mine + others);
         // The error of a blend is the blend of the errors, at most.
         self.error = self.error.and_then(|mine| {
             let errors: Option<Vec<ErrorEstimate>> = beside.iter().map(|(_, other)| other.error).collect();
@@ -131,7 +148,9 @@ impl ReducedSolution {
                 }
             };
             let (h_c, h_min, state) = (quantity(&|e| e.h_c), quantity(&|e| e.h_min), quantity(&|e| e.state));
-            Some(ErrorEstimate { h_c, h_min, state, traction: None, rise: None })
+            // All tell it, or none does: they are of one contact.
+            let traction = mine.traction.map(|own| quantity(&|e| e.traction.unwrap_or(own)));
+            Some(ErrorEstimate { h_c, h_min, state, traction, rise: None })
         });
         self.beside = beside;
     }

@@ -171,9 +171,9 @@ impl Online {
         if problem.shear.is_some() && !self.model.slides() {
             return Err(ReducedError::ShearThinning);
         }
-        // Its α and its plateau ratio are those that count.
-        let point = &problem.point;
+        // Its α and its plateau ratio are those that count; starts are those of a contact with the trained stress.
         let model = Arc::clone(&self.model);
+        let point = &model.domain.as_trained(&problem.point, &problem.lubricant);
         let kriged = self.kriged(index, point);
         let by_kriging = kriged.is_some();
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
@@ -246,17 +246,20 @@ impl Online {
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
         let theta = found.theta().to_vec();
         let Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat } = found;
-        let (point, known) = (problem.point, coefficients.clone());
+        let domain = &self.model.domain;
+        let (point, known) = (domain.as_trained(&problem.point, &problem.lubricant), coefficients.clone());
+        let knows_traction = domain.knows_traction(problem);
         self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone(), theta });
         let trust = self.model.trust(problem);
         let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
         let mut error =
             calibration.filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default()).map(|c| {
-                c.estimate(&Features::new(&problem.point, residual, &coefficients, Beside::of(&self.model.domain)))
+                c.estimate(&Features::new(&point, residual, &coefficients, Beside::of(domain)))
             });
         if let Some(estimate) = error.as_mut().filter(|estimate| estimate.traction.is_some()) {
-            // Of a traction that is no physics nothing is promised.
-            estimate.traction = estimate.traction.filter(|_| problem.traction_warning().is_none());
+            // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
+            let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());
+            estimate.traction = estimate.traction.filter(|_| meant);
         }
         ReducedSolution {
             point: problem.point,
@@ -267,7 +270,7 @@ impl Online {
             beside: Vec::new(),
             h_0,
             h_c,
-            traction,
+            traction: traction.filter(|_| knows_traction),
             heat,
             iterations,
             residual_estimate: residual,
@@ -282,5 +285,5 @@ fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions)
     if model.domain.heat.is_some() {
         return Operators::with_heat(window, modes, options.deformation_modes);
     }
-    Operators::new(window, modes, options.deformation_modes, model.domain.sliding.is_some())
+    Operators::new(window, modes, options.deformation_modes, model.domain.thins())
 }

@@ -249,9 +249,8 @@ impl Operators {
         sampled.chain(passed).map(|place| self.scratch.nodes[place].flow)
     }
 
-    /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none, and
-    /// under a limiting stress: the rule was fitted to stresses that nothing cuts. With heat it is that of the film with
-    /// the temperatures of the last turns, whose limit belongs to what the model was trained with.
+    /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none. With heat
+    /// it is that of the film with the temperatures of the last turns.
     pub fn traction(&self, problem: &Problem, scale: f64) -> Option<f64> {
         if self.traction.is_empty() || self.axes == 0 {
             return None;
@@ -263,9 +262,6 @@ impl Operators {
             let pressure = |k: usize| carried(kind, -1.0 + (places[k].xi + 1.0) * scale, s.fields[k]);
             let of = |&(k, weight): &(usize, f64)| weight * mid_stress_pa(problem, heat, stress[k], pressure(k));
             return Some(scale * self.traction.iter().map(of).sum::<f64>() * problem.point.area_per_load());
-        }
-        if problem.lubricant.limiting_stress.is_some() {
-            return None;
         }
         let gradients = &s.fields[2 * count..];
         let stress = |&(k, weight): &(usize, f64)| {

@@ -6,7 +6,7 @@ use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
 use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState, train_resumable};
 use super::{
-    HeatedOilRange, HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingRange, TrainingError, TrainingObserver,
+    HeatedOilRange, HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingOilRange, SlidingRange, TrainingError, TrainingObserver,
     TrainingSpec, WindowSpec, Windows,
 };
 use crate::solver::discrete::grid::ContactGrid;
@@ -46,7 +46,9 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
             let own = spec.lubricant.own_coefficient().unwrap_or(alpha);
             (m, (l.0 * own / alpha, l.1 * own / alpha), (own, own), max_hertz_pressure, viscosity)
         }
-        Range::Oils(range) | Range::HeatedOils(HeatedOilRange { oils: range, .. }) => {
+        Range::Oils(range)
+        | Range::HeatedOils(HeatedOilRange { oils: range, .. })
+        | Range::SlidingOils(SlidingOilRange { oils: range, .. }) => {
             let OilRange { m, l, alpha, hertz_pressure, .. } = range;
             (m, l, alpha, hertz_pressure.1, range.middle_viscosity())
         }
@@ -72,7 +74,9 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
         _ => CIRCLES,
     };
     let oils = match spec.range {
-        Range::Oils(range) | Range::HeatedOils(HeatedOilRange { oils: range, .. }) => Some(range.declared()),
+        Range::Oils(range)
+        | Range::HeatedOils(HeatedOilRange { oils: range, .. })
+        | Range::SlidingOils(SlidingOilRange { oils: range, .. }) => Some(range.declared()),
         _ => None,
     };
     let heat = match spec.range {
@@ -80,8 +84,23 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
         Range::HeatedOils(range) => Some(range.declared()),
         _ => None,
     };
-    let lubricant = spec.lubricant;
-    Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, radius_ratio, oils, heat }
+    let eyring = match spec.range {
+        Range::SlidingOils(range) => Some(range.declared()),
+        _ => None,
+    };
+    Domain {
+        m,
+        l,
+        alpha_per_pa,
+        max_hertz_pressure_pa,
+        viscosity_pa_s,
+        lubricant: spec.lubricant,
+        sliding,
+        radius_ratio,
+        oils,
+        heat,
+        eyring,
+    }
 }
 
 /// A window in training: everything it is made with.
@@ -126,6 +145,7 @@ impl<'a> WindowTraining<'a> {
         let range = match within.range {
             Range::Oils(range) => Range::Oils(range.beyond()),
             Range::HeatedOils(range) => Range::HeatedOils(range.beyond()),
+            Range::SlidingOils(range) => Range::SlidingOils(range.beyond()),
             other => other,
         };
         Within { radius_ratio, cell, range, ..within }
@@ -242,6 +262,7 @@ impl<'a> WindowTraining<'a> {
         })?
         .ok_or_else(failed)?;
         (model.penalty, model.cavitation, model.anchor) = (spec.penalty, cavitation, anchor(window));
+        model.thins = matches!(spec.range, Range::SlidingOils(_));
         if most_modes.is_some_and(|most| model.pressure.count() > most) {
             return Ok(None);
         }

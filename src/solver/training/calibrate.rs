@@ -8,6 +8,7 @@ use super::anchors::Cell;
 use super::indicator::Corrector;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
+use super::traction::limited;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::reduced::{Beside, Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
 use fastrand::Rng;
@@ -31,13 +32,15 @@ pub(super) fn measured(
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
     let m = if cell.is_some() { (0.0, f64::INFINITY) } else { served(ends, window) };
     let served = Within { radius_ratio: window.served_ratios(), cell, ..spec.within(m) };
-    let points = served.random_points(spec.evidence, &mut Rng::with_seed(seed));
+    let mut rng = Rng::with_seed(seed);
+    let points = served.random_points(spec.evidence, &mut rng);
+    let contacts: Vec<_> = points.into_iter().map(|point| (point, limited(spec, &mut rng))).collect();
     let beside = Beside::of(&model.domain);
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let solvers = || (Online::new(Arc::clone(model), ReducedOptions::default()), Corrector::of(window));
-    let measured = in_parallel(observer, &stage, &points, solvers, |(online, corrector), _, point| {
+    let measured = in_parallel(observer, &stage, &contacts, solvers, |(online, corrector), _, (point, lubricant)| {
         online.forget();
-        let solved = online.solve(point, spec.lubricant).ok()?;
+        let solved = online.solve(point, *lubricant).ok()?;
         let errors = corrector.errors(online, &solved)?;
         Some(Evidence { features: Features::of(&solved, beside), errors })
     })?;

@@ -31,6 +31,9 @@ mod resume_tests;
 mod rows;
 #[cfg(test)]
 mod rupture_tests;
+mod sliding_oil_range;
+#[cfg(test)]
+mod sliding_oil_tests;
 #[cfg(test)]
 pub(crate) mod small;
 mod split;
@@ -54,6 +57,7 @@ pub use one_thread::on_one_thread;
 pub use plan::{random_points, random_points_while};
 pub use range::{QuantityBox, Range, SlidingRange};
 pub use rows::with_rows;
+pub use sliding_oil_range::SlidingOilRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 
@@ -244,7 +248,7 @@ impl TrainingSpec {
 
     /// Whether its model tells what the grid costs: over the range of many oils that differs much.
     pub fn tells_grid_costs(&self) -> bool {
-        matches!(self.range, Range::Oils(_))
+        matches!(self.range, Range::Oils(_) | Range::SlidingOils(_))
     }
 
     /// Whether reduced solutions have temperatures along the lines of a plane, of which all rows take as long as a hundred

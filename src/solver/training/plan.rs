@@ -4,7 +4,7 @@ use super::anchors::Cell;
 use super::range::{Unit, in_the_middle_but};
 use super::{QuantityBox, Range};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::reduced::{BLENDED, SHAPE_WEIGHT, apart, distance, oil_place};
+use crate::solver::reduced::{BLENDED, OilPlace, SHAPE_WEIGHT, apart, distance, oil_place};
 use fastrand::Rng;
 use std::f64::consts::PI;
 
@@ -36,11 +36,14 @@ pub(super) type Drawn = (Unit, OperatingPoint);
 /// Units of ln u_m, and of SRR, in the lengths of [`oil_place`]: how much heat changes registered pressures.
 const HEAT_LENGTHS: [f64; 2] = [0.1, 0.4];
 
-/// Where a contact of many oils lies among others, with heat or without.
-fn place_of_oil(point: &OperatingPoint, heat: bool) -> [f64; 6] {
-    let [m, l, p_h, z] = oil_place(point);
+/// Where a contact of a range of many oils lies among others.
+fn place_of_oil(point: &OperatingPoint, range: &Range) -> OilPlace {
+    let [m, l, p_h, z, stress, srr] = oil_place(point, matches!(range, Range::SlidingOils(_)));
+    if !range.heats() {
+        return [m, l, p_h, z, stress, srr];
+    }
     let by_heat = [point.speed_m_per_s.ln(), point.sliding.slide_to_roll_ratio];
-    let [u, srr] = if heat { [0, 1].map(|k| HEAT_LENGTHS[k] * by_heat[k]) } else { [0.0; 2] };
+    let [u, srr] = [0, 1].map(|k| HEAT_LENGTHS[k] * by_heat[k]);
     [m, l, p_h, z, u, srr]
 }
 
@@ -126,9 +129,8 @@ impl Within {
         let corners = corners.filter_map(|c| self.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
         pool.extend(corners);
         let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
-        let heat = matches!(self.range, Range::HeatedOils(_));
         let oils = self.range.of_oils();
-        let own_place = |point: &OperatingPoint| place_of_oil(point, heat);
+        let own_place = |point: &OperatingPoint| place_of_oil(point, &self.range);
         let coordinates: Vec<_> = pool.iter().map(place).collect();
         let oil_places: Vec<_> = pool.iter().filter(|_| oils).map(own_place).collect();
         let alpha_weight = if matches!(self.range, Range::Box(_)) { 0.005 } else { ALPHA_WEIGHT };

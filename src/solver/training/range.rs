@@ -2,9 +2,10 @@
 
 use super::heated_range::{HeatedOilRange, HeatedRange};
 use super::oil_range::OilRange;
+use super::sliding_oil_range::SlidingOilRange;
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
-use crate::solver::reduced::{CIRCLES, Domain, HeatDomain};
+use crate::solver::reduced::{CIRCLES, Domain, EyringDomain, HeatDomain};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -59,6 +60,8 @@ pub enum Range {
     Heated(HeatedRange),
     /// All contacts of many oils, with heat.
     HeatedOils(HeatedOilRange),
+    /// All contacts of many oils that thin under shear by Eyring's law.
+    SlidingOils(SlidingOilRange),
 }
 
 /// Coordinates in the unit cube, of which a range uses as many as it has quantities.
@@ -85,6 +88,10 @@ impl From<&Domain> for Range {
             hertz_pressure: (oils.lowest_hertz_pressure_pa, domain.max_hertz_pressure_pa),
             thinnest_film: oils.thinnest_film,
         });
+        if let Some((oils, eyring)) = oils.zip(domain.eyring) {
+            let EyringDomain { srr, modulus_pa: modulus, limit_slope } = eyring;
+            return Self::SlidingOils(SlidingOilRange { oils, srr, modulus, limit_slope });
+        }
         match (oils, domain.heat) {
             (Some(oils), Some(heat)) => {
                 let HeatDomain { srr, radius_m: radius, modulus_pa: modulus, speed_m_per_s: speed, .. } = heat;
@@ -267,7 +274,7 @@ impl SlidingRange {
 impl Range {
     /// Whether it says how fast its contacts slide.
     pub fn slides(&self) -> bool {
-        matches!(self, Self::Sliding(_)) || self.heats()
+        matches!(self, Self::Sliding(_) | Self::SlidingOils(_)) || self.heats()
     }
 
     /// Whether it is one of films with heat.
@@ -277,12 +284,16 @@ impl Range {
 
     /// Whether it is one of many oils.
     pub(super) fn of_oils(&self) -> bool {
-        matches!(self, Self::Oils(_) | Self::HeatedOils(_))
+        matches!(self, Self::Oils(_) | Self::HeatedOils(_) | Self::SlidingOils(_))
     }
 
     /// Coordinates that it uses of the unit cube, at least four.
     pub(super) fn coordinates(&self) -> usize {
-        if matches!(self, Self::HeatedOils(_)) { 7 } else { 4 }
+        match self {
+            Self::HeatedOils(_) => 7,
+            Self::SlidingOils(_) => 6,
+            _ => 4,
+        }
     }
 
     /// Refuses what is empty, inverted or beyond any sense.
@@ -308,6 +319,7 @@ impl Range {
             Self::Oils(range) => range.check(),
             Self::Heated(range) => range.check(),
             Self::HeatedOils(range) => range.check(),
+            Self::SlidingOils(range) => range.check(),
             Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
                 between(Quantity::M, m)?;
                 between(Quantity::L, l)?;
@@ -344,6 +356,7 @@ impl Range {
             Self::Oils(range) => range.at(kind, unit),
             Self::Heated(range) => range.at(kind, unit),
             Self::HeatedOils(range) => range.at(kind, unit),
+            Self::SlidingOils(range) => range.at(kind, unit),
             Self::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
                 let circle = up_to(f64::INFINITY, (m, l), unit, MoesRequest::new(kind, m.0, l.0))?;
                 let point = Quantity::RadiusRatio.at(&circle, logarithmic(radius_ratio, unit[2]));

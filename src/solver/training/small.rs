@@ -1,8 +1,10 @@
 //! Small trainings, which tests make of many things.
 
-use super::{HeatedOilRange, HeatedRange, OilRange, Plan, QuantityBox, Range, TrainingSpec, WindowSpec, Windows};
+use super::{
+    HeatedOilRange, HeatedRange, OilRange, Plan, QuantityBox, Range, SlidingOilRange, TrainingSpec, WindowSpec, Windows,
+};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
-use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant};
+use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant, ShearLaw};
 use crate::solver::reduced::Sampling;
 
 /// A grid of point contacts on which a full solve takes milliseconds.
@@ -82,6 +84,24 @@ pub(crate) fn oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let windows = Windows::Anchored { count: 3, modes: 32, grid: line_grid(240), shared: 0 };
     let spec = TrainingSpec::new(Range::Oils(range), range.m, line_grid(240), plan);
     TrainingSpec { windows, pressure_loss: 1e-9, deformation_loss: 0.1, sampling, evidence: 0, seed: 5, ..spec }
+}
+
+/// Sliding line contacts of oils that thin by Eyring's law, in two windows.
+pub(crate) fn sliding_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
+    let spec = oils(sampling, snapshots);
+    let Range::Oils(range) = spec.range else { return spec };
+    let oils = OilRange { m: (15.0, 30.0), l: (6.0, 10.0), alpha: (14e-9, 22e-9), ..range };
+    let range =
+        SlidingOilRange { oils, srr: (0.0, 0.6), modulus: (150e9, 350e9), limit_slope: (0.02, 0.15) };
+    TrainingSpec {
+        range: Range::SlidingOils(range),
+        lubricant: Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..Lubricant::default() },
+        windows: Windows::Anchored { count: 2, modes: 40, grid: line_grid(240), shared: 0 },
+        rows_per_mode: 3.0,
+        penalty: 1e5,
+        positive_modes: true,
+        ..spec
+    }
 }
 
 /// Circular contacts of oils, in two windows whose modes are made of one basis.

@@ -2,8 +2,9 @@
 
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::{TrainingError, TrainingObserver, TrainingSpec};
+use super::{Range, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
 use fastrand::Rng;
 use std::sync::Arc;
@@ -15,6 +16,15 @@ const SOLUTIONS_OF_WARM_PLANES: usize = 360;
 /// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of
 /// the contact.
 const SLOWEST: f64 = 1e-3;
+
+/// The lubricant of a training with a limiting stress of those that its range says may cut traction: pressure and film do
+/// not feel it. Its own limit, or none, where the range says nothing.
+pub(super) fn limited(spec: &TrainingSpec, rng: &mut Rng) -> Lubricant {
+    match spec.range {
+        Range::SlidingOils(range) => range.limited(spec.lubricant, rng),
+        _ => spec.lubricant,
+    }
+}
 
 /// Fits the rule of a window to reduced solutions of the contacts that it serves, `model` being the model of it alone; `None` where the fit fails.
 ///
@@ -33,10 +43,12 @@ pub(super) fn traction_rule(
     for point in points.iter_mut().step_by(2) {
         point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
     }
+    let contacts: Vec<(OperatingPoint, Lubricant)> =
+        points.into_iter().map(|point| (point, limited(spec, &mut rng))).collect();
     let online = || Online::new(Arc::clone(model), ReducedOptions::default());
-    let stresses = in_parallel(observer, "Traction", &points, online, |online, _, point| {
+    let stresses = in_parallel(observer, "Traction", &contacts, online, |online, _, (point, lubricant)| {
         online.forget();
-        let fields = online.solve(point, spec.lubricant).and_then(|solved| online.reconstruct(&solved));
+        let fields = online.solve(point, *lubricant).and_then(|solved| online.reconstruct(&solved));
         fields.ok().map(|fields| fields.mid_film_stress())
     })?;
     let stresses: Vec<Vec<f64>> = stresses.into_iter().flatten().collect();

@@ -12,7 +12,7 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::{Sampling, Scheme};
 use crate::solver::training::{
-    HeatedOilRange, HeatedRange, Indicator, OilRange, Plan, Range, SlidingRange, TrainingSpec, Windows,
+    HeatedOilRange, HeatedRange, Indicator, OilRange, Plan, Range, SlidingOilRange, SlidingRange, TrainingSpec, Windows,
 };
 use egui::{TextEdit, Ui};
 
@@ -118,6 +118,13 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
         }
         Range::Oils(range) => oils(ui, form, range),
+        Range::SlidingOils(SlidingOilRange { oils: range, srr, modulus, limit_slope }) => {
+            oils(ui, form, range);
+            form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of oils that thin by Eyring’s law");
+            let modulus_tip = "Reduced modulus (2.5) at the lubricant’s own Eyring stress: their product counts";
+            form.interval(ui, "Modulus {E'}", GIGAPASCAL, modulus, modulus_tip);
+            form.interval(ui, "Slope {Λ}", PLAIN, limit_slope, "Of limiting stresses that cut traction");
+        }
         Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, modulus, speed, sliding_speed }) => {
             oils(ui, form, range);
             form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of contacts with heat");
@@ -195,7 +202,8 @@ fn converted(spec: &TrainingSpec) -> Range {
         | Range::Ellipses { .. }
         | Range::Oils(_)
         | Range::Heated(_)
-        | Range::HeatedOils(_) => Range::Box(QuantityBox {
+        | Range::HeatedOils(_)
+        | Range::SlidingOils(_) => Range::Box(QuantityBox {
             alpha: domain.alpha_per_pa,
             viscosity: domain.viscosity_pa_s,
             ..QuantityBox::of_tables(spec.contact())

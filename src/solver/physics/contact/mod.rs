@@ -301,6 +301,12 @@ impl OperatingPoint {
         self.hertz().half_width_m.powi(2) / self.radius_m
     }
 
+    /// κ₁ = p_H a/R \[Pa\], (3.27): the shear stress differs across a film by H ∂P/∂X times this.
+    pub fn gradient_stress_pa(&self) -> f64 {
+        let Hertz { half_width_m, pressure_pa, .. } = self.hertz();
+        pressure_pa * half_width_m / self.radius_m
+    }
+
     /// What turns the integral of a stress \[Pa\] over X, and Y, into a share of the load: a/w for a line, ab/w for a
     /// point contact \[1/Pa\].
     pub fn area_per_load(&self) -> f64 {

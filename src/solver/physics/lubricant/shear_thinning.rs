@@ -263,11 +263,10 @@ impl ScaledShear {
         let Some((fluidity, stress_scale_pa)) = Fluidity::of(law, plateau).filter(|_| plateau < 1.0) else {
             return Ok(None);
         };
-        let hertz = point.hertz();
         Ok(Some(Self {
             fluidity,
             stress_scale_pa,
-            gradient: hertz.pressure_pa * hertz.half_width_m / point.radius_m / stress_scale_pa,
+            gradient: point.gradient_stress_pa() / stress_scale_pa,
             sliding: point.viscosity_pa_s * point.speed_m_per_s * srr / point.film_scale_m() / stress_scale_pa,
             slide_to_roll_ratio: srr,
         }))

@@ -13,6 +13,8 @@ pub(super) const ONE_MORE: usize = FEATURES + 1;
 /// Those of one in a model that knows sliding: ln(|SRR| + 0.01) and NPR as well; or heat of many oils: ln(|SRR| + 0.01)
 /// and ln u_m.
 pub(super) const SLIDING_FEATURES: usize = FEATURES + 2;
+/// Those of one in a model of many oils that thin under shear: Roelands' exponent, ln(|SRR| + 0.01) and ln(p_H a/R).
+pub(super) const MOST_FEATURES: usize = FEATURES + 3;
 /// The two features among them that are no place but a sign of the error.
 pub(super) const SIGNS: std::ops::Range<usize> = 3..5;
 /// Modes at the end of the basis whose share is a sign of what it lacks.
@@ -69,15 +71,27 @@ pub enum Beside {
     Heat,
     /// SRR and u_m, and heat.
     HeatOfOils,
+    /// Roelands' exponent, SRR and stresses.
+    SlidingOfOils,
 }
 
 impl Beside {
     /// All of them.
-    pub(super) const ALL: [Self; 6] =
-        [Self::Nothing, Self::Shape, Self::Oil, Self::Sliding, Self::Heat, Self::HeatOfOils];
+    pub(super) const ALL: [Self; 7] = [
+        Self::Nothing,
+        Self::Shape,
+        Self::Oil,
+        Self::Sliding,
+        Self::Heat,
+        Self::HeatOfOils,
+        Self::SlidingOfOils,
+    ];
 
     /// Those of a model's domain.
     pub fn of(domain: &Domain) -> Self {
+        if domain.eyring.is_some() {
+            return Self::SlidingOfOils;
+        }
         match (domain.heat, domain.sliding, domain.oils) {
             (Some(_), _, Some(_)) => Self::HeatOfOils,
             (Some(_), _, None) => Self::Heat,
@@ -94,6 +108,7 @@ impl Beside {
             Self::Nothing => FEATURES,
             Self::Shape | Self::Oil | Self::Heat => ONE_MORE,
             Self::Sliding | Self::HeatOfOils => SLIDING_FEATURES,
+            Self::SlidingOfOils => MOST_FEATURES,
         }
     }
 
@@ -101,17 +116,18 @@ impl Beside {
     pub(super) fn quantities(self) -> usize {
         match self {
             Self::Nothing | Self::Shape | Self::Oil => 3,
-            Self::Sliding => 4,
+            Self::Sliding | Self::SlidingOfOils => 4,
             Self::Heat | Self::HeatOfOils => 5,
         }
     }
 }
 
 /// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, of a model that knows
-/// sliding ln(|SRR| + 0.01) and NPR, and of one that knows ellipses ln(R_y/R).
+/// sliding ln(|SRR| + 0.01) and NPR, of one that knows ellipses ln(R_y/R), and of many oils that thin under shear
+/// ln(|SRR| + 0.01), Roelands' exponent and ln(p_H a/R) of the contact with the trained stress.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features {
-    pub(super) values: [f64; SLIDING_FEATURES],
+    pub(super) values: [f64; MOST_FEATURES],
     pub(super) beside: Beside,
 }
 
@@ -133,13 +149,14 @@ impl Features {
         let srr = (point.sliding.slide_to_roll_ratio.abs() + SLOW).ln();
         let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
         let (residual, last) = (residual.max(1e-300).ln(), last.max(1e-300).ln());
-        let [first, second] = match beside {
-            Beside::Shape => [point.radius_ratio().ln(), 0.0],
-            Beside::Oil => [roelands_exponent(point), 0.0],
-            Beside::HeatOfOils => [srr, point.speed_m_per_s.ln()],
-            Beside::Nothing | Beside::Sliding | Beside::Heat => [srr, npr],
+        let [first, second, third] = match beside {
+            Beside::Shape => [point.radius_ratio().ln(), 0.0, 0.0],
+            Beside::Oil => [roelands_exponent(point), 0.0, 0.0],
+            Beside::HeatOfOils => [srr, point.speed_m_per_s.ln(), 0.0],
+            Beside::SlidingOfOils => [srr, roelands_exponent(point), point.gradient_stress_pa().ln()],
+            Beside::Nothing | Beside::Sliding | Beside::Heat => [srr, npr, 0.0],
         };
-        Self { values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, first, second], beside }
+        Self { values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, first, second, third], beside }
     }
 
     pub(super) fn used(&self) -> &[f64] {

@@ -167,6 +167,7 @@ impl TrajectoryDomain {
                 radius_ratio: CIRCLES,
                 oils: None,
                 heat: None,
+                eyring: None,
             },
             radius: Reach::of(trajectories, |input| input.radius),
             speed: Reach::of(trajectories, |input| input.speed),
