@@ -147,7 +147,10 @@ pub fn describe(model: &ReducedModel) -> String {
         let ((srr, most), (low, high), (from, to)) = (eyring.srr, eyring.modulus_pa, eyring.limit_slope);
         let [low, high] = [low, high].map(|modulus| modulus * 1e-9);
         let law = d.lubricant.shear;
-        let _ = writeln!(text, "  SRR {srr}…{most}, E′ {low:.3}…{high:.3} GPa, {law:?}, Λ of limiting stresses {from}…{to}");
+        let _ = writeln!(
+            text,
+            "  SRR {srr}…{most}, E′ {low:.3}…{high:.3} GPa, {law:?}, Λ of limiting stresses {from}…{to}"
+        );
     }
     if let Some((heat, laws)) = d.heat.zip(d.lubricant.heat) {
         let ((srr, most), inlet) = (heat.srr, laws.inlet_temperature);

@@ -156,7 +156,9 @@ impl Bench {
         kind: ContactKind,
         size: usize,
     ) -> Result<Vec<Timing>, EngineError> {
-        let Some(mut online) = self.online(solve, kind, named_lubricant::SQUALANE_PIP.shear) else { return Ok(Vec::new()) };
+        let Some(mut online) = self.online(solve, kind, named_lubricant::SQUALANE_PIP.shear) else {
+            return Ok(Vec::new());
+        };
         let problems = shear_problems(kind, REDUCED_SHEAR_POINTS[size])?;
         let points: Vec<OperatingPoint> = problems.iter().map(|problem| problem.point).collect();
         let lubricant = named_lubricant::SQUALANE_PIP;

@@ -12,8 +12,8 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, Ellipse, Moes};
 use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, Sliding};
 use crate::solver::reduced::{
-    Beside, CIRCLES, Calibration, Combined, Domain, EyringDomain, HeatDomain, OilDomain, PodBasis, PressureModes, ReducedModel,
-    SampledRows, Sampling, Scheme, Shapes, SharedBasis, SlidingDomain, Snapshot, TractionRule, Window,
+    Beside, CIRCLES, Calibration, Combined, Domain, EyringDomain, HeatDomain, OilDomain, PodBasis, PressureModes,
+    ReducedModel, SampledRows, Sampling, Scheme, Shapes, SharedBasis, SlidingDomain, Snapshot, TractionRule, Window,
 };
 use faer::Mat;
 use rayon::prelude::*;
@@ -100,6 +100,7 @@ struct StoredEyring {
     srr: (f64, f64),
     modulus_pa: (f64, f64),
     limit_slope: (f64, f64),
+    gradient_stress_pa: f64,
 }
 
 /// What follows the oils of a model whose pressure modes are made of one basis, or that leaves thin films out, or has heat
@@ -198,10 +199,11 @@ pub(super) fn sound_domain(domain: &Domain) -> bool {
     let Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, heat, .. } = domain;
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let thins = lubricant.shear != ShearLaw::Newtonian;
-    let eyring_is_sound = |EyringDomain { srr, modulus_pa, limit_slope }: &EyringDomain| {
+    let eyring_is_sound = |EyringDomain { srr, modulus_pa, limit_slope, gradient_stress_pa }: &EyringDomain| {
         let intervals = [(*srr, f64::MAX), (*modulus_pa, f64::MAX), (*limit_slope, 1.0)];
         let law = matches!(lubricant.shear, ShearLaw::Eyring { .. }) && sliding.is_none() && heat.is_none();
-        law && positive(modulus_pa.0) && intervals.into_iter().all(|(interval, most)| sound_interval(interval, most))
+        let sizes = positive(modulus_pa.0) && positive(*gradient_stress_pa);
+        law && sizes && intervals.into_iter().all(|(interval, most)| sound_interval(interval, most))
     };
     let sliding_is_sound = |sliding: &SlidingDomain| {
         sound_interval(sliding.srr, f64::MAX) && sound_interval(sliding.npr, 1.0) && positive(sliding.modulus_pa)
@@ -464,8 +466,8 @@ fn stored_heat(model: &ReducedModel) -> Option<(StoredHeated, StoredHeatedOils)>
 
 /// What only a model of oils that thin by Eyring's law has.
 fn stored_eyring(model: &ReducedModel) -> Option<StoredEyring> {
-    let EyringDomain { srr, modulus_pa, limit_slope } = model.domain.eyring?;
-    Some(StoredEyring { no_inlet_temperature: 0.0, srr, modulus_pa, limit_slope })
+    let EyringDomain { srr, modulus_pa, limit_slope, gradient_stress_pa } = model.domain.eyring?;
+    Some(StoredEyring { no_inlet_temperature: 0.0, srr, modulus_pa, limit_slope, gradient_stress_pa })
 }
 
 /// A snapshot as its window keeps it: coefficients of windows around anchors have a place of their own.
@@ -740,7 +742,12 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
         let of_heat = HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s };
         (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
     }
-    domain.eyring = eyring.map(|StoredEyring { srr, modulus_pa, limit_slope, .. }| EyringDomain { srr, modulus_pa, limit_slope });
+    domain.eyring = eyring.map(|StoredEyring { srr, modulus_pa, limit_slope, gradient_stress_pa, .. }| EyringDomain {
+        srr,
+        modulus_pa,
+        limit_slope,
+        gradient_stress_pa,
+    });
     if !sound_domain(&domain) {
         return Err(ModelFileError::Damaged { what: "its domain" });
     }

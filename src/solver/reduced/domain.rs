@@ -2,7 +2,7 @@
 
 mod eyring;
 
-pub use eyring::EyringDomain;
+pub use eyring::{EyringDomain, gradient_stress};
 
 use super::oils::expected_film;
 use crate::solver::full::Problem;
@@ -131,7 +131,8 @@ impl Domain {
             return Trust::Outside(why);
         }
         if let Some(oils) = &self.oils {
-            if let Some(outside) = oils.outside(point).or_else(|| self.thinner_film(problem)) {
+            let film = || self.thinner_film(problem).or_else(|| self.sheared_film(problem));
+            if let Some(outside) = oils.outside(point).or_else(film) {
                 return Trust::Outside(outside);
             }
         } else if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
@@ -176,7 +177,8 @@ impl Domain {
     /// equations are its own.
     pub fn strange_shape(&self, problem: &Problem) -> Option<String> {
         let outside = || self.shapes(problem).iter().find_map(Bounded::outside);
-        self.no_circle(&problem.point).or_else(outside).or_else(|| self.thinner_film(problem))
+        let film = || self.thinner_film(problem).or_else(|| self.sheared_film(problem));
+        self.no_circle(&problem.point).or_else(outside).or_else(film)
     }
 
     /// A sentence where a film is thinner than the model's grid was made for.

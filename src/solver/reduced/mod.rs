@@ -36,7 +36,7 @@ pub use calibration::{
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
-pub use domain::{CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, Trust};
+pub use domain::{CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, Trust, gradient_stress};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use minimisation::Scheme;

@@ -252,10 +252,9 @@ impl Online {
         self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone(), theta });
         let trust = self.model.trust(problem);
         let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
-        let mut error =
-            calibration.filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default()).map(|c| {
-                c.estimate(&Features::new(&point, residual, &coefficients, Beside::of(domain)))
-            });
+        let mut error = calibration
+            .filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default())
+            .map(|c| c.estimate(&Features::new(&point, residual, &coefficients, Beside::of(domain))));
         if let Some(estimate) = error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
             let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());

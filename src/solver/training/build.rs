@@ -6,8 +6,8 @@ use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
 use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState, train_resumable};
 use super::{
-    HeatedOilRange, HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingOilRange, SlidingRange, TrainingError, TrainingObserver,
-    TrainingSpec, WindowSpec, Windows,
+    HeatedOilRange, HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingOilRange, SlidingRange, TrainingError,
+    TrainingObserver, TrainingSpec, WindowSpec, Windows,
 };
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};

@@ -148,7 +148,10 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
         (Range::Heated(_) | Range::HeatedOils(_), _) => Ok(()),
         (Range::SlidingOils(_), _) => match spec.lubricant.shear {
             ShearLaw::Eyring { .. } => Ok(()),
-            _ => Err(Refused::new("range", "is of oils that thin by Eyring’s law, but the lubricant’s `shear` is another")),
+            _ => Err(Refused::new(
+                "range",
+                "is of oils that thin by Eyring’s law, but the lubricant’s `shear` is another",
+            )),
         },
         (Range::Sliding(_), true) => {
             Err(Refused::new("range", "names SRR and NPR, but the lubricant has no shear constants"))

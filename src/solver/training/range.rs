@@ -89,8 +89,8 @@ impl From<&Domain> for Range {
             thinnest_film: oils.thinnest_film,
         });
         if let Some((oils, eyring)) = oils.zip(domain.eyring) {
-            let EyringDomain { srr, modulus_pa: modulus, limit_slope } = eyring;
-            return Self::SlidingOils(SlidingOilRange { oils, srr, modulus, limit_slope });
+            let EyringDomain { srr, modulus_pa: modulus, limit_slope, gradient_stress_pa: gradient_stress } = eyring;
+            return Self::SlidingOils(SlidingOilRange { oils, srr, modulus, limit_slope, gradient_stress });
         }
         match (oils, domain.heat) {
             (Some(oils), Some(heat)) => {

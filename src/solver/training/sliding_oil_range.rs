@@ -7,10 +7,10 @@
 
 use super::oil_range::{OilRange, beyond};
 use super::range::{Unit, between, linear, logarithmic};
-use crate::solver::limits::{Refused, interval};
+use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding};
 use crate::solver::physics::lubricant::{LimitingStress, Lubricant, ShearLaw};
-use crate::solver::reduced::EyringDomain;
+use crate::solver::reduced::{EyringDomain, gradient_stress};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,9 @@ pub struct SlidingOilRange {
     pub modulus: (f64, f64),
     /// Λ \[-\] of the limiting stresses that may cut traction, at that stress.
     pub limit_slope: (f64, f64),
+    /// The largest stress \[Pa\] that the pressure's gradient makes across a film, by [`gradient_stress`], at that Eyring
+    /// stress: from one and a half Eyring stresses on many contacts have no full solution.
+    pub gradient_stress: f64,
 }
 
 /// The largest stress that a lubricant carries at ambient pressure and traction is fitted to, in Eyring stresses.
@@ -40,7 +43,8 @@ impl SlidingOilRange {
         self.oils.check().map_err(|refused| refused.within("oils"))?;
         interval("srr", self.srr, 0.0, 10.0)?;
         between(Quantity::Modulus, self.modulus)?;
-        interval("limit_slope", self.limit_slope, 1e-4, 1.0)
+        interval("limit_slope", self.limit_slope, 1e-4, 1.0)?;
+        number("gradient_stress", self.gradient_stress, 1.0, 1e12)
     }
 
     /// The contact at coordinates in the unit cube, by ln M, ln L, ln α, ln η₀, SRR and ln E′; `None` where the range
@@ -51,18 +55,20 @@ impl SlidingOilRange {
             MoesRequest { modulus_pa: Some(logarithmic(self.modulus, modulus)), ..self.oils.request(kind, unit) };
         let slide_to_roll_ratio = linear(self.srr, srr);
         let sliding = Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: None };
-        self.oils.contact(&request).map(|point| OperatingPoint { sliding, ..point })
+        let point = self.oils.contact(&request).filter(|point| gradient_stress(point) <= self.gradient_stress)?;
+        Some(OperatingPoint { sliding, ..point })
     }
 
     /// A little more on all sides.
     pub(super) fn beyond(&self) -> Self {
-        Self { oils: self.oils.beyond(), modulus: beyond(self.modulus), ..*self }
+        let (_, gradient_stress) = beyond((0.0, self.gradient_stress));
+        Self { oils: self.oils.beyond(), modulus: beyond(self.modulus), gradient_stress, ..*self }
     }
 
     /// What a model of it declares beside the oils, M, L, α and p_H.
     pub(super) fn declared(&self) -> EyringDomain {
-        let Self { srr, modulus: modulus_pa, limit_slope, .. } = *self;
-        EyringDomain { srr, modulus_pa, limit_slope }
+        let Self { srr, modulus: modulus_pa, limit_slope, gradient_stress: gradient_stress_pa, .. } = *self;
+        EyringDomain { srr, modulus_pa, limit_slope, gradient_stress_pa }
     }
 
     /// A lubricant with a limiting stress of those that may cut its traction.

@@ -5,7 +5,7 @@ use super::*;
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
 use crate::solver::physics::contact::{MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use crate::solver::physics::lubricant::{LimitingStress, ShearLaw};
-use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust};
+use crate::solver::reduced::{EyringDomain, Online, ReducedModel, ReducedOptions, Sampling, Trust};
 use std::sync::Arc;
 
 fn eyring(critical_stress: f64) -> Lubricant {
@@ -163,6 +163,11 @@ fn what_lies_outside_is_told_by_the_number_that_does() {
         told(200e9, 0.3, eyring(15e6)),
         "the Eyring stress τ₀ = 15 MPa lies outside the range 3.75…8.75 MPa trained for E′ = 200 GPa"
     );
+    let thick = Problem::new(&contact(ContactKind::Line, (15.0, 9.9), (0.01, 150e9), 0.1), eyring(5e6)).unwrap();
+    let low = Domain { eyring: domain.eyring.map(|e| EyringDomain { gradient_stress_pa: 1e6, ..e }), ..domain.clone() };
+    let Trust::Outside(why) = low.trust(&thick) else { panic!() };
+    assert!(why.contains("so thick") && why.ends_with("more than the 1 MPa that were trained for this τ₀"), "{why}");
+    assert_eq!(low.strange_shape(&thick), Some(why));
     assert_eq!(told(231e9, 0.7, eyring(5e6)), "SRR = 0.7 lies above the trained 0.6");
     let plateau = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.1 }, ..eyring(5e6) };
     assert_eq!(told(231e9, 0.3, plateau), "the model was trained with other lubricant laws");
@@ -179,6 +184,7 @@ fn ranges_of_sliding_oils_are_refused_with_their_field() {
         (SlidingOilRange { srr: (0.5, 0.1), ..range }, "srr"),
         (SlidingOilRange { modulus: (0.0, 1e11), ..range }, "modulus"),
         (SlidingOilRange { limit_slope: (0.0, 0.1), ..range }, "limit_slope"),
+        (SlidingOilRange { gradient_stress: f64::NAN, ..range }, "gradient_stress"),
         (SlidingOilRange { oils: OilRange { m: (0.0, 1.0), ..range.oils }, ..range }, "oils"),
     ] {
         let spec = TrainingSpec { range: Range::SlidingOils(range), ..good.clone() };

@@ -91,8 +91,13 @@ pub(crate) fn sliding_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec
     let spec = oils(sampling, snapshots);
     let Range::Oils(range) = spec.range else { return spec };
     let oils = OilRange { m: (15.0, 30.0), l: (6.0, 10.0), alpha: (14e-9, 22e-9), ..range };
-    let range =
-        SlidingOilRange { oils, srr: (0.0, 0.6), modulus: (150e9, 350e9), limit_slope: (0.02, 0.15) };
+    let range = SlidingOilRange {
+        oils,
+        srr: (0.0, 0.6),
+        modulus: (150e9, 350e9),
+        limit_slope: (0.02, 0.15),
+        gradient_stress: 5e6,
+    };
     TrainingSpec {
         range: Range::SlidingOils(range),
         lubricant: Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..Lubricant::default() },

@@ -118,12 +118,14 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
         }
         Range::Oils(range) => oils(ui, form, range),
-        Range::SlidingOils(SlidingOilRange { oils: range, srr, modulus, limit_slope }) => {
+        Range::SlidingOils(SlidingOilRange { oils: range, srr, modulus, limit_slope, gradient_stress }) => {
             oils(ui, form, range);
             form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of oils that thin by Eyring’s law");
             let modulus_tip = "Reduced modulus (2.5) at the lubricant’s own Eyring stress: their product counts";
             form.interval(ui, "Modulus {E'}", GIGAPASCAL, modulus, modulus_tip);
             form.interval(ui, "Slope {Λ}", PLAIN, limit_slope, "Of limiting stresses that cut traction");
+            let gradient_tip = "Thick films that the pressure’s gradient shears by more are left out";
+            form.row(ui, "Gradient’s stress", ("MPa", 1e6), gradient_stress, gradient_tip);
         }
         Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, modulus, speed, sliding_speed }) => {
             oils(ui, form, range);

@@ -77,15 +77,8 @@ pub enum Beside {
 
 impl Beside {
     /// All of them.
-    pub(super) const ALL: [Self; 7] = [
-        Self::Nothing,
-        Self::Shape,
-        Self::Oil,
-        Self::Sliding,
-        Self::Heat,
-        Self::HeatOfOils,
-        Self::SlidingOfOils,
-    ];
+    pub(super) const ALL: [Self; 7] =
+        [Self::Nothing, Self::Shape, Self::Oil, Self::Sliding, Self::Heat, Self::HeatOfOils, Self::SlidingOfOils];
 
     /// Those of a model's domain.
     pub fn of(domain: &Domain) -> Self {

@@ -17,7 +17,7 @@ fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
             let place = [2.0 + 3.0 * a, 2.0 + 18.0 * b, -19.0 + c];
             let residual = -8.0 + k + (4.0 * a).sin();
             let error = residual - 2.0 + (6.0 * a).cos() * b + (0.3 + b) * n;
-            let values = [place[0], place[1], place[2], residual, -12.0, 0.0, 0.0];
+            let values = [place[0], place[1], place[2], residual, -12.0, 0.0, 0.0, 0.0];
             Evidence {
                 features: Features { values, beside: Beside::Nothing },
                 errors: Measured {

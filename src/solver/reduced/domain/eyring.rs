@@ -6,6 +6,7 @@ use super::{Bounded, Domain, digits};
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{LimitingStress, Lubricant, ShearLaw};
+use crate::solver::reduced::oils::expected_film;
 
 /// What a model of many oils that thin under shear by Eyring's law is trained for beside these.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,14 @@ pub struct EyringDomain {
     pub modulus_pa: (f64, f64),
     /// Λ \[-\] of the limiting stresses that its traction knows, at that τ₀; of another it is Λ over that which counts.
     pub limit_slope: (f64, f64),
+    /// Largest stress that the pressure's gradient makes across a film \[Pa\], by [`gradient_stress`], at that τ₀.
+    pub gradient_stress_pa: f64,
+}
+
+/// The difference of stress \[Pa\] that a gradient of p_H over the half-width makes across a film of the thickness that
+/// Moes' formula expects.
+pub fn gradient_stress(point: &OperatingPoint) -> f64 {
+    point.gradient_stress_pa() * expected_film(point.kind, point.moes())
 }
 
 /// The Eyring stress of a law \[Pa\]; none of another one.
@@ -36,19 +45,33 @@ impl EyringDomain {
         }
         let srr = point.sliding.slide_to_roll_ratio.abs();
         let srr = Bounded { name: "SRR", value: srr, range: self.srr, scale: 1.0, unit: "" };
-        srr.outside().or_else(|| {
-            let (low, high) = self.modulus_pa;
-            let product = point.modulus_pa * stresses;
-            let inside = product >= low * (1.0 - 1e-6) && product <= high * (1.0 + 1e-6);
-            (!inside).then(|| {
-                let stress = eyring_stress(problem.lubricant.shear).unwrap_or_default();
-                let at = |modulus: f64| digits(1e-6 * stress * modulus / product);
-                let [stress, low, high] = [digits(1e-6 * stress), at(low), at(high)];
-                let modulus = digits(1e-9 * point.modulus_pa);
-                format!(
-                    "the Eyring stress τ₀ = {stress} MPa lies outside the range {low}…{high} MPa trained for E′ = {modulus} GPa"
-                )
-            })
+        srr.outside().or_else(|| self.other_stress(problem, stresses))
+    }
+
+    /// A sentence where the gradient of the pressure shears a film by more than was trained.
+    fn sheared_film(&self, point: &OperatingPoint, stresses: f64) -> Option<String> {
+        let (made, most) = (gradient_stress(point), self.gradient_stress_pa * stresses);
+        (made > most * (1.0 + 1e-6)).then(|| {
+            let [made, most] = [made, most].map(|stress| digits(1e-6 * stress));
+            format!(
+                "its film is so thick that the pressure’s gradient shears it by {made} MPa, more than the {most} MPa that \
+                 were trained for this τ₀"
+            )
+        })
+    }
+
+    /// A sentence where E′ τ₀ lies outside.
+    fn other_stress(&self, problem: &Problem, stresses: f64) -> Option<String> {
+        let (modulus, (low, high)) = (problem.point.modulus_pa, self.modulus_pa);
+        let product = modulus * stresses;
+        let inside = product >= low * (1.0 - 1e-6) && product <= high * (1.0 + 1e-6);
+        (!inside).then(|| {
+            let stress = eyring_stress(problem.lubricant.shear).unwrap_or_default();
+            let at = |own: f64| digits(1e-6 * stress * own / product);
+            let [stress, low, high, modulus] = [digits(1e-6 * stress), at(low), at(high), digits(1e-9 * modulus)];
+            format!(
+                "the Eyring stress τ₀ = {stress} MPa lies outside the range {low}…{high} MPa trained for E′ = {modulus} GPa"
+            )
         })
     }
 }
@@ -59,6 +82,11 @@ impl Domain {
     pub(super) fn stresses(&self, lubricant: &Lubricant) -> Option<f64> {
         self.eyring?;
         Some(eyring_stress(lubricant.shear)? / eyring_stress(self.lubricant.shear)?)
+    }
+
+    /// A sentence where a film is so thick that its pressure shears it by more than was trained.
+    pub(super) fn sheared_film(&self, problem: &Problem) -> Option<String> {
+        self.eyring?.sheared_film(&problem.point, self.stresses(&problem.lubricant)?)
     }
 
     /// The laws of a lubricant with the model's own τ₀ where it knows all.
