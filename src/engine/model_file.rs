@@ -194,9 +194,11 @@ mod tests {
     use crate::engine::checked_file::HEADER;
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::physics::contact::{ContactKind, Moes};
-    use crate::solver::physics::lubricant::Cavitation;
-    use crate::solver::reduced::{HeatDomain, PressureModes, Sampling, Scheme, Window};
-    use crate::solver::training::small::{ellipses, heated, heated_balls, heated_oils, line, oils, oils_of_points};
+    use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
+    use crate::solver::reduced::{EyringDomain, HeatDomain, PressureModes, Sampling, Scheme, Window};
+    use crate::solver::training::small::{
+        ellipses, heated, heated_balls, heated_oils, line, oils, oils_of_points, sliding_oils,
+    };
     use crate::solver::training::{TrainingSpec, WindowSpec, Windows, train};
     use faer::Mat;
 
@@ -393,6 +395,30 @@ mod tests {
         let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
         assert!(read.domain == model.domain && read.contact() == ContactKind::Point && read.domain.heat.is_some());
         assert!(read.windows[0].traction.is_some() && read.windows[0].traction == model.windows[0].traction);
+    }
+
+    #[test]
+    fn oils_that_thin_survive_a_round_trip_with_their_stresses() {
+        let model = train(&sliding_oils(Sampling::QDeim, 60), &()).unwrap();
+        let bytes = to_bytes(&model).unwrap();
+        let read = from_bytes(&bytes).unwrap();
+        assert!(read.domain == model.domain && read.domain.eyring.is_some() && read.domain.oils.is_some());
+        assert!(read.windows.iter().all(|window| window.thins && window.anchor.is_some() && window.traction.is_some()));
+        assert_eq!(to_bytes(&read).unwrap(), bytes);
+        let lies: [fn(&mut EyringDomain); 4] = [
+            |eyring| eyring.srr = (0.5, 0.2),
+            |eyring| eyring.modulus_pa = (0.0, 2e11),
+            |eyring| eyring.limit_slope = (f64::NAN, 0.1),
+            |eyring| eyring.gradient_stress_pa = f64::INFINITY,
+        ];
+        let mut wrong: Vec<ReducedModel> = lies.iter().map(|_| model.clone()).collect();
+        wrong.iter_mut().zip(lies).for_each(|(wrong, lie)| wrong.domain.eyring.iter_mut().for_each(lie));
+        let mut newtonian = model.clone();
+        newtonian.domain.lubricant.shear = ShearLaw::Newtonian;
+        for wrong in wrong.into_iter().chain([newtonian]) {
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "its domain" })), "{refused:?}");
+        }
     }
 
     #[test]

@@ -86,7 +86,7 @@ fn equal_but(point: &OperatingPoint, stresses: f64) -> OperatingPoint {
 
 #[test]
 fn sliding_contacts_of_every_oil_stress_and_limit_are_near_full_solutions() {
-    let spec = TrainingSpec { evidence: 110, ..sliding_oils(Sampling::Cubature, 80) };
+    let spec = TrainingSpec { evidence: 110, ..sliding_oils(Sampling::QDeim, 80) };
     let (model, mut online) = trained(&spec);
     let mut full = ContactSolver::on(&model.windows[0].grid);
     let (mut steps, mut held) = (0, 0);
@@ -115,7 +115,7 @@ fn sliding_contacts_of_every_oil_stress_and_limit_are_near_full_solutions() {
 
 #[test]
 fn traction_does_not_jump_between_windows_and_knows_its_limits() {
-    let spec = sliding_oils(Sampling::Cubature, 60);
+    let spec = sliding_oils(Sampling::QDeim, 60);
     let (model, mut online) = trained(&spec);
     let [from, to] = [0, 1].map(|k| model.windows[k].anchor.unwrap());
     let laws = limited(spec.lubricant, 5e6, 0.05);
@@ -145,7 +145,7 @@ fn traction_does_not_jump_between_windows_and_knows_its_limits() {
 
 #[test]
 fn what_lies_outside_is_told_by_the_number_that_does() {
-    let spec = sliding_oils(Sampling::Cubature, 60);
+    let spec = sliding_oils(Sampling::QDeim, 60);
     let domain = spec.domain();
     assert_eq!(Range::from(&domain), spec.range);
     assert!(domain.thins() && domain.srr() == Some((0.0, 0.6)));
@@ -176,7 +176,7 @@ fn what_lies_outside_is_told_by_the_number_that_does() {
 
 #[test]
 fn ranges_of_sliding_oils_are_refused_with_their_field() {
-    let good = sliding_oils(Sampling::Cubature, 60);
+    let good = sliding_oils(Sampling::QDeim, 60);
     assert!(good.check().is_ok() && good.range.slides());
     let Range::SlidingOils(range) = good.range else { panic!() };
     let refused = |spec: TrainingSpec| spec.check().unwrap_err().to_string();

@@ -102,9 +102,6 @@ pub(crate) fn sliding_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec
         range: Range::SlidingOils(range),
         lubricant: Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..Lubricant::default() },
         windows: Windows::Anchored { count: 2, modes: 40, grid: line_grid(240), shared: 0 },
-        rows_per_mode: 3.0,
-        penalty: 1e5,
-        positive_modes: true,
         ..spec
     }
 }
