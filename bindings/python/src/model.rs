@@ -50,7 +50,10 @@ impl Model {
             _ => return Err(refused(format!("`{contact}` is no contact; accepted are line, point"))),
         };
         let which = match (kind, thinning, heat) {
-            (_, _, false) => Embedded::of_kind(kind, thinning),
+            (ContactKind::Line, false, false) => Embedded::Line,
+            (ContactKind::Line, true, false) => Embedded::ThinningLine,
+            (ContactKind::Point, false, false) => Embedded::Circle,
+            (ContactKind::Point, true, false) => Embedded::ThinningCircle,
             (_, false, true) => Embedded::with_heat(kind),
             (_, true, true) => return Err(refused("heat is known to the models without thinning only".to_owned())),
         };

@@ -37,15 +37,15 @@ fn apart(a: &Solution, b: &Solution) -> f64 {
 #[test]
 fn contacts_of_equal_modulus_times_stress_have_equal_films_and_tractions_that_go_with_the_stress() {
     let plane = GridSpec::Plane(POINT_GRID);
-    for (kind, grid, tolerance) in [(ContactKind::Line, line_grid(240), 1e-9), (ContactKind::Point, plane, 1e-5)] {
+    for (kind, grid, tolerance) in [(ContactKind::Line, line_grid(240), 1e-11), (ContactKind::Point, plane, 1e-7)] {
         let mut solver = ContactSolver::on(&grid.build().unwrap());
         let mut solve = |point: &OperatingPoint, laws| {
             let solution = solver.solve(point, laws, Start::Cold, &()).unwrap();
             assert!(solution.converged(), "{kind:?}: {:?}", solution.report);
             solution
         };
-        let one = solve(&contact(kind, (25.0, 8.0), (0.01, 250e9), 0.3), eyring(4e6));
-        let other = solve(&contact(kind, (25.0, 8.0), (0.03, 100e9), 0.3), eyring(10e6));
+        let one = solve(&contact(kind, (25.0, 8.0), (0.01, 250e9), 0.6), eyring(4e6));
+        let other = solve(&contact(kind, (25.0, 8.0), (0.03, 100e9), 0.6), eyring(10e6));
         assert!(apart(&one, &other) < tolerance, "{kind:?}: {:.1e}", apart(&one, &other));
         let ratio = other.traction_coefficient() / one.traction_coefficient();
         assert!((ratio / 2.5 - 1.0).abs() < 100.0 * tolerance, "{kind:?}: {ratio}");
@@ -58,11 +58,11 @@ fn contacts_of_equal_modulus_times_stress_have_equal_films_and_tractions_that_go
         assert!((ratio / 2.5 - 1.0).abs() < 100.0 * tolerance, "{kind:?}: {ratio}");
         // Thinning is felt, and so is the stress alone.
         let [softer, newtonian] = [eyring(10e6), Lubricant::default()]
-            .map(|laws| solve(&contact(kind, (25.0, 8.0), (0.01, 250e9), 0.3), laws).scalars.h_c);
+            .map(|laws| solve(&contact(kind, (25.0, 8.0), (0.01, 250e9), 0.6), laws).scalars.h_c);
         let felt = [softer, newtonian].map(|film| (film / one.scalars.h_c - 1.0).abs());
-        assert!(felt.iter().all(|felt| *felt > 2e-4), "{kind:?}: {felt:?}");
+        assert!(felt.iter().all(|felt| *felt > 1e-4), "{kind:?}: {felt:?}");
         // Films are even in SRR.
-        let mirrored = solve(&contact(kind, (25.0, 8.0), (0.01, 250e9), -0.3), eyring(4e6));
+        let mirrored = solve(&contact(kind, (25.0, 8.0), (0.01, 250e9), -0.6), eyring(4e6));
         assert!(apart(&one, &mirrored) < tolerance);
     }
 }
