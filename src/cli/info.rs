@@ -66,6 +66,10 @@ pub fn describe_in_time(model: &TrajectoryModel) -> String {
     };
     let (size, sampling) = (window.size(), window.sampling);
     let _ = writeln!(text, "  {}; {size} ({sampling:?}{scheme}), {ruptures}", grid_of(window));
+    for (k, local) in model.locals.iter().enumerate() {
+        let (size, sampling) = (local.window.size(), local.window.sampling);
+        let _ = writeln!(text, "  local basis {}: {size} ({sampling:?})", k + 1);
+    }
     for (k, start) in model.starts.iter().enumerate() {
         let p = &start.point;
         let _ = writeln!(

@@ -36,10 +36,14 @@ fn of_window(prefix: &str, window: &Window) -> Vec<Array> {
     arrays
 }
 
-/// A model in time: nodes, bases and sampled rows as those of a window, without its name in front, and of the beginnings
+/// A model in time: nodes, bases and sampled rows as those of a window, without its name in front, those of its local bases
+/// with `local_1_` and so on in front, and of the beginnings
 /// of its trainings `starts` (R, u_m, w, E', η₀, α, how long in T, H₀) with `start_coefficients`.
 pub fn of_trajectories(model: &TrajectoryModel) -> Vec<Array> {
     let mut arrays = of_window("", &model.window);
+    for (k, local) in model.locals.iter().enumerate() {
+        arrays.extend(of_window(&format!("local_{}_", k + 1), &local.window));
+    }
     let starts = model.starts.iter();
     let row = |start: &TrajectoryStart| start.point.quantities().into_iter().chain([start.duration, start.h_0]);
     let rows: Vec<Vec<f64>> = starts.clone().map(|start| row(start).collect()).collect();

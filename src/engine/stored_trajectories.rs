@@ -1,7 +1,7 @@
 //! What the file of a model in time holds: frame, grid, bases, sampled rows, the beginnings of its trainings with their
 //! inputs, what it was trained for, and the training scene, in postcard's encoding.
 //!
-//! Everything is kept to the last digit, so that a march by what was read is that by what was written. K V_p is
+//! What local bases a model has follows behind. Everything is kept to the last digit, so that a march by what was read is that by what was written. K V_p is
 //! recomputed.
 
 use super::model_file::ModelFileError;
@@ -13,9 +13,11 @@ use crate::solver::full::transient::{Frame, Inputs};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Sliding};
 use crate::solver::reduced::transient::{
-    CoupledMarch, Reach, TrajectoryDomain, TrajectoryModel, TrajectoryStart, only_course,
+    CoupledMarch, LocalBasis, Reach, TrajectoryDomain, TrajectoryModel, TrajectoryStart, only_course,
 };
-use crate::solver::reduced::{Domain, PressureModes, Sampling, Snapshot, Window};
+use crate::solver::reduced::{
+    Combined, Domain, PodBasis, PressureModes, SampledRows, Sampling, SharedBasis, Snapshot, Window,
+};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -40,6 +42,18 @@ struct StoredTrajectories {
     starts: Vec<StoredStart>,
     scene: String,
     log: Vec<String>,
+}
+
+/// What follows a model with local bases, one after the other; others end without it.
+#[derive(Serialize, Deserialize)]
+struct StoredLocal {
+    /// The modes, in those of the whole basis.
+    factors: StoredMatrix,
+    singular_values: Vec<f64>,
+    sampling: Sampling,
+    rows: StoredRows,
+    boundaries: Vec<(Snapshot, Vec<usize>)>,
+    centre: Vec<f64>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -92,18 +106,43 @@ pub(super) fn encode(model: &TrajectoryModel) -> Option<Vec<u8>> {
         pressure: StoredBasis::exact(window.pressure.basis()),
         deformation: StoredBasis::exact(&window.deformation),
         sampling: window.sampling,
-        rows: StoredRows {
-            rows: window.sampled_rows.clone(),
-            reconstruction: StoredMatrix::exact(&window.reconstruction),
-            scheme: window.scheme,
-            residual: window.residual_reconstruction.as_ref().map(StoredMatrix::exact),
-        },
-        boundaries: window.snapshots.iter().map(|snapshot| (snapshot.clone(), snapshot.fronts.clone())).collect(),
+        rows: rows_of(window),
+        boundaries: boundaries_in(window),
         starts: model.starts.iter().map(start).collect(),
         scene: model.scene.clone(),
         log: model.log.clone(),
     };
-    postcard::to_allocvec(&stored).ok()
+    let mut payload = postcard::to_allocvec(&stored).ok()?;
+    if !model.locals.is_empty() {
+        let locals: Option<Vec<StoredLocal>> = model.locals.iter().map(local_of).collect();
+        payload.extend(postcard::to_allocvec(&locals?).ok()?);
+    }
+    Some(payload)
+}
+
+fn rows_of(window: &Window) -> StoredRows {
+    StoredRows {
+        rows: window.sampled_rows.clone(),
+        reconstruction: StoredMatrix::exact(&window.reconstruction),
+        scheme: window.scheme,
+        residual: window.residual_reconstruction.as_ref().map(StoredMatrix::exact),
+    }
+}
+
+fn boundaries_in(window: &Window) -> Vec<(Snapshot, Vec<usize>)> {
+    window.snapshots.iter().map(|snapshot| (snapshot.clone(), snapshot.fronts.clone())).collect()
+}
+
+/// A local basis; none where it is not made of the whole one.
+fn local_of(LocalBasis { window, centre }: &LocalBasis) -> Option<StoredLocal> {
+    Some(StoredLocal {
+        factors: StoredMatrix::exact(&window.pressure.combined()?.factors),
+        singular_values: window.pressure.singular_values().to_vec(),
+        sampling: window.sampling,
+        rows: rows_of(window),
+        boundaries: boundaries_in(window),
+        centre: centre.clone(),
+    })
 }
 
 /// Lets the model rest where its first and its last training began.
@@ -131,9 +170,15 @@ pub(super) fn decode(payload: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileEr
     let damaged = |what| ModelFileError::Damaged { what };
     let (stored, rest): (StoredTrajectories, &[u8]) =
         postcard::take_from_bytes(payload).map_err(|_| damaged("its content cannot be decoded"))?;
-    if !rest.is_empty() {
-        return Err(damaged("something follows its content"));
-    }
+    let locals: Vec<StoredLocal> = if rest.is_empty() {
+        Vec::new()
+    } else {
+        let (locals, rest) = postcard::take_from_bytes(rest).map_err(|_| damaged("its local bases cannot be decoded"))?;
+        if !rest.is_empty() {
+            return Err(damaged("something follows its content"));
+        }
+        locals
+    };
     let StoredTrajectories { mut title, frame, grid, penalty, sampling, scene, mut log, .. } = stored;
     // They are shown on terminals.
     log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));
@@ -174,9 +219,39 @@ pub(super) fn decode(payload: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileEr
     let pressure = PressureModes::own(pressure, &grid);
     let mut window = Window::new((0.0, f64::INFINITY), grid, pressure, deformation, boundaries, sampling, rows);
     (window.penalty, window.cavitation) = (penalty, cavitation);
-    let model = Arc::new(TrajectoryModel { title, frame, window, starts, domain, scene, log });
+    let locals = locals_on(&window, locals)?;
+    let model = Arc::new(TrajectoryModel { title, frame, window, locals, starts, domain, scene, log });
     prove(&model)?;
     Ok(model)
+}
+
+/// The local bases that are made of a whole one.
+fn locals_on(whole: &Window, stored: Vec<StoredLocal>) -> Result<Vec<LocalBasis>, ModelFileError> {
+    let damaged = || ModelFileError::Damaged { what: "local bases" };
+    if stored.is_empty() {
+        return Ok(Vec::new());
+    }
+    let (basis, grid): (&PodBasis, _) = (whole.pressure.basis(), &whole.grid);
+    let shared = Arc::new(SharedBasis::new(basis.clone(), grid));
+    let local = |stored: StoredLocal| {
+        let factors = stored.factors.into_mat(basis.modes.ncols()).filter(|factors| factors.ncols() > 0);
+        let factors = factors.ok_or_else(damaged)?;
+        let modes = factors.ncols();
+        let finite = stored.singular_values.iter().chain(&stored.centre).all(|value| value.is_finite());
+        let fits = modes <= basis.modes.ncols() && stored.centre.len() == basis.modes.ncols();
+        if !(finite && fits) {
+            return Err(damaged());
+        }
+        let rows: SampledRows = stored.rows.into_rows(modes, grid)?;
+        let boundaries = boundaries_of(stored.boundaries, whole.cavitation, modes, grid).ok_or_else(damaged)?;
+        let pressure = Combined { shared: Arc::clone(&shared), factors }.into_modes(stored.singular_values);
+        let deformation = Arc::clone(&whole.deformation);
+        let mut window =
+            Window::new(whole.m, grid.clone(), pressure, deformation, boundaries, stored.sampling, rows);
+        (window.penalty, window.cavitation) = (whole.penalty, whole.cavitation);
+        Ok(LocalBasis { window, centre: stored.centre })
+    };
+    stored.into_iter().map(local).collect()
 }
 
 /// What a model was trained for; `None` where that makes no sense.

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// What the versions of models in time count on from: programs that know none of them say that the file is newer.
 const KIND: u32 = 1 << 16;
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const FORMAT: Format =
     Format { magic: MAGIC, version: KIND + VERSION, oldest: KIND + 1, whole_hash: 0, max_payload: MAX_PAYLOAD };
 
@@ -84,7 +84,7 @@ mod tests {
     use crate::solver::physics::lubricant::{Cavitation, Lubricant};
     use crate::solver::reduced::transient::ReducedMarch;
     use crate::solver::reduced::{Sampling, Scheme};
-    use crate::solver::training::{TrajectoryTraining, train_trajectories};
+    use crate::solver::training::{LocalBases, TrajectoryTraining, train_trajectories};
 
     /// A training of a moment on a coarse grid.
     fn training(frame: Frame, cavitation: Cavitation) -> Transient {
@@ -118,7 +118,10 @@ mod tests {
         let gnat =
             TrajectoryTraining { scheme: Scheme::Gnat { weighted: true }, sampling: Sampling::QDeim, ..galerkin };
         let least = TrajectoryTraining { scheme: Scheme::LeastSquares { weighted: true }, ..gnat };
+        let local = TrajectoryTraining { local: Some(LocalBases { clusters: 3, modes: 15 }), ..galerkin };
         for (frame, cavitation, settings) in [
+            (Frame::Fixed, Cavitation::Penalty, local),
+            (Frame::Fixed, Cavitation::Complementarity, local),
             (Frame::Fixed, Cavitation::Penalty, galerkin),
             (Frame::Fixed, Cavitation::Complementarity, galerkin),
             (Frame::Fixed, Cavitation::Complementarity, gnat),
@@ -135,7 +138,36 @@ mod tests {
             assert_eq!((read.frame, &read.domain, &read.starts), (model.frame, &model.domain, &model.starts));
             let [own, other] = [&model, &read].map(|model| marched(model, &transient));
             assert!(own.finished() && own.moments == other.moments && own.states == other.states, "{frame:?}");
+            assert_eq!(read.locals.len(), settings.local.map_or(0, |local| local.clusters));
         }
+    }
+
+    #[test]
+    fn files_of_the_first_version_are_read() {
+        let model = small();
+        let first = Format { version: KIND + 1, ..FORMAT };
+        let read = from_bytes(&first.seal(&stored_trajectories::encode(&model).unwrap())).unwrap();
+        let transient = training(Frame::Fixed, Cavitation::Penalty);
+        assert!(read.locals.is_empty() && marched(&read, &transient).moments == marched(&model, &transient).moments);
+    }
+
+    #[test]
+    fn local_bases_that_are_none_of_the_model_are_refused() {
+        let settings = TrajectoryTraining { local: Some(LocalBases { clusters: 3, modes: 15 }), ..Default::default() };
+        let model = trained(&training(Frame::Fixed, Cavitation::Penalty), settings);
+        let lies: [&dyn Fn(&mut TrajectoryModel); 3] = [
+            &|m| m.locals[1].centre.truncate(2),
+            &|m| m.locals[0].centre[0] = f64::NAN,
+            &|m| *m.locals[2].window.sampled_rows.last_mut().unwrap() = 1_000_000,
+        ];
+        for (k, lie) in lies.iter().enumerate() {
+            let mut wrong = (*model).clone();
+            lie(&mut wrong);
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { .. })), "lie {k}: {refused:?}");
+        }
+        let whole = to_bytes(&model).unwrap();
+        assert!(from_bytes(&FORMAT.seal(&stored_trajectories::encode(&model).unwrap()[..whole.len() - 100])).is_err());
     }
 
     #[test]

@@ -67,6 +67,7 @@ fn breathing() -> TransientStudy {
         window: None,
         trainings: Vec::new(),
         training_loads: Vec::new(),
+        training_contacts: Vec::new(),
         reduced: Some(ReducedTransient::default()),
         linearised: Some(LinearisedTransient::default()),
         mass_between: None,

@@ -32,13 +32,18 @@ impl PodBasis {
         Some(basis)
     }
 
-    /// As many modes as `loss` asks of [`Self::new`], orthonormal under `weights` and with its singular values, but
-    /// chosen so that they miss least under `emphasis`, other weights that are positive where `weights` are: for
-    /// equations to which some places matter more than others. Returns `None` when a decomposition fails (non-finite
+    /// As many modes as `loss` asks of [`Self::new`], at most so many, orthonormal under `weights` and with its singular
+    /// values, but chosen so that they miss least under `emphasis`, other weights that are positive where `weights` are:
+    /// for equations to which some places matter more than others. Returns `None` when a decomposition fails (non-finite
     /// snapshots).
-    pub fn emphasised(snapshots: MatRef<'_, f64>, weights: &[f64], emphasis: &[f64], loss: f64) -> Option<Self> {
+    pub fn emphasised(
+        snapshots: MatRef<'_, f64>,
+        weights: &[f64],
+        emphasis: &[f64],
+        (loss, most): (f64, usize),
+    ) -> Option<Self> {
         let plain = Self::new(snapshots, weights, loss)?;
-        let keep = plain.modes.ncols();
+        let keep = plain.modes.ncols().min(most);
         let chosen = Self::new(snapshots, emphasis, 0.0)?;
         let chosen = chosen.modes.get(.., ..keep.min(chosen.modes.ncols()));
         let weighted = Mat::from_fn(snapshots.nrows(), snapshots.ncols(), |i, j| emphasis[i] * snapshots[(i, j)]);
@@ -134,7 +139,7 @@ mod tests {
             Mat::from_fn(40, 12, |i, j| weights[i].sqrt() * rest[(i, j)]).norm_l2()
         };
         let plain = PodBasis::new(snapshots.as_ref(), &weights, 0.05).unwrap();
-        let emphasised = PodBasis::emphasised(snapshots.as_ref(), &weights, &strong, 0.05).unwrap();
+        let emphasised = PodBasis::emphasised(snapshots.as_ref(), &weights, &strong, (0.05, 40)).unwrap();
         let keep = plain.modes.ncols();
         assert_eq!((emphasised.modes.ncols(), &emphasised.singular_values), (keep, &plain.singular_values));
         // Eckart and Young: no span of as many modes misses less than the further singular values.
@@ -145,7 +150,7 @@ mod tests {
         let weighted = Mat::from_fn(40, keep, |i, k| weights[i] * emphasised.modes[(i, k)]);
         let products: Mat<f64> = emphasised.modes.transpose() * &weighted;
         assert!((products - Mat::<f64>::identity(keep, keep)).norm_l2() < 1e-10);
-        let same = PodBasis::emphasised(snapshots.as_ref(), &weights, &weights, 0.05).unwrap();
+        let same = PodBasis::emphasised(snapshots.as_ref(), &weights, &weights, (0.05, 40)).unwrap();
         assert!((missed(&same, &weights) - missed(&plain, &weights)).abs() < 1e-10);
     }
 

@@ -2,7 +2,7 @@
 //! where they were, and tell what they were not trained for.
 
 use super::trajectories_tests::{full, grid, reduced, trained, transient, under};
-use super::{TrajectoryTraining, train_trajectories};
+use super::{LocalBases, TrajectoryTraining, train_trajectories};
 use crate::solver::full::transient::{
     Frame, Input, Inputs, Interpolation, Keep, Moment, Signal, TimeStep, Transient, march,
 };
@@ -13,8 +13,12 @@ use std::sync::Arc;
 const SINE: Signal = Signal::Harmonic { amplitude: 0.1, period: 0.5 };
 
 fn model(cavitation: Cavitation, frame: Frame) -> Arc<TrajectoryModel> {
+    model_with(cavitation, frame, None)
+}
+
+fn model_with(cavitation: Cavitation, frame: Frame, local: Option<LocalBases>) -> Arc<TrajectoryModel> {
     let training = full(&under(cavitation, Transient { duration: 0.6, ..transient(frame, SINE) }));
-    let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+    let settings = TrajectoryTraining { loss: 1e-5, local, ..TrajectoryTraining::default() };
     Arc::new(train_trajectories(&grid(), &[training], &settings, &()).unwrap())
 }
 
@@ -90,14 +94,18 @@ fn late_in_a_march_it_is_the_same_still() {
 
 #[test]
 fn it_goes_back_to_a_state_and_on_from_there_to_the_last_bit() {
-    for (frame, cavitation) in [
-        (Frame::Fixed, Cavitation::Complementarity),
-        (Frame::Remeshed(Interpolation::CubicSpline), Cavitation::Penalty),
+    let local = Some(LocalBases { clusters: 4, modes: 20 });
+    for (frame, cavitation, local) in [
+        (Frame::Fixed, Cavitation::Complementarity, None),
+        (Frame::Fixed, Cavitation::Complementarity, local),
+        (Frame::ArbitraryLagrangianEulerian, Cavitation::Penalty, local),
+        (Frame::Remeshed(Interpolation::CubicSpline), Cavitation::Penalty, None),
+        (Frame::Remeshed(Interpolation::CubicSpline), Cavitation::Penalty, local),
     ] {
-        let model = model(cavitation, frame);
+        let model = model_with(cavitation, frame, local);
         let mut led = begun(&model);
         let go = |led: &mut CoupledMarch| -> Vec<Moment> {
-            loads(12).map(|load| *led.advance(0.0123, at(load)).unwrap()).collect()
+            loads(30).map(|load| *led.advance(0.0123, at(load)).unwrap()).collect()
         };
         go(&mut led);
         let (state, fields) = (led.state().clone(), led.fields());

@@ -18,6 +18,7 @@ mod heat_tests;
 mod heated_range;
 mod indicator;
 mod layout;
+mod local_bases;
 mod oil_range;
 #[cfg(test)]
 mod oil_tests;
@@ -59,6 +60,7 @@ pub use range::{QuantityBox, Range, SlidingRange};
 pub use rows::with_rows;
 pub use sliding_oil_range::SlidingOilRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
+pub use local_bases::LocalBases;
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 
 use self::plan::Within;

@@ -3,11 +3,12 @@
 //! its pressure.
 
 use super::one_thread::on_one_thread;
+use super::local_bases::{LocalBases, local_bases};
 use super::trajectory_rows::sampled_rows;
 use super::{Observer, Progress, TrainingError, check};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::discrete::reynolds::PENALTY;
-use crate::solver::full::transient::{Frame, Trajectory, Transient};
+use crate::solver::full::transient::{Frame, State, Trajectory, Transient};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::transient::{TrajectoryDomain, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{
@@ -30,12 +31,15 @@ pub struct TrajectoryTraining {
     pub scheme: Scheme,
     /// How rows are sampled; residual minimisation knows no cubature.
     pub sampling: Sampling,
+    /// Local bases in place of one that serves all states.
+    pub local: Option<LocalBases>,
 }
 
 impl Default for TrajectoryTraining {
     /// A loss of 1e-6 and two rows per mode, Galerkin's scheme with a cubature.
     fn default() -> Self {
-        Self { loss: 1e-6, rows_per_mode: 2.0, seed: 1, scheme: Scheme::Galerkin, sampling: Sampling::Cubature }
+        let (scheme, sampling) = (Scheme::Galerkin, Sampling::Cubature);
+        Self { loss: 1e-6, rows_per_mode: 2.0, seed: 1, scheme, sampling, local: None }
     }
 }
 
@@ -86,10 +90,29 @@ pub fn train_trajectories(
     // Behind a rupture boundary there are no rows.
     let penalty = if cavitation == Cavitation::Penalty { PENALTY } else { 0.0 };
     let sizes = mean_diagonals(&grid.scaled(1.0), &trajectories.iter().collect::<Vec<_>>(), penalty);
-    let exact = Arc::new(bases(grid, trajectories, (&sizes, training), frame, observer)?);
+    let mut exact = bases(grid, trajectories, (&sizes, training), frame, observer)?;
+    if let Some(wanted) = training.local {
+        let (emphasis, contact) = (emphasis(grid, &sizes), exact.window.grid.clone());
+        let test = |basis: &PodBasis| test_space(basis, &contact, &sizes, training.scheme);
+        let locals = local_bases(&exact, trajectories, (&emphasis, training.loss), wanted, test);
+        exact.locals = locals.ok_or(TrainingError::Trajectories(DEGENERATE))?;
+    }
+    let exact = Arc::new(exact);
     let sampled = sampled_rows(&exact, &sizes, trajectories, training, observer)?;
     let mut model = Arc::unwrap_or_clone(exact);
-    model.window.set_rows(training.sampling, sampled.ok_or(TrainingError::Trajectories(DEGENERATE))?);
+    let serving: Vec<&mut Window> = if model.locals.is_empty() {
+        vec![&mut model.window]
+    } else {
+        model.locals.iter_mut().map(|local| &mut local.window).collect()
+    };
+    for (window, rows) in serving.into_iter().zip(sampled) {
+        match rows {
+            Some(rows) => window.set_rows(training.sampling, rows),
+            // A basis that few steps were taken in keeps its rows.
+            None if training.local.is_some() => {}
+            None => return Err(TrainingError::Trajectories(DEGENERATE)),
+        }
+    }
     Ok(model)
 }
 
@@ -134,7 +157,7 @@ fn bases(
     let (pressure, deformation) = on_one_thread(observer, {
         let contact = contact.clone();
         move || {
-            let pressure = PodBasis::emphasised(pressures.as_ref(), &weights, &emphasis, loss);
+            let pressure = PodBasis::emphasised(pressures.as_ref(), &weights, &emphasis, (loss, usize::MAX));
             let deformations = contact.flex(&pressures);
             let deformation = PodBasis::new(deformations.as_ref(), &deformation_weights(&contact), loss);
             (pressure, deformation)
@@ -163,18 +186,28 @@ fn bases(
         })
         .collect();
     let rows = all_rows(&test_space(&pressure, &contact, sizes, Scheme::Galerkin));
-    let boundaries = if ruptures { boundaries(trajectories, &contact, &pressure) } else { Vec::new() };
+    let boundaries = if ruptures {
+        let states = trajectories.iter().flat_map(|t| t.states.iter().map(move |state| (t, state)));
+        boundaries(states, &contact, &pressure)
+    } else {
+        Vec::new()
+    };
     let pressure = PressureModes::own(pressure, &contact);
     let mut window = Window::new((0.0, f64::INFINITY), contact, pressure, deformation, boundaries, Sampling::All, rows);
     (window.penalty, window.cavitation) = (PENALTY, cavitation);
     let domain = TrajectoryDomain::of(trajectories).ok_or(TrainingError::Trajectories(NONE))?;
-    Ok(TrajectoryModel { title: String::new(), frame, window, starts, domain, scene: String::new(), log: Vec::new() })
+    let (title, scene, locals, log) = (String::new(), String::new(), Vec::new(), Vec::new());
+    Ok(TrajectoryModel { title, frame, window, locals, starts, domain, scene, log })
 }
 
-/// A state for each place that the rupture boundary had in trajectories.
-fn boundaries(trajectories: &[Trajectory], grid: &ContactGrid, basis: &PodBasis) -> Vec<Snapshot> {
+/// A state for each place that the rupture boundary had in states of trajectories.
+pub(super) fn boundaries<'a>(
+    states: impl Iterator<Item = (&'a Trajectory, &'a State)>,
+    grid: &ContactGrid,
+    basis: &PodBasis,
+) -> Vec<Snapshot> {
     let mut seen: Vec<Snapshot> = Vec::new();
-    for (t, state) in trajectories.iter().flat_map(|t| t.states.iter().map(move |state| (t, state))) {
+    for (t, state) in states {
         let fronts = fronts(grid, |node| state.pressure[node]);
         if seen.iter().all(|other| other.fronts != fronts) {
             let coefficients = basis.coefficients(grid.weights(), |i| state.pressure[i]);

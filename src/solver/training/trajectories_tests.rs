@@ -1,7 +1,7 @@
 //! Reduced models in time: they reproduce what they were trained with, follow what they never saw, and are the same
 //! again.
 
-use super::{TrajectoryTraining, train_trajectories};
+use super::{LocalBases, TrajectoryTraining, train_trajectories};
 use crate::solver::discrete::grid::{GridSpec, ReferenceGrid};
 use crate::solver::full::transient::{
     Frame, FullMarch, Inputs, Interpolation, Keep, Quantity, Signal, Trajectory, Transient, march,
@@ -83,6 +83,35 @@ fn under_complementarity_it_follows_full_complementarity_with_the_boundary_where
                 assert!(own.pressure.iter().all(|p| *p > -1e-4));
             }
         }
+    }
+}
+
+#[test]
+fn local_bases_with_few_modes_each_go_a_long_way_in_every_frame() {
+    let wide = Signal::Harmonic { amplitude: 0.5, period: 1.0 };
+    for (frame, cavitation) in [
+        (Frame::Fixed, Cavitation::Penalty),
+        (Frame::Fixed, Cavitation::Complementarity),
+        (Frame::ArbitraryLagrangianEulerian, Cavitation::Penalty),
+        (Frame::Remeshed(Interpolation::CubicSpline), Cavitation::Penalty),
+    ] {
+        let training = full(&under(cavitation, transient(frame, wide.clone())));
+        let local = Some(LocalBases { clusters: 4, modes: 25 });
+        let settings = TrajectoryTraining { local, ..TrajectoryTraining::default() };
+        let trainings = std::slice::from_ref(&training);
+        let model = Arc::new(train_trajectories(&grid(), trainings, &settings, &()).unwrap());
+        assert_eq!((model.locals.len(), model.modes()), (4, 25), "{frame:?}");
+        assert!(model.window.pressure.count() > 25 && model.rows() <= 50, "{frame:?}: {} rows", model.rows());
+        let seen = reduced(&model, &training.transient);
+        assert_eq!(seen.rejected_steps, 0, "{frame:?}");
+        assert!(off(&seen, &training) < 1e-3, "{frame:?}, {cavitation:?}: {:e}", off(&seen, &training));
+        // As many modes that serve all states alike.
+        let single = TrajectoryTraining { local: Some(LocalBases { clusters: 1, modes: 25 }), ..settings };
+        let single = Arc::new(train_trajectories(&grid(), trainings, &single, &()).unwrap());
+        let single = reduced(&single, &training.transient);
+        let far = seen.difference(&training, Quantity::CentralFilm, ALL).unwrap().1;
+        let farther = single.difference(&training, Quantity::CentralFilm, ALL).map_or(f64::INFINITY, |off| off.1);
+        assert!(far < 0.5 * farther, "{frame:?}, {cavitation:?}: {far:e} against {farther:e}");
     }
 }
 

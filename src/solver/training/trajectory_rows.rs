@@ -7,14 +7,15 @@ use super::{Observer, Progress, TrainingError};
 use crate::solver::full::transient::{Keep, MarchProgress, Trajectory, Transient, march};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::reduced::{
-    GoalEquations, Iterate, RowSnapshots, SampledRows, Sampling, Scheme, TestSpace, all_rows, is_finite,
+    GoalEquations, Iterate, RowSnapshots, SampledRows, Sampling, Scheme, TestSpace, Window, all_rows, is_finite,
 };
 use fastrand::Rng;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Iterates that the rows have to satisfy.
+/// Iterates that the rows of one basis have to satisfy, and those of each local one.
 const ITERATES: usize = 600;
+const LOCAL_ITERATES: usize = 300;
 
 /// Share of the wanted rows below which a cubature does not carry steps in time: pruning has gone too far.
 const SHARE: f64 = 0.85;
@@ -26,67 +27,79 @@ struct Evidence {
     rows: RowSnapshots,
 }
 
-/// The rows that a training asks for, of a model with all of them; `None` where the linear algebra gives up, or no rule
-/// of few rows carries the steps.
+/// The rows that a training asks for, of each basis of a model with all of them; `None` where the linear algebra gives up,
+/// or no rule of few rows carries the steps.
 pub(super) fn sampled_rows(
     exact: &Arc<TrajectoryModel>,
     sizes: &[f64],
     trajectories: &[Trajectory],
     training: &TrajectoryTraining,
     observer: &dyn Observer,
-) -> Result<Option<SampledRows>, TrainingError> {
+) -> Result<Vec<Option<SampledRows>>, TrainingError> {
     let TrajectoryTraining { scheme, sampling, rows_per_mode, .. } = *training;
-    let test = test_space(exact.window.pressure.basis(), &exact.window.grid, sizes, scheme);
+    let space = |window: &Window| test_space(window.pressure.basis(), &window.grid, sizes, scheme);
+    let tests: Vec<TestSpace> = exact.serving().map(space).collect();
     if sampling == Sampling::All && scheme == Scheme::Galerkin {
-        return Ok(Some(all_rows(&test)));
+        return Ok(tests.iter().map(|test| Some(all_rows(test))).collect());
     }
-    let mut seen = Evidence { goals: candidates(exact), rows: RowSnapshots::default() };
+    let mut seen = no_evidence(exact);
     if sampling != Sampling::All {
-        for part in evidence(exact, &test, trajectories, training, observer)? {
-            seen.goals.merge(&part.goals);
-            seen.rows.residual.extend(part.rows.residual);
-            seen.rows.jacobian.extend(part.rows.jacobian);
+        for part in evidence(exact, &tests, trajectories, training, observer)?.into_iter().flatten().enumerate() {
+            let (of, part) = (part.0 % seen.len(), part.1);
+            seen[of].goals.merge(&part.goals);
+            seen[of].rows.residual.extend(part.rows.residual);
+            seen[of].rows.jacobian.extend(part.rows.jacobian);
         }
     }
-    observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
-    let target = (test.modes.ncols() as f64 * rows_per_mode).round() as usize;
-    let of = (scheme, sampling);
-    let sampled =
-        on_one_thread(observer, move || rows_by(&test, of, (&seen.rows, &seen.goals), (&[target], SHARE)).pop())?;
-    Ok(sampled.flatten().filter(|rows| is_finite(rows.reconstruction.as_ref())))
+    let total = tests.len();
+    let sample = |(done, (test, seen)): (usize, (TestSpace, Evidence))| {
+        observer.progress(Progress { stage: "Row sampling".to_owned(), done, total });
+        let target = (test.modes.ncols() as f64 * rows_per_mode).round() as usize;
+        let of = (scheme, sampling);
+        let sampled =
+            on_one_thread(observer, move || rows_by(&test, of, (&seen.rows, &seen.goals), (&[target], SHARE)).pop())?;
+        Ok(sampled.flatten().filter(|rows| is_finite(rows.reconstruction.as_ref())))
+    };
+    tests.into_iter().zip(seen).enumerate().map(sample).collect()
 }
 
-/// Equations with candidate rows: those where something happens, whatever they count.
-fn candidates(exact: &TrajectoryModel) -> GoalEquations {
-    GoalEquations::over(&TestSpace::new(exact.window.pressure.basis(), &exact.window.grid))
+/// Nothing seen of any basis yet. Candidate rows are those where something happens, whatever they count.
+fn no_evidence(exact: &TrajectoryModel) -> Vec<Evidence> {
+    let goals = |window: &Window| GoalEquations::over(&TestSpace::new(window.pressure.basis(), &window.grid));
+    exact.serving().map(|window| Evidence { goals: goals(window), rows: RowSnapshots::default() }).collect()
 }
 
-/// Marches the all-rows model along the trainings and collects what its iterates demand of a rule, or what they are.
+/// Marches the all-rows model along the trainings and collects what its iterates demand of the rules, or what they are: of
+/// each training what was seen in each basis.
 fn evidence(
     exact: &Arc<TrajectoryModel>,
-    test: &TestSpace,
+    tests: &[TestSpace],
     trajectories: &[Trajectory],
     training: &TrajectoryTraining,
     observer: &dyn Observer,
-) -> Result<Vec<Evidence>, TrainingError> {
-    let none = Evidence { goals: candidates(exact), rows: RowSnapshots::default() };
-    let factors = training.scheme.factors(test);
-    let scaled = |v: &[f64]| -> Vec<f64> { v.iter().zip(&factors).map(|(v, factor)| v * factor).collect() };
+) -> Result<Vec<Vec<Evidence>>, TrainingError> {
+    let none = no_evidence(exact);
+    let factors: Vec<Vec<f64>> = tests.iter().map(|test| training.scheme.factors(test)).collect();
+    let scaled = |v: &[f64], factors: &[f64]| -> Vec<f64> { v.iter().zip(factors).map(|(v, by)| v * by).collect() };
     // About three iterates in a step, of which every n-th is kept.
     let steps: usize = trajectories.iter().map(|t| t.moments.len()).sum();
-    let every = (3 * steps).div_ceil(ITERATES).max(1);
+    let wanted = if exact.locals.is_empty() { ITERATES } else { LOCAL_ITERATES * exact.locals.len() };
+    let every = (3 * steps).div_ceil(wanted).max(1);
     let along = |(index, trajectory): (usize, &Trajectory)| {
         let mut evidence = none.clone();
         let mut rng = Rng::with_seed(training.seed.wrapping_add(index as u64));
         let mut seen = 0;
         let mut model = ReducedMarch::new(exact, &trajectory.transient)?;
-        model.observe(Box::new(|iterate: &Iterate<'_>| {
-            if seen % every == 0 {
+        model.observe(Box::new(|number, iterate: &Iterate<'_>| {
+            // The whole basis, beside local ones, keeps all rows.
+            let of = if exact.locals.is_empty() { Some(number) } else { number.checked_sub(1) };
+            if let (Some(of), 0) = (of, seen % every) {
+                let Evidence { goals, rows } = &mut evidence[of];
                 if training.sampling == Sampling::Cubature {
-                    add_goals(&mut evidence.goals, test, iterate, &mut rng);
+                    add_goals(goals, &tests[of], iterate, &mut rng);
                 } else {
-                    evidence.rows.residual.push(scaled(iterate.residual));
-                    evidence.rows.jacobian.push(scaled(iterate.jacobian_step));
+                    rows.residual.push(scaled(iterate.residual, &factors[of]));
+                    rows.jacobian.push(scaled(iterate.jacobian_step, &factors[of]));
                 }
             }
             seen += 1;

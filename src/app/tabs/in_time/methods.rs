@@ -118,7 +118,8 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy
         return;
     }
     let own = study.trains_on_itself();
-    ui.label(match study.trainings.len().max(1) * study.training_loads.len().max(1) {
+    let contacts = study.training_loads.len().max(study.training_contacts.len()).max(1);
+    ui.label(match study.trainings.len().max(1) * contacts {
         _ if own => "Trained on the run itself.".to_owned(),
         1 => "Trained on other inputs.".to_owned(),
         count => format!("Trained on {count} other inputs."),
@@ -126,6 +127,10 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy
     if !study.training_loads.is_empty() {
         let loads = study.training_loads.iter().map(|load| format!("{} kN/m", load / 1e3));
         ui.weak(format!("At reference loads of {}.", loads.collect::<Vec<_>>().join(", ")));
+    }
+    if !study.training_contacts.is_empty() {
+        let contacts = study.training_contacts.iter().map(|(m, l)| format!("M {m}, L {l}"));
+        ui.weak(format!("At reference contacts of {}.", contacts.collect::<Vec<_>>().join("; ")));
     }
     ui.horizontal(|ui| {
         let tip = "Keeps the present inputs as a training trajectory: change them then, and see what the models make of others";
@@ -139,6 +144,7 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy
         if !own && ui.button("On the run itself").on_hover_text("Forgets the other inputs").clicked() {
             study.trainings.clear();
             study.training_loads.clear();
+            study.training_contacts.clear();
             form.changed = Some("Methods");
         }
     });

@@ -1,5 +1,6 @@
 //! A contact in time as part of a scene: what drives it, in which frames and by which models it is followed.
 
+use super::marches::training_contact;
 use super::published::{self, PublishedMarch};
 use crate::scene::check::{Checked, count, interval, number, refuse};
 use crate::scene::experiment::Experiment;
@@ -7,10 +8,10 @@ use crate::scene::grid::Grid;
 use crate::scene::is_default;
 use crate::scene::method::ModelSource;
 use crate::solver::full::transient::{Frame, Inputs, TimeStep, Transient};
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
-use crate::solver::training::TrajectoryTraining;
+use crate::solver::training::{LocalBases, TrajectoryTraining};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -43,6 +44,10 @@ pub struct TransientStudy {
     /// Reference loads \[N/m\] at which they are trained; the scene's own where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub training_loads: Vec<f64>,
+    /// Reference contacts (M, L) at which they are trained, with the radius and the oil of the scene's own; that one where
+    /// there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub training_contacts: Vec<(f64, f64)>,
     /// A reduced model of each frame beside the full system.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedTransient>,
@@ -86,6 +91,9 @@ pub struct ReducedTransient {
     /// Seed of the cubature.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub seed: u64,
+    /// Local bases along the trainings in place of one that serves all states.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub local: Option<LocalBases>,
 }
 
 /// Trajectory-piecewise-linear models of a contact in time, (4.27): trained on the spot, then marched along all inputs.
@@ -110,7 +118,7 @@ pub struct LinearisedTransient {
 impl Default for ReducedTransient {
     /// A loss of 1e-6, two rows per mode.
     fn default() -> Self {
-        Self { model: None, loss: millionth(), rows_per_mode: two(), seed: one() }
+        Self { model: None, loss: millionth(), rows_per_mode: two(), seed: one(), local: None }
     }
 }
 
@@ -172,9 +180,8 @@ impl Drive {
 impl ReducedTransient {
     /// What a study trains by it; none where it has a model already.
     pub fn training(&self) -> Option<TrajectoryTraining> {
-        let Self { model, loss, rows_per_mode, seed } = self;
-        let own = TrajectoryTraining { loss: *loss, rows_per_mode: *rows_per_mode, seed: *seed, ..Default::default() };
-        model.is_none().then_some(own)
+        let &Self { ref model, loss, rows_per_mode, seed, local } = self;
+        model.is_none().then(|| TrajectoryTraining { loss, rows_per_mode, seed, local, ..Default::default() })
     }
 
     fn check(&self, grid: &Grid) -> Checked {
@@ -185,7 +192,7 @@ impl ReducedTransient {
                 return Err(refuse("study.reduced.model", problem));
             }
             if *self != (Self { model: self.model.clone(), ..Self::default() }) {
-                let problem = "has nothing beside it: loss, rows_per_mode and seed belong to a training";
+                let problem = "has nothing beside it: loss, rows_per_mode, seed and local belong to a training";
                 return Err(refuse("study.reduced.model", problem));
             }
             return Ok(());
@@ -197,7 +204,11 @@ impl ReducedTransient {
             ));
         }
         number("study.reduced.loss", self.loss, 1e-12, 0.5)?;
-        number("study.reduced.rows_per_mode", self.rows_per_mode, 1.0, 20.0)
+        number("study.reduced.rows_per_mode", self.rows_per_mode, 1.0, 20.0)?;
+        self.local.iter().try_for_each(|local| {
+            count("study.reduced.local.clusters", local.clusters, 2, 64)?;
+            count("study.reduced.local.modes", local.modes, 5, 500)
+        })
     }
 }
 
@@ -275,6 +286,7 @@ impl TransientStudy {
             interval("study.mass_between", places, -4.0, 1.0)?;
         }
         self.training_loads.iter().try_for_each(|&load| number("study.training_loads", load, 1e-6, 1e10))?;
+        self.check_contacts(experiment)?;
         self.check_marches(experiment)?;
         let models = self.reduced.is_some() || self.linearised.is_some();
         if models && matches!(experiment.lubricant.cavitation, Cavitation::MassConserving { .. }) {
@@ -290,6 +302,7 @@ impl TransientStudy {
         count("study.further (how many)", self.further.len(), 0, 63)?;
         count("study.trainings (how many)", self.trainings.len(), 0, 64)?;
         count("study.training_loads (how many)", self.training_loads.len(), 0, 16)?;
+        count("study.training_contacts (how many)", self.training_contacts.len(), 0, 64)?;
         for (i, drive) in self.further.iter().enumerate() {
             let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
             if drive.name.is_empty() || !drive.name.chars().all(plain) {
@@ -307,6 +320,27 @@ impl TransientStudy {
         Ok(())
     }
 
+    /// Refuses reference contacts of trainings that are none, or that models cannot learn.
+    fn check_contacts(&self, experiment: &Experiment) -> Checked {
+        let Some(first) = self.training_contacts.first() else { return Ok(()) };
+        let field = |i: usize| format!("study.training_contacts.{i}");
+        let others = if self.linearised.is_some() {
+            Some("a linearised model, whose reference contacts differ in their load alone")
+        } else if self.training_loads.is_empty() {
+            None
+        } else {
+            Some("training_loads")
+        };
+        if let Some(others) = others {
+            return Err(refuse(field(0), format!("is {first:?}, but must be left out beside {others}")));
+        }
+        let own = experiment.point().map_err(|problem| refuse("at", format!("is refused: {problem}")))?;
+        self.training_contacts.iter().enumerate().try_for_each(|(i, contact)| {
+            let made = training_contact(&own, *contact);
+            made.map(|_| ()).map_err(|problem| refuse(field(i), format!("is refused: {problem}")))
+        })
+    }
+
     /// Checks every march that it asks for.
     fn check_marches(&self, experiment: &Experiment) -> Checked {
         let point = experiment.point().map_err(|problem| refuse("at", format!("is refused: {problem}")))?;
@@ -319,10 +353,11 @@ impl TransientStudy {
         for (i, drive) in self.further.iter().enumerate() {
             check(format!("study.further.{i}"), &self.march(drive, point, lubricant, Frame::Fixed))?;
         }
-        let per_load = self.trainings.len().max(1);
+        let per_contact = self.trainings.len().max(1);
         for (i, training) in self.training_marches(&own).iter().enumerate() {
-            let load = self.training_loads.get(i / per_load).map_or(String::new(), |load| format!(" at {load} N/m"));
-            check(format!("study.trainings.{}{load}", i % per_load), training)?;
+            let OperatingPoint { load, speed_m_per_s, .. } = training.point;
+            let other = if training.point == point { String::new() } else { format!(" at {load} N/m, {speed_m_per_s} m/s") };
+            check(format!("study.trainings.{}{other}", i % per_contact), training)?;
         }
         Ok(())
     }

@@ -2,13 +2,27 @@
 
 use super::data::{Drive, TransientStudy};
 use crate::solver::full::transient::{Frame, Keep, TimeStep, Transient};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::Lubricant;
 
 /// States of a training trajectory that are kept, about.
 const TRAINING_STATES: f64 = 700.0;
 /// The same where a linearised model is trained, which chooses among them.
 const LINEARISED_STATES: f64 = 3000.0;
+
+/// The contact of Moes numbers (M, L) with the radius, the materials and the oil of another one.
+///
+/// # Errors
+/// When there is no such contact.
+pub(super) fn training_contact(own: &OperatingPoint, (m, l): (f64, f64)) -> Result<OperatingPoint, ContactError> {
+    si_from_moes(&MoesRequest {
+        radius_m: Some(own.radius_m),
+        modulus_pa: Some(own.modulus_pa),
+        viscosity_pa_s: Some(own.viscosity_pa_s),
+        alpha_per_pa: Some(own.alpha_per_pa),
+        ..MoesRequest::new(ContactKind::Line, m, l)
+    })
+}
 
 impl TransientStudy {
     /// All inputs that are followed: its own, which have no name, and the further ones.
@@ -49,27 +63,32 @@ impl TransientStudy {
 
     /// Whether models, where there are any to be trained, are so by the march along its own inputs.
     pub fn trains_on_itself(&self) -> bool {
-        self.trainings.is_empty() && self.training_loads.is_empty()
+        self.trainings.is_empty() && self.training_loads.is_empty() && self.training_contacts.is_empty()
     }
 
-    /// The marches that models of a frame are trained by, load by load, where it is not the study's own in that frame,
+    /// The marches that models of a frame are trained by, contact by contact, where it is not the study's own in that frame,
     /// which is given.
     pub fn training_marches(&self, own: &Transient) -> Vec<Transient> {
         if self.trains_on_itself() {
             return Vec::new();
         }
-        let own_load = [own.point.load];
-        let loads = if self.training_loads.is_empty() { &own_load[..] } else { &self.training_loads };
+        let loaded = self.training_loads.iter().map(|&load| OperatingPoint { load, ..own.point });
+        // What is no contact is refused before anything is asked.
+        let chosen = self.training_contacts.iter().filter_map(|contact| training_contact(&own.point, *contact).ok());
+        let mut contacts: Vec<OperatingPoint> = loaded.chain(chosen).collect();
+        if contacts.is_empty() {
+            contacts.push(own.point);
+        }
         let own_drive = [Drive { name: String::new(), inputs: own.inputs.clone(), duration: own.duration }];
         let drives = if self.trainings.is_empty() { &own_drive[..] } else { &self.trainings };
-        let march = |load: f64, drive: &Drive| Transient {
-            point: OperatingPoint { load, ..own.point },
+        let march = |point: OperatingPoint, drive: &Drive| Transient {
+            point,
             inputs: drive.inputs.clone(),
             duration: drive.duration,
             keep: self.training_states(drive.duration),
             ..own.clone()
         };
-        loads.iter().flat_map(|&load| drives.iter().map(move |drive| march(load, drive))).collect()
+        contacts.iter().flat_map(|&point| drives.iter().map(move |drive| march(point, drive))).collect()
     }
 
     /// Which states a training keeps. Linearised models choose among them, so that they want more than bases do.
@@ -112,5 +131,13 @@ mod tests {
         let seen: Vec<_> = trained.iter().map(|t| (t.point.load, t.duration)).collect();
         assert_eq!(seen, [(2e5, 1.0), (2e5, 9.5), (3e5, 1.0), (3e5, 9.5)]);
         assert_eq!((trained[1].keep, trained[1].point.radius_m), (Keep::Every(3), point.radius_m));
+
+        let (_, contacts) = study(&format!("{load}, reduced: (), training_contacts: [(30.0, 9.0), (50.0, 11.0)]"));
+        let trained = contacts.training_marches(&march(&contacts));
+        for (trained, (m, l)) in trained.iter().zip([(30.0, 9.0), (50.0, 11.0)]) {
+            let moes = trained.point.moes();
+            assert!((moes.m / m - 1.0).abs() < 1e-12 && (moes.l / l - 1.0).abs() < 1e-12, "{moes:?}");
+            assert_eq!((trained.point.radius_m, trained.point.alpha_per_pa), (point.radius_m, point.alpha_per_pa));
+        }
     }
 }

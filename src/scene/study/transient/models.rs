@@ -67,7 +67,7 @@ impl Model {
     /// Pressure modes.
     pub fn modes(&self) -> usize {
         match &self.kind {
-            Kind::Reduced(model) => model.window.pressure.count(),
+            Kind::Reduced(model) => model.modes(),
             Kind::Linearised { model, .. } => model.space.modes(),
         }
     }
@@ -75,12 +75,13 @@ impl Model {
     /// Sampled rows or operating points.
     pub fn chosen(&self) -> usize {
         match &self.kind {
-            Kind::Reduced(model) => model.window.sampled_rows.len(),
+            Kind::Reduced(model) => model.rows(),
             Kind::Linearised { model, .. } => model.points.len(),
         }
     }
 
-    /// Values of a reduced one: `modes`, `modes_share` (of the first frame's), `deformation_modes`, `rows`; of a linearised one `modes`, `points`,
+    /// Values of a reduced one: `modes`, `modes_share` (of the first frame's), `deformation_modes`, `rows`, of a local basis
+    /// at most where it has `bases` of them; of a linearised one `modes`, `points`,
     /// `tolerance`; of both `model_s`.
     pub(super) fn findings(&self, models: &[&Self], found: &mut Findings) {
         let (modes, chosen) = (self.modes() as f64, self.chosen() as f64);
@@ -92,6 +93,9 @@ impl Model {
                 push("modes_share", modes / first.map_or(modes, |first| first.modes() as f64));
                 push("deformation_modes", model.window.deformation.modes.ncols() as f64);
                 push("rows", chosen);
+                if !model.locals.is_empty() {
+                    push("bases", model.locals.len() as f64);
+                }
             }
             Kind::Linearised { model, .. } => {
                 push("points", chosen);

@@ -26,7 +26,22 @@ struct Past {
     between: Interpolated,
 }
 
+impl Past {
+    fn copy_from(&mut self, other: &Self) {
+        self.state.clone_from(&other.state);
+        self.flow.clone_from(&other.flow);
+        self.h_0 = other.h_0;
+        self.between.copy_from(&other.between);
+    }
+}
+
 impl History {
+    /// Without states, with room for so many entries and rows.
+    pub fn with_room(entries: usize, rows: usize) -> Self {
+        let past = || Past { state: Vec::with_capacity(entries), flow: Vec::with_capacity(rows), ..Past::default() };
+        Self { former: [past(), past()], carried: [Vec::with_capacity(rows), Vec::with_capacity(rows)] }
+    }
+
     /// Makes a state with its H₀ and its ρ̄H at the rows' nodes the nearer of the former ones.
     pub fn remember(&mut self, state: &[f64], h_0: f64, flow: impl Iterator<Item = f64>) {
         self.former.swap(0, 1);
@@ -41,12 +56,7 @@ impl History {
 
     /// Takes over the states of another one, in the room there is.
     pub fn copy_from(&mut self, other: &Self) {
-        for (own, other) in self.former.iter_mut().zip(&other.former) {
-            own.state.clone_from(&other.state);
-            own.flow.clone_from(&other.flow);
-            own.h_0 = other.h_0;
-            own.between.copy_from(&other.between);
-        }
+        self.former.iter_mut().zip(&other.former).for_each(|(own, other)| own.copy_from(other));
     }
 
     /// Whether both states have so many entries, so many rows, and so many nodes between which they are carried; all of
@@ -67,7 +77,8 @@ impl History {
 
     /// Makes the nearer state both of the former ones: the contact has rested.
     pub fn rest(&mut self) {
-        self.former[1] = self.former[0].clone();
+        let [nearer, farther] = &mut self.former;
+        farther.copy_from(nearer);
     }
 
     /// Continues the straight line through both states over `ratio` = step / former step; returns H₀.
@@ -82,6 +93,25 @@ impl History {
     /// The nearer state and its H₀.
     pub fn nearer(&self) -> (&[f64], f64) {
         (&self.former[0].state, self.former[0].h_0)
+    }
+
+    /// A former state and its H₀, the nearer one for 0.
+    pub fn former(&self, which: usize) -> (&[f64], f64) {
+        (&self.former[which].state, self.former[which].h_0)
+    }
+
+    /// Gives a former state by other entries.
+    pub fn give_state(&mut self, which: usize, state: &[f64]) {
+        let own = &mut self.former[which].state;
+        own.clear();
+        own.extend_from_slice(state);
+    }
+
+    /// Gives ρ̄H of a former state at the nodes of other rows.
+    pub fn give_flow(&mut self, which: usize, flow: impl Iterator<Item = f64>) {
+        let own = &mut self.former[which].flow;
+        own.clear();
+        own.extend(flow);
     }
 
     /// Carries the former ρ̄H to where the rows' nodes, at `rows` among the grid's `nodes`, are at the end of a step.

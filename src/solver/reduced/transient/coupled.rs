@@ -1,9 +1,9 @@
 //! A march whose inputs are told as it goes, from one time to the next: a contact as a part of something larger.
 
 use super::model::TrajectoryModel;
-use super::steps::ReducedMarch;
+use super::steps::{Kept, ReducedMarch};
 use crate::solver::full::transient::{
-    Conditions, Effort, Ended, Frame, GREATEST_RATIO, History, Input, MOST_PARTS, Marching, Moment, ROUNDING, Scales,
+    Conditions, Effort, Ended, Frame, GREATEST_RATIO, Input, MOST_PARTS, Marching, Moment, ROUNDING, Scales,
     State, Step,
 };
 use crate::solver::full::{Problem, Termination};
@@ -26,6 +26,8 @@ pub struct CoupledMarch {
     reference: Problem,
     longest: f64,
     at: Conditions,
+    /// The equations one step before.
+    former: Conditions,
     now: MarchState,
 }
 
@@ -33,12 +35,11 @@ pub struct CoupledMarch {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct MarchState {
     moment: Moment,
-    /// Scales one step before.
-    former: Scales,
+    /// Inputs one step before.
+    former: Input,
     /// Length of the former step; infinite where the contact has rested.
     before: f64,
-    history: History,
-    fronts: Vec<usize>,
+    kept: Kept,
 }
 
 /// Why a march does not go on; it stays where it was.
@@ -78,13 +79,12 @@ impl CoupledMarch {
         let effort = march.rest(&at, &()).map_err(|why| CoupledError::Ended(refused(why)))?;
         let now = MarchState {
             moment: march.moment(&at, 0.0, effort),
-            former: at.scales,
+            former: input,
             before: f64::INFINITY,
-            history: History::default(),
-            fronts: Vec::new(),
+            kept: Kept::default(),
         };
-        let mut begun = Self { march, frame, reference, longest: model.domain.step, at, now };
-        begun.march.keep(&mut begun.now.history, &mut begun.now.fronts);
+        let mut begun = Self { march, frame, reference, longest: model.domain.step, at, former: at, now };
+        begun.march.keep(&mut begun.now.kept);
         Ok(begun)
     }
 
@@ -123,7 +123,7 @@ impl CoupledMarch {
 
     /// p̃ of the present state.
     pub fn coefficients(&self) -> &[f64] {
-        self.now.history.nearer().0
+        self.now.kept.history.nearer().0
     }
 
     /// What it needs to go on from here.
@@ -138,7 +138,8 @@ impl CoupledMarch {
     pub fn resume(model: &Arc<TrajectoryModel>, reference: Problem, state: &MarchState) -> Result<Self, CoupledError> {
         let (march, frame) = (ReducedMarch::on(model)?, model.frame);
         let at = conditions(frame, &reference, state.moment.time, state.moment.input)?;
-        let mut resumed = Self { march, frame, reference, longest: model.domain.step, at, now: state.clone() };
+        let longest = model.domain.step;
+        let mut resumed = Self { march, frame, reference, longest, at, former: at, now: state.clone() };
         resumed.restore(reference, state)?;
         Ok(resumed)
     }
@@ -149,14 +150,14 @@ impl CoupledMarch {
     /// When it is one of another model; nothing has changed then.
     pub fn restore(&mut self, reference: Problem, state: &MarchState) -> Result<(), CoupledError> {
         let Moment { time, input, .. } = state.moment;
-        let known = self.march.knows(&state.history, &state.fronts);
-        if !(known && state.is_sound()) {
+        if !(self.march.knows(&state.kept) && state.is_sound()) {
             return Err(CoupledError::Foreign);
         }
-        self.at = conditions(self.frame, &reference, time, input)?;
-        self.reference = reference;
+        let at = conditions(self.frame, &reference, time, input)?;
+        self.former = conditions(self.frame, &reference, time, state.former)?;
+        (self.at, self.reference) = (at, reference);
         self.now.copy_from(state);
-        self.march.restore(&self.now.history, &self.now.fronts);
+        self.march.restore(&self.now.kept, [self.at, self.former]);
         Ok(())
     }
 
@@ -173,7 +174,7 @@ impl CoupledMarch {
         match self.walk(span, to) {
             Ok(()) => Ok(&self.now.moment),
             Err(ended) => {
-                self.march.restore(&self.now.history, &self.now.fronts);
+                self.march.restore(&self.now.kept, [self.at, self.former]);
                 Err(ended)
             }
         }
@@ -182,7 +183,7 @@ impl CoupledMarch {
     fn walk(&mut self, span: f64, to: Input) -> Result<(), CoupledError> {
         let (begun, from) = (self.at.time, self.at.input);
         let end = begun + span;
-        let (mut at, mut former, mut before) = (self.at, self.now.former, self.now.before);
+        let (mut at, mut former, mut before) = (self.at, self.former, self.now.before);
         let (mut longest, mut effort) = (self.longest, Effort::default());
         // Lengths are parts of the span: differences of T, late in a march, are rounded.
         let mut gone = 0.0;
@@ -195,7 +196,7 @@ impl CoupledMarch {
             let step = Step::new(
                 self.frame,
                 now,
-                [at.scales, former],
+                [at.scales, former.scales],
                 length,
                 if before.is_finite() { before } else { length },
             );
@@ -203,7 +204,7 @@ impl CoupledMarch {
                 Ok(own) => {
                     effort = effort.and(own);
                     self.march.accept(&now);
-                    (former, at, before, gone) = (at.scales, now, length, gone + length);
+                    (former, at, before, gone) = (at, now, length, gone + length);
                     longest = (2.0 * longest).min(self.longest);
                     if last {
                         break;
@@ -215,10 +216,10 @@ impl CoupledMarch {
                 Err(_) => longest = 0.5 * length,
             }
         }
-        self.at = at;
-        (self.now.former, self.now.before) = (former, before);
+        (self.at, self.former) = (at, former);
+        (self.now.former, self.now.before) = (former.input, before);
         self.now.moment = self.march.moment(&at, span, effort);
-        self.march.keep(&mut self.now.history, &mut self.now.fronts);
+        self.march.keep(&mut self.now.kept);
         Ok(())
     }
 }
@@ -231,16 +232,15 @@ impl MarchState {
 
     fn copy_from(&mut self, other: &Self) {
         (self.moment, self.former, self.before) = (other.moment, other.former, other.before);
-        self.history.copy_from(&other.history);
-        self.fronts.clone_from(&other.fronts);
+        self.kept.copy_from(&other.kept);
     }
 
     /// Whether its numbers make sense.
     fn is_sound(&self) -> bool {
         let Moment { time, input, h_c, h_min, x_h_min, p_c, p_max, x_p_max, .. } = self.moment;
-        let finite = [time, h_c, h_min, x_h_min, p_c, p_max, x_p_max, input.radius, input.speed, input.load];
-        let positive = [self.former.half_width, self.former.pressure, self.former.film, self.before];
-        finite.iter().all(|value| value.is_finite()) && positive.iter().all(|value| *value > 0.0)
+        let scalars = [time, h_c, h_min, x_h_min, p_c, p_max, x_p_max];
+        let inputs = [input, self.former].into_iter().flat_map(|own| [own.radius, own.speed, own.load]);
+        scalars.into_iter().chain(inputs).all(f64::is_finite) && self.before > 0.0
     }
 }
 

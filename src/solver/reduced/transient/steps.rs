@@ -1,20 +1,21 @@
-//! The online phase in time: Newton on the sampled rows from the extrapolation of the two former steps.
+//! The online phase in time: Newton on the sampled rows from the extrapolation of the two former steps, in the basis that
+//! is nearest.
 
 use super::model::{TrajectoryModel, TrajectoryStart};
+use super::nearest::Nearest;
+use super::part::Part;
 use crate::solver::discrete::elasticity::Scratch;
-use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid, ReferenceGrid, dot};
-use crate::solver::discrete::reynolds::line::Upstream;
-use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
+use crate::solver::discrete::grid::{LineGrid, ReferenceGrid, dot};
 use crate::solver::full::transient::{Conditions, Effort, Frame, History, Marching, Moment, State, Step, Transient};
 use crate::solver::full::{Scalars, Termination};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::contact_rows::ContactRows;
-use crate::solver::reduced::operators::{Case, Iterate, Operators, RowObserver, Stop, cut_off, passed_rows};
-use crate::solver::reduced::{ReducedError, distance};
+use crate::solver::reduced::operators::{Case, Iterate, Stop, cut_off};
+use crate::solver::reduced::{ReducedError, Window, distance};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, Par};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Stop of a step on ‖Δp̃‖/‖p̃‖.
@@ -24,45 +25,59 @@ const MOST_NEWTON: [usize; 2] = [15, 60];
 /// How a step is tried: whether a rupture boundary, where there is one, is in force, and the penalty factor over the
 /// model's own. A boundary that finds no place gives way to the penalty, that to a softer one.
 const ATTEMPTS: [(bool, f64); 3] = [(true, 1.0), (false, 1.0), (false, 0.1)];
+/// Steps in a basis before another takes over: both former states are then of this one, and nothing of them is lost twice.
+const LEAST_STAY: usize = 2;
+/// The number of the whole basis.
+const WHOLE: usize = 0;
 
-/// Sees every iterate of every step.
-pub(crate) type StepObserver<'a> = Box<dyn FnMut(&Iterate<'_>) + 'a>;
+/// Sees every iterate of every step, with the number of the basis that it is in.
+pub(crate) type StepObserver<'a> = Box<dyn FnMut(usize, &Iterate<'_>) + 'a>;
 
 /// A reduced model, ready to march.
 pub struct ReducedMarch<'a> {
     model: Arc<TrajectoryModel>,
     grid: LineGrid,
-    operators: Operators,
-    /// Stencils of the sampled rows, and of those that the rupture boundary may pass, and their coefficients, for a flow
-    /// from the inlet and from the outlet.
-    sides: Vec<[Side; 2]>,
-    /// X of these rows' own nodes.
-    x: Vec<f64>,
-    /// K V_p at X = 0.
-    lift: Vec<f64>,
+    /// The whole basis, then the local ones.
+    parts: Vec<Part>,
+    nearest: Nearest,
+    /// The basis that the states are given in, and how many steps were taken in it.
+    number: usize,
+    stayed: usize,
     history: History,
     coefficients: Vec<f64>,
     start: Vec<f64>,
     h_0: f64,
-    /// Where the film ruptures in the present state, and where a step begins; empty under a penalty.
-    fronts: Vec<usize>,
+    /// The equations at the former states, the nearer one first; none before the march has begun.
+    at: Option<[Conditions; 2]>,
+    /// Where their films rupture, and where a step begins; empty under a penalty.
+    fronts: [Vec<usize>; 2],
     front: Vec<usize>,
     /// What of the modes' pressures the boundary takes away, by nodes.
     cut: Vec<(usize, f64)>,
-    /// P and H at all nodes, which only remeshing asks for.
+    /// P and H at all nodes, which only remeshing and another basis ask for.
     fields: [Vec<f64>; 2],
     fft: Scratch,
-    contact: ContactRows,
     /// Scalars of the present state.
     scalars: Scalars,
     observer: Option<StepObserver<'a>>,
 }
 
-/// How a row reads its neighbours.
-#[derive(Clone, Copy, Default)]
-struct Side {
-    stencil: [usize; STENCIL],
-    geometry: RowGeometry,
+/// The former states in the basis of a number.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Kept {
+    pub history: History,
+    fronts: [Vec<usize>; 2],
+    number: usize,
+    stayed: usize,
+}
+
+impl Kept {
+    /// Takes over another one, in the room there is.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.history.copy_from(&other.history);
+        self.fronts.iter_mut().zip(&other.fronts).for_each(|(own, other)| own.clone_from(other));
+        (self.number, self.stayed) = (other.number, other.stayed);
+    }
 }
 
 impl<'a> ReducedMarch<'a> {
@@ -83,40 +98,27 @@ impl<'a> ReducedMarch<'a> {
     /// # Errors
     /// When the model is of point contacts.
     pub(super) fn on(model: &Arc<TrajectoryModel>) -> Result<Self, ReducedError> {
-        let reference = line_grid(model)?;
-        let grid = reference.scaled(1.0);
-        let window = &model.window;
-        let modes = window.pressure.count();
-        let (unknowns, last) = (grid.unknowns(), grid.len() - 1);
-        let rows: Vec<usize> = window.sampled_rows.iter().copied().chain(passed_rows(window)).collect();
-        let further: Vec<usize> = rows.iter().map(|row| (row + 4).min(last)).collect();
-        let mut operators = Operators::with_support(window, modes, None, false, &further);
-        operators.stride();
-        let place = |node: usize| operators.place(node);
-        let side = |row: usize, velocity: f64| {
-            let upstream = Upstream::of(velocity, row, unknowns);
-            Side { stencil: upstream.stencil(row).map(place), geometry: upstream.geometry(&grid.x, row) }
-        };
-        let sides: Vec<[Side; 2]> = rows.iter().map(|&row| [side(row, 1.0), side(row, -1.0)]).collect();
-        let (first, weights) = grid.interpolation(0.0);
-        let at_zero =
-            |k: usize| weights.iter().enumerate().map(|(m, w)| w * window.pressure.flexed()[(first + m, k)]).sum();
+        let grid = line_grid(model)?.scaled(1.0);
+        let parts: Vec<Part> =
+            (WHOLE..=model.locals.len()).map(|number| Part::new(model.numbered(number), &grid)).collect();
+        let modes = model.window.pressure.count();
+        let rows = parts.iter().map(|part| part.x.len()).max().unwrap_or(0);
         Ok(Self {
-            x: rows.iter().map(|row| grid.x[row + FIRST_UNKNOWN]).collect(),
-            lift: (0..modes).map(at_zero).collect(),
-            sides,
-            operators,
-            history: History::default(),
+            nearest: Nearest::new(model),
+            number: WHOLE,
+            stayed: 0,
+            history: History::with_room(modes, rows),
             coefficients: vec![0.0; modes],
             start: vec![0.0; modes],
             h_0: 0.0,
-            fronts: Vec::new(),
+            at: None,
+            fronts: [Vec::new(), Vec::new()],
             front: Vec::new(),
-            cut: Vec::with_capacity(rows.len()),
+            cut: Vec::with_capacity(rows),
             fields: [vec![0.0; grid.len()], vec![0.0; grid.len()]],
             fft: Scratch::default(),
-            contact: ContactRows::new(&grid, window.pressure.basis().modes.as_ref(), window.pressure.flexed().as_ref()),
             scalars: Scalars::default(),
+            parts,
             grid,
             observer: None,
             model: Arc::clone(model),
@@ -124,28 +126,31 @@ impl<'a> ReducedMarch<'a> {
     }
 
     /// Writes the present state down, in the room there is.
-    pub(super) fn keep(&self, history: &mut History, fronts: &mut Vec<usize>) {
-        history.copy_from(&self.history);
-        fronts.clone_from(&self.fronts);
+    pub(super) fn keep(&self, kept: &mut Kept) {
+        kept.history.copy_from(&self.history);
+        kept.fronts.iter_mut().zip(&self.fronts).for_each(|(kept, own)| kept.clone_from(own));
+        (kept.number, kept.stayed) = (self.number, self.stayed);
     }
 
-    /// Goes back to a state that [`Self::keep`] wrote down.
-    pub(super) fn restore(&mut self, history: &History, fronts: &[usize]) {
-        self.history.copy_from(history);
+    /// Goes back to states that [`Self::keep`] wrote down, at these conditions, the nearer ones first.
+    pub(super) fn restore(&mut self, kept: &Kept, at: [Conditions; 2]) {
+        self.history.copy_from(&kept.history);
+        self.fronts.iter_mut().zip(&kept.fronts).for_each(|(own, kept)| own.clone_from(kept));
+        (self.number, self.stayed, self.at) = (kept.number, kept.stayed, Some(at));
+        self.make_room();
         let (coefficients, h_0) = self.history.nearer();
         self.coefficients.copy_from_slice(coefficients);
         self.h_0 = h_0;
-        self.fronts.clear();
-        self.fronts.extend_from_slice(fronts);
     }
 
-    /// Whether such a state can be one of this model.
-    pub(super) fn knows(&self, history: &History, fronts: &[usize]) -> bool {
+    /// Whether such states can be of this model.
+    pub(super) fn knows(&self, kept: &Kept) -> bool {
+        let Some(part) = self.parts.get(kept.number) else { return false };
         let between = if matches!(self.model.frame, Frame::Remeshed(_)) { self.grid.len() } else { 0 };
         let lines = if self.model.window.cavitation == Cavitation::Penalty { 0 } else { 1 };
-        history.is_of(self.operators.modes, self.sides.len(), between)
-            && fronts.len() == lines
-            && fronts.iter().all(|front| *front <= self.grid.len())
+        let mut fronts = kept.fronts.iter();
+        kept.history.is_of(part.operators.modes, part.x.len(), between)
+            && fronts.all(|own| own.len() == lines && own.iter().all(|front| *front <= self.grid.len()))
     }
 
     /// H₀ of the present state.
@@ -158,41 +163,81 @@ impl<'a> ReducedMarch<'a> {
         self.observer = Some(observer);
     }
 
-    /// Gives the sampled rows their place in time.
-    fn set_rows(&mut self, step: &Step) {
-        self.history.carry(self.model.frame, step, &self.grid.x, &self.x);
-        let weights = step.history_weights();
-        for (r, (sides, x)) in self.sides.iter().zip(&self.x).enumerate() {
-            let velocity = step.velocity(*x);
-            let Side { stencil, geometry } = sides[usize::from(velocity < 0.0)];
-            let geometry = geometry.in_time(velocity.abs(), step.quotient.now, self.history.at(weights, r));
-            self.operators.set_row(r, stencil, geometry);
+    /// Coefficients for as many modes as the present basis has.
+    fn make_room(&mut self) {
+        let modes = self.parts[self.number].operators.modes;
+        self.coefficients.resize(modes, 0.0);
+        self.start.resize(modes, 0.0);
+    }
+
+    /// Gives the former states in the basis of another number: their pressures in its modes, their ρ̄H at its rows.
+    fn change_to(&mut self, number: usize) {
+        let (Some(at), true) = (self.at, number != self.number) else { return };
+        let mut fields = std::mem::take(&mut self.fields);
+        let mut fft = std::mem::take(&mut self.fft);
+        let window = self.model.numbered(number);
+        for (which, at) in at.iter().enumerate() {
+            let (coefficients, h_0) = self.history.former(which);
+            self.spread(at, (coefficients, h_0, &self.fronts[which]), &mut fields, &mut fft);
+            let [pressure, film] = &mut fields;
+            let fluid = &at.problem.fluid;
+            let rows = self.parts[number].nodes.iter();
+            let flow = rows.map(|&node| fluid.at(pressure[node]).density * film[node]);
+            self.start.resize(window.pressure.count(), 0.0);
+            self.history.give_flow(which, flow);
+            pressure.iter_mut().zip(window.grid.weights()).for_each(|(p, w)| *p *= w);
+            let state = ColMut::from_slice_mut(&mut self.start);
+            let (modes, weighted) = (window.pressure.basis().modes.transpose(), ColRef::from_slice(pressure));
+            matmul(state.as_mat_mut(), Accum::Replace, modes, weighted.as_mat(), 1.0, Par::Seq);
+            self.history.give_state(which, &self.start);
         }
+        (self.fields, self.fft) = (fields, fft);
+        (self.number, self.stayed) = (number, 0);
+        self.make_room();
+    }
+
+    /// Changes to the basis nearest to where the former states lead.
+    fn change_to_nearest(&mut self, ratio: f64) {
+        if self.stayed < LEAST_STAY || self.model.locals.is_empty() {
+            return;
+        }
+        self.history.extrapolate(ratio, &mut self.start);
+        let serving = self.nearest.serving(self.number, &self.start);
+        self.change_to(serving);
+    }
+
+    /// Newton for the end of a step, in the present basis.
+    fn solve(&mut self, step: &Step) -> Result<Effort, Termination> {
+        let part = &mut self.parts[self.number];
+        self.history.carry(self.model.frame, step, &self.grid.x, &part.x);
+        part.set_rows(step, &self.history);
+        self.h_0 = self.history.extrapolate(step.ratio, &mut self.start);
+        self.front.clone_from(&self.fronts[0]);
+        self.newton(&step.now, MOST_NEWTON[0])
     }
 
     /// Newton from the present state; the iteration that failed is repeated with a softer penalty from `start`.
     fn newton(&mut self, at: &Conditions, max_newton: usize) -> Result<Effort, Termination> {
-        let h_0 = self.h_0;
+        let (h_0, number) = (self.h_0, self.number);
+        let window = self.model.numbered(number);
+        let Part { operators, lift, .. } = &mut self.parts[number];
         let mut effort = Effort::default();
         let attempts = if self.front.is_empty() { &ATTEMPTS[1..] } else { &ATTEMPTS[..] };
         for (held, softness) in attempts {
-            let case = Case {
-                problem: &at.problem,
-                scale: 1.0,
-                curvature: at.curvature,
-                penalty: softness * self.model.window.penalty,
-                lift: &self.lift,
-            };
+            let penalty = softness * window.penalty;
+            let case = Case { problem: &at.problem, scale: 1.0, curvature: at.curvature, penalty, lift };
             let stop = Stop { tolerance: TOLERANCE, max_newton };
-            self.operators.rupture_at(held.then_some(&self.front));
-            if self.observer.is_some() {
-                let window = &self.model.window;
-                self.operators.lift(window, &window.grid.at_zero(1.0), 1.0);
-            }
+            operators.rupture_at(held.then_some(&self.front));
             self.coefficients.copy_from_slice(&self.start);
             self.h_0 = h_0;
-            let observer = self.observer.as_mut().map(|observer| observer.as_mut() as RowObserver<'_>);
-            let outcome = self.operators.newton(&case, &mut self.coefficients, &mut self.h_0, stop, observer);
+            let outcome = match &mut self.observer {
+                Some(observer) => {
+                    operators.lift(window, &window.grid.at_zero(1.0), 1.0);
+                    let mut shown = |iterate: &Iterate<'_>| observer(number, iterate);
+                    operators.newton(&case, &mut self.coefficients, &mut self.h_0, stop, Some(&mut shown))
+                }
+                None => operators.newton(&case, &mut self.coefficients, &mut self.h_0, stop, None),
+            };
             effort.newton_iterations += outcome.iterations;
             if outcome.converged {
                 return Ok(effort);
@@ -203,11 +248,15 @@ impl<'a> ReducedMarch<'a> {
 
     /// Makes the present state the nearer of the former ones.
     fn remember(&mut self, at: &Conditions) {
-        self.history.remember(&self.coefficients, self.h_0, self.operators.flow());
-        self.fronts.clear();
-        self.fronts.extend(self.operators.fronts());
+        let operators = &self.parts[self.number].operators;
+        self.history.remember(&self.coefficients, self.h_0, operators.flow());
+        self.at = Some([*at, self.at.map_or(*at, |[nearer, _]| nearer)]);
+        self.stayed += 1;
+        self.fronts.swap(0, 1);
+        self.fronts[0].clear();
+        self.fronts[0].extend(operators.fronts());
         self.cut.clear();
-        self.cut.extend(self.operators.cut(&self.coefficients));
+        self.cut.extend(operators.cut(&self.coefficients));
         if let Frame::Remeshed(interpolation) = self.model.frame {
             let mut fields = std::mem::take(&mut self.fields);
             let mut fft = std::mem::take(&mut self.fft);
@@ -220,25 +269,36 @@ impl<'a> ReducedMarch<'a> {
         }
         let (cut, flexibility) = (&self.cut, &self.grid.reference.flexibility);
         let bend = |node| -cut.iter().map(|&(other, value)| flexibility.entry(node, other) * value).sum::<f64>();
-        self.scalars = self.contact.scalars(at, &self.coefficients, self.h_0, bend);
+        self.scalars = self.parts[self.number].contact.scalars(at, &self.coefficients, self.h_0, bend);
     }
 
     /// P and H of the present state at all nodes.
-    fn set_fields(&self, at: &Conditions, [pressure, film]: &mut [Vec<f64>; 2], fft: &mut Scratch) {
-        let window = &self.model.window;
+    fn set_fields(&self, at: &Conditions, fields: &mut [Vec<f64>; 2], fft: &mut Scratch) {
+        self.spread(at, (&self.coefficients, self.h_0, &self.fronts[0]), fields, fft);
+    }
+
+    /// P and H of a state of the present basis, with its H₀ and its rupture boundary, at all nodes.
+    fn spread(
+        &self,
+        at: &Conditions,
+        (coefficients, h_0, fronts): (&[f64], f64, &[usize]),
+        [pressure, film]: &mut [Vec<f64>; 2],
+        fft: &mut Scratch,
+    ) {
+        let window: &Window = self.model.numbered(self.number);
         let product = |out: &mut [f64], basis: &Mat<f64>| {
-            let (out, coefficients) = (ColMut::from_slice_mut(out), ColRef::from_slice(&self.coefficients));
+            let (out, coefficients) = (ColMut::from_slice_mut(out), ColRef::from_slice(coefficients));
             matmul(out.as_mat_mut(), Accum::Replace, basis, coefficients.as_mat(), 1.0, Par::Seq);
         };
         product(pressure, &window.pressure.basis().modes);
-        if self.fronts.is_empty() {
+        if fronts.is_empty() {
             product(film, window.pressure.flexed());
         } else {
-            cut_off(&window.grid, &self.fronts, pressure);
+            cut_off(&window.grid, fronts, pressure);
             self.grid.deform(pressure, film, fft);
         }
         for (film, x) in film.iter_mut().zip(&self.grid.x) {
-            *film += self.h_0 + 0.5 * at.curvature * x * x;
+            *film += h_0 + 0.5 * at.curvature * x * x;
         }
     }
 }
@@ -261,15 +321,17 @@ impl Marching for ReducedMarch<'_> {
         };
         let nearest = self.model.starts.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
         let Some(nearest) = nearest else { return Err(Termination::Diverged) };
+        (self.number, self.at) = (WHOLE, None);
         self.start.clone_from(&nearest.coefficients);
         self.front.clone_from(&nearest.fronts);
         self.h_0 = nearest.h_0;
-        for (r, sides) in self.sides.iter().enumerate() {
-            self.operators.set_row(r, sides[0].stencil, sides[0].geometry.in_time(at.speed, 0.0, 0.0));
-        }
+        self.make_room();
+        self.parts[WHOLE].rest(at);
         let effort = self.newton(at, MOST_NEWTON[1])?;
         self.remember(at);
         self.history.rest();
+        self.fronts[1] = self.fronts[0].clone();
+        self.stayed = LEAST_STAY;
         Ok(effort)
     }
 
@@ -277,10 +339,14 @@ impl Marching for ReducedMarch<'_> {
         if observer.cancelled() {
             return Err(Termination::Cancelled);
         }
-        self.set_rows(step);
-        self.h_0 = self.history.extrapolate(step.ratio, &mut self.start);
-        self.front.clone_from(&self.fronts);
-        self.newton(&step.now, MOST_NEWTON[0])
+        self.change_to_nearest(step.ratio);
+        match self.solve(step) {
+            Err(_) if self.number != WHOLE => {
+                self.change_to(WHOLE);
+                self.solve(step)
+            }
+            outcome => outcome,
+        }
     }
 
     fn deviation(&self) -> f64 {

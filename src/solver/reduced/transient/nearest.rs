@@ -1,0 +1,51 @@
+//! Which of a model's local bases is nearest to a state.
+
+use super::model::TrajectoryModel;
+use crate::solver::discrete::grid::dot;
+use crate::solver::reduced::{PressureModes, dense};
+use faer::{Accum, ColMut, ColRef, Mat, Par, linalg::matmul::matmul};
+
+/// Another basis must be nearer than this share of the distance to the present one's centre: states between two centres
+/// would go to and fro. A training lets bases know states as far from their centres.
+pub(crate) const HYSTERESIS: f64 = 0.9;
+
+/// The centres of all local bases, as each basis sees them.
+pub(super) struct Nearest {
+    /// Of the whole basis, then of each local one: the centres in its modes, centres × modes.
+    seen: Vec<Mat<f64>>,
+    /// Squared norms of the centres.
+    squares: Vec<f64>,
+    products: Vec<f64>,
+}
+
+impl Nearest {
+    /// Of a model.
+    pub fn new(model: &TrajectoryModel) -> Self {
+        let (centres, modes) = (model.locals.len(), model.window.pressure.count());
+        let whole = Mat::from_fn(centres, modes, |k, mode| model.locals[k].centre[mode]);
+        let factors = |modes: &PressureModes| modes.combined().map(|combined| combined.factors.clone());
+        let local = model.locals.iter().filter_map(|local| factors(&local.window.pressure));
+        let seen = local.map(|factors| dense::product(whole.as_ref(), factors.as_ref()));
+        Self {
+            seen: std::iter::once(whole.clone()).chain(seen).collect(),
+            squares: model.locals.iter().map(|local| dot(&local.centre, &local.centre)).collect(),
+            products: vec![0.0; centres],
+        }
+    }
+
+    /// The number of the basis that serves a state, which is given in the modes of basis `number`: that one, unless
+    /// another is nearer by far.
+    pub fn serving(&mut self, number: usize, coefficients: &[f64]) -> usize {
+        let Some(seen) = self.seen.get(number).filter(|seen| seen.nrows() > 0) else { return number };
+        let products = ColMut::from_slice_mut(&mut self.products);
+        let state = ColRef::from_slice(coefficients).as_mat();
+        matmul(products.as_mat_mut(), Accum::Replace, seen.as_ref(), state, 1.0, Par::Seq);
+        let own = dot(coefficients, coefficients);
+        let square = |k: usize| (own - 2.0 * self.products[k] + self.squares[k]).max(0.0);
+        let nearest = (0..self.squares.len()).min_by(|a, b| square(*a).total_cmp(&square(*b))).unwrap_or(0);
+        match number.checked_sub(1) {
+            Some(present) if square(nearest) >= HYSTERESIS * HYSTERESIS * square(present) => number,
+            _ => nearest + 1,
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Local bases of a model in time: the states along its trainings fall into clusters, and each has modes of its own.
+//!
+//! Modes of a cluster are made of the whole basis, so that a file holds little more than how. A cluster's basis learns the
+//! states around it too, as far as a march may go before another takes over.
+
+use super::trajectories::boundaries;
+use crate::solver::discrete::grid::dot;
+use crate::solver::full::transient::{State, Trajectory};
+use crate::solver::reduced::transient::{HYSTERESIS, LocalBasis, TrajectoryModel};
+use crate::solver::reduced::{Combined, PodBasis, SharedBasis, TestSpace, Window, all_rows, dense};
+use faer::Mat;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Local bases that a training is to make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LocalBases {
+    /// How many.
+    pub clusters: usize,
+    /// Pressure modes of each, at most.
+    pub modes: usize,
+}
+
+/// Most states that are told apart: of longer trainings every n-th one.
+const MOST_STATES: usize = 3000;
+/// Most states that make a basis.
+const MOST_MEMBERS: usize = 300;
+/// Rounds in which centres move to the mean of their clusters.
+const ROUNDS: usize = 30;
+/// How much farther than its nearest centre a state may lie and still be learned: twice what hysteresis asks for.
+const OVERLAP: f64 = 1.0 / (HYSTERESIS * HYSTERESIS);
+
+/// The local bases of a model that has its whole basis, with all rows; `test` makes the test space of a basis. `None` when
+/// a decomposition fails.
+pub(super) fn local_bases(
+    model: &TrajectoryModel,
+    trajectories: &[Trajectory],
+    (emphasis, loss): (&[f64], f64),
+    wanted: LocalBases,
+    test: impl Fn(&PodBasis) -> TestSpace,
+) -> Option<Vec<LocalBasis>> {
+    let (window, basis) = (&model.window, model.window.pressure.basis());
+    let (grid, weights) = (&window.grid, window.grid.weights());
+    let every = trajectories.iter().map(|t| t.states.len()).sum::<usize>().div_ceil(MOST_STATES).max(1);
+    let states: Vec<(&Trajectory, &State)> =
+        trajectories.iter().flat_map(|t| t.states.iter().step_by(every).map(move |state| (t, state))).collect();
+    let weighted = Mat::from_fn(grid.len(), states.len(), |i, j| weights[i] * states[j].1.pressure[i]);
+    let places = dense::product(basis.modes.transpose(), weighted.as_ref());
+    let places: Vec<Vec<f64>> = places.col_iter().map(|column| column.iter().copied().collect()).collect();
+    let centres = centres(&places, wanted.clusters);
+    let nearest: Vec<f64> = places.iter().map(|place| square(place, &centres[nearest(&centres, place)])).collect();
+    let shared = Arc::new(SharedBasis::new(basis.clone(), grid));
+    let local = |centre: Vec<f64>| {
+        let near = |k: &usize| square(&places[*k], &centre) <= OVERLAP * OVERLAP * nearest[*k];
+        let members: Vec<usize> = (0..places.len()).filter(near).collect();
+        let thin = members.len().div_ceil(MOST_MEMBERS).max(1);
+        let few: Vec<usize> = members.iter().copied().step_by(thin).collect();
+        let coefficients = Mat::from_fn(basis.modes.ncols(), few.len(), |mode, j| places[few[j]][mode]);
+        let pressures = dense::product(basis.modes.as_ref(), coefficients.as_ref());
+        let own = PodBasis::emphasised(pressures.as_ref(), weights, emphasis, (loss, wanted.modes))?;
+        let weighted = Mat::from_fn(grid.len(), own.modes.ncols(), |i, k| weights[i] * own.modes[(i, k)]);
+        let factors = dense::product(basis.modes.transpose(), weighted.as_ref());
+        let pressure = Combined { shared: Arc::clone(&shared), factors }.into_modes(own.singular_values);
+        let rows = all_rows(&test(pressure.basis()));
+        let fronts = if window.snapshots.is_empty() {
+            Vec::new()
+        } else {
+            boundaries(members.iter().map(|k| states[*k]), grid, pressure.basis())
+        };
+        let deformation = Arc::clone(&window.deformation);
+        let mut made = Window::new(window.m, grid.clone(), pressure, deformation, fronts, window.sampling, rows);
+        (made.penalty, made.cavitation) = (window.penalty, window.cavitation);
+        Some(LocalBasis { window: made, centre })
+    };
+    centres.iter().cloned().map(local).collect()
+}
+
+/// Centres of so many clusters, fewer where there are fewer places: begun at places that are far from each other.
+fn centres(places: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
+    let mut centres: Vec<Vec<f64>> = places.first().cloned().into_iter().collect();
+    while centres.len() < count.min(places.len()) {
+        let far = |place: &&Vec<f64>| square(place, &centres[nearest(&centres, place)]);
+        let farthest = places.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
+        centres.extend(farthest.cloned());
+    }
+    for _ in 0..ROUNDS {
+        let mut sums: Vec<(f64, Vec<f64>)> = centres.iter().map(|centre| (0.0, vec![0.0; centre.len()])).collect();
+        for place in places {
+            let (count, sum) = &mut sums[nearest(&centres, place)];
+            *count += 1.0;
+            sum.iter_mut().zip(place).for_each(|(sum, own)| *sum += own);
+        }
+        for (centre, (count, sum)) in centres.iter_mut().zip(sums).filter(|(_, (count, _))| *count > 0.0) {
+            centre.iter_mut().zip(sum).for_each(|(own, sum)| *own = sum / count);
+        }
+    }
+    centres
+}
+
+fn nearest(centres: &[Vec<f64>], place: &[f64]) -> usize {
+    let far = |k: &usize| square(&centres[*k], place);
+    (0..centres.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
+}
+
+/// Squared distance.
+fn square(a: &[f64], b: &[f64]) -> f64 {
+    let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+    dot(&difference, &difference)
+}
