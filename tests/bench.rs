@@ -50,6 +50,7 @@ fn the_quick_speed_table_keeps_its_contract() {
     assert!(row(TRANSIENT_BASELINE)["median_s"].as_f64().unwrap() < row(BASELINE)["median_s"].as_f64().unwrap());
     assert!(ratio("line/heat/reduced") > 2.0);
     assert!(ratio("line/transient/rnsa-step") > 3.0);
+    assert!(ratio("line/transient/local-step") > 5.0);
     assert!(ratio("line/transient/tpwl-step") > 3.0);
     for (name, least) in [("line/full/cold", 10.0), ("line/full/warm", 10.0), ("line/reduced", 100.0)] {
         assert!(ratio(name) >= least, "{name} is only {:.1} times faster than {BASELINE}", ratio(name));

@@ -19,7 +19,7 @@ use crate::solver::physics::lubricant::{Lubricant, ShearLaw, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{Online, ReducedOptions, distance, traction_curve};
-use crate::solver::training::{Range, TrajectoryTraining, random_points, train_trajectories};
+use crate::solver::training::{LocalBases, Range, TrajectoryTraining, random_points, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -52,6 +52,8 @@ const POINT_POINTS: [usize; 2] = [50, 8];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
 /// The trajectory-piecewise-linear model of the same march.
 const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
+/// Modes of local bases along that march, and how many bases.
+const LOCAL: LocalBases = LocalBases { clusters: 4, modes: 50 };
 /// Contacts of a traction curve, SRR 0…1.
 const CURVE_POINTS: usize = 41;
 const SEED: u64 = 2026;
@@ -268,15 +270,21 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
     let trajectory = full.add_steps(&mut FullMarch::new(Arc::clone(&grid), &transient)?, &transient)?;
     let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
     let linearised = TpwlModel::train(&[&trajectory], TPWL_TRAINING)?;
-    let model = Arc::new(train_trajectories(&grid, &[trajectory], &settings, &())?);
+    let trained = |settings: &TrajectoryTraining| {
+        train_trajectories(&grid, std::slice::from_ref(&trajectory), settings, &()).map(Arc::new)
+    };
+    let local = TrajectoryTraining { local: Some(LOCAL), rows_per_mode: 3.0, ..settings };
+    let (model, local) = (trained(&settings)?, trained(&local)?);
     // Models are used for what they cost least: nobody asks for fields at every step.
     let transient = Transient { keep: Keep::Scalars, ..transient };
-    let [mut reduced, mut superposed] = ["line/transient/rnsa-step", "line/transient/tpwl-step"].map(Timing::new);
+    let names = ["line/transient/rnsa-step", "line/transient/local-step", "line/transient/tpwl-step"];
+    let [mut reduced, mut nearest, mut superposed] = names.map(Timing::new);
     for _ in 0..MARCHES {
         reduced.add_steps(&mut ReducedMarch::new(&model, &transient)?, &transient)?;
+        nearest.add_steps(&mut ReducedMarch::new(&local, &transient)?, &transient)?;
         superposed.add_steps(&mut TpwlMarch::new(&linearised, &transient, Weighting::DualTaylor)?, &transient)?;
     }
-    Ok(vec![full, reduced, superposed])
+    Ok(vec![full, reduced, nearest, superposed])
 }
 
 /// Reduced solves one after the other, with all fields and the scalars read off them where `fields` says so.

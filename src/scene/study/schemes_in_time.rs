@@ -193,7 +193,8 @@ impl Question for SchemesInTime {
             }
             let Some(full) = known.iter().find(|full| full.lubricant == lubricant) else { continue };
             let ComparedScheme { scheme, sampling, rows_per_mode, .. } = *way;
-            let training = TrajectoryTraining { loss: self.loss, rows_per_mode, seed: 1, scheme, sampling, local: None };
+            let training =
+                TrajectoryTraining { loss: self.loss, rows_per_mode, seed: 1, scheme, sampling, local: None };
             let model = Arc::new(train_trajectories(line, &full.trainings, &training, observer)?);
             let size = [model.window.pressure.count(), model.window.sampled_rows.len()];
             for (drive, full) in self.tests.iter().zip(&full.tests) {

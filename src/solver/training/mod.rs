@@ -53,6 +53,7 @@ pub use build::train;
 pub use calibrate::EVIDENCE;
 pub use heated_range::{HeatedOilRange, HeatedRange};
 pub use indicator::Indicator;
+pub use local_bases::LocalBases;
 pub use oil_range::OilRange;
 pub use one_thread::on_one_thread;
 pub use plan::{random_points, random_points_while};
@@ -60,7 +61,6 @@ pub use range::{QuantityBox, Range, SlidingRange};
 pub use rows::with_rows;
 pub use sliding_oil_range::SlidingOilRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
-pub use local_bases::LocalBases;
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 
 use self::plan::Within;

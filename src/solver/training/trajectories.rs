@@ -2,8 +2,8 @@
 //! carries the steps which the all-rows model takes along the same inputs. Both know how strongly each row answers to
 //! its pressure.
 
-use super::one_thread::on_one_thread;
 use super::local_bases::{LocalBases, local_bases};
+use super::one_thread::on_one_thread;
 use super::trajectory_rows::sampled_rows;
 use super::{Observer, Progress, TrainingError, check};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid};

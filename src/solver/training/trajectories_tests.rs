@@ -88,7 +88,7 @@ fn under_complementarity_it_follows_full_complementarity_with_the_boundary_where
 
 #[test]
 fn local_bases_with_few_modes_each_go_a_long_way_in_every_frame() {
-    let wide = Signal::Harmonic { amplitude: 0.5, period: 1.0 };
+    let wide = Signal::Harmonic { amplitude: 0.3, period: 1.0 };
     for (frame, cavitation) in [
         (Frame::Fixed, Cavitation::Penalty),
         (Frame::Fixed, Cavitation::Complementarity),
@@ -97,14 +97,15 @@ fn local_bases_with_few_modes_each_go_a_long_way_in_every_frame() {
     ] {
         let training = full(&under(cavitation, transient(frame, wide.clone())));
         let local = Some(LocalBases { clusters: 4, modes: 25 });
-        let settings = TrajectoryTraining { local, ..TrajectoryTraining::default() };
+        let settings = TrajectoryTraining { local, rows_per_mode: 3.0, ..TrajectoryTraining::default() };
         let trainings = std::slice::from_ref(&training);
         let model = Arc::new(train_trajectories(&grid(), trainings, &settings, &()).unwrap());
         assert_eq!((model.locals.len(), model.modes()), (4, 25), "{frame:?}");
-        assert!(model.window.pressure.count() > 25 && model.rows() <= 50, "{frame:?}: {} rows", model.rows());
+        assert!(model.window.pressure.count() > 25 && model.rows() <= 75, "{frame:?}: {} rows", model.rows());
         let seen = reduced(&model, &training.transient);
         assert_eq!(seen.rejected_steps, 0, "{frame:?}");
-        assert!(off(&seen, &training) < 1e-3, "{frame:?}, {cavitation:?}: {:e}", off(&seen, &training));
+        // 5e-6 seen.
+        assert!(off(&seen, &training) < 5e-5, "{frame:?}, {cavitation:?}: {:e}", off(&seen, &training));
         // As many modes that serve all states alike.
         let single = TrajectoryTraining { local: Some(LocalBases { clusters: 1, modes: 25 }), ..settings };
         let single = Arc::new(train_trajectories(&grid(), trainings, &single, &()).unwrap());

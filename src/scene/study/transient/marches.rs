@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(seen, [(2e5, 1.0), (2e5, 9.5), (3e5, 1.0), (3e5, 9.5)]);
         assert_eq!((trained[1].keep, trained[1].point.radius_m), (Keep::Every(3), point.radius_m));
 
-        let (_, contacts) = study(&format!("{load}, reduced: (), training_contacts: [(30.0, 9.0), (50.0, 11.0)]"));
+        let (_, contacts) = study(&format!("{load}, training_contacts: [(30.0, 9.0), (50.0, 11.0)]"));
         let trained = contacts.training_marches(&march(&contacts));
         for (trained, (m, l)) in trained.iter().zip([(30.0, 9.0), (50.0, 11.0)]) {
             let moes = trained.point.moes();

@@ -64,6 +64,12 @@ fn reduced_name(frame: Frame) -> String {
 }
 
 impl Model {
+    /// A reduced one that was made before.
+    pub(super) fn saved(model: Arc<TrajectoryModel>) -> Self {
+        let frame = model.frame;
+        Self { name: reduced_name(frame), frame, kind: Kind::Reduced(model), wall_s: 0.0 }
+    }
+
     /// Pressure modes.
     pub fn modes(&self) -> usize {
         match &self.kind {
@@ -80,8 +86,8 @@ impl Model {
         }
     }
 
-    /// Values of a reduced one: `modes`, `modes_share` (of the first frame's), `deformation_modes`, `rows`, of a local basis
-    /// at most where it has `bases` of them; of a linearised one `modes`, `points`,
+    /// Values of a reduced one: `modes` and `rows`, of a local basis at most where it has `bases` of them, `modes_share` (the
+    /// whole basis over the first frame's), `deformation_modes`; of a linearised one `modes`, `points`,
     /// `tolerance`; of both `model_s`.
     pub(super) fn findings(&self, models: &[&Self], found: &mut Findings) {
         let (modes, chosen) = (self.modes() as f64, self.chosen() as f64);
@@ -89,8 +95,12 @@ impl Model {
         push("modes", modes);
         match &self.kind {
             Kind::Reduced(model) => {
-                let first = models.iter().find(|model| matches!(model.kind, Kind::Reduced(_)));
-                push("modes_share", modes / first.map_or(modes, |first| first.modes() as f64));
+                let whole = |model: &TrajectoryModel| model.window.pressure.count() as f64;
+                let first = models.iter().find_map(|model| match &model.kind {
+                    Kind::Reduced(first) => Some(whole(first)),
+                    Kind::Linearised { .. } => None,
+                });
+                push("modes_share", whole(model) / first.unwrap_or(whole(model)));
                 push("deformation_modes", model.window.deformation.modes.ncols() as f64);
                 push("rows", chosen);
                 if !model.locals.is_empty() {
@@ -143,7 +153,7 @@ impl Runner<'_, '_> {
         let linearised = linearised.as_ref().filter(|_| frame == Frame::Fixed);
         let mut models = Vec::new();
         if let Some(saved) = self.saved.as_ref().filter(|saved| saved.frame == frame) {
-            let model = Model { name: reduced_name(frame), frame, kind: Kind::Reduced(Arc::clone(saved)), wall_s: 0.0 };
+            let model = Model::saved(Arc::clone(saved));
             (self.tell)(Row::Model(model.clone()));
             models.push(model);
         }

@@ -3,8 +3,8 @@
 use super::model::TrajectoryModel;
 use super::steps::{Kept, ReducedMarch};
 use crate::solver::full::transient::{
-    Conditions, Effort, Ended, Frame, GREATEST_RATIO, Input, MOST_PARTS, Marching, Moment, ROUNDING, Scales,
-    State, Step,
+    Conditions, Effort, Ended, Frame, GREATEST_RATIO, Input, MOST_PARTS, Marching, Moment, ROUNDING, Scales, State,
+    Step,
 };
 use crate::solver::full::{Problem, Termination};
 use crate::solver::reduced::ReducedError;
