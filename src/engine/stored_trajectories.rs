@@ -173,7 +173,8 @@ pub(super) fn decode(payload: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileEr
     let locals: Vec<StoredLocal> = if rest.is_empty() {
         Vec::new()
     } else {
-        let (locals, rest) = postcard::take_from_bytes(rest).map_err(|_| damaged("its local bases cannot be decoded"))?;
+        let (locals, rest) =
+            postcard::take_from_bytes(rest).map_err(|_| damaged("its local bases cannot be decoded"))?;
         if !rest.is_empty() {
             return Err(damaged("something follows its content"));
         }
@@ -246,8 +247,7 @@ fn locals_on(whole: &Window, stored: Vec<StoredLocal>) -> Result<Vec<LocalBasis>
         let boundaries = boundaries_of(stored.boundaries, whole.cavitation, modes, grid).ok_or_else(damaged)?;
         let pressure = Combined { shared: Arc::clone(&shared), factors }.into_modes(stored.singular_values);
         let deformation = Arc::clone(&whole.deformation);
-        let mut window =
-            Window::new(whole.m, grid.clone(), pressure, deformation, boundaries, stored.sampling, rows);
+        let mut window = Window::new(whole.m, grid.clone(), pressure, deformation, boundaries, stored.sampling, rows);
         (window.penalty, window.cavitation) = (whole.penalty, whole.cavitation);
         Ok(LocalBasis { window, centre: stored.centre })
     };

@@ -155,11 +155,10 @@ mod tests {
     fn local_bases_that_are_none_of_the_model_are_refused() {
         let settings = TrajectoryTraining { local: Some(LocalBases { clusters: 3, modes: 15 }), ..Default::default() };
         let model = trained(&training(Frame::Fixed, Cavitation::Penalty), settings);
-        let lies: [&dyn Fn(&mut TrajectoryModel); 3] = [
-            &|m| m.locals[1].centre.truncate(2),
-            &|m| m.locals[0].centre[0] = f64::NAN,
-            &|m| *m.locals[2].window.sampled_rows.last_mut().unwrap() = 1_000_000,
-        ];
+        let lies: [&dyn Fn(&mut TrajectoryModel); 3] =
+            [&|m| m.locals[1].centre.truncate(2), &|m| m.locals[0].centre[0] = f64::NAN, &|m| {
+                *m.locals[2].window.sampled_rows.last_mut().unwrap() = 1_000_000
+            }];
         for (k, lie) in lies.iter().enumerate() {
             let mut wrong = (*model).clone();
             lie(&mut wrong);

@@ -7,6 +7,7 @@ use ehl_explorer::scene::Study;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::full::{Problem, Solution};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
+use ehl_explorer::solver::physics::lubricant::ShearLaw;
 use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
 use ehl_explorer::solver::training::{Range, SlidingRange, TrainingSpec, random_points};
 
@@ -26,7 +27,7 @@ pub fn points(kind: ContactKind, range: SlidingRange, count: usize, seed: u64) -
 
 /// The embedded model.
 pub fn online(kind: ContactKind) -> Online {
-    Online::new(Embedded::of_kind(kind, true).model().unwrap(), ReducedOptions::default())
+    Online::new(Embedded::of_kind(kind, SQUALANE_PIP.shear).model().unwrap(), ReducedOptions::default())
 }
 
 /// Relative errors of H_c, H_min and a traction coefficient; that of the traction is zero where nothing slides.
@@ -66,7 +67,8 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
     for (point, word) in common.iter().chain(further) {
         assert!(matches!(trust(point), Trust::Outside(why) if why.contains(word)), "{word}");
     }
-    let mut newtonian = Online::new(Embedded::of_kind(base.kind, false).model().unwrap(), ReducedOptions::default());
+    let mut newtonian =
+        Online::new(Embedded::of_kind(base.kind, ShearLaw::Newtonian).model().unwrap(), ReducedOptions::default());
     let refused = newtonian.solve(&OperatingPoint { sliding: sliding(0.5, 0.3), ..base }, SQUALANE_PIP);
     assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
 }
@@ -74,7 +76,7 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
 /// Asserts that a file keeps all of the model.
 pub fn assert_file_keeps_everything(kind: ContactKind) {
     // As the present version keeps it: the file may be of a former one.
-    let model = from_bytes(&to_bytes(&Embedded::of_kind(kind, true).model().unwrap()).unwrap()).unwrap();
+    let model = from_bytes(&to_bytes(&Embedded::of_kind(kind, SQUALANE_PIP.shear).model().unwrap()).unwrap()).unwrap();
     let bytes = to_bytes(&model).unwrap();
     let again = from_bytes(&bytes).unwrap();
     assert_eq!(again.domain, model.domain);

@@ -77,7 +77,11 @@ impl Setup {
         };
         let modelled = self.study.trains();
         let trained: f64 = self.study.trainings.iter().map(|drive| drive.duration).sum();
-        let trained = if modelled { trained * self.study.training_loads.len().max(self.study.training_contacts.len()).max(1) as f64 } else { 0.0 };
+        let trained = if modelled {
+            trained * self.study.training_loads.len().max(self.study.training_contacts.len()).max(1) as f64
+        } else {
+            0.0
+        };
         (self.study.duration + trained) / step * nodes * self.study.frames.len() as f64 <= QUICK
     }
 

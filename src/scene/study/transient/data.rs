@@ -356,7 +356,8 @@ impl TransientStudy {
         let per_contact = self.trainings.len().max(1);
         for (i, training) in self.training_marches(&own).iter().enumerate() {
             let OperatingPoint { load, speed_m_per_s, .. } = training.point;
-            let other = if training.point == point { String::new() } else { format!(" at {load} N/m, {speed_m_per_s} m/s") };
+            let other =
+                if training.point == point { String::new() } else { format!(" at {load} N/m, {speed_m_per_s} m/s") };
             check(format!("study.trainings.{}{other}", i % per_contact), training)?;
         }
         Ok(())
