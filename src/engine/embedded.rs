@@ -1,11 +1,13 @@
 //! The reduced models that are part of the program.
 
 use super::model_file::{self, ModelFileError};
+use super::trajectory_file;
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
-use std::sync::Arc;
+use crate::solver::reduced::transient::TrajectoryModel;
+use std::sync::{Arc, OnceLock};
 
 /// One of them, by what it is for. Each is trained by a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,6 +104,23 @@ impl Embedded {
     }
 }
 
+/// The content of the file of the model in time.
+const LINE_IN_TIME: &[u8] = include_bytes!("../../assets/line_in_time.rom");
+
+/// The model in time of line contacts whose load breathes: `scenes/training/line_in_time.ron`. It is read once, and what
+/// it was trained for is asked with every picture.
+///
+/// # Errors
+/// When the program was built with a damaged asset.
+pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
+    static MODEL: OnceLock<Arc<TrajectoryModel>> = OnceLock::new();
+    if let Some(model) = MODEL.get() {
+        return Ok(Arc::clone(model));
+    }
+    let read = trajectory_file::from_own_bytes(LINE_IN_TIME)?;
+    Ok(Arc::clone(MODEL.get_or_init(|| read)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,6 +134,13 @@ mod tests {
             let read = model_file::from_bytes(embedded.bytes()).unwrap_or_else(|why| panic!("{embedded:?}: {why}"));
             assert!(!read.windows.is_empty() && read.contact() == embedded.model().unwrap().contact());
         }
+    }
+
+    #[test]
+    fn the_parts_of_the_model_in_time_belong_together_and_its_file_is_small() {
+        let read = trajectory_file::from_bytes(LINE_IN_TIME).unwrap();
+        assert_eq!(read.domain, line_in_time().unwrap().domain);
+        assert!(LINE_IN_TIME.len() <= 600_000, "{} bytes", LINE_IN_TIME.len());
     }
 
     #[test]

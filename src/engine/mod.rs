@@ -30,7 +30,7 @@ pub mod training_file;
 pub mod trajectory_file;
 mod workbench;
 
-pub use embedded::Embedded;
+pub use embedded::{Embedded, line_in_time};
 pub use grid_accuracy::GridAccuracy;
 pub use saved_model::SavedModel;
 pub use store::Store;

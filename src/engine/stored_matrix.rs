@@ -389,11 +389,6 @@ impl StoredBasis {
         Self { modes: StoredMatrix::stepped(&basis.modes, across, &scales, accuracy), singular_values: sigma.clone() }
     }
 
-    /// The same to the last digit.
-    pub fn exact(basis: &PodBasis) -> Self {
-        Self { modes: StoredMatrix::exact(&basis.modes), singular_values: basis.singular_values.clone() }
-    }
-
     /// Entries of the node arrays that its modes say they are.
     pub fn rows(&self) -> usize {
         self.modes.rows

@@ -2,7 +2,7 @@
 
 use super::model_file::ModelFileError;
 use super::store::Store;
-use super::{Answer, Embedded, EngineError, ReducedFacts, Request};
+use super::{Answer, Embedded, EngineError, ReducedFacts, Request, line_in_time};
 use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::heat::Temperatures;
@@ -263,9 +263,7 @@ impl Bench for Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<TrajectoryModel>, EngineError> {
         match source {
-            ModelSource::Embedded => {
-                Err(EngineError::Study("no reduced model in time is part of the program; name a file".to_owned()))
-            }
+            ModelSource::Embedded => line_in_time().map_err(|reason| EngineError::Embedded(reason.into())),
             ModelSource::File(path) => self.store.trajectory_model_of_file(&self.base.join(path)),
             ModelSource::Trained(path) => {
                 let path = self.base.join(path);

@@ -51,8 +51,12 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
         found["value"].as_f64().unwrap()
     };
     let (own, saved) = (values(&trains), values(&uses));
-    for name in ["fixed.rnsa.H_c.difference_l2", "fixed.rnsa.H_min.difference", "fixed.rnsa.rows", "fixed.rnsa.modes"] {
+    for name in ["fixed.rnsa.rows", "fixed.rnsa.modes"] {
         assert_eq!(of(&own, name), of(&saved, name), "{name}");
+    }
+    // Modes are kept to some digits.
+    for name in ["fixed.rnsa.H_c.difference_l2", "fixed.rnsa.H_min.difference"] {
+        assert!((of(&own, name) - of(&saved, name)).abs() < 1e-7, "{name}");
     }
     assert_eq!((of(&own, "fixed.rnsa.trained"), of(&saved, "fixed.rnsa.trained")), (1.0, 1.0));
     assert!(of(&saved, "fixed.rnsa.H_c.difference_l2") < 1e-4);
@@ -95,7 +99,7 @@ fn models_in_time_that_make_no_sense_are_refused_by_name() {
         let path = folder.write("scene.ron", &scene(study));
         assert_refused(&["run", word(&path)], words);
     };
-    refused("reduced: (model: Embedded)", "no model in time is part of the program");
+    refused("reduced: (model: Embedded), frames: [ArbitraryLagrangianEulerian]", "another frame");
     refused("reduced: (model: File(\"x.rom\"), loss: 1e-4)", "study.reduced.model");
     refused("reduced: (model: File(\"missing.rom\"))", "missing.rom");
     refused("reduced: (loss: 2.0)", "study.reduced.loss");

@@ -55,7 +55,7 @@ impl Document {
 }
 
 /// What the tab begins with: a load that breathes by a tenth, as in Fig. 2.6 (right), twice as long and in coarser
-/// steps, by all three methods.
+/// steps, by all three methods, the reduced model being that of the program.
 fn breathing() -> TransientStudy {
     TransientStudy {
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),
@@ -68,7 +68,7 @@ fn breathing() -> TransientStudy {
         trainings: Vec::new(),
         training_loads: Vec::new(),
         training_contacts: Vec::new(),
-        reduced: Some(ReducedTransient::default()),
+        reduced: Some(ReducedTransient::embedded()),
         linearised: Some(LinearisedTransient::default()),
         mass_between: None,
         published: Vec::new(),

@@ -6,7 +6,7 @@ use crate::app::answers::jobs::wake;
 use crate::engine::job::Background;
 use crate::engine::{Store, Workbench};
 use crate::scene::study::transient::{Kind, MarchedBy, Model, Row};
-use crate::scene::{Drive, Scene, StudyRow, TransientStudy};
+use crate::scene::{Drive, ReducedTransient, Scene, StudyRow, TransientStudy};
 use crate::solver::full::transient::{Ended, Frame, Inputs};
 use crate::solver::physics::contact::OperatingPoint;
 use egui::Context;
@@ -72,8 +72,14 @@ impl Following {
         model(self.kept.as_ref(), by, frame)
     }
 
-    /// The models that can be replayed.
+    /// The models that can be replayed, beside that of the program.
     fn serving(&self, wanted: &Setup) -> Option<&[Model]> {
+        let embedded = wanted.study.reduced.as_ref().is_some_and(ReducedTransient::is_embedded);
+        self.made_for(wanted).or((embedded && wanted.sampled.is_none()).then_some(&[]))
+    }
+
+    /// The models that were made last, where they can be replayed.
+    fn made_for(&self, wanted: &Setup) -> Option<&[Model]> {
         let (setup, models) = self.kept.as_ref()?;
         let alike = |s: &Setup| (means(&s.study), s.grid, s.lubricant, OperatingPoint { load: 1.0, ..s.point });
         let share = wanted.point.load / setup.point.load;
@@ -87,7 +93,7 @@ impl Following {
         let expected = usize::from(wanted.study.reduced.is_some()) * wanted.study.frames.len()
             + usize::from(wanted.study.linearised.is_some());
         kept.is_some_and(|(setup, models)| setup.point == wanted.point && models.len() == expected)
-            && self.serving(wanted).is_some()
+            && self.made_for(wanted).is_some()
     }
 }
 

@@ -14,7 +14,7 @@ mod setup;
 
 pub use player::Player;
 pub use run::Run;
-pub use setup::Setup;
+pub use setup::{Setup, model_in_use};
 
 use super::answers::jobs::wake;
 use crate::engine::job::{Background, Job, Standing};

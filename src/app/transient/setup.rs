@@ -2,7 +2,9 @@
 
 use crate::app::document::{Document, Key};
 use crate::app::in_use::question;
-use crate::scene::{Grid, LinearisedTransient, ModelSource, Scene, Study, TransientStudy};
+use crate::engine::line_in_time;
+use crate::scene::{Grid, LinearisedTransient, ModelSource, ReducedTransient, Scene, Study, TransientStudy};
+use crate::solver::full::Problem;
 use crate::solver::full::transient::TimeStep;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
@@ -23,6 +25,31 @@ pub struct Setup {
     pub grid: Grid,
 }
 
+/// Why the program's model in time does not serve a study that names it, so that one is trained in its place.
+fn unserved(document: &Document, study: &TransientStudy) -> Option<String> {
+    study.reduced.as_ref().filter(|reduced| reduced.is_embedded())?;
+    // A damaged one is named where it is asked for.
+    let model = line_in_time().ok()?;
+    if study.frames != [model.frame] {
+        return Some("it knows the fixed frame alone".to_owned());
+    }
+    if document.transient_grid().spec() != Some(model.window.grid.spec()) {
+        return Some("it has another grid".to_owned());
+    }
+    let problem = Problem::new(&document.point, document.lubricant).ok()?;
+    model.domain.leaves(&problem, &study.inputs, study.duration)
+}
+
+/// What is said of the reduced model where a document names the program's.
+pub fn model_in_use(document: &Document) -> Option<String> {
+    let study = document.transient_study();
+    study.reduced.as_ref().filter(|reduced| reduced.is_embedded())?;
+    Some(match unserved(document, &study) {
+        None => "The reduced model is the program’s own".to_owned(),
+        Some(why) => format!("The reduced model is trained here, not the program’s: {why}"),
+    })
+}
+
 /// Node steps of all full marches up to which a contact is run unasked: about two seconds.
 const QUICK: f64 = 5e5;
 
@@ -35,6 +62,9 @@ impl Setup {
             study.reduced.as_mut().and_then(|reduced| reduced.model.as_mut())
         {
             *path = folder.join(&*path);
+        }
+        if unserved(document, &study).is_some() {
+            study.reduced = Some(ReducedTransient::default());
         }
         Self {
             point: document.point,

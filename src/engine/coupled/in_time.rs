@@ -317,7 +317,7 @@ mod tests {
         let loads: Vec<f64> = (0..=50).map(|k| 1.0 + 0.05 * (0.2 * f64::from(k)).sin()).collect();
         let times = (0..loads.len()).map(|k| 0.01 * k as f64).collect();
         let asked = Transient { duration: 0.5, ..driven(Signal::Sampled { times, values: loads.clone() }) };
-        let wanted = march(&mut ReducedMarch::new(&model, &asked).unwrap(), &asked, &()).unwrap();
+        let wanted = march(&mut ReducedMarch::new(&read, &asked).unwrap(), &asked, &()).unwrap();
         let (mut own, first) = (InTime::new(read), InTime::first_inputs(&model).unwrap());
         let point = OperatingPoint::TABLE_4_2;
         let step = 0.01 * InTime::seconds_per_time(&point);

@@ -13,7 +13,7 @@ use crate::app::drawn::{self, Owner};
 use crate::app::form::{Form, LastField};
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
-use crate::app::transient::{InTimeCommand, Run, Setup, TransientView};
+use crate::app::transient::{InTimeCommand, Run, Setup, TransientView, model_in_use};
 use crate::engine::TOO_STEEP;
 use crate::scene::TransientStudy;
 use crate::scene::study::transient::MarchedBy;
@@ -144,11 +144,13 @@ fn sentences<'a>(
     if view.linearised_runs().any(steep) {
         warn(format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
     }
+    let quiet = palette.quiet;
     for run in &view.runs {
         if let Some((time, warning)) = run.grid_cost.and_then(|(time, cost)| Some((time, cost.warning()?))) {
             warn(format!("{}: at T = {} {warning}", run.name(), numbers::significant(time)));
         }
     }
+    said.extend(model_in_use(context.document).map(|text| (text, quiet)));
     said
 }
 

@@ -178,6 +178,16 @@ impl Drive {
 }
 
 impl ReducedTransient {
+    /// The model of the program.
+    pub fn embedded() -> Self {
+        Self { model: Some(ModelSource::Embedded), ..Self::default() }
+    }
+
+    /// Whether it is the model of the program.
+    pub fn is_embedded(&self) -> bool {
+        self.model == Some(ModelSource::Embedded)
+    }
+
     /// What a study trains by it; none where it has a model already.
     pub fn training(&self) -> Option<TrajectoryTraining> {
         let &Self { ref model, loss, rows_per_mode, seed, local } = self;
@@ -185,12 +195,7 @@ impl ReducedTransient {
     }
 
     fn check(&self, grid: &Grid) -> Checked {
-        if let Some(model) = &self.model {
-            if *model == ModelSource::Embedded {
-                let problem = "is Embedded, but no model in time is part of the program; write File(\"FILE.rom\") or \
-                               Trained(\"SCENE.ron\")";
-                return Err(refuse("study.reduced.model", problem));
-            }
+        if self.model.is_some() {
             if *self != (Self { model: self.model.clone(), ..Self::default() }) {
                 let problem = "has nothing beside it: loss, rows_per_mode, seed and local belong to a training";
                 return Err(refuse("study.reduced.model", problem));

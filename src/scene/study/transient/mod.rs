@@ -199,8 +199,8 @@ impl Question for TransientStudy {
 }
 
 impl TransientStudy {
-    /// Takes models that were made before along the study's own inputs, without the full system; its rows are those
-    /// that the study has of them.
+    /// Takes models that were made before along the study's own inputs, and the program's where the study names that,
+    /// without the full system; its rows are those that the study has of them.
     ///
     /// # Errors
     /// When the study or a model is refused, or the observer cancels. A linearised model that does not know the
@@ -219,10 +219,17 @@ impl TransientStudy {
             sampled::read_into(&mut study.inputs, &bench.resolve(path))?;
         }
         let ContactGrid::Line(grid) = bench.grid(&request, observer)? else { return Ok(()) };
-        let setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
+        let mut setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
+        let reduced = |model: &&Model| matches!(model.kind, Kind::Reduced(_));
+        let embedded = study.reduced.as_ref().is_some_and(ReducedTransient::is_embedded);
+        let named = if embedded && !models.iter().any(|model| reduced(&model)) {
+            study.saved_model(&mut setting)?.map(Model::saved)
+        } else {
+            None
+        };
         let runner = Runner { study: &study, grid, saved: None, setting: &setting, tell: &tell };
         let drive = Drive { name: String::new(), inputs: study.inputs.clone(), duration: study.duration };
-        for model in models {
+        for model in named.iter().chain(models) {
             let transient = study.own_march(request.point, request.lubricant, model.frame);
             let unknown = match &model.kind {
                 Kind::Linearised { model, .. } => model.shares(&transient.problem()?).is_err(),

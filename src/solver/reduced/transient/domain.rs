@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 /// How far an input may leave its trained range, in widths of it, and how much faster than trained it may change: what
 /// differences over steps of other lengths make of the same input.
 const ROOM: (f64, f64) = (0.01, 1.05);
+/// Steps of a march to come that are looked at, at most.
+const MOST_LOOKED_AT: f64 = 4000.0;
 /// What rounding makes of an input that rests.
 const ROUNDING: f64 = 1e-6;
 
@@ -223,6 +225,31 @@ impl TrajectoryDomain {
             said.extend(farthest.into_iter().flatten().map(|excess| excess.sentence));
         }
         said
+    }
+
+    /// In what a march of a contact along inputs will leave what was trained; none where it stays within it.
+    pub fn leaves(&self, problem: &Problem, inputs: &Inputs, duration: f64) -> Option<String> {
+        if let Trust::Outside(why) = self.reference.trust(problem) {
+            return Some(why);
+        }
+        let (own, given) = (self.reference.lubricant.cavitation, problem.lubricant.cavitation);
+        if own != given {
+            return Some(format!("its films rupture by {}, not by {}", own.name(), given.name()));
+        }
+        let steps = (duration / self.step).ceil().clamp(1.0, MOST_LOOKED_AT);
+        let (length, mut before) = (duration / steps, inputs.at(0.0));
+        (0..=steps as usize).find_map(|k| {
+            let time = k as f64 * length;
+            let now = inputs.at(time);
+            let by = |to: f64, from: f64| (to - from) / length;
+            let rate = Input {
+                radius: by(now.radius, before.radius),
+                speed: by(now.speed, before.speed),
+                load: by(now.load, before.load),
+            };
+            before = now;
+            self.outside(time, now, rate).into_iter().next()
+        })
     }
 
     /// Whether its numbers can be those of a training.
