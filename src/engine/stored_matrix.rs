@@ -101,12 +101,6 @@ impl StoredMatrix {
         Self { rows: matrix.nrows(), columns: matrix.ncols(), values: Values::Double(values) }
     }
 
-    /// To seven digits.
-    pub fn single(matrix: &Mat<f64>) -> Self {
-        let values = matrix.col_iter().flat_map(|column| column.iter().map(|value| *value as f32)).collect();
-        Self { rows: matrix.nrows(), columns: matrix.ncols(), values: Values::Single(values) }
-    }
-
     /// A cubature by its weights, to seven digits: column r is a multiple of what all modes are at the node of row r, rows ×
     /// modes. `None` where it is not.
     pub fn weights(matrix: &Mat<f64>, modes: &Mat<f64>) -> Option<Self> {

@@ -140,7 +140,13 @@ fn what_heat_cannot_be_computed_for_is_refused_in_one_sentence() {
     ] {
         assert_refused(&[&CONTACT[..], more].concat(), words);
     }
-    let ellipse = ["--radius-y", "0.03", "--heat", "--method", "reduced"];
-    let point = ["solve", "--contact", "point", "--moes-m", "50", "--moes-l", "8"];
-    assert_refused(&[&point[..], &ellipse].concat(), "circular contacts only");
+}
+
+#[test]
+fn an_ellipse_with_heat_is_handed_to_the_full_solver_by_the_model_of_circles() {
+    let ellipse = ["solve", "--contact", "point", "--moes-m", "50", "--moes-l", "8", "--radius-y", "0.03"];
+    let warm = json(&program(&[&ellipse[..], &["--heat", "--method", "reduced", "--json"]].concat()));
+    assert_eq!(warm["method"], "full");
+    let warning = warm["warning"].as_str().unwrap();
+    assert!(warning.contains("circular contacts only") && warning.contains("full solver took over"), "{warning}");
 }

@@ -361,8 +361,11 @@ impl TransientStudy {
         let per_contact = self.trainings.len().max(1);
         for (i, training) in self.training_marches(&own).iter().enumerate() {
             let OperatingPoint { load, speed_m_per_s, .. } = training.point;
-            let other =
-                if training.point == point { String::new() } else { format!(" at {load} N/m, {speed_m_per_s} m/s") };
+            let other = match (self.training_loads.is_empty(), self.training_contacts.is_empty()) {
+                (true, true) => String::new(),
+                (false, _) => format!(" at {load} N/m"),
+                (true, false) => format!(" at {load} N/m, {speed_m_per_s} m/s"),
+            };
             check(format!("study.trainings.{}{other}", i % per_contact), training)?;
         }
         Ok(())

@@ -70,7 +70,7 @@ impl EyringDomain {
             let at = |own: f64| digits(1e-6 * stress * own / product);
             let [stress, low, high, modulus] = [digits(1e-6 * stress), at(low), at(high), digits(1e-9 * modulus)];
             format!(
-                "the Eyring stress τ₀ = {stress} MPa lies outside the range {low}…{high} MPa trained for E′ = {modulus} GPa"
+                "the Eyring stress τ₀ = {stress} MPa lies outside the range {low}…{high} MPa trained for E' = {modulus} GPa"
             )
         })
     }
