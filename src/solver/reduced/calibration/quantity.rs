@@ -108,11 +108,18 @@ fn measure(windows: &mut [Quantity], neighbours: &[Vec<Neighbours>]) {
         let score = |(surplus, near): (&f32, &Neighbours)| (unseen * f64::from(*surplus)).exp() / own.size(near);
         known.map(score).collect::<Vec<f64>>()
     };
-    let mut scores: Vec<f64> = windows.iter().zip(neighbours).flat_map(scores_of).collect();
+    let scores: Vec<Vec<f64>> = windows.iter().zip(neighbours).map(scores_of).collect();
+    let together = quantile(scores.concat());
+    for (own, scores) in windows.iter_mut().zip(scores) {
+        own.quantile = quantile(scores).max(together);
+    }
+}
+
+/// The score that so many of these lie below, were one more drawn like them.
+fn quantile(mut scores: Vec<f64>) -> f64 {
     scores.sort_by(f64::total_cmp);
     let place = ((QUANTILE * (scores.len() + 1) as f64).ceil() as usize).clamp(1, scores.len().max(1));
-    let quantile = scores.get(place - 1).copied().unwrap_or(0.0);
-    windows.iter_mut().for_each(|own| own.quantile = quantile);
+    scores.get(place - 1).copied().unwrap_or(0.0)
 }
 
 /// Coefficients that fit the known logarithms, with a slight ridge for features that do not vary.
