@@ -125,6 +125,7 @@ pub fn transient<'py>(
         window: None,
         trainings: Vec::new(),
         training_loads: Vec::new(),
+        training_contacts: Vec::new(),
         reduced: None,
         linearised: None,
         mass_between: None,
