@@ -2,8 +2,9 @@
 //!
 //! The nodes are among those that the sampled rows depend on anyway, so that pressure, film and gradient are known
 //! there when the online iteration ends, and along a line some more: an interpolation's rows crowd where the equations
-//! differ, and leave much of a contact whose stress is cut unseen. The weights are fitted by non-negative least squares to ∫τ dX/∫τ dX = 1 over
-//! many reduced solutions under sliding: each contact counts the same, however large its traction is.
+//! differ, and leave much of a contact whose stress is cut unseen. The weights are fitted by non-negative least squares
+//! to ∫τ dX/∫τ dX = 1 over many reduced solutions under sliding: each contact counts the same, however large its traction
+//! is.
 
 use super::cubature::GoalEquations;
 use super::model::Window;
