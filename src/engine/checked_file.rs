@@ -137,7 +137,8 @@ fn hash(before: &[u8], payload: &[u8]) -> u64 {
     hash.digest()
 }
 
-fn version(bytes: &[u8]) -> u32 {
+/// The version that a file's content says it has.
+pub(super) fn version(bytes: &[u8]) -> u32 {
     u64_at(bytes, 8).unwrap_or_default() as u32
 }
 

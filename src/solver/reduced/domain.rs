@@ -45,7 +45,7 @@ pub struct Domain {
 }
 
 /// What a model of contacts with heat is trained for beside M, L, α, η₀ and p_H.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeatDomain {
     /// |SRR|.
     pub srr: (f64, f64),

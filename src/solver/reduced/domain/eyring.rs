@@ -7,9 +7,10 @@ use crate::solver::full::Problem;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{LimitingStress, Lubricant, ShearLaw};
 use crate::solver::reduced::oils::expected_film;
+use serde::{Deserialize, Serialize};
 
 /// What a model of many oils that thin under shear by Eyring's law is trained for beside these.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EyringDomain {
     /// |SRR|.
     pub srr: (f64, f64),

@@ -1,0 +1,190 @@
+//! What windows around anchors have in a file beside what every window has.
+
+use super::sound::sound_interval;
+use super::window::{StoredWindow, accuracy};
+use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
+use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::full::GridCost;
+use crate::solver::physics::contact::Moes;
+use crate::solver::reduced::{Combined, OilDomain, PodBasis, ReducedModel, SharedBasis, Snapshot, Window};
+use faer::Mat;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Accuracy of the coefficients of snapshots from which a model of many oils starts, relative to each one's own size.
+const START_ACCURACY: f64 = 1e-4;
+
+/// Accuracy of the share of each mode of a shared basis in the pressures of a window.
+const FACTOR_ACCURACY: f64 = 1e-7;
+
+/// The oils of a model, and where its windows lie among them.
+#[derive(Serialize, Deserialize)]
+pub(super) struct StoredOils {
+    pub oils: OilDomain,
+    /// Thinnest H_c.
+    pub thinnest_film: f64,
+    pub windows: Vec<StoredAnchor>,
+}
+
+/// The basis that the pressure modes of all windows are made of, and what those of each window are in it.
+#[derive(Serialize, Deserialize)]
+pub(super) struct StoredSharedBasis {
+    pub basis: StoredBasis,
+    pub factors: Vec<StoredMatrix>,
+}
+
+/// Of every window what the grid costs H_c of each of its snapshots: by its ends, and by its spacing.
+pub(super) type GridCosts = Vec<Vec<(f32, f32)>>;
+
+/// A window around an anchor.
+#[derive(Serialize, Deserialize)]
+pub(super) struct StoredAnchor {
+    /// M and L of the anchor.
+    moes: (f64, f64),
+    /// The coefficients of its snapshots, snapshots × modes; no more than starts are made of them.
+    coefficients: StoredMatrix,
+}
+
+impl StoredOils {
+    /// What only a model of many oils has.
+    pub fn of(model: &ReducedModel) -> Option<Self> {
+        let stored = |window: &Window| {
+            let Moes { m, l } = window.anchor?;
+            let (snapshots, modes) = (&window.snapshots, window.pressure.count());
+            let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
+            let coefficients = Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default());
+            let size = |k: usize| (coefficients.col(k).squared_norm_l2() / snapshots.len() as f64).sqrt();
+            let scales: Vec<f64> = (0..modes).map(|k| 1.0 / size(k).max(f64::MIN_POSITIVE)).collect();
+            let coefficients = StoredMatrix::stepped(&coefficients, 1, &scales, START_ACCURACY);
+            Some(StoredAnchor { moes: (m, l), coefficients })
+        };
+        let oils = model.domain.oils?;
+        let windows = model.windows.iter().map(stored).collect::<Option<_>>()?;
+        Some(Self { oils, thinnest_film: oils.thinnest_film, windows })
+    }
+
+    /// The oils that a model was trained for.
+    pub fn domain(&self) -> OilDomain {
+        OilDomain { thinnest_film: self.thinnest_film, ..self.oils }
+    }
+}
+
+impl StoredSharedBasis {
+    /// What the windows of a model share beside the deformation basis; none where that is nothing.
+    pub fn of(model: &ReducedModel) -> Option<Self> {
+        let all: Vec<&Combined> =
+            model.windows.iter().map(|window| window.pressure.combined()).collect::<Option<_>>()?;
+        let (window, shared) = (model.windows.first()?, &all.first()?.shared);
+        let accuracy = accuracy(window, model.domain.heat.is_some());
+        let basis = StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy);
+        Some(Self { basis, factors: model.windows.iter().zip(all).map(|(w, own)| stored_factors(w, own)).collect() })
+    }
+}
+
+/// What the grid costs the snapshots of a model of many oils; none where that was not measured.
+pub(super) fn grid_costs(model: &ReducedModel) -> Option<GridCosts> {
+    model.domain.oils?;
+    let cost = |snapshot: &Snapshot| snapshot.grid_cost.map(|cost| (cost.truncation as f32, cost.resolution as f32));
+    model.windows.iter().map(|window| window.snapshots.iter().map(cost).collect()).collect()
+}
+
+/// What a window's modes are in the shared basis: of each mode of that as exactly as it appears in the window.
+fn stored_factors(window: &Window, combined: &Combined) -> StoredMatrix {
+    let (factors, count) = (&combined.factors, window.pressure.singular_values().len() as f64);
+    let sizes = window.pressure.singular_values().iter().take(factors.ncols());
+    let scales: Vec<f64> = sizes.map(|sigma| (sigma / count.sqrt()).max(f64::MIN_POSITIVE)).collect();
+    StoredMatrix::stepped(factors, 1, &scales, FACTOR_ACCURACY)
+}
+
+/// Gives the snapshots of a model's windows what their grid costs them; `None` where that does not fit them.
+pub(super) fn give_grid_costs(windows: &mut [StoredWindow], costs: &GridCosts) -> Option<()> {
+    let fits = |(window, costs): (&StoredWindow, &Vec<_>)| window.snapshots.len() == costs.len();
+    if costs.len() != windows.len() || !windows.iter().zip(costs).all(fits) {
+        return None;
+    }
+    for (window, costs) in windows.iter_mut().zip(costs) {
+        for (snapshot, (truncation, resolution)) in window.snapshots.iter_mut().zip(costs) {
+            let (truncation, resolution) = (f64::from(*truncation), f64::from(*resolution));
+            snapshot.grid_cost = Some(GridCost { truncation, resolution });
+        }
+    }
+    Some(())
+}
+
+/// Of each window what its pressure modes are made of; none where they are its own. `None` where that does not fit them.
+pub(super) fn combined(
+    windows: &[StoredWindow],
+    grids: &[ContactGrid],
+    shared: Option<StoredSharedBasis>,
+) -> Option<Vec<Option<Combined>>> {
+    let Some(StoredSharedBasis { basis, factors }) = shared else { return Some(vec![None; windows.len()]) };
+    let grid = grids.first()?;
+    let alike = grids.iter().all(|other| other.spec() == grid.spec());
+    if !alike || factors.len() != windows.len() || basis.rows() != grid.len() {
+        return None;
+    }
+    let basis = basis.into_basis(grid.len())?;
+    let modes = basis.modes.ncols();
+    let shared = Arc::new(SharedBasis::new(basis, grid));
+    let of_window = |(factors, window): (StoredMatrix, &StoredWindow)| {
+        let factors = factors.into_mat(modes).filter(|factors| factors.ncols() <= window.snapshots.len())?;
+        Some(Some(Combined { shared: Arc::clone(&shared), factors }))
+    };
+    factors.into_iter().zip(windows).map(of_window).collect()
+}
+
+/// The deformation basis of each window; of windows around anchors those without one share that of the first. `None` where
+/// one is damaged, or has no modes.
+pub(super) fn deformations(
+    windows: &mut [StoredWindow],
+    grids: &[ContactGrid],
+    anchored: bool,
+) -> Option<Vec<Arc<PodBasis>>> {
+    let own = windows.par_iter_mut().zip(grids).map(|(window, grid)| {
+        let stored = std::mem::replace(&mut window.deformation, StoredBasis::elsewhere(grid.len()));
+        if anchored && stored.columns() == 0 {
+            return Some(None);
+        }
+        let basis = stored.into_basis(grid.len()).filter(|basis| basis.modes.ncols() > 0)?;
+        Some(Some(Arc::new(basis)))
+    });
+    let own: Vec<Option<Arc<PodBasis>>> = own.collect::<Option<_>>()?;
+    let first = own.first().cloned().flatten();
+    own.into_iter().map(|own| own.or_else(|| first.clone())).collect()
+}
+
+/// Gives the snapshots of a model's windows their coefficients; `None` where they do not fit.
+pub(super) fn give_coefficients(windows: &mut [StoredWindow], oils: &mut StoredOils) -> Option<()> {
+    if windows.len() != oils.windows.len() {
+        return None;
+    }
+    for (window, stored) in windows.iter_mut().zip(&mut oils.windows) {
+        let coefficients = std::mem::take(&mut stored.coefficients).into_mat(window.snapshots.len())?;
+        for (i, snapshot) in window.snapshots.iter_mut().enumerate() {
+            snapshot.coefficients = coefficients.row(i).iter().copied().collect();
+        }
+    }
+    Some(())
+}
+
+/// Gives a model its oils and the anchors of its windows; `None` where these do not fit it.
+pub(super) fn anchor(model: &mut ReducedModel, oils: &StoredOils) -> Option<()> {
+    let anchors: Vec<(f64, f64)> = oils.windows.iter().map(|window| window.moes).collect();
+    let OilDomain { viscosity_pa_s, exponent, lowest_hertz_pressure_pa: lowest, thinnest_film } = oils.domain();
+    let sound = [viscosity_pa_s, exponent, (lowest, model.domain.max_hertz_pressure_pa)]
+        .into_iter()
+        .all(|interval| sound_interval(interval, f64::MAX))
+        && sound_interval((0.0, thinnest_film), f64::MAX);
+    let placed = |&(m, l): &(f64, f64)| Moes { m, l }.check().is_ok();
+    let grid = model.windows.first()?.grid.spec();
+    let shared = model.windows.iter().all(|window| window.grid.spec() == grid);
+    let fits = anchors.len() == model.windows.len() && anchors.iter().all(placed) && shared;
+    if !(sound && fits) || model.domain.sliding.is_some() {
+        return None;
+    }
+    for (window, (m, l)) in model.windows.iter_mut().zip(anchors) {
+        (window.anchor, window.thins) = (Some(Moes { m, l }), model.domain.eyring.is_some());
+    }
+    Some(())
+}

@@ -1,0 +1,102 @@
+//! What a model may have in its file beside its windows, each part under a name of its own.
+
+use super::former;
+use super::oils::{GridCosts, StoredOils, StoredSharedBasis, grid_costs};
+use super::rupture::StoredRupture;
+use super::shapes::{StoredShapes, stored_shapes};
+use crate::engine::stored_heat::StoredHeat;
+use crate::engine::stored_matrix::StoredMatrix;
+use crate::solver::reduced::{EyringDomain, HeatDomain, ReducedModel, Scheme, Window};
+use serde::{Deserialize, Serialize};
+
+/// Of every window its scheme, and what GNAT makes of the residual.
+pub(super) type Schemes = Vec<(Scheme, Option<StoredMatrix>)>;
+
+/// One part. New ones go to the end, so that older files stay readable.
+#[derive(Serialize, Deserialize)]
+enum Part {
+    Rupture(StoredRupture),
+    Schemes(Schemes),
+    Shapes(StoredShapes),
+    Oils(StoredOils),
+    SharedBasis(StoredSharedBasis),
+    GridCosts(GridCosts),
+    Heat(StoredHeat, HeatDomain),
+    Eyring(EyringDomain),
+}
+
+/// The parts that a model has.
+#[derive(Default)]
+pub(super) struct Parts {
+    /// None where a penalty holds the pressures.
+    pub rupture: Option<StoredRupture>,
+    /// None where every window has Galerkin's.
+    pub schemes: Option<Schemes>,
+    /// Of ellipses.
+    pub shapes: Option<StoredShapes>,
+    /// Of many oils.
+    pub oils: Option<StoredOils>,
+    /// Of many oils whose windows share a basis.
+    pub shared: Option<StoredSharedBasis>,
+    /// Of many oils where they were measured.
+    pub grid_costs: Option<GridCosts>,
+    /// Of contacts with heat.
+    pub heat: Option<(StoredHeat, HeatDomain)>,
+    /// Of many oils that thin by Eyring's law.
+    pub eyring: Option<EyringDomain>,
+}
+
+impl Parts {
+    /// The parts of a model, in postcard's encoding behind a payload.
+    pub fn write(model: &ReducedModel, payload: Vec<u8>) -> Option<Vec<u8>> {
+        let usual = model.windows.iter().all(|window| window.scheme == Scheme::Galerkin);
+        let scheme =
+            |window: &Window| (window.scheme, window.residual_reconstruction.as_ref().map(StoredMatrix::exact));
+        let schemes = (!usual).then(|| model.windows.iter().map(scheme).collect());
+        let heat = model.domain.lubricant.heat.zip(model.domain.heat);
+        let parts = [
+            StoredRupture::of(model).map(Part::Rupture),
+            schemes.map(Part::Schemes),
+            stored_shapes(model).map(Part::Shapes),
+            StoredOils::of(model).map(Part::Oils),
+            StoredSharedBasis::of(model).map(Part::SharedBasis),
+            grid_costs(model).map(Part::GridCosts),
+            heat.map(|(heat, domain)| Part::Heat(heat.into(), domain)),
+            model.domain.eyring.map(Part::Eyring),
+        ];
+        let parts: Vec<Part> = parts.into_iter().flatten().collect();
+        postcard::to_extend(&parts, payload).ok()
+    }
+
+    /// The parts of a model of so many windows; `None` where they cannot be understood, or do not go together. Files that
+    /// are `older` than these names have them without.
+    pub fn read(rest: &[u8], windows: usize, older: bool) -> Option<Self> {
+        let parts = if older { former::read(rest, windows)? } else { Self::named(rest)? };
+        let schemes = parts.schemes.as_ref().is_none_or(|schemes| schemes.len() == windows);
+        let of_oils = parts.shared.is_some() || parts.grid_costs.is_some() || parts.eyring.is_some();
+        let beside_shapes = parts.oils.is_some() || parts.heat.is_some();
+        let together = !(parts.shapes.is_some() && beside_shapes) && (parts.oils.is_some() || !of_oils);
+        (schemes && together).then_some(parts)
+    }
+
+    fn named(rest: &[u8]) -> Option<Self> {
+        let (parts, rest) = postcard::take_from_bytes::<Vec<Part>>(rest).ok()?;
+        let mut known = Self::default();
+        for part in parts {
+            let once = match part {
+                Part::Rupture(part) => known.rupture.replace(part).is_none(),
+                Part::Schemes(part) => known.schemes.replace(part).is_none(),
+                Part::Shapes(part) => known.shapes.replace(part).is_none(),
+                Part::Oils(part) => known.oils.replace(part).is_none(),
+                Part::SharedBasis(part) => known.shared.replace(part).is_none(),
+                Part::GridCosts(part) => known.grid_costs.replace(part).is_none(),
+                Part::Heat(heat, domain) => known.heat.replace((heat, domain)).is_none(),
+                Part::Eyring(part) => known.eyring.replace(part).is_none(),
+            };
+            if !once {
+                return None;
+            }
+        }
+        rest.is_empty().then_some(known)
+    }
+}

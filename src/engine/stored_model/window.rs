@@ -1,0 +1,220 @@
+//! One window of a model on its way to or from a file.
+
+use super::sound::are_rows;
+use crate::engine::model_file::ModelFileError;
+use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
+use crate::solver::discrete::grid::{ContactGrid, GridSpec};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::Sliding;
+use crate::solver::reduced::{
+    Beside, Calibration, Combined, Domain, PodBasis, PressureModes, ReducedModel, SampledRows, Sampling, Scheme,
+    Snapshot, TractionRule, Window,
+};
+use faer::Mat;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Accuracy of the deformations of a plane, relative as that of pressures: their bases end at modes that are common, and no
+/// mobility multiplies what they lose. Those of a line go on to rare ones, and are kept as its pressures.
+const BENT_ACCURACY: f64 = 1e-6;
+
+/// Accuracy of what an interpolation makes of the values of its rows, relative to what it makes of all for a mode.
+const ROWS_ACCURACY: f64 = 1e-6;
+
+/// Relative accuracy of pressures at every node to which the basis of a window is kept.
+pub(super) fn accuracy(window: &Window, heat: bool) -> f64 {
+    match (window.grid.kind(), &window.shapes) {
+        // Temperatures are not known to more.
+        (ContactKind::Line, _) if window.anchor.is_some() && heat => 1e-10,
+        // These have dozens of windows, and thin films under heavy loads: at 1e-8 Newtonian ones lost more than their modes
+        // miss, at 1e-10 sliding ones up to a tenth of the film, at 1e-11 nothing of it.
+        (ContactKind::Line, _) if window.anchor.is_some() => 1e-11,
+        (ContactKind::Line, _) => 1e-13,
+        // Their modes miss a thousand times more; at 1e-7 the thinnest films were off by 4e-3.
+        (ContactKind::Point, None) if window.anchor.is_some() => 1e-8,
+        (ContactKind::Point, None) => 2e-9,
+        // These have many windows, and K V is interpolated over the shapes.
+        (ContactKind::Point, Some(_)) => 1e-7,
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct StoredWindow {
+    pub m: (f64, f64),
+    pub grid: GridSpec,
+    penalty: f64,
+    pub pressure: StoredBasis,
+    /// Of windows around anchors the first one has it for all.
+    pub deformation: StoredBasis,
+    sampling: Sampling,
+    sampled_rows: Vec<usize>,
+    reconstruction: StoredMatrix,
+    pub snapshots: Vec<Snapshot>,
+    traction: Option<TractionRule>,
+    calibration: Option<Calibration>,
+}
+
+/// Sampled rows on their way to or from a file, with the scheme that they serve.
+#[derive(Serialize, Deserialize)]
+pub(in crate::engine) struct StoredRows {
+    pub rows: Vec<usize>,
+    pub reconstruction: StoredMatrix,
+    pub scheme: Scheme,
+    /// What GNAT makes of the residual.
+    pub residual: Option<StoredMatrix>,
+}
+
+impl StoredRows {
+    /// The rows of a model with so many modes on a grid.
+    ///
+    /// # Errors
+    /// When they do not fit it or each other.
+    pub fn into_rows(self, modes: usize, grid: &ContactGrid) -> Result<SampledRows, ModelFileError> {
+        let damaged = |what| Err(ModelFileError::Damaged { what });
+        let Self { rows, reconstruction, scheme, residual } = self;
+        let (gnat, stored) = (matches!(scheme, Scheme::Gnat { .. }), reconstruction.rows());
+        let equations = match scheme {
+            Scheme::Galerkin => modes,
+            Scheme::LeastSquares { .. } => 1,
+            Scheme::Gnat { .. } => stored.max(modes).min(grid.unknowns()),
+        };
+        let Some(reconstruction) = reconstruction.into_mat(equations) else { return damaged("sampled rows") };
+        let residual = residual.map(|residual| residual.into_mat(equations));
+        let fits = |own: &Option<Mat<f64>>| own.as_ref().is_some_and(|own| own.ncols() == reconstruction.ncols());
+        let enough = scheme == Scheme::Galerkin || reconstruction.ncols() > modes;
+        if !enough || gnat != residual.is_some() || !residual.iter().all(fits) {
+            return damaged("scheme");
+        }
+        if !are_rows(&rows, grid) || reconstruction.ncols() != rows.len() {
+            return damaged("sampled rows");
+        }
+        Ok(SampledRows { rows, reconstruction, scheme, residual: residual.flatten() })
+    }
+}
+
+impl StoredWindow {
+    /// Window `k` of a model.
+    pub fn of(model: &ReducedModel, k: usize, window: &Window) -> Self {
+        let heat = model.domain.heat.is_some();
+        let basis = |basis: &PodBasis| StoredBasis::new(basis, window.grid.nodes().1, accuracy(window, heat));
+        let shared = model.windows.iter().all(|window| window.pressure.combined().is_some());
+        Self {
+            m: window.m,
+            grid: window.grid.spec(),
+            penalty: window.penalty,
+            pressure: match window.pressure.combined() {
+                Some(_) if shared => StoredBasis::without_modes(window.pressure.singular_values(), window.grid.len()),
+                _ => basis(window.pressure.basis()),
+            },
+            deformation: match model.windows.first() {
+                Some(first) if k > 0 && shares_deformation(window, first) => StoredBasis::elsewhere(window.grid.len()),
+                _ if window.grid.kind() == ContactKind::Line => basis(&window.deformation),
+                _ => StoredBasis::new(&window.deformation, window.grid.nodes().1, BENT_ACCURACY),
+            },
+            sampling: window.sampling,
+            sampled_rows: window.sampled_rows.clone(),
+            reconstruction: stored_reconstruction(window, heat),
+            snapshots: window.snapshots.iter().map(|snapshot| without_coefficients(snapshot, window)).collect(),
+            traction: window.traction.clone(),
+            calibration: window.calibration.clone(),
+        }
+    }
+
+    /// The window of a model with this domain, on its grid.
+    ///
+    /// # Errors
+    /// When its parts do not fit each other or the domain.
+    pub fn into_window(
+        self,
+        grid: ContactGrid,
+        domain: &Domain,
+        deformation: Arc<PodBasis>,
+        ((scheme, residual), combined): ((Scheme, Option<StoredMatrix>), Option<Combined>),
+    ) -> Result<Window, ModelFileError> {
+        let nodes = grid.len();
+        let damaged = |what| Err(ModelFileError::Damaged { what });
+        let pressure = match combined {
+            Some(combined) => self.pressure.into_singular_values().map(|values| combined.into_modes(values)),
+            None => self.pressure.into_basis(nodes).map(|basis| PressureModes::own(basis, &grid)),
+        };
+        let Some(pressure) = pressure else { return damaged("bases") };
+        let modes = pressure.count();
+        if modes == 0 {
+            return damaged("bases");
+        }
+        // What they make may have to be told by the modes there.
+        if !are_rows(&self.sampled_rows, &grid) {
+            return damaged("sampled rows");
+        }
+        let of_rows = || modes_at(&grid, &pressure, &self.sampled_rows);
+        let Some(reconstruction) = self.reconstruction.of_modes(of_rows) else { return damaged("sampled rows") };
+        let stored = StoredRows { rows: self.sampled_rows, reconstruction, scheme, residual };
+        let rows = stored.into_rows(modes, &grid)?;
+        let snapshots_fit = self.snapshots.iter().all(|s| {
+            let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = s.point.sliding;
+            s.point.check().is_ok()
+                && s.point.kind == grid.kind()
+                && slide_to_roll_ratio.is_finite()
+                && newtonian_plateau_ratio.is_none_or(|ratio| (0.0..=1.0).contains(&ratio))
+                && s.coefficients.len() == modes
+                && s.coefficients.iter().chain([&s.h_0, &s.h_c]).all(|v| v.is_finite())
+        });
+        if !(self.penalty.is_finite() && self.penalty > 0.0) {
+            return damaged("penalty");
+        }
+        if self.snapshots.is_empty() || !snapshots_fit {
+            return damaged("snapshots");
+        }
+        let (thins, heat) = (domain.thins(), domain.heat.is_some());
+        let slides = thins || heat;
+        // Older ones of contacts that do not slide know less of them.
+        let of_kind = |known: &Calibration| {
+            if slides { known.is_of(Beside::of(domain)) } else { !known.is_of(Beside::Sliding) }
+        };
+        if heat && scheme != Scheme::Galerkin {
+            return damaged("heat");
+        }
+        if !self.traction.as_ref().is_none_or(|rule| slides && rule.sound(&grid)) {
+            return damaged("traction");
+        }
+        if !self.calibration.as_ref().is_none_or(|known| known.sound() && of_kind(known)) {
+            return damaged("calibration");
+        }
+        let mut window = Window::new(self.m, grid, pressure, deformation, self.snapshots, self.sampling, rows);
+        (window.penalty, window.traction, window.calibration) = (self.penalty, self.traction, self.calibration);
+        Ok(window)
+    }
+}
+
+/// What a window makes of its rows' values. Windows that come by the dozen, and those with heat, keep what a cubature makes
+/// as its weights, and what others make to six digits.
+fn stored_reconstruction(window: &Window, heat: bool) -> StoredMatrix {
+    let exact = &window.reconstruction;
+    if window.anchor.is_none() && window.shapes.is_none() && !heat {
+        return StoredMatrix::exact(exact);
+    }
+    let rule = || StoredMatrix::weights(exact, &modes_at(&window.grid, &window.pressure, &window.sampled_rows));
+    let rule = if window.sampling == Sampling::Cubature { rule() } else { None };
+    rule.unwrap_or_else(|| StoredMatrix::stepped(exact, 1, &vec![1.0; exact.ncols()], ROWS_ACCURACY))
+}
+
+/// What all modes are at the nodes of sampled rows.
+fn modes_at(grid: &ContactGrid, pressure: &PressureModes, rows: &[usize]) -> Mat<f64> {
+    let nodes: Vec<usize> = rows.iter().map(|&row| grid.node(row)).collect();
+    pressure.at(&nodes, pressure.count())
+}
+
+/// Whether a window around an anchor has the very deformation basis of another one.
+fn shares_deformation(window: &Window, other: &Window) -> bool {
+    let equal = || window.deformation.modes == other.deformation.modes;
+    let same = || Arc::ptr_eq(&window.deformation, &other.deformation) || equal();
+    window.anchor.is_some() && window.grid.spec() == other.grid.spec() && same()
+}
+
+/// A snapshot as its window keeps it: coefficients of windows around anchors have a place of their own.
+fn without_coefficients(snapshot: &Snapshot, window: &Window) -> Snapshot {
+    if window.anchor.is_none() {
+        return snapshot.clone();
+    }
+    Snapshot { coefficients: Vec::new(), fronts: Vec::new(), ..*snapshot }
+}
