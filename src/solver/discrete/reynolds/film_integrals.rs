@@ -17,7 +17,7 @@ pub use known::{KnownFilm, film_integrals_near};
 pub use moments::{FilmRule, PRODUCTION_RULE};
 
 use crate::solver::physics::lubricant::Fluidity;
-use moments::Moments;
+use moments::{Moments, shortened};
 
 /// The three scalars that the integrals depend on, in units of the law's stress scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -75,6 +75,7 @@ fn times(m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
 
 /// Solves the inner problem and returns the integrals with their derivatives.
 pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIntegrals {
+    let rule = shortened(law, rule, &load);
     let (start, iterations) = cold_start(law, rule, &load);
     solve(law, rule, load, start, iterations).1
 }

@@ -150,6 +150,12 @@ impl Fluidity {
         Some((Self { factor, plateau }, scale))
     }
 
+    /// Whether it is a smooth function of t², so that it has no kink where stresses change their sign.
+    #[inline]
+    pub fn is_smooth(&self) -> bool {
+        self.factor == Factor::HyperbolicSine
+    }
+
     /// g and t dg/dt at t ≥ 0.
     #[inline]
     pub fn at(&self, t: f64) -> (f64, f64) {
@@ -215,15 +221,10 @@ fn power<const N: usize>(beta: f64, q: f64, t: &[f64; N]) -> ([f64; N], [f64; N]
 
 /// F = t/sinh t and t dF/dt.
 fn hyperbolic_sine<const N: usize>(t: &[f64; N]) -> ([f64; N], [f64; N]) {
-    let (mut factors, mut slopes) = ([0.0; N], [0.0; N]);
-    for (i, &t) in t.iter().enumerate() {
-        (factors[i], slopes[i]) = if t < 1e-4 {
-            (1.0 - t * t / 6.0, -t * t / 3.0)
-        } else {
-            let t = t.min(STEEPEST);
-            let factor = t / t.sinh();
-            (factor, if t < STEEPEST { factor * (1.0 - t / t.tanh()) } else { 0.0 })
-        };
+    let (mut factors, mut slopes) = (t.map(|t| t.min(STEEPEST)), [0.0; N]);
+    elementary::hyperbolic_sines(&mut factors, &mut slopes);
+    for (slope, t) in slopes.iter_mut().zip(t) {
+        *slope = if *t < STEEPEST { *slope } else { 0.0 };
     }
     (factors, slopes)
 }

@@ -1,5 +1,6 @@
 //! Starting beside a film that is known: between two iterations, and from node to node, the stress hardly changes.
 
+use super::moments::shortened;
 use super::{FilmIntegrals, FilmLoad, FilmRule, MOST_ITERATIONS, film_integrals, length, solve};
 use crate::solver::physics::lubricant::Fluidity;
 
@@ -45,7 +46,7 @@ impl KnownFilm {
 /// [`film_integrals`] beside a film that is known.
 pub fn film_integrals_near(law: &Fluidity, rule: &FilmRule, load: FilmLoad, known: &KnownFilm) -> FilmIntegrals {
     if let Some(near) = known.near(&load) {
-        let (first, integrals) = solve(law, rule, load, near, 0);
+        let (first, integrals) = solve(law, shortened(law, rule, &load), load, near, 0);
         // From too small a stress a steep law takes steps that never come back, from one of the other sign too many
         // short ones.
         if first <= FIRST_STEP * length(near) && integrals.iterations < MOST_ITERATIONS {

@@ -24,6 +24,28 @@ const fn two_panels() -> [(f64, f64); 12] {
     rule
 }
 
+/// Four Gauss points over the film.
+const GAUSS_4: [(f64, f64); 4] = [
+    (-0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
+    (-0.169_990_521_792_428_13, 0.326_072_577_431_273_07),
+    (0.169_990_521_792_428_13, 0.326_072_577_431_273_07),
+    (0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+
+/// What does for a smooth law, to rounding, where stresses differ by no more than this between the surfaces, in units of
+/// the law's scale.
+const SHORTER: [(f64, &FilmRule); 2] = [(0.08, &GAUSS_4), (0.9, &GAUSS_6)];
+
+/// The rule for a film: one without the panels that a kink asks for where the law has none and the stress hardly varies.
+#[inline]
+pub(super) fn shortened<'a>(law: &Fluidity, rule: &'a FilmRule, load: &FilmLoad) -> &'a FilmRule {
+    if rule.len() != POINTS || !law.is_smooth() {
+        return rule;
+    }
+    let across = load.a.abs().max(load.b.abs());
+    SHORTER.into_iter().find(|(most, _)| across <= *most).map_or(rule, |(_, shorter)| shorter)
+}
+
 /// Sums over a film rule at one τ_m.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Moments {
@@ -54,32 +76,45 @@ fn portions<const N: usize>(rule: &FilmRule) -> impl Iterator<Item = Lanes<N>> +
 
 /// Points of the production rule.
 const POINTS: usize = PRODUCTION_RULE.len();
-/// Those in the upper half of the film.
-const HALF: usize = POINTS / 2;
 
 impl Moments {
     #[inline]
     pub fn of(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
+        match rule.len() {
+            4 => Self::by_portions::<4, 2>(law, rule, load, mid),
+            6 => Self::by_portions::<6, 3>(law, rule, load, mid),
+            _ => Self::by_portions::<POINTS, { POINTS / 2 }>(law, rule, load, mid),
+        }
+    }
+
+    /// With so many points of the rule at once, or of its upper half.
+    #[inline]
+    fn by_portions<const N: usize, const HALF: usize>(
+        law: &Fluidity,
+        rule: &FilmRule,
+        load: &FilmLoad,
+        mid: [f64; 2],
+    ) -> Self {
         if mid == [0.0; 2] {
-            Self::rolling(law, rule, load)
+            Self::rolling::<HALF>(law, rule, load)
         } else if load.b == 0.0 && mid[1] == 0.0 {
-            Self::along(law, rule, load.a, mid[0])
+            Self::along::<N>(law, rule, load.a, mid[0])
         } else {
-            Self::plane(law, rule, load, mid)
+            Self::plane::<N>(law, rule, load, mid)
         }
     }
 
     /// Without stress at mid-film: the fluidity is even across it, so that the upper half tells all, and odd moments
     /// vanish.
-    fn rolling(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> Self {
+    fn rolling<const N: usize>(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> Self {
         let mut out = Self::default();
         let across = length([load.a, load.b]);
         let (nx, ny) = if across > 0.0 { (load.a / across, load.b / across) } else { (0.0, 0.0) };
         let per = if across > 0.0 { 1.0 / across } else { 0.0 };
         let upper = &rule[rule.partition_point(|(zeta, _)| *zeta < 0.0)..];
-        for Lanes { zeta, weight } in portions::<HALF>(upper) {
+        for Lanes { zeta, weight } in portions::<N>(upper) {
             let (g, slope) = law.at_all(&zeta.map(|z| across * z));
-            for i in 0..HALF {
+            for i in 0..N {
                 let (z, weight) = (zeta[i], 2.0 * weight[i]);
                 let (wg, we) = (weight * g[i], weight * slope[i]);
                 out.fluidity[0] += wg;
@@ -99,12 +134,12 @@ impl Moments {
     }
 
     /// Where nothing shears the film across the direction of sliding: the y parts vanish, stresses are scalars.
-    fn along(law: &Fluidity, rule: &FilmRule, a: f64, mid: f64) -> Self {
+    fn along<const N: usize>(law: &Fluidity, rule: &FilmRule, a: f64, mid: f64) -> Self {
         let mut out = Self::default();
-        for Lanes { zeta, weight } in portions::<POINTS>(rule) {
+        for Lanes { zeta, weight } in portions::<N>(rule) {
             let stress = zeta.map(|z| mid + a * z);
             let (g, slope) = law.at_all(&stress.map(f64::abs));
-            for i in 0..POINTS {
+            for i in 0..N {
                 let z = zeta[i];
                 let (wg, we) = (weight[i] * g[i], weight[i] * slope[i]);
                 let sx = if stress[i] == 0.0 { 0.0 } else { we / stress[i] };
@@ -122,16 +157,16 @@ impl Moments {
         out
     }
 
-    fn plane(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
+    fn plane<const N: usize>(law: &Fluidity, rule: &FilmRule, load: &FilmLoad, mid: [f64; 2]) -> Self {
         let mut out = Self::default();
-        for Lanes { zeta, weight } in portions::<POINTS>(rule) {
+        for Lanes { zeta, weight } in portions::<N>(rule) {
             let (x, y) = (zeta.map(|z| mid[0] + load.a * z), zeta.map(|z| mid[1] + load.b * z));
-            let mut stress = [0.0; POINTS];
-            for i in 0..POINTS {
+            let mut stress = [0.0; N];
+            for i in 0..N {
                 stress[i] = (x[i] * x[i] + y[i] * y[i]).sqrt();
             }
             let (g, slope) = law.at_all(&stress);
-            for i in 0..POINTS {
+            for i in 0..N {
                 let z = zeta[i];
                 let per = if stress[i] > 0.0 { 1.0 / stress[i] } else { 0.0 };
                 let (nx, ny) = (x[i] * per, y[i] * per);
@@ -173,8 +208,8 @@ mod tests {
     fn without_sliding_the_upper_half_of_the_film_tells_all() {
         for law in laws() {
             for load in loads() {
-                let half = Moments::rolling(&law, &PRODUCTION_RULE, &load);
-                let whole = Moments::plane(&law, &PRODUCTION_RULE, &load, [0.0; 2]);
+                let half = Moments::rolling::<6>(&law, &PRODUCTION_RULE, &load);
+                let whole = Moments::plane::<12>(&law, &PRODUCTION_RULE, &load, [0.0; 2]);
                 let flat = |m: &Moments| -> Vec<f64> {
                     let slopes = m.slope.iter().flatten().chain(m.stiffness.iter().flatten());
                     m.fluidity.iter().chain(slopes).copied().collect()

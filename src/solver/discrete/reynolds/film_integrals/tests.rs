@@ -162,6 +162,34 @@ fn sliding_the_other_way_mirrors_the_film() {
 }
 
 #[test]
+fn shorter_rules_of_a_smooth_law_change_nothing() {
+    let (eyring, _) = Fluidity::of(ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, 0.0).unwrap();
+    // Twice the points are told from the rule by their number, and kept.
+    let longer: Vec<(f64, f64)> = [-0.25, 0.25]
+        .into_iter()
+        .flat_map(|middle| PRODUCTION_RULE.map(|(at, weight)| (middle + 0.5 * at, 0.5 * weight)))
+        .collect();
+    for across in [1e-3, 0.02, 0.08, 0.3, 0.9] {
+        for direction in [0.0f64, 0.4, 0.8, 1.5] {
+            for sliding in [0.0, 1e-6, 1e-2, 0.3, 4.0, 1e3, 1e6] {
+                let load = FilmLoad { a: across * direction.cos(), b: across * direction.sin(), sliding };
+                let (short, long) =
+                    (film_integrals(&eyring, &PRODUCTION_RULE, load), film_integrals(&eyring, &longer, load));
+                assert!((short.mobility / long.mobility - 1.0).abs() < 1e-13, "{load:?}");
+                assert!((short.shift - long.shift).abs() < 1e-13, "{load:?}");
+                // Derivatives decide how Newton gets there, not where.
+                for (one, other) in short.d_mobility.iter().zip(long.d_mobility) {
+                    assert!((one - other).abs() < 1e-7 * (long.mobility + other.abs()), "{load:?}: {one} {other}");
+                }
+                for (one, other) in short.d_shift.iter().zip(long.d_shift) {
+                    assert!((one - other).abs() < 1e-7, "{load:?}: {one} {other}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn the_inner_newton_method_is_short() {
     let strong = [
         (ShearLaw::Ellis { critical_stress: 1e5, n: 0.2, npr: 0.0 }, 0.0),
