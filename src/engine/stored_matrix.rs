@@ -1,22 +1,16 @@
 //! Matrices as model files keep them.
 //!
-//! The modes of a basis are kept to an accuracy of the fields they make, relative to the fields' own size at each node:
-//! a mode that hardly appears in any solution needs few digits, and a node where pressures are small as many as any
-//! other, since the mobility of thick films multiplies what is lost there. Each value is a multiple of a power of two,
-//! and what is kept is by how many of them it misses the polynomial through the nodes before it: of fields that are
+//! The modes of a basis are kept to an accuracy of the fields they make ([`Multiples`]): each value is a multiple of a
+//! power of two, and what is kept is by how many of them it misses the polynomial through the nodes before it: of fields that are
 //! smooth small integers, which are packed by how often each of them comes. Nodes where no mode has a value are left out.
 
-use crate::solver::reduced::PodBasis;
+use crate::solver::reduced::{Multiples, PodBasis};
 use faer::Mat;
 use pco::standalone::{simple_compress, simple_decompress_into};
 use pco::{ChunkConfig, DeltaSpec, ModeSpec};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Modes are kept as if none were rarer than this, relative to the first one.
-const RAREST: f64 = 1e-5;
-/// Fields are nowhere kept as if they were smaller than this, relative to their largest value.
-const SMALLEST: f64 = 1e-30;
 /// Exponents beyond these belong to no field.
 const EXPONENTS: std::ops::RangeInclusive<i16> = -400..=400;
 /// Highest orders of the polynomials that are continued along X and across.
@@ -133,14 +127,9 @@ impl StoredMatrix {
     /// each row.
     pub fn stepped(matrix: &Mat<f64>, across: usize, scales: &[f64], accuracy: f64) -> Self {
         let (rows, columns) = (matrix.nrows(), matrix.ncols());
-        let size = |i: usize| scales.iter().enumerate().map(|(k, s)| (s * matrix[(i, k)]).powi(2)).sum::<f64>().sqrt();
-        let sizes: Vec<f64> = (0..rows).map(size).collect();
-        let largest = sizes.iter().copied().fold(0.0, f64::max);
-        let used: Vec<bool> = sizes.iter().map(|size| *size > SMALLEST * largest).collect();
-        let exponent = |step: f64| step.log2().floor() as i16;
-        let row_exponents: Vec<i16> =
-            sizes.iter().zip(&used).filter(|(_, used)| **used).map(|(size, _)| exponent(*size)).collect();
-        let column_exponents: Vec<i16> = scales.iter().map(|scale| exponent(accuracy / scale)).collect();
+        let Multiples { rows: exponents, columns: column_exponents } = Multiples::of(matrix, scales, accuracy);
+        let used: Vec<bool> = exponents.iter().map(Option::is_some).collect();
+        let row_exponents: Vec<i16> = exponents.into_iter().flatten().collect();
         let lattice = Lattice::new(&used, across, &row_exponents);
         let kept = column_exponents.par_iter().enumerate().map(|(k, exponent)| {
             let column: Vec<f64> = matrix.col(k).iter().copied().collect();
@@ -375,12 +364,8 @@ impl StoredBasis {
     /// A basis over a grid with so many nodes across. What each mode loses changes the fields of the snapshots by
     /// `accuracy` of their size at every node at most (both as root mean squares over the snapshots).
     pub fn new(basis: &PodBasis, across: usize, accuracy: f64) -> Self {
-        let sigma = &basis.singular_values;
-        let (largest, count) = (sigma.first().copied().unwrap_or(1.0).max(f64::MIN_POSITIVE), sigma.len() as f64);
-        // σ_k is √N times the root mean square of the coefficients of mode k.
-        let scales = sigma.iter().take(basis.modes.ncols()).map(|s| s.max(RAREST * largest) / count.sqrt());
-        let scales: Vec<f64> = scales.collect();
-        Self { modes: StoredMatrix::stepped(&basis.modes, across, &scales, accuracy), singular_values: sigma.clone() }
+        let modes = StoredMatrix::stepped(&basis.modes, across, &basis.scales(), accuracy);
+        Self { modes, singular_values: basis.singular_values.clone() }
     }
 
     /// Entries of the node arrays that its modes say they are.

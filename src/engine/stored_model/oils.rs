@@ -13,10 +13,10 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Accuracy of the coefficients of snapshots from which a model of many oils starts, relative to each one's own size.
-const START_ACCURACY: f64 = 1e-4;
+const START_ACCURACY: f64 = 1e-3;
 
 /// Accuracy of the share of each mode of a shared basis in the pressures of a window.
-const FACTOR_ACCURACY: f64 = 1e-7;
+const FACTOR_ACCURACY: f64 = 1e-6;
 
 /// The oils of a model, and where its windows lie among them.
 #[derive(Serialize, Deserialize)]

@@ -7,8 +7,8 @@ use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::{
-    Beside, Calibration, Combined, Domain, PodBasis, PressureModes, ReducedModel, SampledRows, Sampling, Scheme,
-    Snapshot, TractionRule, Window,
+    Beside, Calibration, Combined, Domain, Keeping, PodBasis, PressureModes, ReducedModel, SampledRows, Sampling,
+    Scheme, Snapshot, TractionRule, Window,
 };
 use faer::Mat;
 use serde::{Deserialize, Serialize};
@@ -16,26 +16,15 @@ use std::sync::Arc;
 
 /// Accuracy of the deformations of a plane, relative as that of pressures: their bases end at modes that are common, and no
 /// mobility multiplies what they lose. Those of a line go on to rare ones, and are kept as its pressures.
-const BENT_ACCURACY: f64 = 1e-6;
+const BENT_ACCURACY: f64 = 1e-5;
 
 /// Accuracy of what an interpolation makes of the values of its rows, relative to what it makes of all for a mode.
 const ROWS_ACCURACY: f64 = 1e-6;
 
-/// Relative accuracy of pressures at every node to which the basis of a window is kept.
+/// Accuracy of pressures at every node to which the basis of a window is kept.
 pub(super) fn accuracy(window: &Window, heat: bool) -> f64 {
-    match (window.grid.kind(), &window.shapes) {
-        // Temperatures are not known to more.
-        (ContactKind::Line, _) if window.anchor.is_some() && heat => 1e-10,
-        // These have dozens of windows, and thin films under heavy loads: at 1e-8 Newtonian ones lost more than their modes
-        // miss, at 1e-10 sliding ones up to a tenth of the film, at 1e-11 nothing of it.
-        (ContactKind::Line, _) if window.anchor.is_some() => 1e-11,
-        (ContactKind::Line, _) => 1e-13,
-        // Their modes miss a thousand times more; at 1e-7 the thinnest films were off by 4e-3.
-        (ContactKind::Point, None) if window.anchor.is_some() => 1e-8,
-        (ContactKind::Point, None) => 2e-9,
-        // These have many windows, and K V is interpolated over the shapes.
-        (ContactKind::Point, Some(_)) => 1e-7,
-    }
+    let (anchored, shapes) = (window.anchor.is_some(), window.shapes.is_some());
+    Keeping { kind: window.grid.kind(), anchored, heat, shapes }.accuracy()
 }
 
 #[derive(Serialize, Deserialize)]

@@ -15,6 +15,7 @@ mod error_measures;
 mod error_split;
 #[cfg(test)]
 mod error_split_tests;
+mod kept;
 mod kriging;
 mod minimisation;
 mod model;
@@ -39,6 +40,7 @@ pub use cubature::{GoalEquations, cubature};
 pub use domain::{CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, Trust, gradient_stress};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
+pub use kept::{Keeping, Multiples};
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
 pub use model::{ModelSize, ReducedModel, SHAPE_WEIGHT, Snapshot, Window, deformation_weights, distance, separation};

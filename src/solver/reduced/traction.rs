@@ -1,21 +1,20 @@
 //! Traction (3.41) without large-scale work: the shear stress at mid-film of few nodes, with non-negative weights.
 //!
 //! The nodes are among those that the sampled rows depend on anyway, so that pressure, film and gradient are known
-//! there when the online iteration ends, and along a line some more: an interpolation's rows crowd where the equations
-//! differ, and leave much of a contact whose stress is cut unseen. The weights are fitted by non-negative least squares
-//! to ∫τ dX/∫τ dX = 1 over many reduced solutions under sliding: each contact counts the same, however large its traction
-//! is.
+//! there when the online iteration ends, and some more: rows crowd where the equations differ, and leave much of a contact
+//! whose stress is cut unseen. The weights are fitted by non-negative least squares to ∫τ dX/∫τ dX = 1 over many reduced
+//! solutions under sliding: each contact counts the same, however large its traction is.
 
 use super::cubature::GoalEquations;
 use super::model::Window;
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 
 /// Nodes of a rule. They cost little, being evaluated anyway; a third of them would err by more than the reduced fields.
 const NODES: usize = 180;
-/// Along a line every so many nodes may be taken that no sampled row depends on.
+/// Along X every so many nodes may be taken that no sampled row depends on, and across.
 const BETWEEN: usize = 5;
+const BESIDE: usize = 3;
 
 /// Weights of the mid-film stress at few nodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,13 +30,11 @@ impl TractionRule {
     /// `None` when there are too few solutions, or the fit fails.
     pub fn fit(window: &Window, stresses: &[Vec<f64>]) -> Option<Self> {
         let quadrature = quadrature(&window.grid);
-        let between = match window.grid.kind() {
-            ContactKind::Line => quadrature.len(),
-            ContactKind::Point => 0,
-        };
+        let (_, across) = window.grid.nodes();
+        let between = |node: &usize| node / across % BETWEEN == 0 && node % across % BESIDE == 0;
         let of_rows = window.sampled_rows.iter().flat_map(|&row| window.grid.row(row).0);
-        let candidates = of_rows.chain((0..between).step_by(BETWEEN)).filter(|&node| quadrature[node] > 0.0);
-        let mut candidates: Vec<usize> = candidates.collect();
+        let of_grid = (0..quadrature.len()).filter(between);
+        let mut candidates: Vec<usize> = of_rows.chain(of_grid).filter(|&node| quadrature[node] > 0.0).collect();
         candidates.sort_unstable();
         candidates.dedup();
         let mut equations = GoalEquations::new(candidates);
@@ -84,7 +81,7 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
     use crate::solver::full::{ContactSolver, Start};
-    use crate::solver::physics::contact::{MoesRequest, OperatingPoint, Sliding, si_from_moes};
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
 
     #[test]

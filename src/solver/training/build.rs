@@ -14,7 +14,7 @@ use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    CIRCLES, Combined, Domain, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes,
+    CIRCLES, Combined, Domain, Keeping, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes,
     SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
 };
 use faer::Mat;
@@ -245,8 +245,11 @@ impl<'a> WindowTraining<'a> {
         let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.in_common.clone());
         let cavitation = spec.lubricant.cavitation;
         let ratio = window.radius_ratio.unwrap_or(spec.domain().radius_ratio);
+        let (anchored, shapes) = (anchor(window).is_some(), ratio != CIRCLES);
+        let keeping = Keeping { kind: grid.kind(), anchored, heat: spec.range.heats(), shapes };
         let mut model = on_one_thread(*observer, move || {
-            let (pressure, deformation, mut snapshots) = bases((losses, most), positive, &grid, &solutions, shared)?;
+            let limits = (losses, most, keeping.accuracy());
+            let (pressure, deformation, mut snapshots) = bases(limits, positive, &grid, &solutions, shared)?;
             if cavitation == Cavitation::Complementarity {
                 for (snapshot, solution) in snapshots.iter_mut().zip(&solutions) {
                     snapshot.fronts = fronts(&grid, |node| solution.pressure[node]);
@@ -303,9 +306,10 @@ fn without_solution(point: &OperatingPoint) -> String {
 }
 
 /// POD of pressures, of max(P, 0) where modes are to be `positive`, and of deformations, each up to a loss of
-/// information and a number of modes, unless they are `in_common` with other windows; and the snapshots in the pressure basis.
+/// information and a number of modes, as they are kept, unless they are `in_common` with other windows; and the snapshots in
+/// the pressure basis.
 fn bases(
-    ([pressure_loss, deformation_loss], most): ([f64; 2], usize),
+    ([pressure_loss, deformation_loss], most, accuracy): ([f64; 2], usize, f64),
     positive: bool,
     grid: &ContactGrid,
     solutions: &[Solved],
@@ -319,7 +323,10 @@ fn bases(
     let (shared, deformation) = in_common.map_or((None, None), |own| (own.pressure, Some(own.deformation)));
     let pressure = match shared {
         Some(shared) => Combined::of(&shared, &pressures, weights, (pressure_loss, most))?,
-        None => PressureModes::own(PodBasis::new(pressures.as_ref(), weights, pressure_loss)?.cut(most), grid),
+        None => {
+            let basis = PodBasis::new(pressures.as_ref(), weights, pressure_loss)?.cut(most);
+            PressureModes::own(basis.kept(accuracy), grid)
+        }
     };
     let deformation = match deformation {
         Some(deformation) => deformation,

@@ -1,0 +1,126 @@
+//! To what precision the modes of a model are kept.
+//!
+//! A file has a mode's values as multiples of a power of two, one for each node times one for each mode: a mode that hardly
+//! appears in any solution needs few digits, and a node where pressures are small as many as any other, since the mobility
+//! of thick films multiplies what is lost there. Modes are rounded to these before rows are chosen and errors measured, so
+//! that a model that was trained and one that is read are the same, and bounds are those of both.
+
+use super::pod::PodBasis;
+use crate::solver::physics::contact::ContactKind;
+use faer::Mat;
+
+/// Modes are kept as if none were rarer than this, relative to the first one.
+const RAREST: f64 = 1e-5;
+/// Fields are nowhere kept as if they were smaller than this, relative to their largest value.
+const SMALLEST: f64 = 1e-30;
+
+/// What decides how exactly the modes of a window are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Keeping {
+    /// Line or point contacts.
+    pub kind: ContactKind,
+    /// Whether it is one of many windows around anchors.
+    pub anchored: bool,
+    /// Whether it knows heat.
+    pub heat: bool,
+    /// Whether it knows ellipses.
+    pub shapes: bool,
+}
+
+impl Keeping {
+    /// Accuracy of pressures at every node, relative to their own size there.
+    pub fn accuracy(self) -> f64 {
+        match self.kind {
+            // Temperatures are not known to more.
+            ContactKind::Line if self.anchored && self.heat => 1e-10,
+            // These have dozens of windows, and thin films under heavy loads: at 1e-8 Newtonian ones lost more than their
+            // modes miss, at 1e-10 sliding ones up to a tenth of the film, at 1e-11 nothing of it.
+            ContactKind::Line if self.anchored => 1e-11,
+            ContactKind::Line => 1e-13,
+            // Their modes miss ten times more: here films are off by 1e-4 (95 of 100), 7e-4 at most; at 1e-7 by 4e-3.
+            ContactKind::Point if self.anchored => 3e-8,
+            // These have many windows, and K V is interpolated over the shapes: 4e-4 and 2e-3.
+            ContactKind::Point if self.shapes => 5e-7,
+            // 1e-4 and 2e-4.
+            ContactKind::Point => 1e-7,
+        }
+    }
+}
+
+/// The multiples that columns over nodes are kept as: 2^(exponent of the row + exponent of the column).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Multiples {
+    /// None where no column has a value worth the name.
+    pub rows: Vec<Option<i16>>,
+    /// Of each column.
+    pub columns: Vec<i16>,
+}
+
+impl Multiples {
+    /// Those that keep columns to `accuracy` relative to the size Σ_k (scale_k V_ik)² of each row.
+    pub fn of(matrix: &Mat<f64>, scales: &[f64], accuracy: f64) -> Self {
+        let size = |i: usize| scales.iter().enumerate().map(|(k, s)| (s * matrix[(i, k)]).powi(2)).sum::<f64>().sqrt();
+        let sizes: Vec<f64> = (0..matrix.nrows()).map(size).collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let exponent = |step: f64| step.log2().floor() as i16;
+        let rows = sizes.iter().map(|size| (*size > SMALLEST * largest).then(|| exponent(*size)));
+        Self { rows: rows.collect(), columns: scales.iter().map(|scale| exponent(accuracy / scale)).collect() }
+    }
+
+    fn nearest(&self, matrix: &Mat<f64>) -> Mat<f64> {
+        Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, k| match self.rows[i] {
+            Some(row) => {
+                let step = f64::from(row).exp2() * f64::from(self.columns[k]).exp2();
+                step * (matrix[(i, k)] / step).round()
+            }
+            None => 0.0,
+        })
+    }
+}
+
+impl PodBasis {
+    /// How large each mode's share in the snapshots is, root mean square: σ_k over the root of their number.
+    pub fn scales(&self) -> Vec<f64> {
+        let sigma = &self.singular_values;
+        let (largest, count) = (sigma.first().copied().unwrap_or(1.0).max(f64::MIN_POSITIVE), sigma.len() as f64);
+        sigma.iter().take(self.modes.ncols()).map(|s| s.max(RAREST * largest) / count.sqrt()).collect()
+    }
+
+    /// The same with its modes as they are kept: what each one loses changes the fields of the snapshots by `accuracy` of
+    /// their size at every node at most (both as root mean squares over the snapshots).
+    pub fn kept(self, accuracy: f64) -> Self {
+        let multiples = Multiples::of(&self.modes, &self.scales(), accuracy);
+        Self { modes: multiples.nearest(&self.modes), ..self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_is_kept_when_it_is_kept_again_and_fields_change_by_the_accuracy() {
+        let pressure = |k: usize, i: usize| {
+            let x = 0.02 * i as f64 - 1.2 - 0.01 * k as f64;
+            if x < 0.0 { 1e-6 * (4.0 * x).exp() } else { x * (-x * (1.0 + 0.1 * k as f64)).exp() }
+        };
+        let pressures = Mat::from_fn(300, 24, |i, k| if i < 4 { 0.0 } else { pressure(k, i) });
+        let basis = PodBasis::new(pressures.as_ref(), &[0.02; 300], 1e-9).unwrap().cut(12);
+        for accuracy in [1e-5, 1e-8, 1e-11] {
+            let kept = basis.clone().kept(accuracy);
+            assert!(kept.modes.row(2).iter().all(|v| *v == 0.0) && kept.modes != basis.modes);
+            let again = kept.clone().kept(accuracy);
+            assert!((&again.modes - &kept.modes).norm_max() <= accuracy * kept.modes.norm_max());
+            for k in 0..24 {
+                let made = |basis: &PodBasis, i: usize| -> f64 {
+                    let of = basis.coefficients(&[0.02; 300], |i| pressures[(i, k)]);
+                    of.iter().enumerate().map(|(m, c)| c * basis.modes[(i, m)]).sum()
+                };
+                for i in [10, 59, 61, 100, 250] {
+                    let (one, other, own) = (made(&kept, i), made(&basis, i), pressures[(i, k)]);
+                    assert!((one - other).abs() < 30.0 * accuracy * own.abs(), "{accuracy:e} {k} {i}: {one} {other}");
+                }
+            }
+        }
+    }
+}
