@@ -31,7 +31,7 @@ impl TractionRule {
     pub fn fit(window: &Window, stresses: &[Vec<f64>]) -> Option<Self> {
         let quadrature = quadrature(&window.grid);
         let (_, across) = window.grid.nodes();
-        let between = |node: &usize| node / across % BETWEEN == 0 && node % across % BESIDE == 0;
+        let between = |node: &usize| (node / across).is_multiple_of(BETWEEN) && (node % across).is_multiple_of(BESIDE);
         let of_rows = window.sampled_rows.iter().flat_map(|&row| window.grid.row(row).0);
         let of_grid = (0..quadrature.len()).filter(between);
         let mut candidates: Vec<usize> = of_rows.chain(of_grid).filter(|&node| quadrature[node] > 0.0).collect();
