@@ -127,7 +127,8 @@ impl StoredMatrix {
     /// each row.
     pub fn stepped(matrix: &Mat<f64>, across: usize, scales: &[f64], accuracy: f64) -> Self {
         let (rows, columns) = (matrix.nrows(), matrix.ncols());
-        let Multiples { rows: exponents, columns: column_exponents } = Multiples::of(matrix, scales, accuracy);
+        let (multiples, matrix) = Multiples::keep(matrix.clone(), scales, accuracy);
+        let Multiples { rows: exponents, columns: column_exponents } = multiples;
         let used: Vec<bool> = exponents.iter().map(Option::is_some).collect();
         let row_exponents: Vec<i16> = exponents.into_iter().flatten().collect();
         let lattice = Lattice::new(&used, across, &row_exponents);
