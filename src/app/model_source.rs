@@ -9,7 +9,8 @@ use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
 /// The models that are read when they are first asked for: not everybody has ellipses, heat or oils that thin.
-const LATE: [Embedded; 4] = [Embedded::Ellipse, Embedded::HeatedLine, Embedded::HeatedCircle, Embedded::EyringLine];
+const LATE: [Embedded; 5] =
+    [Embedded::Ellipse, Embedded::HeatedLine, Embedded::HeatedCircle, Embedded::EyringLine, Embedded::EyringCircle];
 
 /// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
 #[derive(Clone, Default)]
@@ -167,6 +168,28 @@ mod tests {
             models.of(&ellipse, &oil).unwrap().of_ellipses() && Arc::ptr_eq(models.of(&circle, &oil).unwrap(), &round)
         );
         assert_eq!(Models::only(None).late_for(&ellipse, &oil), None);
+    }
+
+    #[test]
+    fn models_of_oils_that_thin_by_eyrings_law_are_read_late_and_know_the_first_contacts() {
+        let store = Store::default();
+        let mut models = Models::embedded(&store);
+        let shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
+        let oil = Lubricant { shear, ..Document::default().lubricant };
+        let mut ball = Document::default();
+        ball.set_shape(Shape::Ball).unwrap();
+        for (home, wanted) in [(Document::default().point, Embedded::EyringLine), (ball.point, Embedded::EyringCircle)]
+        {
+            assert_eq!(models.late_for(&home, &oil), Some(wanted));
+            let model = store.embedded(wanted).unwrap();
+            assert!(models.put(Arc::clone(&model)).is_none() && Arc::ptr_eq(models.of(&home, &oil).unwrap(), &model));
+            for srr in [0.0, 0.1, 1.0] {
+                let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: None };
+                let point = OperatingPoint { sliding, ..home };
+                let trust = model.trust(&Problem::new(&point, oil).unwrap());
+                assert_eq!(trust, Trust::Trained, "{wanted:?} at SRR {srr}");
+            }
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 #![allow(clippy::indexing_slicing, reason = "the table's own sizes and points")]
 
 mod heat;
+mod sliding;
 
 pub use heat::HEAT_BASELINE;
 
@@ -125,6 +126,8 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     }
     let names = ["line/shear/reduced", "line/shear/traction-curve"];
     rows.extend(bench.reduced_shear_rows(names, ContactKind::Line, size)?);
+    let names = ["line/sliding/reduced", "line/sliding/reduced/fields", "line/sliding/reduced/1e-3"];
+    rows.extend(sliding::rows(&mut bench, ContactKind::Line, names, size)?);
     bench.add(rows, BASELINE);
     bench.add(transient_rows(size)?, TRANSIENT_BASELINE);
     let rows = heat::rows(&mut bench, size)?;
@@ -145,6 +148,9 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     }
     let names = ["point/shear/reduced", "point/shear/traction-curve"];
     rows.extend(bench.reduced_shear_rows(names, ContactKind::Point, size)?);
+    let names = ["point/sliding/reduced", "point/sliding/reduced/fields", "point/sliding/reduced/1e-3"];
+    rows.extend(sliding::rows(&mut bench, ContactKind::Point, names, size)?);
+    rows.extend(heat::balls(&mut bench, size)?);
     bench.add(rows, POINT_BASELINE);
     Ok(bench)
 }

@@ -28,11 +28,13 @@ pub enum Embedded {
     HeatedCircle,
     /// Line contacts of oils that thin by Eyring's law: `scenes/training/line_sliding_oils.ron`.
     EyringLine,
+    /// Circular contacts of oils that thin by Eyring's law: `scenes/training/point_sliding_oils.ron`.
+    EyringCircle,
 }
 
 impl Embedded {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Line,
         Self::ThinningLine,
         Self::Circle,
@@ -41,6 +43,7 @@ impl Embedded {
         Self::HeatedLine,
         Self::HeatedCircle,
         Self::EyringLine,
+        Self::EyringCircle,
     ];
 
     /// The one of a kind of contact, circular where it is one of points, and of a lubricant that thins under shear by
@@ -51,7 +54,8 @@ impl Embedded {
             (ContactKind::Line, ShearLaw::Eyring { .. }) => Self::EyringLine,
             (ContactKind::Line, ShearLaw::Carreau { .. } | ShearLaw::Ellis { .. }) => Self::ThinningLine,
             (ContactKind::Point, ShearLaw::Newtonian) => Self::Circle,
-            (ContactKind::Point, _) => Self::ThinningCircle,
+            (ContactKind::Point, ShearLaw::Eyring { .. }) => Self::EyringCircle,
+            (ContactKind::Point, ShearLaw::Carreau { .. } | ShearLaw::Ellis { .. }) => Self::ThinningCircle,
         }
     }
 
@@ -84,6 +88,7 @@ impl Embedded {
             Self::HeatedLine => include_bytes!("../../assets/line_heat.rom"),
             Self::HeatedCircle => include_bytes!("../../assets/point_heat.rom"),
             Self::EyringLine => include_bytes!("../../assets/line_sliding.rom"),
+            Self::EyringCircle => include_bytes!("../../assets/point_sliding.rom"),
         }
     }
 
@@ -155,7 +160,8 @@ mod tests {
         let line = si_from_moes(&MoesRequest::new(ContactKind::Line, 50.0, 5.0)).unwrap();
         assert_eq!(Embedded::of(&line, &SQUALANE_PIP), Embedded::ThinningLine);
         let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..oil };
-        assert_eq!(Embedded::of(&line, &eyring), Embedded::EyringLine);
+        let of_eyring = [line, circle, ellipse].map(|point| Embedded::of(&point, &eyring));
+        assert_eq!(of_eyring, [Embedded::EyringLine, Embedded::EyringCircle, Embedded::EyringCircle]);
         let warm = Lubricant { heat: Some(Heat::default()), ..oil };
         let [of_line, of_circle, of_ellipse] = [line, circle, ellipse].map(|point| Embedded::of(&point, &warm));
         assert_eq!([of_line, of_circle], [Embedded::HeatedLine, Embedded::HeatedCircle]);

@@ -10,4 +10,5 @@ mod ellipses;
 mod heat;
 mod in_time;
 mod readme;
+mod sliding;
 mod take_away;

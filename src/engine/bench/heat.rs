@@ -1,6 +1,6 @@
-//! Line contacts with heat in the speed table.
+//! Contacts with heat in the speed table.
 
-use super::{Bench, CURVES, EngineError, ROW_BUDGET, Timing, cold_and_warm, curve_row, reduced_row};
+use super::{Bench, CURVES, EngineError, POINT_BUDGET, ROW_BUDGET, Timing, cold_and_warm, curve_row, reduced_row};
 use crate::engine::Embedded;
 use crate::engine::model_file::ModelFileError;
 use crate::engine::store::Store;
@@ -33,7 +33,10 @@ const RANGE: HeatedRange = HeatedRange {
     max_hertz_pressure: 1.4e9,
 };
 
-/// Solves in full, cold and from the nearest other solution, reduced ones with H_c, traction and temperatures, and whole
+/// Steel balls in one oil, up to 3 m/s of sliding.
+const BALLS: HeatedRange = HeatedRange { m: (15.0, 120.0), max_hertz_pressure: 1.8e9, ..RANGE };
+
+/// Solves of lines in full, cold and from the nearest other solution, reduced ones with H_c, traction and temperatures, and whole
 /// traction curves; a note where there is no model.
 pub(super) fn rows(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, EngineError> {
     let missing = |reason: &ModelFileError| bench.notes.push(format!("{HEAT_BASELINE} is missing: {reason}"));
@@ -52,4 +55,16 @@ pub(super) fn rows(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, Engine
     let curves = (points.get(..CURVES[size]).unwrap_or(&points), lubricant);
     rows.push(curve_row("line/heat/traction-curve", &mut online, curves, ROW_BUDGET[size])?);
     Ok(rows)
+}
+
+/// Reduced solves of balls with H_c, traction and temperatures; a note where there is no model.
+pub(super) fn balls(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, EngineError> {
+    const NAME: &str = "point/heat/reduced";
+    let missing = |reason: &ModelFileError| bench.notes.push(format!("{NAME} is missing: {reason}"));
+    let model = Store::default().embedded(Embedded::HeatedCircle).inspect_err(missing);
+    let Ok(model) = model else { return Ok(Vec::new()) };
+    let lubricant = model.domain.lubricant;
+    let points = random_points(&Range::Heated(BALLS), ContactKind::Point, REDUCED_POINTS[size], SEED);
+    let mut online = Online::new(model, ReducedOptions::default());
+    Ok(vec![reduced_row(NAME, &mut online, (&points, lubricant), false, POINT_BUDGET[size])?])
 }

@@ -1,0 +1,50 @@
+//! Sliding contacts of oils that thin by Eyring's law in the speed table.
+
+use super::{Bench, EngineError, POINT_BUDGET, REDUCED_SHEAR_POINTS, Timing, reduced_row};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::solver::reduced::{Online, ReducedOptions};
+use crate::solver::training::{OilRange, Range, SlidingOilRange, random_points};
+use std::sync::Arc;
+
+const SEED: u64 = 2028;
+
+/// Oils and steel bodies of bearings and gears.
+const RANGE: SlidingOilRange = SlidingOilRange {
+    oils: OilRange {
+        m: (15.0, 250.0),
+        l: (1.0, 14.0),
+        alpha: (8e-9, 30e-9),
+        viscosity: (0.002, 0.5),
+        exponent: (0.18, 1.1),
+        hertz_pressure: (0.3e9, 2.5e9),
+        thinnest_film: 0.015,
+    },
+    srr: (0.0, 1.0),
+    modulus: (200e9, 240e9),
+    limit_slope: (0.03, 0.12),
+    gradient_stress: 5e6,
+};
+
+/// Reduced solves with H_c and traction, with all fields, and without these ended at a relative step of 1e-3; a note where
+/// there is no model.
+pub(super) fn rows(
+    bench: &mut Bench,
+    kind: ContactKind,
+    [scalars, fields, swift]: [&'static str; 3],
+    size: usize,
+) -> Result<Vec<Timing>, EngineError> {
+    let shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
+    let Some(mut online) = bench.online(scalars, kind, shear) else { return Ok(Vec::new()) };
+    let lubricant = Lubricant { shear, ..Lubricant::default() };
+    let points = random_points(&Range::SlidingOils(RANGE), kind, REDUCED_SHEAR_POINTS[size], SEED);
+    let contacts = (points.as_slice(), lubricant);
+    let mut rows = Vec::with_capacity(3);
+    for (name, fields) in [(scalars, false), (fields, true)] {
+        rows.push(reduced_row(name, &mut online, contacts, fields, POINT_BUDGET[size])?);
+    }
+    let options = ReducedOptions { tolerance: 1e-3, ..ReducedOptions::default() };
+    let mut online = Online::new(Arc::clone(&online.model), options);
+    rows.push(reduced_row(swift, &mut online, contacts, false, POINT_BUDGET[size])?);
+    Ok(rows)
+}

@@ -1,0 +1,37 @@
+//! Sliding oils that thin by Eyring's law, by the command line.
+
+use crate::commands::{json, program};
+
+const OIL: [&str; 6] = ["--shear", "eyring", "--shear-stress", "5e6", "--limiting-stress", "5e6,0.05"];
+
+#[test]
+fn rollers_and_balls_of_an_oil_that_thins_are_served_by_models_of_the_program() {
+    for contact in ["line", "point"] {
+        for srr in ["0.02", "0.6"] {
+            let at = ["solve", "--json", "--contact", contact, "--moes-m", "60", "--moes-l", "7", "--srr", srr];
+            let asked = [&at[..], &OIL].concat();
+            let reduced = json(&program(&[&asked[..], &["--method", "reduced"]].concat()));
+            assert_eq!((reduced.get("warning"), reduced.get("trained")), (None, Some(&true.into())), "{contact}");
+            let full = json(&program(&[&asked[..], &["--grid", "model"]].concat()));
+            let value = |object: &serde_json::Value, name: &str| object[name].as_f64().unwrap();
+            for (name, within) in [("H_c", 1e-2), ("H_min", 3e-2), ("traction", 2e-2)] {
+                let error = (value(&reduced, name) / value(&full, name) - 1.0).abs();
+                assert!(error < within, "{contact} at SRR {srr}: {name} is off by {error:e}");
+            }
+            let [bound, error] =
+                [value(&reduced, "h_c_error_bound"), value(&reduced, "H_c") / value(&full, "H_c") - 1.0];
+            assert!(error.abs() < bound && bound < 0.05, "{contact} at SRR {srr}: {error:e} of {bound:e}");
+        }
+    }
+}
+
+#[test]
+fn a_stress_that_was_not_trained_and_an_ellipse_that_thins_are_told() {
+    let at = ["solve", "--json", "--method", "reduced", "--contact", "point", "--moes-m", "60", "--moes-l", "7"];
+    let weak = json(&program(&[&at[..], &["--shear", "eyring", "--shear-stress", "5e4"]].concat()));
+    let told = weak["warning"].as_str().unwrap();
+    assert!(told.contains("shears it by") || told.contains("Eyring stress"), "{told}");
+    let ellipse = program(&[&at[..], &OIL, &["--radius-y", "0.02"]].concat());
+    let said = String::from_utf8(ellipse.stderr).unwrap();
+    assert!(!ellipse.status.success() && said.contains("circular contacts only"), "{said}");
+}
