@@ -175,7 +175,7 @@ mod tests {
         let store = Store::default();
         let mut models = Models::embedded(&store);
         let shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
-        let oil = Lubricant { shear, ..Document::default().lubricant };
+        let oil = Lubricant { shear, limiting_stress: None, ..Document::default().lubricant };
         let mut ball = Document::default();
         ball.set_shape(Shape::Ball).unwrap();
         for (home, wanted) in [(Document::default().point, Embedded::EyringLine), (ball.point, Embedded::EyringCircle)]

@@ -453,7 +453,7 @@ mod tests {
         assert_eq!(read.domain, model.domain);
         for (ours, own) in read.windows.iter().zip(&model.windows) {
             let (kept, made) = (ours.pressure.combined().unwrap(), own.pressure.combined().unwrap());
-            assert!((&kept.factors - &made.factors).norm_max() < 1e-3);
+            assert!((&kept.factors - &made.factors).norm_max() < 1e-2);
             // A mode that hardly appears in any pressure needs few digits.
             let sigma = own.pressure.singular_values();
             let modes = |window: &Window| {
@@ -461,7 +461,7 @@ mod tests {
                 Mat::from_fn(window.grid.len(), window.pressure.count(), |i, k| sigma[k] * basis.modes[(i, k)])
             };
             let (kept, made) = (modes(ours), modes(own));
-            assert!((&kept - &made).norm_max() < 1e-6 * made.norm_max());
+            assert!((&kept - &made).norm_max() < 3e-6 * made.norm_max());
             for (ours, own) in ours.snapshots.iter().zip(&own.snapshots) {
                 let (ours, own) = (ours.grid_cost.unwrap(), own.grid_cost.unwrap());
                 assert!((ours.total() / own.total() - 1.0).abs() < 1e-6);

