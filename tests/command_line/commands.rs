@@ -249,10 +249,10 @@ fn a_grid_that_does_not_do_is_said_and_the_default_one_does() {
     }
 }
 
-/// M = 0.1 lies far outside the embedded model, whose bases hold no such contact.
+/// M = 0.06 lies far outside the embedded model, whose bases hold no such contact.
 #[test]
 fn where_a_reduced_model_fails_the_full_solver_takes_over_and_says_so() {
-    let answer = json(&program(&["solve", "--json", "--method", "reduced", "--moes-m", "0.1", "--moes-l", "10"]));
+    let answer = json(&program(&["solve", "--json", "--method", "reduced", "--moes-m", "0.06", "--moes-l", "5"]));
     assert_eq!((&answer["method"], &answer["converged"]), (&"full".into(), &true.into()), "{answer}");
     let warning = answer["warning"].as_str().unwrap();
     assert!(warning.contains("the full solver took over") && answer["H_min"].as_f64().unwrap() > 0.0, "{warning}");
