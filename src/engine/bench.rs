@@ -19,7 +19,7 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
-use crate::solver::reduced::{Online, ReducedOptions, distance, traction_curve};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, distance, traction_curve};
 use crate::solver::training::{LocalBases, Range, TrajectoryTraining, random_points, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
@@ -137,14 +137,8 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     if let Some(mut online) = bench.online("point/reduced", ContactKind::Point, ShearLaw::Newtonian) {
         let range = Range::Box(QuantityBox::TABLE_3_4);
         let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
-        for (name, fields) in [("point/reduced", false), ("point/reduced/fields", true)] {
-            rows.push(reduced_row(name, &mut online, (&points, lubricant), fields, POINT_BUDGET[size])?);
-        }
-        // What stops at a thousandth is as far from the full solution.
-        let options = ReducedOptions { tolerance: 1e-3, ..ReducedOptions::default() };
-        let mut online = Online::new(Arc::clone(&online.model), options);
-        let points = (points.as_slice(), lubricant);
-        rows.push(reduced_row("point/reduced/1e-3", &mut online, points, false, POINT_BUDGET[size])?);
+        let names = ["point/reduced", "point/reduced/fields", "point/reduced/1e-3"];
+        rows.extend(reduced_rows(names, &mut online, (&points, lubricant), POINT_BUDGET[size])?);
     }
     let names = ["point/shear/reduced", "point/shear/traction-curve"];
     rows.extend(bench.reduced_shear_rows(names, ContactKind::Point, size)?);
@@ -175,11 +169,16 @@ impl Bench {
         Ok(vec![solves, curve_row(curve, &mut online, curves, POINT_BUDGET[size])?])
     }
 
-    /// The embedded model of a row; a note where there is none.
+    /// What solves with the embedded model of a row; a note where there is none.
     fn online(&mut self, row: &str, kind: ContactKind, shear: ShearLaw) -> Option<Online> {
-        let model = Store::default().embedded(Embedded::of_kind(kind, shear));
+        let model = self.model(row, Embedded::of_kind(kind, shear));
+        model.map(|model| Online::new(model, ReducedOptions::default()))
+    }
+
+    /// The embedded model of a row; a note where there is none.
+    fn model(&mut self, row: &str, which: Embedded) -> Option<Arc<ReducedModel>> {
         let missing = |reason: &ModelFileError| self.notes.push(format!("{row} is missing: {reason}"));
-        model.inspect_err(missing).ok().map(|model| Online::new(model, ReducedOptions::default()))
+        Store::default().embedded(which).inspect_err(missing).ok()
     }
 
     /// Adds rows that are compared with the first of them.
@@ -311,6 +310,23 @@ fn reduced_row(
             solved => solved.is_ok(),
         })
     })
+}
+
+/// Reduced solves with their scalars, with all fields, and without these ended at a relative step of 1e-3: what stops there
+/// is as far from the full solution.
+fn reduced_rows(
+    [scalars, fields, swift]: [&'static str; 3],
+    online: &mut Online,
+    contacts: (&[OperatingPoint], Lubricant),
+    budget: Duration,
+) -> Result<[Timing; 3], EngineError> {
+    let options = ReducedOptions { tolerance: 1e-3, ..ReducedOptions::default() };
+    let mut ended_early = Online::new(Arc::clone(&online.model), options);
+    Ok([
+        reduced_row(scalars, online, contacts, false, budget)?,
+        reduced_row(fields, online, contacts, true, budget)?,
+        reduced_row(swift, &mut ended_early, contacts, false, budget)?,
+    ])
 }
 
 /// Whole traction curves over SRR by a reduced model, one for the speed, load and plateau ratio of each point.

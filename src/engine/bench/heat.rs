@@ -2,8 +2,6 @@
 
 use super::{Bench, CURVES, EngineError, POINT_BUDGET, ROW_BUDGET, Timing, cold_and_warm, curve_row, reduced_row};
 use crate::engine::Embedded;
-use crate::engine::model_file::ModelFileError;
-use crate::engine::store::Store;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{FullSolver, Problem};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -36,11 +34,10 @@ const RANGE: HeatedRange = HeatedRange {
 /// Steel balls in one oil, up to 3 m/s of sliding.
 const BALLS: HeatedRange = HeatedRange { m: (15.0, 120.0), max_hertz_pressure: 1.8e9, ..RANGE };
 
-/// Solves of lines in full, cold and from the nearest other solution, reduced ones with H_c, traction and temperatures, and whole
-/// traction curves; a note where there is no model.
+/// Solves of lines in full, cold and from the nearest other solution, reduced ones with H_c, traction and temperatures, and
+/// whole traction curves; a note where there is no model.
 pub(super) fn rows(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, EngineError> {
-    let missing = |reason: &ModelFileError| bench.notes.push(format!("{HEAT_BASELINE} is missing: {reason}"));
-    let Ok(model) = Store::default().embedded(Embedded::HeatedLine).inspect_err(missing) else { return Ok(Vec::new()) };
+    let Some(model) = bench.model(HEAT_BASELINE, Embedded::HeatedLine) else { return Ok(Vec::new()) };
     let (lubricant, spec) = (model.domain.lubricant, GRID);
     let mut solver = FullSolver::new(spec)?;
     let points = random_points(&Range::Heated(RANGE), ContactKind::Line, REDUCED_POINTS[size], SEED);
@@ -60,9 +57,7 @@ pub(super) fn rows(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, Engine
 /// Reduced solves of balls with H_c, traction and temperatures; a note where there is no model.
 pub(super) fn balls(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, EngineError> {
     const NAME: &str = "point/heat/reduced";
-    let missing = |reason: &ModelFileError| bench.notes.push(format!("{NAME} is missing: {reason}"));
-    let model = Store::default().embedded(Embedded::HeatedCircle).inspect_err(missing);
-    let Ok(model) = model else { return Ok(Vec::new()) };
+    let Some(model) = bench.model(NAME, Embedded::HeatedCircle) else { return Ok(Vec::new()) };
     let lubricant = model.domain.lubricant;
     let points = random_points(&Range::Heated(BALLS), ContactKind::Point, REDUCED_POINTS[size], SEED);
     let mut online = Online::new(model, ReducedOptions::default());

@@ -1,11 +1,9 @@
 //! Sliding contacts of oils that thin by Eyring's law in the speed table.
 
-use super::{Bench, EngineError, POINT_BUDGET, REDUCED_SHEAR_POINTS, Timing, reduced_row};
+use super::{Bench, EngineError, POINT_BUDGET, REDUCED_SHEAR_POINTS, Timing, reduced_rows};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
-use crate::solver::reduced::{Online, ReducedOptions};
 use crate::solver::training::{OilRange, Range, SlidingOilRange, random_points};
-use std::sync::Arc;
 
 const SEED: u64 = 2028;
 
@@ -31,20 +29,12 @@ const RANGE: SlidingOilRange = SlidingOilRange {
 pub(super) fn rows(
     bench: &mut Bench,
     kind: ContactKind,
-    [scalars, fields, swift]: [&'static str; 3],
+    names: [&'static str; 3],
     size: usize,
 ) -> Result<Vec<Timing>, EngineError> {
     let shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
-    let Some(mut online) = bench.online(scalars, kind, shear) else { return Ok(Vec::new()) };
+    let Some(mut online) = bench.online(names[0], kind, shear) else { return Ok(Vec::new()) };
     let lubricant = Lubricant { shear, ..Lubricant::default() };
     let points = random_points(&Range::SlidingOils(RANGE), kind, REDUCED_SHEAR_POINTS[size], SEED);
-    let contacts = (points.as_slice(), lubricant);
-    let mut rows = Vec::with_capacity(3);
-    for (name, fields) in [(scalars, false), (fields, true)] {
-        rows.push(reduced_row(name, &mut online, contacts, fields, POINT_BUDGET[size])?);
-    }
-    let options = ReducedOptions { tolerance: 1e-3, ..ReducedOptions::default() };
-    let mut online = Online::new(Arc::clone(&online.model), options);
-    rows.push(reduced_row(swift, &mut online, contacts, false, POINT_BUDGET[size])?);
-    Ok(rows)
+    Ok(reduced_rows(names, &mut online, (&points, lubricant), POINT_BUDGET[size])?.into())
 }
