@@ -34,6 +34,9 @@ pub enum Order {
 /// Nodes evaluated by one task: a film integral takes as long as some hundred Newtonian nodes.
 const SHARE: [usize; 2] = [2048, 32];
 
+/// Nodes whose laws are evaluated at once.
+const AT_ONCE: usize = 16;
+
 /// Nodes as the rows see them; a slice of [`Node`].
 #[derive(Clone, Debug)]
 pub struct Nodes {
@@ -130,11 +133,14 @@ impl Nodes {
 
     /// Evaluates a part of the nodes of (P, H), of a Newtonian lubricant.
     pub fn evaluate_part(&mut self, laws: &Laws<'_>, part: Range<usize>, (pressure, film): (&[f64], &[f64])) {
-        let states = pressure[part.clone()].iter().zip(&film[part.clone()]);
-        let ruptured = laws.fluid.at(0.0);
-        for (node, (&p, &h)) in self.nodes[part].iter_mut().zip(states) {
-            let state = if p == 0.0 { ruptured } else { laws.fluid.at(p) };
-            *node = Node::of_state(&state, laws.inverse_lambda, p, h);
+        let states = pressure[part.clone()].chunks(AT_ONCE).zip(film[part.clone()].chunks(AT_ONCE));
+        for (nodes, (pressures, films)) in self.nodes[part].chunks_mut(AT_ONCE).zip(states) {
+            let mut several = [0.0; AT_ONCE];
+            several[..pressures.len()].copy_from_slice(pressures);
+            let fluid = laws.fluid.at_all(&several);
+            for (node, (state, (&p, &h))) in nodes.iter_mut().zip(fluid.iter().zip(pressures.iter().zip(films))) {
+                *node = Node::of_state(state, laws.inverse_lambda, p, h);
+            }
         }
     }
 

@@ -14,7 +14,11 @@ use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, moes_fi
 use crate::solver::physics::lubricant::roelands_exponent;
 
 /// How much farther than the nearest anchor, in ln M and ln L, another one may be to be blended in.
-pub(crate) const BLENDED: f64 = 0.1;
+const BLENDED: f64 = 0.05;
+
+/// How much farther contacts of its training may lie: a window knows more than it is asked for, so that nothing is
+/// extrapolated where it is blended.
+pub(crate) const BEYOND_CELLS: f64 = 0.1;
 
 /// Where a contact lies among those of many oils: the first numbers tell them apart, the others are zero.
 pub(crate) type OilPlace = [f64; 6];

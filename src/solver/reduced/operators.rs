@@ -5,6 +5,7 @@ mod heat;
 mod least_squares;
 mod newton;
 mod shaped;
+mod sums;
 mod support;
 
 pub(crate) use front::{cut_off, fronts, passed_rows};
@@ -77,6 +78,8 @@ struct Scratch {
     nodes: Nodes,
     values: Vec<f64>,
     jacobian_rows: Vec<f64>,
+    /// By the films of each row's nodes, and by all of them at once.
+    film_slopes: Vec<[f64; STENCIL]>,
     film_column: Vec<f64>,
     /// The reduced Jacobian, load row included, and the step.
     system: SmallSystem,
@@ -208,6 +211,7 @@ impl Operators {
                 nodes: Nodes::new(s, axes > 0),
                 values: vec![0.0; n],
                 jacobian_rows: vec![0.0; n * modes],
+                film_slopes: vec![[0.0; STENCIL]; n],
                 film_column: vec![0.0; n],
                 system: SmallSystem::new(size),
                 restraint: 0.0,

@@ -13,7 +13,7 @@ use super::{TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::SolveError;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{BLENDED, PodBasis, ReducedModel, SharedBasis, deformation_weights, from_anchor};
+use crate::solver::reduced::{BEYOND_CELLS, PodBasis, ReducedModel, SharedBasis, deformation_weights, from_anchor};
 use faer::Mat;
 use fastrand::Rng;
 use std::sync::Arc;
@@ -95,7 +95,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
         let ends = inside.iter().fold((f64::INFINITY, 0.0f64), |(low, high), m| (low.min(*m), high.max(*m)));
         let m = outward((ends.0.max(whole.m.0), ends.1.min(whole.m.1)));
         // Beyond where it is blended, so that nothing is extrapolated.
-        let near = pool.iter().zip(&places).filter(|(_, moes)| cell.holds(**moes, 2.0 * BLENDED));
+        let near = pool.iter().zip(&places).filter(|(_, moes)| cell.holds(**moes, 2.0 * BEYOND_CELLS));
         let own: Vec<Solved> = near.map(|(solved, _)| solved.clone()).collect();
         let window = WindowSpec { m, anchor: Some((anchor.m, anchor.l)), ..whole };
         state.windows.push(WindowState::new(window, seeds.u64(..), own));

@@ -4,7 +4,7 @@ use super::anchors::Cell;
 use super::range::{Unit, in_the_middle_but};
 use super::{QuantityBox, Range};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::reduced::{BLENDED, OilPlace, SHAPE_WEIGHT, apart, distance, oil_place};
+use crate::solver::reduced::{BEYOND_CELLS, OilPlace, SHAPE_WEIGHT, apart, distance, oil_place};
 use fastrand::Rng;
 use std::f64::consts::PI;
 
@@ -99,7 +99,7 @@ impl Within {
         let inside = |value: f64, (low, high): (f64, f64)| (low..=high).contains(&value);
         let wanted = |point: &OperatingPoint| {
             let moes = point.moes();
-            let served = self.cell.as_ref().is_none_or(|cell| cell.holds(moes, BLENDED));
+            let served = self.cell.as_ref().is_none_or(|cell| cell.holds(moes, BEYOND_CELLS));
             inside(moes.m, self.m) && inside(point.radius_ratio(), self.radius_ratio) && served
         };
         self.range.at(self.kind, unit).filter(wanted)

@@ -129,6 +129,12 @@ impl RowGeometry {
         Self { south: 1.0 / (south * cell), north: north.map_or(0.0, |h| 1.0 / (h * cell)), ..self }
     }
 
+    /// Whether it depends on the nodes at [`SOUTH`] and [`NORTH`].
+    #[inline]
+    pub fn reaches_across(&self) -> bool {
+        self.south != 0.0 || self.north != 0.0
+    }
+
     /// The row of a circle's grid on that of an ellipse with κ = b/a: distances across are κ times as long.
     #[inline]
     pub fn across_by(&self, kappa: f64) -> Self {

@@ -1,27 +1,51 @@
 //! Powers and hyperbolic sines of several numbers at once, by a logarithm and an exponential without branches and tables:
-//! loops over them run in vector registers.
+//! loops over them run in the widest vector registers that the machine has, and give the same numbers on any.
 //!
 //! The laws of a shear-thinning film take one or two at every point of the rule across it. Reductions and
 //! coefficients are those of fdlibm (Sun Microsystems 1993, `e_log.c`, `e_exp.c`); both functions are within 1e-15
 //! relative of the C library's where these do not vanish.
 
-/// Raises every x > 0 to a power. A slice, and a function of its own: unrolled over an array of twelve it would not run
-/// in vector registers.
-#[inline(never)]
+use pulp::{Arch, Simd, WithSimd};
+
+/// Raises every x > 0 to a power.
 pub(super) fn raise(values: &mut [f64], exponent: f64) {
-    for x in values.iter_mut() {
-        *x = exponent * ln(*x);
-    }
-    for x in values {
-        *x = exp(*x);
+    Arch::new().dispatch(Raise { values, exponent });
+}
+
+struct Raise<'a> {
+    values: &'a mut [f64],
+    exponent: f64,
+}
+
+impl WithSimd for Raise<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for x in self.values.iter_mut() {
+            *x = self.exponent * ln(*x);
+        }
+        for x in self.values {
+            *x = exp(*x);
+        }
     }
 }
 
 /// Raises e to every x.
-#[inline(never)]
 pub(super) fn exponentials(values: &mut [f64]) {
-    for x in values {
-        *x = exp(*x);
+    Arch::new().dispatch(Exponentials(values));
+}
+
+struct Exponentials<'a>(&'a mut [f64]);
+
+impl WithSimd for Exponentials<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for x in self.0 {
+            *x = exp(*x);
+        }
     }
 }
 
@@ -52,19 +76,40 @@ const RISE: [f64; 9] = [
 
 /// Makes every t in 0…700 t/sinh t, and its slopes t times the derivative of that by t, t/sinh t (1 − t coth t). Both are
 /// exact relative to themselves, near t = 0 too.
-#[inline(never)]
 pub(super) fn hyperbolic_sines(values: &mut [f64], slopes: &mut [f64]) {
-    let (least, most) = values.iter().fold((f64::INFINITY, 0.0f64), |(least, most), t| (least.min(*t), most.max(*t)));
-    let lanes = values.iter_mut().zip(slopes);
-    // Loops without a branch: most films lie on one side.
-    if most < 1.0 {
-        lanes.for_each(|(value, slope)| (*value, *slope) = near_sine(*value));
-    } else if least >= 1.0 {
-        lanes.for_each(|(value, slope)| (*value, *slope) = far_sine(*value));
-    } else {
-        for (value, slope) in lanes {
-            let (near, far) = (near_sine(value.min(1.0)), far_sine(*value));
-            (*value, *slope) = if *value < 1.0 { near } else { far };
+    Arch::new().dispatch(HyperbolicSines { values, slopes });
+}
+
+struct HyperbolicSines<'a> {
+    values: &'a mut [f64],
+    slopes: &'a mut [f64],
+}
+
+impl WithSimd for HyperbolicSines<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { values, slopes } = self;
+        let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+        for t in values.iter() {
+            (least, most) = (least.min(*t), most.max(*t));
+        }
+        let lanes = values.iter_mut().zip(slopes);
+        // Loops without a branch: most films lie on one side.
+        if most < 1.0 {
+            for (value, slope) in lanes {
+                (*value, *slope) = near_sine(*value);
+            }
+        } else if least >= 1.0 {
+            for (value, slope) in lanes {
+                (*value, *slope) = far_sine(*value);
+            }
+        } else {
+            for (value, slope) in lanes {
+                let (near, far) = (near_sine(value.min(1.0)), far_sine(*value));
+                (*value, *slope) = if *value < 1.0 { near } else { far };
+            }
         }
     }
 }
@@ -73,8 +118,17 @@ pub(super) fn hyperbolic_sines(values: &mut [f64], slopes: &mut [f64]) {
 #[inline(always)]
 fn near_sine(t: f64) -> (f64, f64) {
     let square = t * t;
-    let value = 1.0 / SINE.iter().rev().fold(0.0, |sum, c| sum * square + c);
-    (value, -square * value * value * RISE.iter().rev().fold(0.0, |sum, c| sum * square + c))
+    let value = 1.0 / polynomial(&SINE, square);
+    (value, -square * value * value * polynomial(&RISE, square))
+}
+
+#[inline(always)]
+fn polynomial(coefficients: &[f64], x: f64) -> f64 {
+    let mut sum = 0.0;
+    for c in coefficients.iter().rev() {
+        sum = sum * x + c;
+    }
+    sum
 }
 
 /// By the exponential, from there on.

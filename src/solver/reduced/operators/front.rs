@@ -15,9 +15,10 @@ mod reach;
 pub(super) use reach::support;
 pub(crate) use reach::{cut_off, fronts, passed_rows};
 
-use self::bending::Kept;
+use self::bending::{Bent, Kept};
 use self::reach::{each_passed, passed};
-use super::support::{Support, row_times};
+use super::sums::row_times;
+use super::support::Support;
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
@@ -77,6 +78,7 @@ pub(super) struct Front {
     passing: Vec<(usize, bool)>,
     /// Work space: nodes between B and its place in K V, and the pressures there that K V does not know.
     bending: Vec<(usize, f64)>,
+    bent: Bent,
 }
 
 /// A line of unknowns along X with its part of B.
@@ -108,8 +110,21 @@ struct Passed {
     /// Its row, of places in the support.
     stencil: [usize; STENCIL],
     geometry: RowGeometry,
+    /// Whether a sampled row is its own.
+    sampled: bool,
     /// Deformation at X = 0 (and Y = 0) by unit pressure here, in ξ.
     zero: f64,
+}
+
+/// What B did after a step.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Moved {
+    /// It is where it was.
+    Still,
+    /// It passed nodes, but no sampled row began or ceased to be asked for.
+    BetweenRows,
+    /// It passed sampled rows: the derivatives of the former ones serve no more.
+    PastRows,
 }
 
 /// What the boundary changes of the operators.
@@ -134,6 +149,7 @@ impl Front {
                 weight: weights[node],
                 stencil,
                 geometry,
+                sampled: window.sampled_rows.contains(&unknown),
                 zero: 0.0,
             });
         });
@@ -173,6 +189,7 @@ impl Front {
             aimed: None,
             passing: Vec::with_capacity(nodes.len()),
             bending: Vec::with_capacity(nodes.len()),
+            bent: Bent::new(window.sampled_rows.len(), modes),
             lines,
             nodes,
         };
@@ -277,8 +294,8 @@ impl Front {
         }
     }
 
-    /// Lets B follow a step: `nodes` are those before it, `values` V at the support, `step` what it added to the fields, by the factor `omega`,
-    /// and `shift` to H₀; `changed` has the fields behind it. Whether B is still.
+    /// Lets B follow a step: `nodes` are those before it, `values` V at the support, `step` what it added to the fields,
+    /// by the factor `omega`, and `shift` to H₀; `changed` has the fields behind it.
     pub fn follow(
         &mut self,
         (nodes, values): (&Nodes, &[f64]),
@@ -286,9 +303,9 @@ impl Front {
         (step, shift): (&[f64], f64),
         coefficients: &[f64],
         changed: Changed<'_>,
-    ) -> bool {
+    ) -> Moved {
         if self.idle {
-            return true;
+            return Moved::Still;
         }
         let Changed { load_row, fields } = changed;
         let s = fields.len() / 2;
@@ -348,7 +365,7 @@ impl Front {
             line.front = front;
         }
         if self.passing.is_empty() {
-            return true;
+            return Moved::Still;
         }
         let modes = load_row.len();
         let (pressure, deformation) = fields.split_at_mut(s);
@@ -367,7 +384,7 @@ impl Front {
         self.look_near();
         self.find_bending(coefficients);
         self.spread_near(values, coefficients, (pressure, deformation));
-        false
+        if self.passing.iter().any(|(k, _)| self.nodes[*k].sampled) { Moved::PastRows } else { Moved::BetweenRows }
     }
 }
 

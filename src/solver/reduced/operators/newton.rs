@@ -2,25 +2,25 @@
 //! iteration.
 
 use super::Operators;
-use super::front::{Changed, Front};
+use super::front::{Changed, Front, Moved};
 use super::least_squares::LeastSquares;
+use super::sums::{RowNode, add_columns, jacobian_row};
 use super::support::seen;
 use crate::solver::discrete::nodes::{Laws, Order};
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
-use crate::solver::discrete::reynolds::{CENTER, STENCIL};
+use crate::solver::discrete::reynolds::{CENTER, SOUTH, STENCIL};
 use crate::solver::full::Problem;
 use crate::solver::reduced::dense::{SmallSystem, quadratic_form};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, MatRef, Par};
 
-/// The nodes of a row by twos: a row of the Jacobian is read and written half as often.
-const PAIRS: [(usize, usize); STENCIL / 2] = [(0, 1), (2, 3), (4, 5)];
-
 /// Steps after which an iteration is slow: most take three to five.
 const SWIFT: usize = 6;
 
-/// The relative step behind which derivatives serve again.
-const NEAR: f64 = 3e-3;
+/// The relative step behind which derivatives serve again, and the share of it that the next one may have so that they
+/// go on doing so.
+const NEAR: f64 = 1e-2;
+const SHRINKS: f64 = 0.3;
 
 /// How much modes are held at zero behind the rupture boundary, relative to the equations' own size.
 const RESTRAINED: f64 = 1e-6;
@@ -118,13 +118,17 @@ impl Operators {
                 self.show(case, (coefficients, *h_0), observer);
             }
             let omega = self.damping(case.scale);
+            let former = outcome.step;
             outcome.step = self.take_step(omega, coefficients, h_0);
             if !outcome.step.is_finite() {
                 return outcome;
             }
-            let still = self.follow(case.scale, omega, coefficients);
-            near = still && omega == 1.0 && outcome.step < NEAR && self.serves_again(case.penalty, observer.is_some());
-            if omega == 1.0 && outcome.step < stop.tolerance && still {
+            let moved = self.follow(case.scale, omega, coefficients);
+            near = moved != Moved::PastRows
+                && omega == 1.0
+                && outcome.step < if near { SHRINKS * former } else { NEAR }
+                && self.serves_again(case.penalty, observer.is_some());
+            if omega == 1.0 && outcome.step < stop.tolerance && moved == Moved::Still {
                 outcome.converged = true;
                 break;
             }
@@ -171,10 +175,10 @@ impl Operators {
         (change / size).sqrt()
     }
 
-    /// Lets the rupture boundary follow a step; whether it is still.
-    fn follow(&mut self, scale: f64, omega: f64, coefficients: &[f64]) -> bool {
+    /// Lets the rupture boundary follow a step.
+    fn follow(&mut self, scale: f64, omega: f64, coefficients: &[f64]) -> Moved {
         let Self { front, state, load_row, scratch: s, support, .. } = self;
-        let Some(front) = front else { return true };
+        let Some(front) = front else { return Moved::Still };
         let (count, shift) = (2 * support.len(), s.system.rhs[state.modes]);
         let changed = Changed { load_row, fields: &mut s.fields[..count] };
         let steps = (&s.step_fields[..count], shift);
@@ -248,7 +252,7 @@ impl Operators {
         for (r, (stencil, geometry)) in self.stencil.iter().zip(&self.geometry).enumerate() {
             if self.front.as_ref().is_some_and(|front| front.is_ruptured(r)) {
                 // λ balances it, whatever it is.
-                (s.values[r], s.film_column[r]) = (0.0, 0.0);
+                (s.values[r], s.film_column[r], s.film_slopes[r]) = (0.0, 0.0, [0.0; STENCIL]);
                 s.jacobian_rows[r * self.modes..(r + 1) * self.modes].fill(0.0);
                 continue;
             }
@@ -259,41 +263,32 @@ impl Operators {
             let out = s.nodes.row(&geometry, if held { penalty } else { 0.0 }, *stencil);
             s.values[r] = out.value;
             sum += self.row_weights[r] * scale * out.value * out.value;
-            if let Some(slopes) = slopes {
+            if slopes.is_some() {
                 let target = &mut s.jacobian_rows[r * self.modes..(r + 1) * self.modes];
-                target.fill(0.0);
-                for (m, n) in PAIRS {
-                    let [(one, a, b), (other, e, f)] =
-                        [m, n].map(|m| (stencil[m], ahead(stencil[m], out.d_p[m]), scale * out.d_h[m]));
-                    if [a, b, e, f] == [0.0; 4] {
-                        continue;
+                let of_node = |m: usize| {
+                    let own = stencil[m] * self.modes..(stencil[m] + 1) * self.modes;
+                    RowNode {
+                        values: &v[own.clone()],
+                        deformations: &d[own],
+                        by_value: ahead(stencil[m], out.d_p[m]),
+                        by_deformation: scale * out.d_h[m],
                     }
-                    let [one, other] = [one, other].map(|node| node * self.modes..(node + 1) * self.modes);
-                    let first = v[one.clone()].iter().zip(&d[one]);
-                    let second = v[other.clone()].iter().zip(&d[other]);
-                    for ((t, (v, d)), (w, g)) in target.iter_mut().zip(first).zip(second) {
-                        *t = (*t + (a * v + b * d)) + (e * w + f * g);
-                    }
+                };
+                match geometry.reaches_across() {
+                    true => jacobian_row::<STENCIL>(std::array::from_fn(of_node), target),
+                    false => jacobian_row::<SOUTH>(std::array::from_fn(of_node), target),
                 }
                 for axis in 0..if s.nodes.thins() { self.axes } else { 0 } {
                     let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
                     let slopes = s.nodes.slopes(&geometry, *stencil, axis);
-                    for (m, n) in PAIRS {
-                        let [a, b] = [m, n].map(|m| per_gradient * slopes[m]);
-                        if [a, b] == [0.0; 2] {
-                            continue;
-                        }
-                        let [one, other] = [m, n].map(|m| &g[(axis * count + stencil[m]) * self.modes..][..self.modes]);
-                        for ((t, v), w) in target.iter_mut().zip(one).zip(other) {
-                            *t = (*t + a * v) + b * w;
-                        }
-                    }
+                    let column = |m: usize| &g[(axis * count + stencil[m]) * self.modes..][..self.modes];
+                    add_columns::<f64, STENCIL>(std::array::from_fn(|m| (per_gradient * slopes[m], column(m))), target);
                 }
-                if let Some(front) = &self.front {
-                    front.bend((stencil, out.d_h), slopes == Slopes::Exact, scale, target);
-                }
-                s.film_column[r] = out.d_h.iter().sum();
+                (s.film_slopes[r], s.film_column[r]) = (out.d_h, out.d_h.iter().sum());
             }
+        }
+        if let Some((slopes, front)) = slopes.zip(self.front.as_mut()) {
+            front.bend((&self.stencil, &s.film_slopes), slopes == Slopes::Exact, scale, &mut s.jacobian_rows);
         }
         if let Some(error) = &self.deformation_error {
             sum += scale * quadratic_form(error.as_ref(), coefficients).max(0.0);

@@ -1,9 +1,8 @@
 //! The nodes on which the rows of some operators depend, and their modes there.
 
 use super::front::Front;
-use crate::solver::discrete::grid::{ContactGrid, dot};
-use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, MatRef, Par};
+use super::sums::rows_times;
+use crate::solver::discrete::grid::ContactGrid;
 use std::ops::Range;
 
 /// Where a node lies.
@@ -93,40 +92,13 @@ impl StateRows {
         let (count, own) = (support.len(), support.own);
         let (pressure, rest) = out.split_at_mut(count);
         let (deformation, gradients) = rest.split_at_mut(count);
-        let first = ..own * self.modes;
-        product(&self.values[first], coefficients, &mut pressure[..own]);
-        product(&self.deformations(front.as_deref())[first], coefficients, &mut deformation[..own]);
+        rows_times(&self.values, coefficients, &mut pressure[..own]);
+        rows_times(self.deformations(front.as_deref()), coefficients, &mut deformation[..own]);
         if !gradients.is_empty() {
-            product(&self.gradients, coefficients, gradients);
+            rows_times(&self.gradients, coefficients, gradients);
         }
         if let Some(front) = front {
             front.spread(&self.values, coefficients, (pressure, deformation));
         }
     }
-}
-
-/// out = A x for a row-major A.
-fn product(rows: &[f64], x: &[f64], out: &mut [f64]) {
-    matmul(
-        ColMut::from_slice_mut(out).as_mat_mut(),
-        Accum::Replace,
-        MatRef::from_row_major_slice(rows, rows.len() / x.len(), x.len()),
-        ColRef::from_slice(x).as_mat(),
-        1.0,
-        Par::Seq,
-    );
-}
-
-/// Row `place` of a row-major matrix times x.
-pub(super) fn row_times(rows: &[f64], place: usize, x: &[f64]) -> f64 {
-    let row = &rows[place * x.len()..][..x.len()];
-    // Sums beside each other are formed at once.
-    let (mut sums, by) = ([0.0; 8], row.chunks_exact(8).zip(x.chunks_exact(8)));
-    for (row, x) in by {
-        for ((sum, row), x) in sums.iter_mut().zip(row).zip(x) {
-            *sum += row * x;
-        }
-    }
-    let rest = row.len() - row.len() % 8;
-    sums.iter().sum::<f64>() + dot(&row[rest..], &x[rest..])
 }

@@ -4,9 +4,9 @@ use super::Front;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::reduced::model::{Snapshot, Window};
-use crate::solver::reduced::operators::support::row_times;
+use crate::solver::reduced::operators::sums::{add_columns, row_times};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, Par};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 use std::ops::Range;
 
 /// Places of B at which K V is kept: a solve takes the nearest of them. As many as these, and as take this many bytes.
@@ -24,6 +24,22 @@ pub(super) struct Kept {
     pub load: Vec<f64>,
     /// What the film at X = 0 (and Y = 0) gains, and the scale it was found for.
     pub lift: (Option<f64>, Vec<f64>),
+}
+
+/// Nodes whose bending is added to the Jacobian at once.
+const TOGETHER: usize = 32;
+
+/// Work space: what some nodes bend the rows, rows × nodes column-major, and their modes, row-major.
+#[derive(Default)]
+pub(super) struct Bent {
+    rows: Vec<f64>,
+    modes: Vec<f64>,
+}
+
+impl Bent {
+    pub fn new(rows: usize, modes: usize) -> Self {
+        Self { rows: vec![0.0; TOGETHER * rows], modes: vec![0.0; TOGETHER * modes] }
+    }
 }
 
 impl Front {
@@ -163,37 +179,53 @@ impl Front {
         let mut fours = self.bending.chunks_exact(4);
         for four in fours.by_ref() {
             let &[(k, a), (l, b), (m, c), (n, d)] = four else { continue };
-            let nodes = bends(k).iter().zip(bends(l)).zip(bends(m)).zip(bends(n));
-            for (out, (((k, l), m), n)) in out.iter_mut().zip(nodes) {
-                *out = *out + a * f64::from(*k) + b * f64::from(*l) + c * f64::from(*m) + d * f64::from(*n);
-            }
+            add_columns([(a, bends(k)), (b, bends(l)), (c, bends(m)), (d, bends(n))], out);
         }
         for (k, value) in fours.remainder() {
-            out.iter_mut().zip(bends(*k)).for_each(|(out, bend)| *out += value * f64::from(*bend));
+            add_columns([(*value, bends(*k))], out);
         }
     }
 
-    /// Adds to a row of the Jacobian, by its derivatives with respect to the films, what nodes between B and its place in
-    /// K V bend. Of one line always: there few nodes decide the film, and at a high M Newton's steps grow without them.
-    /// Of many lines it costs more than the steps that it mostly saves, and waits until an iteration turns out `slow`.
+    /// Adds to the rows of the Jacobian, by their derivatives with respect to the films of their nodes, what nodes between
+    /// B and its place in K V bend. Of one line always: there few nodes decide the film, and at a high M Newton's steps
+    /// grow without them. Of many lines it costs more than the steps that it mostly saves, and waits until an iteration
+    /// turns out `slow`.
     pub fn bend(
-        &self,
-        (stencil, d_h): (&[usize; STENCIL], [f64; STENCIL]),
+        &mut self,
+        (stencils, slopes): (&[[usize; STENCIL]], &[[f64; STENCIL]]),
         slow: bool,
         scale: f64,
-        target: &mut [f64],
+        jacobian_rows: &mut [f64],
     ) {
         if self.idle || !(slow || self.lines.len() == 1) {
             return;
         }
-        let (modes, s) = (self.lift.len(), self.bends.len() / self.nodes.len());
-        for (k, sign) in self.between() {
-            let bends = &self.bends[k * s..][..s];
-            let bent = scale
-                * sign
-                * stencil.iter().zip(d_h).map(|(&place, slope)| slope * f64::from(bends[place])).sum::<f64>();
-            target.iter_mut().zip(&self.modes[k * modes..][..modes]).for_each(|(out, v)| *out += bent * v);
+        let (modes, rows, s) = (self.lift.len(), stencils.len(), self.cut.len());
+        let mut own = std::mem::take(&mut self.bent);
+        let mut between = self.between();
+        loop {
+            let mut count = 0;
+            for (k, sign) in between.by_ref().take(TOGETHER) {
+                let bends = &self.bends[k * s..][..s];
+                for (bent, (stencil, slopes)) in
+                    own.rows[count * rows..][..rows].iter_mut().zip(stencils.iter().zip(slopes))
+                {
+                    let sum: f64 = stencil.iter().zip(slopes).map(|(&at, slope)| slope * f64::from(bends[at])).sum();
+                    *bent = scale * sign * sum;
+                }
+                own.modes[count * modes..][..modes].copy_from_slice(&self.modes[k * modes..][..modes]);
+                count += 1;
+            }
+            if count == 0 {
+                break;
+            }
+            let out = MatMut::from_row_major_slice_mut(jacobian_rows, rows, modes);
+            let bent = MatRef::from_column_major_slice(&own.rows[..count * rows], rows, count);
+            let basis = MatRef::from_row_major_slice(&own.modes[..count * modes], count, modes);
+            matmul(out, Accum::Add, bent, basis, 1.0, Par::Seq);
         }
+        drop(between);
+        self.bent = own;
     }
 
     /// What the film at X = 0 (and Y = 0) gains, given by nodes and weights of an interpolation there and by what whole
