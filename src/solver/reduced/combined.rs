@@ -5,8 +5,10 @@
 
 use super::dense;
 use super::pod::PodBasis;
+use super::sums::rows_times;
 use crate::solver::discrete::grid::ContactGrid;
-use faer::{Mat, MatRef};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 use std::sync::{Arc, OnceLock};
 
 /// A basis of the pressures of several windows.
@@ -38,7 +40,12 @@ pub struct PressureModes {
     combined: Option<Combined>,
     basis: OnceLock<PodBasis>,
     flexed: OnceLock<Mat<f64>>,
+    /// Combinations in single precision, row-major nodes × modes: what pictures are drawn from.
+    single: OnceLock<Vec<f32>>,
 }
+
+/// Nodes whose modes are turned into single precision at once.
+const TOGETHER: usize = 512;
 
 /// wᵀ V.
 fn carried(weights: &[f64], modes: MatRef<'_, f64>) -> Vec<f64> {
@@ -78,13 +85,34 @@ impl Combined {
     /// The modes that it makes, with their singular values.
     pub fn into_modes(self, singular_values: Vec<f64>) -> PressureModes {
         let (basis, flexed) = (OnceLock::new(), OnceLock::new());
-        PressureModes { count: self.factors.ncols(), singular_values, combined: Some(self), basis, flexed }
+        PressureModes {
+            count: self.factors.ncols(),
+            singular_values,
+            combined: Some(self),
+            basis,
+            flexed,
+            single: OnceLock::new(),
+        }
     }
 
     /// The first of its columns over some nodes, of the shared modes or of what these deform.
     fn over(&self, whole: &Mat<f64>, nodes: &[usize], columns: usize) -> Mat<f64> {
         let factors = self.factors.get(.., ..columns);
         dense::product(rows(whole, nodes, whole.ncols()).as_ref(), factors)
+    }
+}
+
+impl Combined {
+    /// All over the node array, row-major.
+    fn in_single_precision(&self) -> Vec<f32> {
+        let (whole, modes) = (self.shared.basis.modes.as_ref(), self.factors.ncols());
+        let mut rows = Vec::with_capacity(whole.nrows() * modes);
+        for first in (0..whole.nrows()).step_by(TOGETHER) {
+            let some = whole.get(first..(first + TOGETHER).min(whole.nrows()), ..);
+            let own = dense::product(some, self.factors.as_ref());
+            rows.extend(own.row_iter().flat_map(|row| row.iter().map(|value| *value as f32)));
+        }
+        rows
     }
 }
 
@@ -98,6 +126,7 @@ impl PressureModes {
             combined: None,
             basis: OnceLock::from(basis),
             flexed: OnceLock::from(flexed),
+            single: OnceLock::new(),
         }
     }
 
@@ -133,6 +162,21 @@ impl PressureModes {
     fn whole(&self, of: impl Fn(&SharedBasis) -> &Mat<f64>) -> Mat<f64> {
         let made = |own: &Combined| dense::product(of(&own.shared).as_ref(), own.factors.as_ref());
         self.combined.as_ref().map_or_else(Mat::new, made)
+    }
+
+    /// The pressures that the first modes with these coefficients have at the first nodes, as many as there is room for; of
+    /// combinations, where that is enough, from single precision: what is read from memory takes most of the time.
+    pub fn field(&self, coefficients: &[f64], single: bool, field: &mut [f64]) {
+        match &self.combined {
+            Some(own) if single && coefficients.len() == self.count => {
+                rows_times(self.single.get_or_init(|| own.in_single_precision()), coefficients, field);
+            }
+            _ => {
+                let modes = self.basis().modes.get(..field.len(), ..coefficients.len());
+                let (out, by) = (ColMut::from_slice_mut(field), ColRef::from_slice(coefficients));
+                matmul(out.as_mat_mut(), Accum::Replace, modes, by.as_mat(), 1.0, Par::Seq);
+            }
+        }
     }
 
     /// The first modes at some nodes.
@@ -198,6 +242,28 @@ mod tests {
             assert!((inner.abs() - 1.0).abs() < 1e-7, "mode {k}: {inner}");
             let off = (0..grid.len()).map(|i| (deformed[(i, k)] - directly[(i, k)]).abs()).fold(0.0, f64::max);
             assert!(off < 1e-12, "{off:e}");
+        }
+    }
+
+    #[test]
+    fn a_field_in_single_precision_is_that_of_the_modes_to_seven_digits() {
+        let grid = GridSpec::Plane(PointGridSpec::uniform(0.1, 0.2, (-4.0, 2.0, -2.0))).build().unwrap();
+        let pressures = Mat::from_fn(grid.len(), 9, |i, k| ((i * (k + 2)) as f64 * 0.01).sin());
+        let shared = PodBasis::new(pressures.as_ref(), grid.weights(), 0.0).unwrap();
+        let shared = Arc::new(SharedBasis::new(shared, &grid));
+        let made = Combined::of(&shared, &pressures, grid.weights(), (0.0, 9)).unwrap();
+        let coefficients: Vec<f64> = (0..9).map(|k| 1.0 / (1.0 + k as f64)).collect();
+        let nodes = grid.len() - 7;
+        let mut fields = [false, true].map(|_| vec![0.0; nodes]);
+        for (single, field) in [false, true].into_iter().zip(&mut fields) {
+            made.field(&coefficients, single, field);
+        }
+        let largest = fields[0].iter().fold(0.0f64, |a, b| a.max(b.abs()));
+        let off = fields[0].iter().zip(&fields[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off > 0.0 && off < 1e-6 * largest, "{off:e} of {largest}");
+        for (node, p) in fields[0].iter().enumerate() {
+            let sum: f64 = coefficients.iter().enumerate().map(|(k, c)| c * made.basis().modes[(node, k)]).sum();
+            assert!((sum - p).abs() < 1e-13 * largest, "{node}");
         }
     }
 }

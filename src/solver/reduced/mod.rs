@@ -27,6 +27,7 @@ mod row_sizes;
 mod sampling;
 mod shapes;
 mod start;
+mod sums;
 pub mod tpwl;
 mod traction;
 mod traction_curve;

@@ -5,7 +5,6 @@ mod heat;
 mod least_squares;
 mod newton;
 mod shaped;
-mod sums;
 mod support;
 
 pub(crate) use front::{cut_off, fronts, passed_rows};

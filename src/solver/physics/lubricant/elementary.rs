@@ -147,7 +147,7 @@ const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 /// ln x for normal x > 0. Zero and subnormal numbers count as the smallest normal one, infinity as 2^1024; other
 /// arguments have no meaning.
 #[inline(always)]
-fn ln(x: f64) -> f64 {
+pub(super) fn ln(x: f64) -> f64 {
     const ONE: u64 = 0x3ff0_0000_0000_0000;
     const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
     /// √½: x is 2^k m with m between it and √2.
@@ -170,7 +170,7 @@ fn ln(x: f64) -> f64 {
 
 /// exp x, held at exp(±700): nothing that is divided by it overflows.
 #[inline(always)]
-fn exp(x: f64) -> f64 {
+pub(super) fn exp(x: f64) -> f64 {
     /// 1.5 · 2^52: what is added to it is rounded to a whole number, which its last bits hold.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     let x = if x > 700.0 { 700.0 } else { x };

@@ -26,6 +26,7 @@ pub use warm::{Across, WarmFluid};
 
 use super::contact::OperatingPoint;
 use crate::solver::limits::Number;
+use pulp::{Arch, Simd, WithSimd};
 use serde::{Deserialize, Serialize};
 
 /// Pressure \[Pa\] under which laws are frozen: no physical state, only passing Newton iterates, gets there.
@@ -102,7 +103,7 @@ fn check_constant(constant: &str, value: f64, min: f64, max: f64) -> Result<(), 
 }
 
 /// Density and viscosity at one pressure with their derivatives with respect to P.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FluidState {
     /// ρ̄ = ρ/ρ₀.
     pub density: f64,
@@ -272,24 +273,20 @@ impl ScaledFluid {
 
     /// The same at several P at once: Roelands' law runs in vector registers.
     pub fn at_all<const N: usize>(&self, pressures: &[f64; N]) -> [FluidState; N] {
-        let ViscosityLaw::Roelands = self.laws.viscosity else { return pressures.map(|pressure| self.at(pressure)) };
-        let p = pressures.map(|pressure| self.counted(pressure));
-        let mut powers = p.map(roelands_base);
-        elementary::raise(&mut powers, self.roelands_exponent);
-        let logs: [_; N] = std::array::from_fn(|k| self.roelands(p[k], powers[k]));
-        let mut viscosities = logs.map(|(log, _)| log.min(LOG_VISCOSITY_CEILING));
-        elementary::exponentials(&mut viscosities);
-        std::array::from_fn(|k| self.state(pressures[k], logs[k], viscosities[k]))
+        match self.laws.viscosity {
+            ViscosityLaw::Roelands => Arch::new().dispatch(RoelandsStates { fluid: self, pressures }),
+            ViscosityLaw::Barus | ViscosityLaw::Doolittle(_) => pressures.map(|pressure| self.at(pressure)),
+        }
     }
 
     /// The pressure \[Pa\] that counts: below a floor nothing follows it.
-    #[inline]
+    #[inline(always)]
     fn counted(&self, pressure: f64) -> f64 {
         (pressure * self.hertz_pressure_pa).max(CAVITATION_FLOOR_PA)
     }
 
     /// ln η̄ and its slope by P of Roelands' law at a pressure \[Pa\], by the power z of 1 + p/p_Roe.
-    #[inline]
+    #[inline(always)]
     fn roelands(&self, p: f64, power: f64) -> (f64, f64) {
         let per_pressure = self.hertz_pressure_pa / ROELANDS_PRESSURE_PA;
         let slope = self.roelands_log * self.roelands_exponent * power / roelands_base(p) * per_pressure;
@@ -297,7 +294,7 @@ impl ScaledFluid {
     }
 
     /// The state at P, with ln η̄ and its slope, and η̄.
-    #[inline]
+    #[inline(always)]
     fn state(&self, pressure: f64, (log_viscosity, slope): (f64, f64), viscosity: f64) -> FluidState {
         let (ph, p) = (self.hertz_pressure_pa, self.counted(pressure));
         let frozen = pressure * ph < CAVITATION_FLOOR_PA;
@@ -322,8 +319,38 @@ impl ScaledFluid {
     }
 }
 
+/// States by Roelands' law at several P.
+struct RoelandsStates<'a, const N: usize> {
+    fluid: &'a ScaledFluid,
+    pressures: &'a [f64; N],
+}
+
+#[allow(clippy::needless_range_loop, reason = "a closure would not run in the wide registers")]
+impl<const N: usize> WithSimd for RoelandsStates<'_, N> {
+    type Output = [FluidState; N];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [FluidState; N] {
+        let Self { fluid, pressures } = self;
+        let (mut logs, mut viscosities) = ([(0.0, 0.0); N], [0.0; N]);
+        for k in 0..N {
+            let p = fluid.counted(pressures[k]);
+            let power = elementary::exp(fluid.roelands_exponent * elementary::ln(roelands_base(p)));
+            logs[k] = fluid.roelands(p, power);
+        }
+        for k in 0..N {
+            viscosities[k] = elementary::exp(logs[k].0.min(LOG_VISCOSITY_CEILING));
+        }
+        let mut states = [FluidState::default(); N];
+        for k in 0..N {
+            states[k] = fluid.state(pressures[k], logs[k], viscosities[k]);
+        }
+        states
+    }
+}
+
 /// 1 + p/p_Roe.
-#[inline]
+#[inline(always)]
 fn roelands_base(p: f64) -> f64 {
     1.0 + p / ROELANDS_PRESSURE_PA
 }

@@ -7,6 +7,7 @@ use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::operators::{Stations, carried, cut_off};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Par};
@@ -100,16 +101,10 @@ impl Online {
             return Err(ReducedError::Empty);
         }
         let scale = window.grid.scale(problem.moes);
-        let multiply = |matrix: faer::MatRef<'_, f64>, rows: usize| {
+        let deformed = |matrix: faer::MatRef<'_, f64>| {
             let mut out = vec![0.0; matrix.nrows()];
-            matmul(
-                ColMut::from_slice_mut(&mut out[..rows]).as_mat_mut(),
-                Accum::Replace,
-                matrix.get(..rows, ..),
-                ColRef::from_slice(&solution.coefficients).as_mat(),
-                1.0,
-                Par::Seq,
-            );
+            let (sums, by) = (ColMut::from_slice_mut(&mut out), ColRef::from_slice(&solution.coefficients));
+            matmul(sums.as_mat_mut(), Accum::Replace, matrix, by.as_mat(), 1.0, Par::Seq);
             out
         };
         let (nodes, across) = (window.grid.len(), window.grid.nodes().1);
@@ -120,7 +115,10 @@ impl Online {
             }
             _ => nodes,
         };
-        let mut pressure = multiply(window.pressure.basis().modes.get(.., ..modes), ahead);
+        // Where there are many nodes none has a film so thin that a pressure's eighth digit shows.
+        let single = window.grid.kind() == ContactKind::Point;
+        let mut pressure = vec![0.0; nodes];
+        window.pressure.field(&solution.coefficients, single, &mut pressure[..ahead]);
         let ellipse = problem.point.ellipse();
         let ruptures = !solution.fronts.is_empty();
         let mut film = match &window.shapes {
@@ -131,7 +129,7 @@ impl Online {
             }
             // What is cut off makes K P another one than that of the modes.
             None if ruptures && self.options.deformation_modes.is_none() => Vec::new(),
-            None => multiply(operators.deformation(window), nodes),
+            None => deformed(operators.deformation(window)),
         };
         if ruptures {
             let whole = if film.is_empty() { Vec::new() } else { pressure.clone() };

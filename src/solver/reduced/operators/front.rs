@@ -17,12 +17,12 @@ pub(crate) use reach::{cut_off, fronts, passed_rows};
 
 use self::bending::{Bent, Kept};
 use self::reach::{each_passed, passed};
-use super::sums::row_times;
 use super::support::Support;
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::reduced::model::Window;
+use crate::solver::reduced::sums::row_times;
 use faer::linalg::matmul::matmul;
 use faer::reborrow::ReborrowMut;
 use faer::{Accum, Mat, MatMut, MatRef, Par};

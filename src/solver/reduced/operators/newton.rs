@@ -4,18 +4,18 @@
 use super::Operators;
 use super::front::{Changed, Front, Moved};
 use super::least_squares::LeastSquares;
-use super::sums::{RowNode, add_columns, jacobian_row};
 use super::support::seen;
 use crate::solver::discrete::nodes::{Laws, Order};
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::reynolds::{CENTER, SOUTH, STENCIL};
 use crate::solver::full::Problem;
 use crate::solver::reduced::dense::{SmallSystem, quadratic_form};
+use crate::solver::reduced::sums::{RowNode, add_columns, jacobian_row};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, MatRef, Par};
 
-/// Steps after which an iteration is slow: most take three to five.
-const SWIFT: usize = 6;
+/// Steps after which an iteration is slow: most take two to five.
+const SWIFT: usize = 12;
 
 /// The relative step behind which derivatives serve again, and the share of it that the next one may have so that they
 /// go on doing so.

@@ -1,8 +1,8 @@
 //! The nodes on which the rows of some operators depend, and their modes there.
 
 use super::front::Front;
-use super::sums::rows_times;
 use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::reduced::sums::rows_times;
 use std::ops::Range;
 
 /// Where a node lies.

@@ -4,7 +4,7 @@ use super::Front;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::reduced::model::{Snapshot, Window};
-use crate::solver::reduced::operators::sums::{add_columns, row_times};
+use crate::solver::reduced::sums::{add_columns, row_times};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use std::ops::Range;

@@ -50,7 +50,7 @@ impl<const N: usize> WithSimd for JacobianRow<'_, N> {
 }
 
 /// The first rows of a row-major matrix, as many as there are sums, each times x.
-pub(super) fn rows_times(rows: &[f64], x: &[f64], out: &mut [f64]) {
+pub(super) fn rows_times<T: Copy + Into<f64>>(rows: &[T], x: &[f64], out: &mut [f64]) {
     Arch::new().dispatch(RowsTimes { rows, x, out });
 }
 
@@ -61,13 +61,13 @@ pub(super) fn row_times(rows: &[f64], place: usize, x: &[f64]) -> f64 {
     out[0]
 }
 
-struct RowsTimes<'a> {
-    rows: &'a [f64],
+struct RowsTimes<'a, T> {
+    rows: &'a [T],
     x: &'a [f64],
     out: &'a mut [f64],
 }
 
-impl WithSimd for RowsTimes<'_> {
+impl<T: Copy + Into<f64>> WithSimd for RowsTimes<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -78,7 +78,7 @@ impl WithSimd for RowsTimes<'_> {
             let mut sums = [0.0; BESIDE];
             for (row, x) in row[..whole].chunks_exact(BESIDE).zip(x[..whole].chunks_exact(BESIDE)) {
                 for k in 0..BESIDE {
-                    sums[k] += row[k] * x[k];
+                    sums[k] += row[k].into() * x[k];
                 }
             }
             let (mut sum, mut rest) = (0.0, 0.0);
@@ -86,7 +86,7 @@ impl WithSimd for RowsTimes<'_> {
                 sum += beside;
             }
             for (row, x) in row[whole..].iter().zip(&x[whole..]) {
-                rest += row * x;
+                rest += (*row).into() * x;
             }
             *out = sum + rest;
         }
