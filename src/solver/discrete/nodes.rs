@@ -35,7 +35,7 @@ pub enum Order {
 const SHARE: [usize; 2] = [2048, 32];
 
 /// Nodes whose laws are evaluated at once.
-const AT_ONCE: usize = 16;
+const AT_ONCE: usize = 8;
 
 /// Nodes as the rows see them; a slice of [`Node`].
 #[derive(Clone, Debug)]

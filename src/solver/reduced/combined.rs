@@ -7,8 +7,7 @@ use super::dense;
 use super::pod::PodBasis;
 use super::sums::rows_times;
 use crate::solver::discrete::grid::ContactGrid;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
+use faer::{Mat, MatRef};
 use std::sync::{Arc, OnceLock};
 
 /// A basis of the pressures of several windows.
@@ -100,10 +99,8 @@ impl Combined {
         let factors = self.factors.get(.., ..columns);
         dense::product(rows(whole, nodes, whole.ncols()).as_ref(), factors)
     }
-}
 
-impl Combined {
-    /// All over the node array, row-major.
+    /// All over the node array, in single precision and row-major.
     fn in_single_precision(&self) -> Vec<f32> {
         let (whole, modes) = (self.shared.basis.modes.as_ref(), self.factors.ncols());
         let mut rows = Vec::with_capacity(whole.nrows() * modes);
@@ -171,11 +168,7 @@ impl PressureModes {
             Some(own) if single && coefficients.len() == self.count => {
                 rows_times(self.single.get_or_init(|| own.in_single_precision()), coefficients, field);
             }
-            _ => {
-                let modes = self.basis().modes.get(..field.len(), ..coefficients.len());
-                let (out, by) = (ColMut::from_slice_mut(field), ColRef::from_slice(coefficients));
-                matmul(out.as_mat_mut(), Accum::Replace, modes, by.as_mat(), 1.0, Par::Seq);
-            }
+            _ => dense::times(self.basis().modes.get(..field.len(), ..coefficients.len()), coefficients, field),
         }
     }
 

@@ -5,13 +5,19 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::perm::PermRef;
-use faer::{Accum, Mat, MatMut, MatRef, Par, Spec};
+use faer::{Accum, ColMut, ColRef, Mat, MatMut, MatRef, Par, Spec};
 
 /// A B.
 pub(crate) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut out = Mat::zeros(a.nrows(), b.ncols());
     matmul(out.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
     out
+}
+
+/// out = A x.
+pub(crate) fn times(a: MatRef<'_, f64>, x: &[f64], out: &mut [f64]) {
+    let (out, x) = (ColMut::from_slice_mut(out), ColRef::from_slice(x));
+    matmul(out.as_mat_mut(), Accum::Replace, a, x.as_mat(), 1.0, Par::Seq);
 }
 
 /// xᵀ A x.

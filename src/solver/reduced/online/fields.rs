@@ -8,9 +8,8 @@ use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::dense;
 use crate::solver::reduced::operators::{Stations, carried, cut_off};
-use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Par};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -101,12 +100,6 @@ impl Online {
             return Err(ReducedError::Empty);
         }
         let scale = window.grid.scale(problem.moes);
-        let deformed = |matrix: faer::MatRef<'_, f64>| {
-            let mut out = vec![0.0; matrix.nrows()];
-            let (sums, by) = (ColMut::from_slice_mut(&mut out), ColRef::from_slice(&solution.coefficients));
-            matmul(sums.as_mat_mut(), Accum::Replace, matrix, by.as_mat(), 1.0, Par::Seq);
-            out
-        };
         let (nodes, across) = (window.grid.len(), window.grid.nodes().1);
         // What lies behind all of B is cut off.
         let ahead = match solution.fronts.iter().max() {
@@ -129,7 +122,11 @@ impl Online {
             }
             // What is cut off makes K P another one than that of the modes.
             None if ruptures && self.options.deformation_modes.is_none() => Vec::new(),
-            None => deformed(operators.deformation(window)),
+            None => {
+                let mut film = vec![0.0; nodes];
+                dense::times(operators.deformation(window), &solution.coefficients, &mut film);
+                film
+            }
         };
         if ruptures {
             let whole = if film.is_empty() { Vec::new() } else { pressure.clone() };

@@ -274,15 +274,19 @@ impl Operators {
                         by_deformation: scale * out.d_h[m],
                     }
                 };
-                match geometry.reaches_across() {
-                    true => jacobian_row::<STENCIL>(std::array::from_fn(of_node), target),
-                    false => jacobian_row::<SOUTH>(std::array::from_fn(of_node), target),
+                if geometry.reaches_across() {
+                    jacobian_row::<STENCIL>(std::array::from_fn(of_node), target);
+                } else {
+                    jacobian_row::<SOUTH>(std::array::from_fn(of_node), target);
                 }
                 for axis in 0..if s.nodes.thins() { self.axes } else { 0 } {
                     let per_gradient = if axis == 0 { 1.0 / scale } else { 1.0 };
                     let slopes = s.nodes.slopes(&geometry, *stencil, axis);
-                    let column = |m: usize| &g[(axis * count + stencil[m]) * self.modes..][..self.modes];
-                    add_columns::<f64, STENCIL>(std::array::from_fn(|m| (per_gradient * slopes[m], column(m))), target);
+                    let column = |m: usize| {
+                        let own = &g[(axis * count + stencil[m]) * self.modes..][..self.modes];
+                        (per_gradient * slopes[m], own)
+                    };
+                    add_columns::<f64, STENCIL>(std::array::from_fn(column), target);
                 }
                 (s.film_slopes[r], s.film_column[r]) = (out.d_h, out.d_h.iter().sum());
             }

@@ -4,9 +4,8 @@ use crate::solver::discrete::elasticity::Scratch;
 use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::transient::{Input, State};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::reduced::PodBasis;
-use faer::{Accum, Par};
-use faer::{ColMut, ColRef, Mat, MatRef, linalg::matmul::matmul};
+use crate::solver::reduced::{PodBasis, dense};
+use faer::Mat;
 
 /// Entries of the input vector.
 pub const INPUTS: usize = 3;
@@ -85,13 +84,8 @@ impl ReducedSpace {
     /// P and H of a reduced state at all nodes.
     pub fn fields(&self, state: &[f64], input: Input, pressure: &mut [f64], film: &mut [f64]) {
         let modes = self.modes();
-        let coefficients = ColRef::from_slice(&state[..modes]);
-        let part = |matrix: MatRef<'_, f64>, out: &mut [f64]| {
-            let out = ColMut::from_slice_mut(out);
-            matmul(out.as_mat_mut(), Accum::Replace, matrix, coefficients.as_mat(), 1.0, Par::Seq);
-        };
-        part(self.pressure.as_ref(), pressure);
-        part(self.deformation.as_ref(), film);
+        dense::times(self.pressure.as_ref(), &state[..modes], pressure);
+        dense::times(self.deformation.as_ref(), &state[..modes], film);
         add_shape(film, &self.grid.x, state[modes], input);
     }
 }

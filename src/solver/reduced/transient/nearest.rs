@@ -3,7 +3,7 @@
 use super::model::TrajectoryModel;
 use crate::solver::discrete::grid::dot;
 use crate::solver::reduced::{PressureModes, dense};
-use faer::{Accum, ColMut, ColRef, Mat, Par, linalg::matmul::matmul};
+use faer::Mat;
 
 /// Another basis must be nearer than this share of the distance to the present one's centre: states between two centres
 /// would go to and fro. A training lets bases know states as far from their centres.
@@ -37,9 +37,7 @@ impl Nearest {
     /// another is nearer by far.
     pub fn serving(&mut self, number: usize, coefficients: &[f64]) -> usize {
         let Some(seen) = self.seen.get(number).filter(|seen| seen.nrows() > 0) else { return number };
-        let products = ColMut::from_slice_mut(&mut self.products);
-        let state = ColRef::from_slice(coefficients).as_mat();
-        matmul(products.as_mat_mut(), Accum::Replace, seen.as_ref(), state, 1.0, Par::Seq);
+        dense::times(seen.as_ref(), coefficients, &mut self.products);
         let own = dot(coefficients, coefficients);
         let square = |k: usize| (own - 2.0 * self.products[k] + self.squares[k]).max(0.0);
         let nearest = (0..self.squares.len()).min_by(|a, b| square(*a).total_cmp(&square(*b))).unwrap_or(0);

@@ -12,9 +12,7 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::operators::{Case, Iterate, Stop, cut_off};
-use crate::solver::reduced::{ReducedError, Window, distance};
-use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Mat, Par};
+use crate::solver::reduced::{ReducedError, Window, dense, distance};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -186,9 +184,7 @@ impl<'a> ReducedMarch<'a> {
             self.start.resize(window.pressure.count(), 0.0);
             self.history.give_flow(which, flow);
             pressure.iter_mut().zip(window.grid.weights()).for_each(|(p, w)| *p *= w);
-            let state = ColMut::from_slice_mut(&mut self.start);
-            let (modes, weighted) = (window.pressure.basis().modes.transpose(), ColRef::from_slice(pressure));
-            matmul(state.as_mat_mut(), Accum::Replace, modes, weighted.as_mat(), 1.0, Par::Seq);
+            dense::times(window.pressure.basis().modes.transpose(), pressure, &mut self.start);
             self.history.give_state(which, &self.start);
         }
         (self.fields, self.fft) = (fields, fft);
@@ -286,13 +282,9 @@ impl<'a> ReducedMarch<'a> {
         fft: &mut Scratch,
     ) {
         let window: &Window = self.model.numbered(self.number);
-        let product = |out: &mut [f64], basis: &Mat<f64>| {
-            let (out, coefficients) = (ColMut::from_slice_mut(out), ColRef::from_slice(coefficients));
-            matmul(out.as_mat_mut(), Accum::Replace, basis, coefficients.as_mat(), 1.0, Par::Seq);
-        };
-        product(pressure, &window.pressure.basis().modes);
+        window.pressure.field(coefficients, false, pressure);
         if fronts.is_empty() {
-            product(film, window.pressure.flexed());
+            dense::times(window.pressure.flexed().as_ref(), coefficients, film);
         } else {
             cut_off(&window.grid, fronts, pressure);
             self.grid.deform(pressure, film, fft);
