@@ -28,8 +28,8 @@ fn small(scene: &str) -> TrainingSpec {
     }
     match &mut spec.windows {
         Windows::Automatic { modes } => *modes = 12,
-        Windows::Anchored { count, modes, grid, shared } => {
-            (*count, *modes) = (2, 16);
+        Windows::Anchored { count, modes, grid, shared, divided_by, .. } => {
+            (*count, *modes, *divided_by) = (2, 16, 0);
             *grid = match grid {
                 GridSpec::Plane(_) => {
                     *shared = 40;

@@ -14,7 +14,7 @@ use super::model::{ReducedModel, Snapshot, Window};
 use super::operators::{Operators, RowObserver, Warmth};
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
-use crate::solver::physics::contact::{Ellipse, OperatingPoint};
+use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use attempt::{Found, attempt, walk};
 use std::cell::OnceCell;
@@ -22,6 +22,12 @@ use std::sync::Arc;
 
 /// Newton steps before another start is tried: good starts need 4, and what needs more than 12 mostly never gets there.
 const FIRST_ATTEMPTS: usize = 12;
+
+/// Shares of the modes with which an iteration for a Newtonian circle is tried where it gets nowhere with all. Sampled rows
+/// may have no solution there: the last modes hardly appear in any pressure, and a basis that windows share knows them only
+/// in part. Without these all five of 20,000 converged that had not, H_c off by 1e-3 at most; from other starts films were
+/// off by up to 5e-2. Of lines all modes count, and other starts find their solutions.
+const FEWER: [f64; 2] = [0.875, 0.75];
 
 /// What the online phase returns: small numbers only; fields are reconstructed on request.
 #[derive(Clone, Debug, PartialEq)]
@@ -196,7 +202,22 @@ impl Online {
         let former = former.into_iter().filter(|_| !by_kriging);
         let interpolated = std::iter::once_with(|| start::interpolated(window, point, thinning));
         let nearest = std::iter::once_with(|| start::nearest(window, point));
-        for guess in std::iter::once(kriged).chain(former).chain(interpolated).chain(nearest).flatten() {
+        if let Some(guess) = &kriged {
+            match attempt(window, operators, &problem, guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
+                Ok(found) => return Ok(self.keep(&problem, index, found)),
+                Err(error) => last = error,
+            }
+            // Training is shown iterations with all modes.
+            let fewer = self.model.tries_fewer_modes() && observer.is_none();
+            for share in FEWER.into_iter().filter(|_| fewer) {
+                let guess = guess.with_modes(share);
+                let found = attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut None);
+                if let Ok(found) = found {
+                    return Ok(self.keep(&problem, index, found));
+                }
+            }
+        }
+        for guess in former.chain(interpolated).chain(nearest).flatten() {
             match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
@@ -276,6 +297,13 @@ impl Online {
             error,
             trust,
         }
+    }
+}
+
+impl ReducedModel {
+    /// Whether iterations that get nowhere with all modes are tried with fewer.
+    fn tries_fewer_modes(&self) -> bool {
+        self.contact() == ContactKind::Point && !self.slides()
     }
 }
 

@@ -33,6 +33,8 @@ use faer::{Mat, MatRef};
 /// What Newton's iteration needs of a window, and its work space.
 pub(crate) struct Operators {
     pub modes: usize,
+    /// How many of them Newton's steps change; Galerkin's equations of the others are left out.
+    active: usize,
     /// The nodes that the rows depend on.
     support: Support,
     /// Six of them per sampled row; those that a row lacks have weight zero.
@@ -185,6 +187,7 @@ impl Operators {
         let size = modes + 1;
         Self {
             modes,
+            active: modes,
             stencil,
             geometry,
             row_weights: rows.iter().map(|&row| weights[reference.node(row)]).collect(),
@@ -288,6 +291,11 @@ impl Operators {
         let Self { shaped, state, geometry, support, .. } = self;
         let (Some(shaped), Some(shapes)) = (shaped, &window.shapes) else { return };
         shaped.turn_to(shapes, &problem.point.ellipse(), state, geometry, &mut support.places);
+    }
+
+    /// Lets Newton's steps change the coefficients of so many modes only; those of the others must be zero.
+    pub fn use_modes(&mut self, active: usize) {
+        self.active = active.clamp(1, self.modes);
     }
 
     /// Puts the rupture boundary at these columns, one per line along X, before an iteration begins, or out of force, so

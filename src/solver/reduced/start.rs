@@ -16,7 +16,8 @@ const ALPHA_WEIGHT: f64 = 0.02;
 /// Functions that it reproduces there.
 const FEATURES: [usize; 3] = [4, 6, 5];
 
-/// A start: coefficients of the pressure, and the film at X = 0 (and Y = 0).
+/// A start: coefficients of the pressure, and the film at X = 0 (and Y = 0). Modes without a coefficient are left out of the
+/// iteration that begins here.
 #[derive(Clone)]
 pub(super) struct Guess {
     pub coefficients: Vec<f64>,
@@ -25,6 +26,14 @@ pub(super) struct Guess {
     pub fronts: Vec<usize>,
     /// θ at the stations of a contact with heat; empty where it begins without.
     pub theta: Vec<Profile>,
+}
+
+impl Guess {
+    /// The same with this share of the modes.
+    pub fn with_modes(&self, share: f64) -> Self {
+        let modes = ((share * self.coefficients.len() as f64) as usize).max(1);
+        Self { coefficients: self.coefficients[..modes.min(self.coefficients.len())].to_vec(), ..self.clone() }
+    }
 }
 
 /// How near by (3.20) the previous solution must be to be preferred to an interpolation.

@@ -62,11 +62,13 @@ pub(super) fn anchor(window: &WindowSpec) -> Option<Moes> {
 /// When the range holds too few points, or the observer cancels.
 pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
     let spec = state.spec.clone();
-    let (Windows::Anchored { count, modes, grid, .. }, Some(each)) = (&spec.windows, spec.plan.first_solutions())
+    let (Windows::Anchored { count, modes, grid, divided_by, .. }, Some(each)) =
+        (&spec.windows, spec.plan.first_solutions())
     else {
         return Ok(());
     };
-    let (count, modes, grid) = (*count, *modes, *grid);
+    let (count, grid) = (*count, *grid);
+    let modes = if *divided_by == 0 { *modes } else { *divided_by };
     let whole = WindowSpec::new(domain(&spec).m, grid);
     if state.trials.is_empty() {
         state.trials.push(WindowState::new(whole, spec.seed, []));
@@ -204,10 +206,32 @@ fn missing(pool: &[Solved], cell: &[usize], grid: &ContactGrid, modes: usize) ->
     if chosen.len() <= modes {
         return 0.0;
     }
-    let pressures = Mat::from_fn(grid.len(), chosen.len(), |i, j| chosen[j].pressure[i] / chosen[j].h_c.min(THIN));
-    let Some(basis) = PodBasis::new(pressures.as_ref(), grid.weights(), 0.5) else { return f64::INFINITY };
-    let rest = basis.singular_values.iter().skip(modes).map(|sigma| sigma * sigma).sum::<f64>();
-    (rest / chosen.len() as f64).sqrt()
+    let rest = missed_by_modes(&chosen, grid).and_then(|missed| missed.get(modes).copied());
+    rest.unwrap_or(f64::INFINITY)
+}
+
+/// What no mode, one, two… miss of the pressures of solutions, root mean square, over their films as far as these are thin;
+/// `None` when the decomposition fails.
+fn missed_by_modes(solutions: &[&Solved], grid: &ContactGrid) -> Option<Vec<f64>> {
+    let count = solutions.len();
+    let pressures = Mat::from_fn(grid.len(), count, |i, j| solutions[j].pressure[i] / solutions[j].h_c.min(THIN));
+    let basis = PodBasis::new(pressures.as_ref(), grid.weights(), 0.5)?;
+    let mut rest = 0.0;
+    let missed = basis.singular_values.iter().rev().map(|sigma| {
+        rest += sigma * sigma;
+        (rest / count as f64).sqrt()
+    });
+    let mut missed: Vec<f64> = missed.collect();
+    missed.reverse();
+    Some(missed)
+}
+
+/// How many modes miss no more than so much of solutions; `None` when the decomposition fails.
+pub(super) fn modes_missing(solutions: &[Solved], grid: &ContactGrid, missing: f64) -> Option<usize> {
+    let every = solutions.len().div_ceil(MOST_JUDGED).max(1);
+    let chosen: Vec<&Solved> = solutions.iter().step_by(every).collect();
+    let missed = missed_by_modes(&chosen, grid)?;
+    Some(missed.iter().position(|missed| *missed <= missing).unwrap_or(missed.len()))
 }
 
 /// Places in the middle of so many cells of (ln M, ln L).
@@ -236,6 +260,29 @@ fn middles(places: &[Moes], count: usize) -> Vec<Moes> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
+    use crate::solver::training::small::line_grid;
+
+    #[test]
+    fn where_pressures_differ_most_the_range_is_divided_most() {
+        let grid = line_grid(80).build().unwrap();
+        let mut rng = Rng::with_seed(3);
+        let contact = |m| si_from_moes(&MoesRequest::new(ContactKind::Line, m, 8.0)).unwrap();
+        let solved = |place: usize| {
+            let m = 4.0 * 1.1f64.powi(place as i32 % 40);
+            let low = m < 12.0;
+            let shift = if low { rng.f64() } else { 0.0 };
+            let bump = |x: f64| (1.0 - (x - 0.3 * shift).powi(2)).max(0.0).sqrt();
+            let pressure = (0..grid.len()).map(|i| bump(grid.place(i).0)).collect();
+            Solved { place, point: contact(m), pressure, h_0: 0.0, h_c: 0.2, grid_cost: None }
+        };
+        let pool: Vec<Solved> = (0..120).map(solved).collect();
+        let low =
+            |modes: usize| choose_anchors(&pool, &grid, (6, modes)).iter().filter(|anchor| anchor.m < 12.0).count();
+        assert!(low(4) >= 4, "{}", low(4));
+        // Modes as many as solutions miss nothing anywhere.
+        assert!(low(120) < low(4), "{}", low(120));
+    }
 
     #[test]
     fn every_place_lies_in_one_cell_and_beside_it_in_the_next() {

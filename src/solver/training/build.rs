@@ -1,6 +1,6 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
-use super::anchors::{Cell, InCommon, anchor};
+use super::anchors::{Cell, InCommon, anchor, modes_missing};
 use super::one_thread::on_one_thread;
 use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
@@ -238,9 +238,9 @@ impl<'a> WindowTraining<'a> {
         let (from, to) = window.m;
         let failed = || TrainingError::Decomposition { from, to };
         let (losses, positive) = ([spec.pressure_loss, spec.deformation_loss], spec.positive_modes);
-        let most = match spec.windows {
-            Windows::Anchored { modes, .. } => modes,
-            Windows::Given(_) | Windows::Automatic { .. } => usize::MAX,
+        let (most, missing) = match spec.windows {
+            Windows::Anchored { modes, missing, .. } => (modes, missing),
+            Windows::Given(_) | Windows::Automatic { .. } => (usize::MAX, 0.0),
         };
         let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.in_common.clone());
         let cavitation = spec.lubricant.cavitation;
@@ -248,6 +248,7 @@ impl<'a> WindowTraining<'a> {
         let (anchored, shapes) = (anchor(window).is_some(), ratio != CIRCLES);
         let keeping = Keeping { kind: grid.kind(), anchored, heat: spec.range.heats(), shapes };
         let mut model = on_one_thread(*observer, move || {
+            let most = if missing > 0.0 { most.min(modes_missing(&solutions, &grid, missing)?) } else { most };
             let limits = (losses, most, keeping.accuracy());
             let (pressure, deformation, mut snapshots) = bases(limits, positive, &grid, &solutions, shared)?;
             if cavitation == Cavitation::Complementarity {

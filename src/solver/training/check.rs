@@ -13,6 +13,8 @@ const MOST_SNAPSHOTS: usize = 5000;
 
 /// Most windows around anchors.
 const MOST_ANCHORS: usize = 256;
+/// Of films, that the modes of a window may miss, at most.
+const MOST_MISSING: f64 = 0.1;
 
 /// Fewest rows per mode of residual minimisation.
 const FEWEST_MINIMISED: f64 = 1.1;
@@ -209,11 +211,20 @@ fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
     match &spec.windows {
         Windows::Given(windows) => given(spec, windows),
         Windows::Automatic { modes } => count("windows.modes", *modes, 8, 1000),
-        Windows::Anchored { count: windows, modes, grid, shared } => {
+        Windows::Anchored { count: windows, modes, grid, shared, missing, divided_by } => {
             count("windows.count", *windows, 1, MOST_ANCHORS)?;
             count("windows.modes", *modes, 8, 1000)?;
             if *shared > 0 {
                 count("windows.shared", *shared, *modes, 1000)?;
+            }
+            if *divided_by > 0 {
+                count("windows.divided_by", *divided_by, 8, 1000)?;
+            }
+            if !(0.0..=MOST_MISSING).contains(missing) {
+                return Err(Refused::new(
+                    "windows.missing",
+                    format!("is {missing}; it must be within 0…{MOST_MISSING}"),
+                ));
             }
             grid.check().map_err(|problem| Refused::new("windows.grid", format!("makes no sense: {problem}")))?;
             if !spec.range.of_oils() {

@@ -295,6 +295,14 @@ pub enum Windows {
         /// small; 0 where each window has modes of its own.
         #[serde(default)]
         shared: usize,
+        /// What the modes of a window may miss of its pressures, root mean square over its solutions, over their films as
+        /// far as these are thin: it has no more modes than this asks for, and all where it is 0.
+        #[serde(default)]
+        missing: f64,
+        /// Pressure modes by what these miss the range is divided; 0 takes `modes`. Cells that hold hardly more solutions
+        /// than that are divided no further.
+        #[serde(default)]
+        divided_by: usize,
     },
 }
 

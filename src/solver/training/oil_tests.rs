@@ -108,7 +108,7 @@ fn where_boundaries_lie_far_apart_every_window_still_solves_what_it_serves() {
     let grid = GridSpec::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };
     let spec = TrainingSpec {
         range: Range::Oils(thick),
-        windows: Windows::Anchored { count: 2, modes: 50, grid, shared: 0 },
+        windows: Windows::Anchored { count: 2, modes: 50, grid, shared: 0, missing: 0.0, divided_by: 0 },
         evidence: 0,
         ..oils(Sampling::QDeim, 120).under(Cavitation::Complementarity)
     };
@@ -152,6 +152,38 @@ fn nothing_jumps_on_the_way_from_one_anchor_to_the_next() {
 }
 
 #[test]
+fn windows_have_no_more_modes_than_what_they_may_miss_asks_for() {
+    let spec = oils(Sampling::QDeim, 60);
+    let Windows::Anchored { count, modes, grid, .. } = spec.windows else { panic!() };
+    let missing = 4e-3;
+    let windows = Windows::Anchored { count, modes, grid, shared: 0, missing, divided_by: 0 };
+    let mut state = TrainingState::new(TrainingSpec { windows, ..spec });
+    let model = train_resumable(&mut state, &()).unwrap();
+    let counts: Vec<usize> = model.windows.iter().map(|window| window.pressure.count()).collect();
+    assert!(counts.iter().all(|count| *count < modes) && counts.iter().any(|count| *count != counts[0]), "{counts:?}");
+    for (window, state) in model.windows.iter().zip(&state.windows) {
+        let (basis, weights) = (window.pressure.basis(), window.grid.weights());
+        let norm = |v: &dyn Fn(usize) -> f64| (0..weights.len()).map(|i| weights[i] * v(i).powi(2)).sum::<f64>();
+        // What the first of the modes leave of a pressure, over its film.
+        let missed = |modes: usize| {
+            let of = |solved: &Solved| {
+                let shares = basis.coefficients(weights, |i| solved.pressure[i]);
+                let made = |i: usize| (0..modes).map(|k| shares[k] * basis.modes[(i, k)]).sum::<f64>();
+                norm(&|i| solved.pressure[i] - made(i)) / solved.h_c.min(0.1).powi(2)
+            };
+            (state.solved.iter().map(of).sum::<f64>() / state.solved.len() as f64).sqrt()
+        };
+        let all = window.pressure.count();
+        assert!(
+            missed(all) < 1.01 * missing && missed(all - 1) > 0.99 * missing,
+            "{} {}",
+            missed(all),
+            missed(all - 1)
+        );
+    }
+}
+
+#[test]
 fn oils_beyond_the_table_are_told() {
     let spec = oils(Sampling::QDeim, 60);
     let domain = spec.domain();
@@ -188,7 +220,14 @@ fn ranges_of_oils_are_refused_with_their_field() {
         assert!(refused(with(range)).contains(field), "{field}: {}", refused(with(range)));
     }
     let windows = |count, modes| TrainingSpec {
-        windows: Windows::Anchored { count, modes, grid: super::small::line_grid(240), shared: 0 },
+        windows: Windows::Anchored {
+            count,
+            modes,
+            grid: super::small::line_grid(240),
+            shared: 0,
+            missing: 0.0,
+            divided_by: 0,
+        },
         ..good.clone()
     };
     assert!(refused(windows(0, 20)).contains("windows.count") && refused(windows(3, 2)).contains("windows.modes"));
@@ -199,8 +238,27 @@ fn ranges_of_oils_are_refused_with_their_field() {
     barus.lubricant.viscosity = ViscosityLaw::Barus;
     assert!(refused(barus).contains("another law"));
     assert!(refused(with(OilRange { thinnest_film: -1.0, ..range })).contains("thinnest_film"));
-    let few = Windows::Anchored { count: 3, modes: 32, grid: super::small::line_grid(240), shared: 20 };
+    let few = Windows::Anchored {
+        count: 3,
+        modes: 32,
+        grid: super::small::line_grid(240),
+        shared: 20,
+        missing: 0.0,
+        divided_by: 0,
+    };
     assert!(refused(TrainingSpec { windows: few, ..good.clone() }).contains("windows.shared"));
+    for (missing, divided_by, field) in [(0.2, 0, "missing"), (f64::NAN, 0, "missing"), (0.0, 3, "divided_by")] {
+        let windows = Windows::Anchored {
+            count: 3,
+            modes: 32,
+            grid: super::small::line_grid(240),
+            shared: 0,
+            missing,
+            divided_by,
+        };
+        let sentence = refused(TrainingSpec { windows, ..good.clone() });
+        assert!(sentence.contains(&format!("windows.{field}")), "{sentence}");
+    }
 }
 
 #[test]

@@ -81,7 +81,8 @@ pub(crate) fn oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         thinnest_film: 0.0,
     };
     let plan = Plan::FarthestPoint { snapshots };
-    let windows = Windows::Anchored { count: 3, modes: 32, grid: line_grid(240), shared: 0 };
+    let windows =
+        Windows::Anchored { count: 3, modes: 32, grid: line_grid(240), shared: 0, missing: 0.0, divided_by: 0 };
     let spec = TrainingSpec::new(Range::Oils(range), range.m, line_grid(240), plan);
     TrainingSpec { windows, pressure_loss: 1e-9, deformation_loss: 0.1, sampling, evidence: 0, seed: 5, ..spec }
 }
@@ -101,7 +102,14 @@ pub(crate) fn sliding_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec
     TrainingSpec {
         range: Range::SlidingOils(range),
         lubricant: Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..Lubricant::default() },
-        windows: Windows::Anchored { count: 2, modes: 40, grid: line_grid(240), shared: 0 },
+        windows: Windows::Anchored {
+            count: 2,
+            modes: 40,
+            grid: line_grid(240),
+            shared: 0,
+            missing: 0.0,
+            divided_by: 0,
+        },
         ..spec
     }
 }
@@ -118,7 +126,7 @@ pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
         thinnest_film: 0.16,
     };
     let grid = GridSpec::Plane(PointGridSpec { refinement: 2.0, ..POINT_GRID });
-    let windows = Windows::Anchored { count: 2, modes: 24, grid, shared: 60 };
+    let windows = Windows::Anchored { count: 2, modes: 24, grid, shared: 60, missing: 0.0, divided_by: 0 };
     let spec = TrainingSpec::new(Range::Oils(range), range.m, grid, Plan::FarthestPoint { snapshots });
     TrainingSpec {
         windows,
@@ -174,7 +182,7 @@ pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec 
         sliding_speed: 3.0,
     };
     let one = heated(sampling, snapshots);
-    let windows = Windows::Anchored { count: 2, modes: 40, grid: HEATED_GRID, shared: 0 };
+    let windows = Windows::Anchored { count: 2, modes: 40, grid: HEATED_GRID, shared: 0, missing: 0.0, divided_by: 0 };
     TrainingSpec {
         range: Range::HeatedOils(range),
         windows,

@@ -138,7 +138,9 @@ impl Features {
     ) -> Self {
         let Moes { m, l } = point.moes();
         let norm = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let last = norm(&coefficients[coefficients.len().saturating_sub(LAST_MODES)..]) / norm(coefficients);
+        // Modes that an iteration was tried without are no sign.
+        let used = coefficients.iter().rposition(|c| *c != 0.0).map_or(0, |last| last + 1);
+        let last = norm(&coefficients[used.saturating_sub(LAST_MODES)..used]) / norm(coefficients);
         let srr = (point.sliding.slide_to_roll_ratio.abs() + SLOW).ln();
         let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
         let (residual, last) = (residual.max(1e-300).ln(), last.max(1e-300).ln());

@@ -52,7 +52,9 @@ pub(super) fn attempt(
 ) -> Result<Found, ReducedError> {
     let scale = window.grid.scale(problem.moes);
     let zero = window.grid.at_zero(scale);
-    let mut coefficients = start.coefficients[..operators.modes].to_vec();
+    let mut coefficients = vec![0.0; operators.modes];
+    coefficients.iter_mut().zip(&start.coefficients).for_each(|(c, known)| *c = *known);
+    operators.use_modes(start.coefficients.len());
     operators.take_shape(window, problem);
     operators.rupture_at(Some(&start.fronts));
     operators.carry_load(problem, scale, &mut coefficients);
@@ -142,4 +144,42 @@ pub(super) fn walk(
         }
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::operators_of;
+    use super::*;
+    use crate::solver::reduced::Sampling;
+    use crate::solver::reduced::start;
+    use crate::solver::training::small::oils;
+    use crate::solver::training::{random_points, train};
+
+    #[test]
+    fn a_start_with_fewer_modes_ends_where_a_model_with_no_more_of_them_does() {
+        let spec = oils(Sampling::QDeim, 60);
+        let model = train(&spec, &()).unwrap();
+        let options = ReducedOptions::default();
+        let with = |modes| ReducedOptions { pressure_modes: Some(modes), ..options };
+        for point in random_points(&spec.range, spec.contact(), 6, 3) {
+            let window = model.window_at(&point);
+            let problem = Problem::new(&point, spec.lubricant).unwrap();
+            let guess = start::nearest(window, &point).unwrap();
+            let mut operators = operators_of(&model, window, &options);
+            let mut film = |share: f64| {
+                let guess = guess.with_modes(share);
+                let found = attempt(window, &mut operators, &problem, &guess, 40, &options, &mut None).unwrap();
+                let used = guess.coefficients.len();
+                assert!(found.coefficients.len() == window.pressure.count());
+                assert!(found.coefficients[used..].iter().all(|c| *c == 0.0));
+                (used, found.h_c)
+            };
+            let (all, (modes, fewer), again) = (film(1.0), film(0.75), film(1.0));
+            assert!(all.1 == again.1 && all.1 != fewer, "what one attempt leaves out the next one has");
+            let options = with(modes);
+            let mut operators = operators_of(&model, window, &options);
+            let small = attempt(window, &mut operators, &problem, &guess, 40, &options, &mut None).unwrap();
+            assert!((fewer / small.h_c - 1.0).abs() < 1e-8, "{fewer} {}", small.h_c);
+        }
+    }
 }

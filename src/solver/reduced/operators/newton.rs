@@ -334,6 +334,11 @@ impl Operators {
         if keep {
             s.jacobian.copy_from(&*matrix);
         }
+        for k in self.active..modes {
+            matrix.row_mut(k).fill(0.0);
+            matrix.col_mut(k).fill(0.0);
+            (matrix[(k, k)], rhs[k]) = (1.0, 0.0);
+        }
         s.system.solve();
         s.system.rhs.iter().all(|v| v.is_finite())
     }
@@ -353,6 +358,7 @@ impl Operators {
         if let Some(front) = &self.front {
             front.pull(s.restraint, coefficients, &mut rhs[..modes]);
         }
+        rhs[self.active..modes].fill(0.0);
         let carried: f64 = self.load_row.iter().zip(coefficients).map(|(l, c)| scale * l * c).sum();
         rhs[modes] = problem.load - carried;
         s.system.solve_again();
