@@ -334,6 +334,7 @@ impl Operators {
         if keep {
             s.jacobian.copy_from(&*matrix);
         }
+        // Those that are left out stay as they are.
         for k in self.active..modes {
             matrix.row_mut(k).fill(0.0);
             matrix.col_mut(k).fill(0.0);
