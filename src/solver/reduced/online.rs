@@ -23,11 +23,11 @@ use std::sync::Arc;
 /// Newton steps before another start is tried: good starts need 4, and what needs more than 12 mostly never gets there.
 const FIRST_ATTEMPTS: usize = 12;
 
-/// Shares of the modes with which an iteration for a Newtonian circle is tried where it gets nowhere with all. Sampled rows
-/// may have no solution there: the last modes hardly appear in any pressure, and a basis that windows share knows them only
-/// in part. Without these all five of 20,000 converged that had not, H_c off by 1e-3 at most; from other starts films were
+/// Shares of the modes with which an iteration for a Newtonian circle is tried. Where it gets nowhere with all, sampled rows
+/// may have no solution: the last modes hardly appear in any pressure, and a basis that windows share knows them only
+/// in part. Without these all five of 20,000 converged that had not, H_c off by 1.3e-3 at most; from other starts films were
 /// off by up to 5e-2. Of lines all modes count, and other starts find their solutions.
-const FEWER: [f64; 2] = [0.875, 0.75];
+const SHARES: [f64; 3] = [1.0, 0.875, 0.75];
 
 /// What the online phase returns: small numbers only; fields are reconstructed on request.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,22 +202,10 @@ impl Online {
         let former = former.into_iter().filter(|_| !by_kriging);
         let interpolated = std::iter::once_with(|| start::interpolated(window, point, thinning));
         let nearest = std::iter::once_with(|| start::nearest(window, point));
-        if let Some(guess) = &kriged {
-            match attempt(window, operators, &problem, guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
-                Ok(found) => return Ok(self.keep(&problem, index, found)),
-                Err(error) => last = error,
-            }
-            // Training is shown iterations with all modes.
-            let fewer = self.model.tries_fewer_modes() && observer.is_none();
-            for share in FEWER.into_iter().filter(|_| fewer) {
-                let guess = guess.with_modes(share);
-                let found = attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut None);
-                if let Ok(found) = found {
-                    return Ok(self.keep(&problem, index, found));
-                }
-            }
-        }
-        for guess in former.chain(interpolated).chain(nearest).flatten() {
+        // Training is shown iterations with all modes.
+        let shares = if observer.is_none() { model.shares_of_modes() } else { &SHARES[..1] };
+        let kriged = kriged.iter().flat_map(|guess| shares.iter().map(|share| guess.with_modes(*share)));
+        for guess in kriged.chain(former.chain(interpolated).chain(nearest).flatten()) {
             match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
@@ -301,9 +289,10 @@ impl Online {
 }
 
 impl ReducedModel {
-    /// Whether iterations that get nowhere with all modes are tried with fewer.
-    fn tries_fewer_modes(&self) -> bool {
-        self.contact() == ContactKind::Point && !self.slides()
+    /// Shares of the modes with which its iterations are tried.
+    fn shares_of_modes(&self) -> &'static [f64] {
+        let fewer = self.contact() == ContactKind::Point && !self.slides();
+        if fewer { &SHARES } else { &SHARES[..1] }
     }
 }
 

@@ -31,8 +31,9 @@ pub(super) struct Guess {
 impl Guess {
     /// The same with this share of the modes.
     pub fn with_modes(&self, share: f64) -> Self {
-        let modes = ((share * self.coefficients.len() as f64) as usize).max(1);
-        Self { coefficients: self.coefficients[..modes.min(self.coefficients.len())].to_vec(), ..self.clone() }
+        let mut fewer = self.clone();
+        fewer.coefficients.truncate(((share * self.coefficients.len() as f64) as usize).max(1));
+        fewer
     }
 }
 

@@ -201,20 +201,17 @@ fn nearest(anchors: &[Moes], moes: Moes) -> usize {
 /// the modes miss of solutions that did not make them is no better judge: it divides the corners of the range only, until
 /// they hold no solutions.
 fn missing(pool: &[Solved], cell: &[usize], grid: &ContactGrid, modes: usize) -> f64 {
-    let every = cell.len().div_ceil(MOST_JUDGED).max(1);
-    let chosen: Vec<&Solved> = cell.iter().step_by(every).map(|k| &pool[*k]).collect();
-    if chosen.len() <= modes {
-        return 0.0;
-    }
-    let rest = missed_by_modes(&chosen, grid).and_then(|missed| missed.get(modes).copied());
-    rest.unwrap_or(f64::INFINITY)
+    let solutions: Vec<&Solved> = cell.iter().map(|k| &pool[*k]).collect();
+    missed_by_modes(&solutions, grid).map_or(f64::INFINITY, |missed| missed.get(modes).copied().unwrap_or(0.0))
 }
 
 /// What no mode, one, two… miss of the pressures of solutions, root mean square, over their films as far as these are thin;
 /// `None` when the decomposition fails.
 fn missed_by_modes(solutions: &[&Solved], grid: &ContactGrid) -> Option<Vec<f64>> {
-    let count = solutions.len();
-    let pressures = Mat::from_fn(grid.len(), count, |i, j| solutions[j].pressure[i] / solutions[j].h_c.min(THIN));
+    let every = solutions.len().div_ceil(MOST_JUDGED).max(1);
+    let judged: Vec<&&Solved> = solutions.iter().step_by(every).collect();
+    let count = judged.len();
+    let pressures = Mat::from_fn(grid.len(), count, |i, j| judged[j].pressure[i] / judged[j].h_c.min(THIN));
     let basis = PodBasis::new(pressures.as_ref(), grid.weights(), 0.5)?;
     let mut rest = 0.0;
     let missed = basis.singular_values.iter().rev().map(|sigma| {
@@ -228,9 +225,7 @@ fn missed_by_modes(solutions: &[&Solved], grid: &ContactGrid) -> Option<Vec<f64>
 
 /// How many modes miss no more than so much of solutions; `None` when the decomposition fails.
 pub(super) fn modes_missing(solutions: &[Solved], grid: &ContactGrid, missing: f64) -> Option<usize> {
-    let every = solutions.len().div_ceil(MOST_JUDGED).max(1);
-    let chosen: Vec<&Solved> = solutions.iter().step_by(every).collect();
-    let missed = missed_by_modes(&chosen, grid)?;
+    let missed = missed_by_modes(&solutions.iter().collect::<Vec<_>>(), grid)?;
     Some(missed.iter().position(|missed| *missed <= missing).unwrap_or(missed.len()))
 }
 

@@ -219,17 +219,12 @@ fn ranges_of_oils_are_refused_with_their_field() {
     ] {
         assert!(refused(with(range)).contains(field), "{field}: {}", refused(with(range)));
     }
-    let windows = |count, modes| TrainingSpec {
-        windows: Windows::Anchored {
-            count,
-            modes,
-            grid: super::small::line_grid(240),
-            shared: 0,
-            missing: 0.0,
-            divided_by: 0,
-        },
+    let grid = super::small::line_grid(240);
+    let anchored = |count, modes, shared, missing, divided_by| TrainingSpec {
+        windows: Windows::Anchored { count, modes, grid, shared, missing, divided_by },
         ..good.clone()
     };
+    let windows = |count, modes| anchored(count, modes, 0, 0.0, 0);
     assert!(refused(windows(0, 20)).contains("windows.count") && refused(windows(3, 2)).contains("windows.modes"));
     assert!(refused(TrainingSpec { windows: Windows::Automatic { modes: 20 }, ..good.clone() }).contains("Anchored"));
     let plain = TrainingSpec { range: super::small::moes((5.0, 50.0), (5.0, 8.0), 4e9), ..good.clone() };
@@ -238,25 +233,9 @@ fn ranges_of_oils_are_refused_with_their_field() {
     barus.lubricant.viscosity = ViscosityLaw::Barus;
     assert!(refused(barus).contains("another law"));
     assert!(refused(with(OilRange { thinnest_film: -1.0, ..range })).contains("thinnest_film"));
-    let few = Windows::Anchored {
-        count: 3,
-        modes: 32,
-        grid: super::small::line_grid(240),
-        shared: 20,
-        missing: 0.0,
-        divided_by: 0,
-    };
-    assert!(refused(TrainingSpec { windows: few, ..good.clone() }).contains("windows.shared"));
+    assert!(refused(anchored(3, 32, 20, 0.0, 0)).contains("windows.shared"));
     for (missing, divided_by, field) in [(0.2, 0, "missing"), (f64::NAN, 0, "missing"), (0.0, 3, "divided_by")] {
-        let windows = Windows::Anchored {
-            count: 3,
-            modes: 32,
-            grid: super::small::line_grid(240),
-            shared: 0,
-            missing,
-            divided_by,
-        };
-        let sentence = refused(TrainingSpec { windows, ..good.clone() });
+        let sentence = refused(anchored(3, 32, 0, missing, divided_by));
         assert!(sentence.contains(&format!("windows.{field}")), "{sentence}");
     }
 }

@@ -1,8 +1,8 @@
 //! Whether the parts of a window belong together: at its own snapshots it must give what they hold.
 
 use super::attempt::attempt;
+use super::operators_of;
 use super::settings::ReducedOptions;
-use super::{FEWER, operators_of};
 use crate::solver::full::Problem;
 use crate::solver::reduced::kriging::Kriging;
 use crate::solver::reduced::model::{ReducedModel, Snapshot};
@@ -33,10 +33,8 @@ impl ReducedModel {
             };
             gives(start::carried(snapshot, &problem.point))
                 || served.anchor.is_some()
-                    && kriged(&problem).is_some_and(|guess| {
-                        let fewer = FEWER.into_iter().filter(|_| self.tries_fewer_modes());
-                        [1.0].into_iter().chain(fewer).any(|share| gives(guess.with_modes(share)))
-                    })
+                    && kriged(&problem)
+                        .is_some_and(|guess| self.shares_of_modes().iter().any(|share| gives(guess.with_modes(*share))))
         })
     }
 }
