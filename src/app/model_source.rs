@@ -8,9 +8,15 @@ use rayon::prelude::*;
 use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
-/// The models that are read when they are first asked for: not everybody has ellipses, heat or oils that thin.
-const LATE: [Embedded; 5] =
-    [Embedded::Ellipse, Embedded::HeatedLine, Embedded::HeatedCircle, Embedded::EyringLine, Embedded::EyringCircle];
+/// The models that are read when they are first asked for: not everybody has ellipses, light balls, heat or oils that thin.
+const LATE: [Embedded; 6] = [
+    Embedded::LightCircle,
+    Embedded::Ellipse,
+    Embedded::HeatedLine,
+    Embedded::HeatedCircle,
+    Embedded::EyringLine,
+    Embedded::EyringCircle,
+];
 
 /// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
 #[derive(Clone, Default)]
@@ -44,30 +50,38 @@ impl Models {
     /// The model that serves a contact with a fluid: one of its shape and of this very fluid, else one of another fluid
     /// that thins under shear as little or as much, else one of circles; what it was trained for it says itself.
     pub fn of(&self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
-        let ellipse = point.radius_ratio() != 1.0;
-        let round = || self.shaped(point.kind, false, lubricant);
-        self.shaped(point.kind, ellipse, lubricant).or_else(|| ellipse.then(round).flatten())
+        let (ellipse, m) = (point.radius_ratio() != 1.0, point.moes().m);
+        let round = || self.shaped(point.kind, false, lubricant, m);
+        self.shaped(point.kind, ellipse, lubricant, m).or_else(|| ellipse.then(round).flatten())
     }
 
     /// The model of a kind of contact, elliptical or not, with a fluid; with heat one that knows heat, where there is one.
-    pub fn shaped(&self, kind: ContactKind, ellipse: bool, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
+    /// Of several that differ in M alone it is the one that knows this load number, or comes nearest to it.
+    pub fn shaped(
+        &self,
+        kind: ContactKind,
+        ellipse: bool,
+        lubricant: &Lubricant,
+        m: f64,
+    ) -> Option<&Arc<ReducedModel>> {
         let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
         let akin = |model: &&Arc<ReducedModel>| thins(&model.domain.lubricant) == thins(lubricant);
         let of_law = |model: &&Arc<ReducedModel>| law(&model.domain.lubricant) == law(lubricant);
-        let own = self.place(kind, ellipse, lubricant).and_then(|place| self.models.get(place));
+        let own = |model: &&Arc<ReducedModel>| model.domain.is_of(lubricant);
         let shaped = |model: &&Arc<ReducedModel>| model.contact() == kind && model.of_ellipses() == ellipse;
         let warm = |model: &&Arc<ReducedModel>| model.domain.heat.is_some();
         let alike = || self.models.iter().filter(shaped).filter(akin);
         let cold = || alike().filter(|model| !warm(model));
         let wanted = lubricant.heat.is_some();
-        own.or_else(|| alike().find(|model| warm(model) && wanted))
-            .or_else(|| cold().find(of_law))
-            .or_else(|| cold().next())
+        nearest(m, self.models.iter().filter(shaped).filter(own))
+            .or_else(|| nearest(m, alike().filter(|model| warm(model) && wanted)))
+            .or_else(|| nearest(m, cold().filter(of_law)))
+            .or_else(|| nearest(m, cold()))
     }
 
-    /// Puts a model in place of the one of its kind of contact and fluid, which is returned.
+    /// Puts a model in place of the one of its kind of contact, fluid and loads, which is returned.
     pub fn put(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
-        match self.place(model.contact(), model.of_ellipses(), &model.domain.lubricant) {
+        match self.place(&model) {
             Some(place) => Some(std::mem::replace(&mut self.models[place], model)),
             None => {
                 self.models.push(model);
@@ -81,13 +95,13 @@ impl Models {
         self.models.retain(|other| !Arc::ptr_eq(other, model));
     }
 
-    /// Whether contacts of a model's kind, with a fluid like its own, have one.
+    /// Whether contacts of a model's kind and loads, with a fluid like its own, have one.
     pub fn serves(&self, model: &ReducedModel) -> bool {
         let kind = |model: &ReducedModel| {
             let laws = &model.domain.lubricant;
             (model.contact(), model.of_ellipses(), law(laws), laws.heat.is_some())
         };
-        self.models.iter().any(|known| kind(known) == kind(model))
+        self.models.iter().any(|known| kind(known) == kind(model) && in_common(known, model) > 0.0)
     }
 
     /// Whether a model is among them.
@@ -95,11 +109,30 @@ impl Models {
         self.models.iter().any(|other| Arc::ptr_eq(other, model))
     }
 
-    fn place(&self, kind: ContactKind, ellipse: bool, lubricant: &Lubricant) -> Option<usize> {
-        let same = |model: &Arc<ReducedModel>| model.domain.is_of(lubricant);
-        let shaped = |model: &Arc<ReducedModel>| model.contact() == kind && model.of_ellipses() == ellipse;
-        self.models.iter().position(|model| shaped(model) && same(model))
+    /// The place of the model that another one is to replace: of its kind of contact and fluid the one with which it has
+    /// most loads in common.
+    fn place(&self, wanted: &ReducedModel) -> Option<usize> {
+        let alike = |model: &ReducedModel| {
+            model.contact() == wanted.contact()
+                && model.of_ellipses() == wanted.of_ellipses()
+                && model.domain.is_of(&wanted.domain.lubricant)
+        };
+        let shared = |(place, model): (usize, &Arc<ReducedModel>)| (place, in_common(model, wanted));
+        let places = self.models.iter().enumerate().filter(|(_, model)| alike(model)).map(shared);
+        places.filter(|(_, shared)| *shared > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
     }
+}
+
+/// Of several models the first that knows a load number, or else comes nearest to it.
+fn nearest<'a>(m: f64, models: impl Iterator<Item = &'a Arc<ReducedModel>>) -> Option<&'a Arc<ReducedModel>> {
+    let beyond = |model: &ReducedModel| (model.domain.m.0 / m).max(m / model.domain.m.1).max(1.0);
+    models.min_by(|a, b| beyond(a).total_cmp(&beyond(b)))
+}
+
+/// The loads that two models have in common, in ln M.
+fn in_common(a: &ReducedModel, b: &ReducedModel) -> f64 {
+    let (a, b) = (a.domain.m, b.domain.m);
+    (a.1.min(b.1) / a.0.max(b.0)).ln()
 }
 
 /// Which law of shear a lubricant has, whatever its constants.
@@ -168,6 +201,29 @@ mod tests {
             models.of(&ellipse, &oil).unwrap().of_ellipses() && Arc::ptr_eq(models.of(&circle, &oil).unwrap(), &round)
         );
         assert_eq!(Models::only(None).late_for(&ellipse, &oil), None);
+    }
+
+    #[test]
+    fn light_balls_have_a_model_beside_that_of_the_others_and_one_of_the_users_takes_the_place_of_the_nearer() {
+        let store = Store::default();
+        let mut models = Models::embedded(&store);
+        let ball = |m: f64| si_from_moes(&MoesRequest::new(ContactKind::Point, m, 5.0)).unwrap();
+        let oil = Lubricant::default();
+        let heavy = Arc::clone(models.of(&ball(50.0), &oil).unwrap());
+        assert_eq!(models.late_for(&ball(50.0), &oil), None);
+        assert_eq!(models.late_for(&ball(6.0), &oil), Some(Embedded::LightCircle));
+        assert!(Arc::ptr_eq(models.of(&ball(6.0), &oil).unwrap(), &heavy), "until it is there");
+        let light = store.embedded(Embedded::LightCircle).unwrap();
+        assert!(!models.serves(&light) && models.put(Arc::clone(&light)).is_none() && models.serves(&light));
+        for (m, wanted) in [(2.0, &light), (6.0, &light), (12.5, &heavy), (900.0, &heavy)] {
+            assert!(Arc::ptr_eq(models.of(&ball(m), &oil).unwrap(), wanted), "M = {m}");
+        }
+        let mut own = ReducedModel::clone(&heavy);
+        (own.domain.m, own.domain.lubricant) = ((4.0, 20.0), light.domain.lubricant);
+        let own = Arc::new(own);
+        let former = models.put(Arc::clone(&own)).unwrap();
+        assert!(Arc::ptr_eq(&former, &light) && Arc::ptr_eq(models.of(&ball(6.0), &oil).unwrap(), &own));
+        assert!(models.contains(&heavy) && Arc::ptr_eq(models.of(&ball(50.0), &oil).unwrap(), &heavy));
     }
 
     #[test]

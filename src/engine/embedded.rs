@@ -18,6 +18,8 @@ pub enum Embedded {
     ThinningLine,
     /// Circular contacts: `scenes/training/point_oils.ron`.
     Circle,
+    /// Circular contacts under so small a load that films reach far: `scenes/training/point_light_oils.ron`.
+    LightCircle,
     /// Circular contacts of lubricants that thin under shear: `scenes/training/embedded_point_shear_model.ron`.
     ThinningCircle,
     /// Elliptical contacts: `scenes/training/embedded_ellipse_model.ron`.
@@ -32,12 +34,16 @@ pub enum Embedded {
     EyringCircle,
 }
 
+/// The load number below which circles have a model of their own: there films reach beyond the domain of the other one.
+const LIGHT: f64 = 12.0;
+
 impl Embedded {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Line,
         Self::ThinningLine,
         Self::Circle,
+        Self::LightCircle,
         Self::ThinningCircle,
         Self::Ellipse,
         Self::HeatedLine,
@@ -70,11 +76,14 @@ impl Embedded {
     /// The one that serves a contact. Ellipses of lubricants that thin under shear have none, nor have ellipses with heat:
     /// they get that of circles, which says so; as do contacts with heat whose lubricants thin.
     pub fn of(point: &OperatingPoint, lubricant: &Lubricant) -> Self {
-        let thins = lubricant.shear != ShearLaw::Newtonian;
         if lubricant.heat.is_some() {
             return Self::with_heat(point.kind);
         }
-        if point.radius_ratio() != 1.0 && !thins { Self::Ellipse } else { Self::of_kind(point.kind, lubricant.shear) }
+        match Self::of_kind(point.kind, lubricant.shear) {
+            Self::Circle if point.radius_ratio() != 1.0 => Self::Ellipse,
+            Self::Circle if point.moes().m < LIGHT => Self::LightCircle,
+            of_kind => of_kind,
+        }
     }
 
     /// The content of its file.
@@ -83,6 +92,7 @@ impl Embedded {
             Self::Line => include_bytes!("../../assets/line.rom"),
             Self::ThinningLine => include_bytes!("../../assets/line_shear.rom"),
             Self::Circle => include_bytes!("../../assets/point.rom"),
+            Self::LightCircle => include_bytes!("../../assets/point_light.rom"),
             Self::ThinningCircle => include_bytes!("../../assets/point_shear.rom"),
             Self::Ellipse => include_bytes!("../../assets/ellipse.rom"),
             Self::HeatedLine => include_bytes!("../../assets/line_heat.rom"),
@@ -154,6 +164,8 @@ mod tests {
         let ellipse = Quantity::RadiusRatio.at(&circle, 2.0);
         let oil = Lubricant::default();
         assert_eq!([circle, ellipse].map(|point| Embedded::of(&point, &oil)), [Embedded::Circle, Embedded::Ellipse]);
+        let light = si_from_moes(&MoesRequest::new(ContactKind::Point, 6.0, 5.0)).unwrap();
+        assert_eq!(Embedded::of(&light, &oil), Embedded::LightCircle);
         let equal = Quantity::RadiusRatio.at(&circle, 1.0);
         assert_eq!(Embedded::of(&equal, &oil), Embedded::Circle);
         assert_eq!(Embedded::of(&ellipse, &SQUALANE_PIP), Embedded::ThinningCircle);

@@ -4,20 +4,15 @@
 //! power of two, and what is kept is by how many of them it misses the polynomial through the nodes before it: of fields that are
 //! smooth small integers, which are packed by how often each of them comes. Nodes where no mode has a value are left out.
 
+mod curves;
+mod former;
+
 use crate::solver::reduced::{Multiples, PodBasis};
+use curves::{Curves, Lattice, runs};
 use faer::Mat;
-use pco::standalone::{simple_compress, simple_decompress_into};
-use pco::{ChunkConfig, DeltaSpec, ModeSpec};
+use former::Steps;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-
-/// Exponents beyond these belong to no field.
-const EXPONENTS: std::ops::RangeInclusive<i16> = -400..=400;
-/// Highest orders of the polynomials that are continued along X and across.
-const MOST_ALONG: u8 = 5;
-const MOST_BESIDE: u8 = 2;
-/// So many packed misses take a byte at most: what is read takes no more memory than its bytes may ask for.
-const MOST_PACKED: usize = 4;
 
 /// How far, relative to itself, a row of a cubature may lie from a multiple of the modes at its node: as rare modes do that
 /// were kept once.
@@ -48,37 +43,6 @@ impl Default for Values {
     fn default() -> Self {
         Self::Double(Vec::new())
     }
-}
-
-/// Columns over a grid as multiples of 2^(exponent of the row + exponent of the column).
-#[derive(Clone, Serialize, Deserialize)]
-struct Curves {
-    /// Nodes across: rows i and i − across are neighbours along X.
-    across: usize,
-    /// Lengths of runs of rows without and with values, in turn.
-    runs: Vec<usize>,
-    /// Of the rows with values.
-    row_exponents: Vec<i16>,
-    column_exponents: Vec<i16>,
-    /// Of each column the orders along X and across of the polynomial that is continued.
-    orders: Vec<(u8, u8)>,
-    /// By how many multiples the rows with values miss it, column after column.
-    misses: Vec<i64>,
-}
-
-/// What former versions kept: values in steps of 2^(exponent of the row + exponent of the column) from the straight
-/// continuation of the values before them.
-#[derive(Clone, Serialize, Deserialize)]
-struct Steps {
-    /// Nodes across: rows i and i − across are neighbours along X.
-    across: usize,
-    /// Lengths of runs of rows without and with values, in turn.
-    runs: Vec<usize>,
-    /// Of the rows with values.
-    row_exponents: Vec<i16>,
-    column_exponents: Vec<i16>,
-    /// Steps from the prediction at the rows with values, column after column.
-    steps: Vec<i64>,
 }
 
 /// A basis on its way to or from a file.
@@ -164,203 +128,6 @@ impl StoredMatrix {
     }
 }
 
-impl Curves {
-    /// With the misses packed, unless they are so few bytes that reading them would make much of little.
-    fn packed(mut self) -> Values {
-        let settings = ChunkConfig::default().with_mode_spec(ModeSpec::Classic).with_delta_spec(DeltaSpec::NoOp);
-        match simple_compress(&self.misses, &settings) {
-            Ok(packed) if self.misses.len() <= MOST_PACKED * packed.len() => {
-                self.misses.clear();
-                Values::Packed(self, packed)
-            }
-            _ => Values::Curves(self),
-        }
-    }
-
-    /// With the misses that were packed; `None` when these are not as many as the rest says, or more than so many bytes
-    /// can be.
-    fn with_misses(mut self, packed: &[u8]) -> Option<Self> {
-        let count = self.row_exponents.len().checked_mul(self.column_exponents.len())?;
-        if count > MOST_PACKED * packed.len() {
-            return None;
-        }
-        self.misses = vec![0; count];
-        let read = simple_decompress_into(packed, &mut self.misses).ok()?;
-        (read.finished && read.n_processed == count).then_some(self)
-    }
-
-    /// Column after column; `None` when its parts do not fit each other.
-    fn values(self, rows: usize, columns: usize) -> Option<Vec<f64>> {
-        let Self { across, runs, row_exponents, column_exponents, orders, misses } = self;
-        let used = flags(&runs, rows)?;
-        let per_column = used.iter().filter(|used| **used).count();
-        let known = |(along, beside): &(u8, u8)| *along <= MOST_ALONG && *beside <= MOST_BESIDE;
-        let fits = across > 0
-            && (row_exponents.len(), column_exponents.len(), orders.len()) == (per_column, columns, columns)
-            && sane(&row_exponents)
-            && sane(&column_exponents)
-            && orders.iter().all(known)
-            && per_column.checked_mul(columns) == Some(misses.len());
-        if !fits {
-            return None;
-        }
-        let lattice = Lattice::new(&used, across, &row_exponents);
-        let column = |k: usize| {
-            let own = misses.get(k * per_column..(k + 1) * per_column).unwrap_or_default();
-            let mut values = vec![0.0; rows];
-            lattice.walk(&mut values, *column_exponents.get(k)?, *orders.get(k)?, |place, _, expected| {
-                own.get(place).map_or(0, |miss| expected.saturating_add(*miss))
-            });
-            Some(values)
-        };
-        Some((0..columns).into_par_iter().map(column).collect::<Option<Vec<_>>>()?.concat())
-    }
-}
-
-/// Where the values of a column lie, and on which multiples.
-struct Lattice<'a> {
-    used: &'a [bool],
-    across: usize,
-    /// 2^exponent of the rows with values.
-    row_steps: Vec<f64>,
-}
-
-impl<'a> Lattice<'a> {
-    fn new(used: &'a [bool], across: usize, row_exponents: &[i16]) -> Self {
-        Self { used, across, row_steps: row_exponents.iter().map(|exponent| f64::from(*exponent).exp2()).collect() }
-    }
-
-    /// The orders whose continuation takes the fewest bits to correct, and by how much it misses each row.
-    fn shortest(&self, column: &[f64], exponent: i16) -> ((u8, u8), Vec<i64>) {
-        let most_beside = if self.across > 1 { MOST_BESIDE } else { 0 };
-        let candidates = (1..=MOST_ALONG).flat_map(|along| (0..=most_beside).map(move |beside| (along, beside)));
-        let missed = candidates.map(|orders| {
-            let (mut misses, mut values) = (Vec::with_capacity(self.row_steps.len()), vec![0.0; column.len()]);
-            self.walk(&mut values, exponent, orders, |_, (row, step), expected| {
-                let count = (column.get(row).copied().unwrap_or_default() / step).round() as i64;
-                misses.push(count.saturating_sub(expected));
-                count
-            });
-            (orders, misses)
-        });
-        let size = |(_, misses): &(_, Vec<i64>)| misses.iter().map(|miss| bits(*miss)).sum::<u32>();
-        missed.min_by_key(size).unwrap_or_default()
-    }
-
-    /// Goes through a column, whose values are found as it goes: `count` says which multiple the value of a row is,
-    /// given the place among those with values, the row with its step, and the multiple that is expected.
-    fn walk(
-        &self,
-        values: &mut [f64],
-        exponent: i16,
-        (along, beside): (u8, u8),
-        mut count: impl FnMut(usize, (usize, f64), i64) -> i64,
-    ) {
-        // v − (1 − S)^along (1 − S')^beside v, with S and S' the shifts by a node along X and across.
-        let mut terms = Vec::new();
-        for (i, a) in signed_binomials(along).into_iter().enumerate() {
-            for (j, b) in signed_binomials(beside).into_iter().enumerate().filter(|(j, _)| i + j > 0) {
-                terms.push((i * self.across, j, -a * b));
-            }
-        }
-        let rows = self.used.iter().enumerate().filter(|(_, used)| **used).map(|(row, _)| row);
-        let of_column = f64::from(exponent).exp2();
-        for (place, (row, own)) in rows.zip(&self.row_steps).enumerate() {
-            let step = own * of_column;
-            let in_line = row % self.across;
-            let reached = terms.iter().filter(|(back, aside, _)| *aside <= in_line && back + aside <= row);
-            let at = |back: usize| values.get(row - back).copied().unwrap_or_default();
-            let expected: f64 = reached.map(|(back, aside, factor)| factor * at(back + aside)).sum();
-            let count = count(place, (row, step), (expected / step).round() as i64);
-            if let Some(value) = values.get_mut(row) {
-                *value = step * count as f64;
-            }
-        }
-    }
-}
-
-/// The coefficients of (1 − s)^order.
-fn signed_binomials(order: u8) -> Vec<f64> {
-    let mut term = 1.0;
-    let rest = (1..=order).map(|k| {
-        term *= -f64::from(order - k + 1) / f64::from(k);
-        term
-    });
-    std::iter::once(1.0).chain(rest).collect()
-}
-
-/// Bits of an integer, the sign among them.
-fn bits(value: i64) -> u32 {
-    i64::BITS - ((value << 1) ^ (value >> 63)).leading_zeros()
-}
-
-fn sane(exponents: &[i16]) -> bool {
-    exponents.iter().all(|exponent| EXPONENTS.contains(exponent))
-}
-
-impl Steps {
-    /// Column after column; `None` when its parts do not fit each other.
-    fn values(self, rows: usize, columns: usize) -> Option<Vec<f64>> {
-        let used = flags(&self.runs, rows)?;
-        let per_column = used.iter().filter(|used| **used).count();
-        let fits = self.across > 0
-            && (self.row_exponents.len(), self.column_exponents.len()) == (per_column, columns)
-            && sane(&self.row_exponents)
-            && sane(&self.column_exponents)
-            && per_column.checked_mul(columns) == Some(self.steps.len());
-        if !fits {
-            return None;
-        }
-        let mut counts = self.steps.iter();
-        let mut all = Vec::with_capacity(rows * columns);
-        for of_column in &self.column_exponents {
-            let mut values = vec![0.0; rows];
-            let mut exponents = self.row_exponents.iter();
-            for (i, _) in used.iter().enumerate().filter(|(_, used)| **used) {
-                let step = f64::from(exponents.next()? + of_column).exp2();
-                let value = predicted(&values, i, self.across) + step * *counts.next()? as f64;
-                *values.get_mut(i)? = value;
-            }
-            all.append(&mut values);
-        }
-        Some(all)
-    }
-}
-
-/// What the rows before row `i` of a column let expect there: along a line the straight continuation, in the plane that
-/// of both directions.
-fn predicted(column: &[f64], i: usize, across: usize) -> f64 {
-    let at = |row: Option<usize>| row.and_then(|row| column.get(row)).copied().unwrap_or_default();
-    let beside = if across > 1 && i.is_multiple_of(across) { None } else { i.checked_sub(1) };
-    let before = i.checked_sub(across);
-    let corner = beside.and_then(|row| row.checked_sub(across));
-    at(beside) + at(before) - at(corner)
-}
-
-/// Lengths of runs of rows that are not and that are used, in turn.
-fn runs(used: &[bool]) -> Vec<usize> {
-    let mut runs = Vec::new();
-    let (mut current, mut length) = (false, 0);
-    for &used in used {
-        if used != current {
-            runs.push(length);
-            (current, length) = (used, 0);
-        }
-        length += 1;
-    }
-    runs.push(length);
-    runs
-}
-
-/// The rows that runs say are used; `None` when they make another number of rows.
-fn flags(runs: &[usize], rows: usize) -> Option<Vec<bool>> {
-    let total = runs.iter().try_fold(0usize, |sum, run| sum.checked_add(*run))?;
-    if total != rows {
-        return None;
-    }
-    Some(runs.iter().enumerate().flat_map(|(k, &run)| std::iter::repeat_n(k % 2 == 1, run)).collect())
-}
-
 impl StoredBasis {
     /// A basis over a grid with so many nodes across. What each mode loses changes the fields of the snapshots by
     /// `accuracy` of their size at every node at most (both as root mean squares over the snapshots).
@@ -405,7 +172,10 @@ impl StoredBasis {
 
 #[cfg(test)]
 mod tests {
+    use super::curves::bits;
     use super::*;
+    use pco::ChunkConfig;
+    use pco::standalone::simple_compress;
 
     /// Modes over 30 × 5 nodes that vanish at the first seven rows and have falling singular values.
     fn basis() -> PodBasis {
@@ -483,33 +253,6 @@ mod tests {
         assert!(read().into_mat(4).is_none(), "weights alone are no matrix");
         assert!(read().of_modes(|| modes.get(..8, ..).to_owned()).is_none());
         assert!(StoredMatrix::exact(&rule).of_modes(Mat::new).unwrap().into_mat(4).unwrap() == rule);
-    }
-
-    #[test]
-    fn what_misses_are_counted_from_is_the_polynomial_through_the_nodes_before() {
-        // A cubic along X with a parabola across is met exactly from the fifth line on.
-        let (rows, across) = (40, 6);
-        let value = |i: usize, j: usize| (i * i * i) as f64 - 40.0 + (j * j) as f64 * (i + 1) as f64;
-        let column: Vec<f64> = (0..rows * across).map(|k| value(k / across, k % across)).collect();
-        let (used, exponents) = (vec![true; rows * across], vec![0; rows * across]);
-        let lattice = Lattice::new(&used, across, &exponents);
-        let (orders, misses) = lattice.shortest(&column, 0);
-        assert!(orders.0 >= 3, "{orders:?}");
-        let mut values = vec![0.0; rows * across];
-        let mut missed = Vec::new();
-        lattice.walk(&mut values, 0, (4, 2), |_, (row, _), expected| {
-            missed.push(column[row] as i64 - expected);
-            column[row] as i64
-        });
-        let within = |k: usize| k / across >= 4 && k % across >= 2;
-        assert!(missed.iter().enumerate().filter(|(k, _)| within(*k)).all(|(_, miss)| *miss == 0));
-        let size = |misses: &[i64]| misses.iter().map(|miss| bits(*miss)).sum::<u32>();
-        assert!(size(&misses) <= size(&missed));
-        for (value, size) in
-            [(0, 0), (-1, 1), (1, 2), (-2, 2), (2, 3), (63, 7), (-64, 7), (i64::MAX, 64), (i64::MIN, 64)]
-        {
-            assert_eq!(bits(value), size);
-        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! K V_p is not stored: it is recomputed when a model is read. Bases are stored to an accuracy of the fields they make
 //! ([`super::stored_matrix`]).
 
+mod calibrations;
 mod former;
 mod oils;
 mod parts;
@@ -18,6 +19,7 @@ use super::model_file::ModelFileError;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{Domain, ReducedModel, Window};
+use calibrations::{StoredCalibrations, give_calibrations};
 use oils::{anchor, combined, deformations, give_coefficients, give_grid_costs};
 use parts::Parts;
 use rayon::prelude::*;
@@ -59,14 +61,18 @@ fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
 /// The payload of a model file; none where the model cannot be encoded.
 pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     let windows = model.windows.iter().enumerate();
-    let stored = StoredModel {
+    let calibrations = StoredCalibrations::of(model);
+    let mut stored = StoredModel {
         title: model.title.clone(),
         domain: model.domain.clone(),
         windows: windows.map(|(k, window)| StoredWindow::of(model, k, window)).collect(),
         scene: model.scene.clone(),
         log: model.log.clone(),
     };
-    Parts::write(model, postcard::to_allocvec(&stored).ok()?)
+    if calibrations.is_some() {
+        stored.windows.iter_mut().for_each(|window| window.calibration = None);
+    }
+    Parts::write(model, calibrations, postcard::to_allocvec(&stored).ok()?)
 }
 
 /// The model of a payload; `older` where its parts have no names.
@@ -78,7 +84,7 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
     let (stored, rest): (StoredModel, &[u8]) =
         postcard::take_from_bytes(payload).map_err(|_| damaged("its content cannot be decoded"))?;
     let StoredModel { mut title, mut domain, mut windows, scene, mut log } = stored;
-    let Parts { rupture: ruptures, schemes, shapes, mut oils, shared, grid_costs, heat, eyring } =
+    let Parts { rupture: ruptures, schemes, shapes, mut oils, shared, grid_costs, heat, eyring, calibrations } =
         Parts::read(rest, windows.len(), older).ok_or(damaged("its parts"))?;
     if let Some((heat, of_heat)) = heat {
         (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
@@ -95,6 +101,9 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
     check_counts(&windows, payload.len())?;
     if let Some(costs) = &grid_costs {
         give_grid_costs(&mut windows, costs).ok_or(damaged("costs of its grid"))?;
+    }
+    if let Some(calibrations) = calibrations {
+        give_calibrations(&mut windows, calibrations).ok_or(damaged("calibration"))?;
     }
     if let Some(oils) = &mut oils {
         give_coefficients(&mut windows, oils).ok_or(damaged("oils"))?;

@@ -4,8 +4,9 @@
 use ehl_explorer::engine::Embedded;
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use ehl_explorer::solver::physics::lubricant::Lubricant;
+use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
+use ehl_explorer::solver::training::{OilRange, Range, random_points};
 use std::sync::Arc;
 
 fn at(m: f64, l: f64) -> OperatingPoint {
@@ -84,6 +85,37 @@ fn corners_of_the_range_agree_with_full_solutions() {
         assert!(picture.pressure.iter().all(|p| *p >= 0.0));
         assert!((picture.scalars.h_0 - full.scalars.h_0).abs() < 1e-3);
     }
+}
+
+#[test]
+fn the_rupture_boundary_lies_behind_the_last_pressure_so_that_the_smallest_film_is_right() {
+    let oils = OilRange {
+        m: (4.0, 300.0),
+        l: (0.5, 25.0),
+        alpha: (5e-9, 30e-9),
+        viscosity: (0.002, 0.5),
+        exponent: (0.18, 1.1),
+        hertz_pressure: (0.1e9, 3.2e9),
+        thinnest_film: 0.0,
+    };
+    let (mut online, oil) = (online(), Lubricant::default());
+    let oil = Lubricant { cavitation: Cavitation::Complementarity, ..oil };
+    let mut solver = ContactSolver::on(&online.model.windows[0].grid);
+    let mut off = Vec::new();
+    for point in random_points(&Range::Oils(oils), ContactKind::Line, 150, 61) {
+        online.forget();
+        let solved = online.solve(&point, oil).unwrap();
+        if !solved.beside.is_empty() {
+            continue;
+        }
+        let (fields, full) =
+            (online.reconstruct(&solved).unwrap(), solver.solve(&point, oil, Start::Cold, &()).unwrap());
+        let carries = |pressure: &[f64]| pressure.iter().rposition(|p| *p > 0.0).map_or(0, |last| last + 1);
+        assert_eq!(solved.fronts, [carries(&fields.pressure)], "no pressure is left out: {:?}", point.moes());
+        off.push((fields.scalars.h_min / full.scalars.h_min - 1.0).abs());
+    }
+    off.sort_by(f64::total_cmp);
+    assert!(off.len() > 100 && off[off.len() * 97 / 100] < 2e-5, "{:?}", &off[off.len() - 8..]);
 }
 
 #[test]

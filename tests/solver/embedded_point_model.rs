@@ -4,9 +4,9 @@ use ehl_explorer::engine::Embedded;
 use ehl_explorer::engine::{median, percentile};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use ehl_explorer::solver::physics::lubricant::Lubricant;
+use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedOptions, Trust};
-use ehl_explorer::solver::training::{QuantityBox, Range, random_points};
+use ehl_explorer::solver::training::{OilRange, QuantityBox, Range, random_points};
 
 fn online() -> Online {
     Online::new(Embedded::Circle.model().unwrap(), ReducedOptions::default())
@@ -55,6 +55,46 @@ fn its_films_lie_near_full_solutions() {
     );
     assert!(median(&h_c) <= 1e-3 && percentile(&h_c, 1.0) <= 1e-2, "{h_c:?}");
     assert!(percentile(&h_min, 1.0) <= 2e-2, "{h_min:?}");
+}
+
+#[test]
+fn films_of_light_contacts_lie_near_full_solutions_and_meet_those_of_heavier_ones() {
+    let oils = OilRange {
+        m: (3.0, 12.0),
+        l: (0.5, 20.0),
+        alpha: (5e-9, 30e-9),
+        viscosity: (0.002, 0.5),
+        exponent: (0.18, 1.1),
+        hertz_pressure: (0.1e9, 3.2e9),
+        thinnest_film: 0.0,
+    };
+    let mut light = Online::new(Embedded::LightCircle.model().unwrap(), ReducedOptions::default());
+    let oil = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
+    let mut solver = ContactSolver::on(&light.model.windows[0].grid);
+    for point in random_points(&Range::Oils(oils), ContactKind::Point, 8, 43) {
+        let full = solver.solve(&point, oil, Start::Cold, &()).unwrap();
+        let solved = light.solve(&point, oil).unwrap();
+        assert!(full.converged() && solved.trust == Trust::Trained, "{:?}", point.moes());
+        let fields = light.reconstruct(&solved).unwrap();
+        let off = [fields.scalars.h_c / full.scalars.h_c - 1.0, fields.scalars.h_min / full.scalars.h_min - 1.0];
+        assert!(off.iter().all(|off| off.abs() < 5e-3), "{off:?} at {:?}", point.moes());
+    }
+    // At the load where one model ends and the other begins their films differ by what their grids cost.
+    let mut heavy = online();
+    for l in [2.0, 6.0, 12.0, 18.0] {
+        let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 12.0, l)).unwrap();
+        let of = |online: &mut Online| {
+            let solved = online.solve(&point, oil).unwrap();
+            let cost = online.model.windows[solved.window].grid_cost(&point).unwrap();
+            (solved.h_c, cost.total())
+        };
+        let ((one, cost), (other, other_cost)) = (of(&mut light), of(&mut heavy));
+        let apart = (one / other).ln().abs();
+        assert!(
+            apart < cost.abs() + other_cost.abs() + 5e-3,
+            "L = {l}: {apart:.1e}, costs {cost:.1e} and {other_cost:.1e}"
+        );
+    }
 }
 
 #[test]

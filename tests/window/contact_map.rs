@@ -8,6 +8,7 @@ use crate::driver::{
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
+use ehl_explorer::engine::Embedded;
 use std::path::Path;
 use std::time::Duration;
 
@@ -137,6 +138,32 @@ fn a_heavy_load_on_a_coarse_grid_says_that_the_side_lobes_are_not_resolved() {
     solved(&mut harness, (151, 41));
     assert_eq!(harness.state().badge(), "Grid does not do");
     assert!(harness.query_by_label_contains("H_min is not resolved").is_some());
+}
+
+#[test]
+fn a_light_ball_is_drawn_by_the_model_of_such_and_says_what_its_domain_leaves_out() {
+    let model = Embedded::LightCircle.model().unwrap();
+    let explorer = Explorer::new(Some(model)).without_system_dialogs();
+    let mut harness = crate::driver::window(explorer, [1280.0, 1500.0]);
+    click(&mut harness, "Ball");
+    for (name, value) in [("Lubricant number L", 5.0), ("Load number M", 8.0)] {
+        harness.get_by_label(name).set_value_accesskit(value);
+        harness.run();
+    }
+    // The model is read meanwhile.
+    wait(&mut harness, "a first picture", |app| app.central_film().is_some() && !app.busy());
+    harness.get_by_label("Load number M").set_value_accesskit(7.8);
+    harness.run();
+    let of_model = |app: &Explorer| app.nodes() == Some((364, 51)) && !app.busy();
+    let known = ["Verified", "Roughly right"];
+    wait(&mut harness, "its true errors", |app| of_model(app) && known.contains(&app.badge().as_str()));
+    let film = harness.state().central_film().unwrap();
+    harness.get_by_label("Load number M").set_value_accesskit(3.5);
+    harness.run();
+    wait(&mut harness, "those of a lighter one", |app| of_model(app) && app.badge() == "Grid does not do");
+    assert!(harness.state().central_film().unwrap() > 1.5 * film, "H counts in a²/R, and a is smaller");
+    let detail = harness.state().badge_detail();
+    assert!(detail.contains("the grid costs"), "{detail}");
 }
 
 #[test]

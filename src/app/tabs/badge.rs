@@ -104,11 +104,20 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                 window + 1,
                 numbers::small(residual_estimate)
             );
+            let grid_cost = picture.solution.grid_cost.map(GridCost::total).filter(|cost| cost.is_finite());
+            let of_grid = picture.unresolved.as_ref().map_or_else(String::new, |why| format!("{}. ", sentence(why)));
             match &answers.comparison {
                 Some(c) if answers.full_is_current() => {
-                    let (title, kind) = judged(c, thresholds);
-                    let why = format!("True errors against a full solution on the same grid. {}{how}", promised(c, error));
-                    make(title, c.describe(), why, kind)
+                    let (title, kind) = match judged(c, thresholds) {
+                        (_, Kind::Verified) if picture.costly_grid => ("Grid does not do", Kind::Warning),
+                        judged => judged,
+                    };
+                    let grid_cost = grid_cost.filter(|cost| *cost > thresholds.far_off);
+                    let why = format!(
+                        "True errors against a full solution on the same grid. {of_grid}{}{how}",
+                        promised(c, error)
+                    );
+                    make(title, with_grid(c.describe(), grid_cost), why, kind)
                 }
                 _ => {
                     let (detail, meaning) = match error {
@@ -127,21 +136,24 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                              (3.15) says whether the reduced equations are met, not how large the error of the film is",
                         ),
                     };
-                    let grid = picture.solution.grid_cost.map(GridCost::total).filter(|cost| cost.is_finite());
-                    let detail = grid.map_or(detail.clone(), |cost| {
-                        format!("{detail}; the grid costs {{H_c}} {}", numbers::error_percent(cost))
-                    });
                     let next = match &answers.verify_failure {
                         Some(failure) => failure.message.trim_end_matches('.'),
                         None => "True errors follow with the full solve",
                     };
                     let doubtful = answers.verify_failure.is_some() || picture.costly_grid;
                     let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
-                    let of_grid = picture.unresolved.as_ref().map_or_else(String::new, |why| format!("{}. ", sentence(why)));
-                    make("Reduced model", detail, format!("{meaning}. {of_grid}{next}. {how}"), kind)
+                    make("Reduced model", with_grid(detail, grid_cost), format!("{meaning}. {of_grid}{next}. {how}"), kind)
                 }
             }
         }
+    }
+}
+
+/// What is said of the errors of a model, and of what its grid costs the film.
+fn with_grid(errors: String, cost: Option<f64>) -> String {
+    match cost {
+        Some(cost) => format!("{errors}; the grid costs {{H_c}} {}", numbers::error_percent(cost)),
+        None => errors,
     }
 }
 

@@ -233,7 +233,9 @@ impl Training {
         let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, shear) };
         let round = (!ellipses).then_some(of_kind);
         let embedded = round.and_then(|which| answers.store.embedded(which).ok());
-        let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant).cloned();
+        let (lightest, heaviest) = spec.domain().m;
+        let middle = (lightest * heaviest).sqrt();
+        let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant, middle).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));

@@ -1,5 +1,6 @@
 //! What a model may have in its file beside its windows, each part under a name of its own.
 
+use super::calibrations::StoredCalibrations;
 use super::former;
 use super::oils::{GridCosts, StoredOils, StoredSharedBasis, grid_costs};
 use super::rupture::StoredRupture;
@@ -23,6 +24,7 @@ enum Part {
     GridCosts(GridCosts),
     Heat(StoredHeat, HeatDomain),
     Eyring(EyringDomain),
+    Calibrations(StoredCalibrations),
 }
 
 /// The parts that a model has.
@@ -44,11 +46,13 @@ pub(super) struct Parts {
     pub heat: Option<(StoredHeat, HeatDomain)>,
     /// Of many oils that thin by Eyring's law.
     pub eyring: Option<EyringDomain>,
+    /// None where nothing was measured, or windows keep it themselves.
+    pub calibrations: Option<StoredCalibrations>,
 }
 
 impl Parts {
     /// The parts of a model, in postcard's encoding behind a payload.
-    pub fn write(model: &ReducedModel, payload: Vec<u8>) -> Option<Vec<u8>> {
+    pub fn write(model: &ReducedModel, calibrations: Option<StoredCalibrations>, payload: Vec<u8>) -> Option<Vec<u8>> {
         let usual = model.windows.iter().all(|window| window.scheme == Scheme::Galerkin);
         let scheme =
             |window: &Window| (window.scheme, window.residual_reconstruction.as_ref().map(StoredMatrix::exact));
@@ -63,6 +67,7 @@ impl Parts {
             grid_costs(model).map(Part::GridCosts),
             heat.map(|(heat, domain)| Part::Heat(heat.into(), domain)),
             model.domain.eyring.map(Part::Eyring),
+            calibrations.map(Part::Calibrations),
         ];
         let parts: Vec<Part> = parts.into_iter().flatten().collect();
         postcard::to_extend(&parts, payload).ok()
@@ -92,6 +97,7 @@ impl Parts {
                 Part::GridCosts(part) => known.grid_costs.replace(part).is_none(),
                 Part::Heat(heat, domain) => known.heat.replace((heat, domain)).is_none(),
                 Part::Eyring(part) => known.eyring.replace(part).is_none(),
+                Part::Calibrations(part) => known.calibrations.replace(part).is_none(),
             };
             if !once {
                 return None;

@@ -40,7 +40,8 @@ pub(super) struct StoredWindow {
     reconstruction: StoredMatrix,
     pub snapshots: Vec<Snapshot>,
     traction: Option<TractionRule>,
-    calibration: Option<Calibration>,
+    /// None where the calibrations of all windows are kept together.
+    pub calibration: Option<Calibration>,
 }
 
 /// Sampled rows on their way to or from a file, with the scheme that they serve.

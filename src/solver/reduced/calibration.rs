@@ -8,8 +8,8 @@
 //! whatever the law misses.
 //!
 //! Windows around anchors are too many for hundreds of measured errors each, and the errors of one model follow one law:
-//! the law is that of all evidence together, the quantile the larger of theirs and the window's own, and how large errors
-//! are around a place each window's own evidence says.
+//! the law is that of all evidence together, the quantile that of the window's own and of some of theirs, and how large
+//! errors are around a place each window's own evidence says.
 //!
 //! What the quantile counts in decides how loose a bound is. Of errors that are normally distributed, with a size known
 //! everywhere, no bound that holds for 99.6 % is less than 4.3 times the true error in the median; counted in the local
@@ -18,15 +18,18 @@
 mod features;
 mod neighbours;
 mod quantity;
+mod steps;
 #[cfg(test)]
 mod tests;
 
 pub use features::{Beside, Evidence, Features, Measured};
+pub use steps::Laws;
 
 use features::SIGNS;
 use neighbours::Neighbours;
 use quantity::{Quantity, quadratic};
 use serde::{Deserialize, Serialize};
+use steps::kept_place;
 
 /// Nearest evidence that says how large errors are here.
 const AROUND: usize = 48;
@@ -104,7 +107,7 @@ impl Calibration {
         for own in &usable {
             let mut window = Self { ranges: ranges.clone(), places: Vec::new(), quantities: Vec::new() };
             let scaled: Vec<Vec<f64>> = own.iter().map(|e| window.scaled(&e.features).0).collect();
-            window.places = scaled.iter().flat_map(|scaled| place(scaled)).collect();
+            window.places = scaled.iter().flat_map(|scaled| place(scaled)).map(kept_place).collect();
             terms.push(scaled.iter().map(|scaled| quadratic(scaled)).collect::<Vec<_>>());
             windows.push(window);
         }

@@ -1,5 +1,5 @@
-//! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature at the trainings too,
-//! and what its iterates show decides which rows stay.
+//! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature and around anchors at the
+//! trainings too, and what its iterates show decides which rows stay.
 
 use super::anchors::Cell;
 use super::build::alone;
@@ -126,7 +126,8 @@ fn sample(
     };
     let points = served.random_points(solves, rng);
     let mut tasks: Vec<Task<'_>> = points.into_iter().map(Task::At).collect();
-    if spec.sampling == Sampling::Cubature {
+    // Windows around anchors are asked up to their ends, where few random contacts lie.
+    if spec.sampling == Sampling::Cubature || window.anchor.is_some() {
         let every = window.snapshots.len().div_ceil(trainings).max(1);
         tasks.extend((0..window.snapshots.len()).step_by(every).filter_map(|k| Task::beside(window, k)));
     }

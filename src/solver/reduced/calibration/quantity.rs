@@ -1,6 +1,7 @@
 //! How one relative error depends on what is known of a reduced solution.
 
 use super::neighbours::Neighbours;
+use super::steps::kept_surplus;
 use super::{AROUND, Estimated, LEAST_EVIDENCE};
 use crate::solver::reduced::dense;
 use faer::Mat;
@@ -14,6 +15,10 @@ const BELIEF: f64 = 0.8;
 const COMMON: f64 = 0.1;
 /// Part of the evidence that must lie below the bound; more than the 99 % promised, since fresh points scatter.
 const QUANTILE: f64 = 0.995;
+
+/// As so many pieces of a window's own evidence counts what all windows say of how far errors scatter: a few hundred scores
+/// alone hardly tell beyond which of them one in two hundred lies.
+const OTHERS: f64 = 400.0;
 
 /// Leverage of the law beyond which no more is made of it.
 const MOST_LEVERAGE: f64 = 0.5;
@@ -46,12 +51,18 @@ impl Quantity {
         }
         let law = least_squares(&known)?;
         let windows = terms.iter().zip(logs).map(|(terms, logs)| {
-            let surplus = terms.iter().zip(logs).map(|(terms, log)| (log - dot(&law, terms)) as f32).collect();
-            Self { law: law.clone(), surplus, ..Self::default() }
+            let surplus = terms.iter().zip(logs).map(|(terms, log)| kept_surplus(log - dot(&law, terms))).collect();
+            Self { law: law.clone(), ..Self::of_surplus(surplus) }
         });
         let mut windows: Vec<Self> = windows.collect();
         measure(&mut windows, neighbours);
         Some(windows)
+    }
+
+    /// One of which nothing else is known yet.
+    pub fn of_surplus(surplus: Vec<f32>) -> Self {
+        let squares = surplus.iter().map(|surplus| (2.0 * surplus).exp()).collect();
+        Self { surplus, squares, ..Self::default() }
     }
 
     /// Whether every number in it makes sense.
@@ -96,7 +107,6 @@ pub(super) fn quadratic(x: &[f64]) -> Vec<f64> {
 fn measure(windows: &mut [Quantity], neighbours: &[Vec<Neighbours>]) {
     let (mut freedom, mut evidence) = (0, 0);
     for own in &mut *windows {
-        own.squares = own.surplus.iter().map(|surplus| (2.0 * surplus).exp()).collect();
         let squares = own.squares.iter().filter(|square| square.is_finite());
         let count = squares.clone().count();
         own.mean_square = squares.map(|square| f64::from(*square)).sum::<f64>() / count.max(1) as f64;
@@ -109,17 +119,25 @@ fn measure(windows: &mut [Quantity], neighbours: &[Vec<Neighbours>]) {
         known.map(score).collect::<Vec<f64>>()
     };
     let scores: Vec<Vec<f64>> = windows.iter().zip(neighbours).map(scores_of).collect();
-    let together = quantile(scores.concat());
-    for (own, scores) in windows.iter_mut().zip(scores) {
-        own.quantile = quantile(scores).max(together);
+    let all = scores.concat();
+    // A window alone has no others.
+    let others = if windows.len() > 1 { OTHERS / all.len().max(1) as f64 } else { 0.0 };
+    for (own, scores) in windows.iter_mut().zip(&scores) {
+        let weighted = |scores: &[f64], weight: f64| scores.iter().map(|score| (*score, weight)).collect::<Vec<_>>();
+        own.quantile = quantile([weighted(scores, 1.0), weighted(&all, others)].concat());
     }
 }
 
-/// The score that so many of these lie below, were one more drawn like them.
-fn quantile(mut scores: Vec<f64>) -> f64 {
-    scores.sort_by(f64::total_cmp);
-    let place = ((QUANTILE * (scores.len() + 1) as f64).ceil() as usize).clamp(1, scores.len().max(1));
-    scores.get(place - 1).copied().unwrap_or(0.0)
+/// The score that so much of these lies below, by what each counts, were one more drawn like them.
+fn quantile(mut scores: Vec<(f64, f64)>) -> f64 {
+    scores.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let wanted = QUANTILE * (1.0 + scores.iter().map(|(_, weight)| weight).sum::<f64>());
+    let mut below = 0.0;
+    let reached = scores.iter().find(|(_, weight)| {
+        below += weight;
+        below >= wanted
+    });
+    reached.or(scores.last()).map_or(0.0, |(score, _)| *score)
 }
 
 /// Coefficients that fit the known logarithms, with a slight ridge for features that do not vary.

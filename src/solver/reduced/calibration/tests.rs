@@ -175,6 +175,23 @@ fn what_files_keep_is_the_whole_calibration() {
 }
 
 #[test]
+fn in_small_whole_numbers_nothing_of_a_calibration_is_lost_and_some_that_are_missing_are_noticed() {
+    let stored = |calibration: &Calibration| postcard::to_allocvec(calibration).unwrap();
+    for evidence in [synthetic(300, 6), sliding(300, 6)] {
+        let calibration = Calibration::fit(&evidence).unwrap();
+        let (laws, mut numbers) = calibration.in_steps().unwrap();
+        let again = Calibration::from_steps(laws.clone(), 300, &mut numbers.clone().into_iter()).unwrap();
+        assert_eq!(stored(&again), stored(&calibration));
+        assert!(Calibration::from_steps(laws.clone(), usize::MAX, &mut numbers.clone().into_iter()).is_none());
+        numbers.pop();
+        assert!(Calibration::from_steps(laws, 300, &mut numbers.into_iter()).is_none());
+    }
+    let mut finer = Calibration::fit(&synthetic(300, 6)).unwrap();
+    finer.quantities[0].surplus[7] += 1e-3;
+    assert!(finer.in_steps().is_none(), "as those of former versions, which stay as they are");
+}
+
+#[test]
 fn neighbours_are_the_nearest_in_order() {
     let mut near = Neighbours::none();
     let mut rng = Rng::with_seed(5);

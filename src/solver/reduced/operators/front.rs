@@ -21,6 +21,7 @@ use super::support::Support;
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::model::Window;
 use crate::solver::reduced::sums::row_times;
 use faer::linalg::matmul::matmul;
@@ -30,8 +31,10 @@ use std::ops::Range;
 
 /// Nodes before B at which pressures are looked at: k of (D.17).
 const BEFORE: usize = 5;
-/// The pressure that counts as negative in (D.17): smaller ones are what the basis leaves.
-const NEGATIVE: f64 = -1e-4;
+/// The pressure that counts as negative in (D.17), of a line and of a plane: smaller ones are what the basis leaves. Of
+/// lines it leaves so little that B one node too far, with a pressure of −1e-4 there, is by far their largest error of
+/// H_min.
+const NEGATIVE: [f64; 2] = [-1e-6, -1e-4];
 /// The same in time, and what is none worth the name: there the bases are of fewer contacts, and pressures behind the
 /// contact that matter are smaller.
 const LITTLE: f64 = 1e-5;
@@ -60,6 +63,8 @@ pub(super) struct Front {
     kept: Vec<Kept>,
     /// Whether B may pass several nodes at once, and looks for negative pressures among all that it may pass.
     pub strides: bool,
+    /// The pressure that counts as negative.
+    negative: f64,
     /// Whether modes are held at zero behind B: in windows of many oils it lies at places far apart.
     restrains: bool,
     /// Σ v vᵀ over the nodes behind B, modes × modes, where they are.
@@ -181,6 +186,7 @@ impl Front {
             near: vec![support.own..support.own; support.across],
             kept: Vec::new(),
             strides: false,
+            negative: NEGATIVE[usize::from(grid.kind() == ContactKind::Point)],
             restrains: window.anchor.is_some(),
             behind: Mat::zeros(modes, modes),
             idle: false,
@@ -322,7 +328,7 @@ impl Front {
             } else {
                 (1, line.front.saturating_sub(BEFORE), line.front)
             };
-            let least = if self.strides { -LITTLE } else { NEGATIVE };
+            let least = if self.strides { -LITTLE } else { self.negative };
             let pressure = |k: usize| {
                 let looked_at = self.strides || at(k).place < self.own;
                 if looked_at { fields[at(k).place] } else { row_times(&self.modes, line.first + k, coefficients) }
