@@ -112,14 +112,12 @@ impl Models {
     /// The place of the model that another one is to replace: of its kind of contact and fluid the one with which it has
     /// most loads in common.
     fn place(&self, wanted: &ReducedModel) -> Option<usize> {
-        let alike = |model: &ReducedModel| {
-            model.contact() == wanted.contact()
-                && model.of_ellipses() == wanted.of_ellipses()
-                && model.domain.is_of(&wanted.domain.lubricant)
-        };
-        let shared = |(place, model): (usize, &Arc<ReducedModel>)| (place, in_common(model, wanted));
-        let places = self.models.iter().enumerate().filter(|(_, model)| alike(model)).map(shared);
-        places.filter(|(_, shared)| *shared > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
+        let shape = |model: &ReducedModel| (model.contact(), model.of_ellipses());
+        let alike =
+            |model: &ReducedModel| shape(model) == shape(wanted) && model.domain.is_of(&wanted.domain.lubricant);
+        let shared = |place: &usize| in_common(&self.models[*place], wanted);
+        let places = (0..self.models.len()).filter(|place| alike(&self.models[*place]) && shared(place) > 0.0);
+        places.max_by(|a, b| shared(a).total_cmp(&shared(b)))
     }
 }
 

@@ -69,8 +69,10 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
         scene: model.scene.clone(),
         log: model.log.clone(),
     };
-    if calibrations.is_some() {
-        stored.windows.iter_mut().for_each(|window| window.calibration = None);
+    if calibrations.is_none() {
+        for (stored, window) in stored.windows.iter_mut().zip(&model.windows) {
+            stored.calibration.clone_from(&window.calibration);
+        }
     }
     Parts::write(model, calibrations, postcard::to_allocvec(&stored).ok()?)
 }

@@ -89,17 +89,10 @@ fn corners_of_the_range_agree_with_full_solutions() {
 
 #[test]
 fn the_rupture_boundary_lies_behind_the_last_pressure_so_that_the_smallest_film_is_right() {
-    let oils = OilRange {
-        m: (4.0, 300.0),
-        l: (0.5, 25.0),
-        alpha: (5e-9, 30e-9),
-        viscosity: (0.002, 0.5),
-        exponent: (0.18, 1.1),
-        hertz_pressure: (0.1e9, 3.2e9),
-        thinnest_film: 0.0,
-    };
-    let (mut online, oil) = (online(), Lubricant::default());
-    let oil = Lubricant { cavitation: Cavitation::Complementarity, ..oil };
+    let mut online = online();
+    let Range::Oils(all) = Range::from(&online.model.domain) else { panic!("a model of many oils") };
+    let oils = OilRange { m: (4.0, 300.0), ..all };
+    let oil = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let mut solver = ContactSolver::on(&online.model.windows[0].grid);
     let mut off = Vec::new();
     for point in random_points(&Range::Oils(oils), ContactKind::Line, 150, 61) {

@@ -2,7 +2,7 @@
 //! before.
 
 use super::Values;
-use pco::standalone::{simple_compress, simple_decompress_into};
+use crate::engine::packed::{packed, unpacked};
 use pco::{ChunkConfig, DeltaSpec, ModeSpec};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,7 @@ const EXPONENTS: std::ops::RangeInclusive<i16> = -400..=400;
 /// Highest orders of the polynomials that are continued along X and across.
 const MOST_ALONG: u8 = 5;
 const MOST_BESIDE: u8 = 2;
-/// So many packed misses take a byte at most: what is read takes no more memory than its bytes may ask for.
+/// So many packed misses take a byte at most.
 const MOST_PACKED: usize = 4;
 
 /// Columns over a grid as multiples of 2^(exponent of the row + exponent of the column).
@@ -35,12 +35,12 @@ impl Curves {
     /// With the misses packed, unless they are so few bytes that reading them would make much of little.
     pub fn packed(mut self) -> Values {
         let settings = ChunkConfig::default().with_mode_spec(ModeSpec::Classic).with_delta_spec(DeltaSpec::NoOp);
-        match simple_compress(&self.misses, &settings) {
-            Ok(packed) if self.misses.len() <= MOST_PACKED * packed.len() => {
+        match packed(&self.misses, &settings, MOST_PACKED) {
+            Some(packed) => {
                 self.misses.clear();
                 Values::Packed(self, packed)
             }
-            _ => Values::Curves(self),
+            None => Values::Curves(self),
         }
     }
 
@@ -48,12 +48,8 @@ impl Curves {
     /// can be.
     pub fn with_misses(mut self, packed: &[u8]) -> Option<Self> {
         let count = self.row_exponents.len().checked_mul(self.column_exponents.len())?;
-        if count > MOST_PACKED * packed.len() {
-            return None;
-        }
-        self.misses = vec![0; count];
-        let read = simple_decompress_into(packed, &mut self.misses).ok()?;
-        (read.finished && read.n_processed == count).then_some(self)
+        self.misses = unpacked(count, packed, MOST_PACKED)?;
+        Some(self)
     }
 
     /// Column after column; `None` when its parts do not fit each other.

@@ -1,12 +1,12 @@
 //! What windows know about their errors, on its way to or from a file: small whole numbers, packed together.
 
 use super::window::StoredWindow;
+use crate::engine::packed::{packed, unpacked};
 use crate::solver::reduced::{Calibration, Laws, ReducedModel};
 use pco::ChunkConfig;
-use pco::standalone::{simple_compress, simple_decompress_into};
 use serde::{Deserialize, Serialize};
 
-/// So many packed numbers take a byte at most: what is read takes no more memory than its bytes may ask for.
+/// So many packed numbers take a byte at most.
 const MOST_PACKED: usize = 8;
 
 /// The calibrations of all windows.
@@ -40,8 +40,7 @@ impl StoredCalibrations {
             windows.push(Some((laws, calibration.evidence())));
             all.extend(numbers);
         }
-        let packed = simple_compress(&all, &ChunkConfig::default()).ok();
-        let packed = packed.filter(|packed| all.len() <= MOST_PACKED * packed.len());
+        let packed = packed(&all, &ChunkConfig::default(), MOST_PACKED);
         let count = all.len();
         let known = windows.iter().any(Option::is_some);
         known.then(|| Self { windows, count, numbers: packed.map_or(Numbers::Plain(all), Numbers::Packed) })
@@ -53,12 +52,7 @@ pub(super) fn give_calibrations(windows: &mut [StoredWindow], stored: StoredCali
     let StoredCalibrations { windows: laws, count, numbers } = stored;
     let numbers = match numbers {
         Numbers::Plain(numbers) => numbers,
-        Numbers::Packed(packed) if count <= MOST_PACKED * packed.len() => {
-            let mut numbers = vec![0; count];
-            let read = simple_decompress_into(&packed, &mut numbers).ok()?;
-            (read.finished && read.n_processed == count).then_some(numbers)?
-        }
-        Numbers::Packed(_) => return None,
+        Numbers::Packed(packed) => unpacked(count, &packed, MOST_PACKED)?,
     };
     if laws.len() != windows.len()
         || numbers.len() != count
@@ -85,9 +79,7 @@ mod tests {
         let model = Embedded::Line.model().unwrap();
         let windows = || -> Vec<StoredWindow> {
             let own = model.windows.iter().enumerate();
-            let mut windows: Vec<StoredWindow> = own.map(|(k, window)| StoredWindow::of(&model, k, window)).collect();
-            windows.iter_mut().for_each(|window| window.calibration = None);
-            windows
+            own.map(|(k, window)| StoredWindow::of(&model, k, window)).collect()
         };
         let given = |change: &dyn Fn(&mut StoredCalibrations)| {
             let (mut windows, mut stored) = (windows(), StoredCalibrations::of(&model).unwrap());

@@ -83,7 +83,7 @@ impl StoredRows {
 }
 
 impl StoredWindow {
-    /// Window `k` of a model.
+    /// Window `k` of a model but for its calibration.
     pub fn of(model: &ReducedModel, k: usize, window: &Window) -> Self {
         let heat = model.domain.heat.is_some();
         let basis = |basis: &PodBasis| StoredBasis::new(basis, window.grid.nodes().1, accuracy(window, heat));
@@ -106,7 +106,7 @@ impl StoredWindow {
             reconstruction: stored_reconstruction(window, heat),
             snapshots: window.snapshots.iter().map(|snapshot| without_coefficients(snapshot, window)).collect(),
             traction: window.traction.clone(),
-            calibration: window.calibration.clone(),
+            calibration: None,
         }
     }
 

@@ -1,0 +1,20 @@
+//! Whole numbers packed by how often each of them comes, so that what is read takes no more memory than its bytes may ask for.
+
+use pco::ChunkConfig;
+use pco::data_types::Number;
+use pco::standalone::{simple_compress, simple_decompress_into};
+
+/// Numbers in fewer bytes; none where these are so alike that more than `most` of them would take a byte.
+pub(super) fn packed<T: Number>(numbers: &[T], settings: &ChunkConfig, most: usize) -> Option<Vec<u8>> {
+    simple_compress(numbers, settings).ok().filter(|packed| numbers.len() <= most * packed.len())
+}
+
+/// So many numbers; `None` where there are not as many, or more than `most` of them take a byte.
+pub(super) fn unpacked<T: Number + Default>(count: usize, packed: &[u8], most: usize) -> Option<Vec<T>> {
+    if count > most * packed.len() {
+        return None;
+    }
+    let mut numbers = vec![T::default(); count];
+    let read = simple_decompress_into(packed, &mut numbers).ok()?;
+    (read.finished && read.n_processed == count).then_some(numbers)
+}
