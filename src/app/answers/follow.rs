@@ -45,6 +45,9 @@ impl Answers {
             }
         }
         if self.refresh_reduced(document, key, options) {
+            if self.full.as_ref().is_some_and(|full| full.key == key && self.is_of_another_grid(&key, &full.solution)) {
+                self.full = None;
+            }
             self.compare();
             self.verify_due = !self.full_is_current();
         } else {

@@ -17,7 +17,7 @@ use crate::app::model_source::Models;
 use crate::engine::Store;
 use crate::engine::job::Job;
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::full::{Problem, Report};
+use crate::solver::full::{Problem, Report, Solution};
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use grid_error::GridError;
 use jobs::Jobs;
@@ -220,6 +220,18 @@ impl Answers {
     /// Whether the full solution belongs to the sliders.
     pub fn full_is_current(&self) -> bool {
         self.is_of_the_ask(self.full.as_ref())
+    }
+
+    /// Whether the reduced model draws the picture of a contact.
+    fn is_reduced(&self, key: &Key) -> bool {
+        let of_it = |picture: &Picture| picture.key == *key && picture.origin != Origin::Full;
+        self.passed_over.is_none() && self.picture.as_ref().is_some_and(of_it)
+    }
+
+    /// Whether the full solution of a contact lies on another grid than its reduced picture. It came while the model was
+    /// being read, and is not the truth about it.
+    fn is_of_another_grid(&self, key: &Key, full: &Solution) -> bool {
+        self.is_reduced(key) && self.picture.as_ref().is_some_and(|picture| !picture.shares_grid(full))
     }
 
     /// What the grid costs, where that was estimated for the sliders and the chosen grid.

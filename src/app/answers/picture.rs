@@ -150,6 +150,11 @@ impl Picture {
         self.across = Across { pressure: curve(&across, |node| node.1), film: curve(&across, |node| node.2) };
     }
 
+    /// Whether a solution of the same contact lies on the same grid.
+    pub fn shares_grid(&self, other: &Solution) -> bool {
+        self.solution.mesh.spec == other.mesh.spec
+    }
+
     /// Whether it is of a point contact.
     pub fn has_plane(&self) -> bool {
         self.solution.mesh.plane().is_some()

@@ -71,6 +71,10 @@ impl Answers {
                     // late.
                     return;
                 }
+                if self.is_reduced(&job.key) {
+                    // The model has been read meanwhile.
+                    return;
+                }
                 if self.is_settled(&job.key) {
                     // The chosen grid has answered before the quick one.
                     return;
@@ -81,7 +85,7 @@ impl Answers {
                 self.comparison = None;
             }
             other => {
-                if Some(job.key) == self.key() {
+                if Some(job.key) == self.key() && !self.is_reduced(&job.key) {
                     self.failure = Some(failure_of(job.key, other, &mut self.last_report));
                 }
             }
@@ -93,7 +97,11 @@ impl Answers {
             Outcome::Solved(solution, wall_s) if solution.converged() => {
                 self.full_times.add(wall_s);
                 self.last_report = Some((job.key, solution.report.clone()));
-                let reduced = self.picture.as_ref().is_some_and(|p| p.key == job.key && p.origin != Origin::Full);
+                let reduced = self.is_reduced(&job.key);
+                if self.is_of_another_grid(&job.key, &solution) {
+                    // The model has been read meanwhile; its truth follows.
+                    return;
+                }
                 if !reduced && self.plane().is_some_and(|plane| solution.mesh.plane() != Some(plane)) {
                     // Another grid has been chosen meanwhile, and answers later.
                     return;
