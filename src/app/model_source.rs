@@ -9,13 +9,14 @@ use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
 /// The models that are read when they are first asked for: not everybody has ellipses, light balls, heat or oils that thin.
-const LATE: [Embedded; 6] = [
+const LATE: [Embedded; 7] = [
     Embedded::LightCircle,
     Embedded::Ellipse,
     Embedded::HeatedLine,
     Embedded::HeatedCircle,
     Embedded::EyringLine,
     Embedded::EyringCircle,
+    Embedded::LightEyringCircle,
 ];
 
 /// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
@@ -232,8 +233,13 @@ mod tests {
         let oil = Lubricant { shear, limiting_stress: None, ..Document::default().lubricant };
         let mut ball = Document::default();
         ball.set_shape(Shape::Ball).unwrap();
-        for (home, wanted) in [(Document::default().point, Embedded::EyringLine), (ball.point, Embedded::EyringCircle)]
-        {
+        let light = si_from_moes(&MoesRequest::new(ContactKind::Point, 6.0, 5.0)).unwrap();
+        let homes = [
+            (Document::default().point, Embedded::EyringLine),
+            (ball.point, Embedded::EyringCircle),
+            (light, Embedded::LightEyringCircle),
+        ];
+        for (home, wanted) in homes {
             assert_eq!(models.late_for(&home, &oil), Some(wanted));
             let model = store.embedded(wanted).unwrap();
             assert!(models.put(Arc::clone(&model)).is_none() && Arc::ptr_eq(models.of(&home, &oil).unwrap(), &model));

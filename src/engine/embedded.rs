@@ -32,6 +32,8 @@ pub enum Embedded {
     EyringLine,
     /// Circular contacts of oils that thin by Eyring's law: `scenes/training/point_sliding_oils.ron`.
     EyringCircle,
+    /// Those under so small a load that films reach far: `scenes/training/point_light_sliding_oils.ron`.
+    LightEyringCircle,
 }
 
 /// The load number below which circles have a model of their own: there films reach beyond the domain of the other one.
@@ -39,7 +41,7 @@ const LIGHT: f64 = 12.0;
 
 impl Embedded {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Line,
         Self::ThinningLine,
         Self::Circle,
@@ -50,6 +52,7 @@ impl Embedded {
         Self::HeatedCircle,
         Self::EyringLine,
         Self::EyringCircle,
+        Self::LightEyringCircle,
     ];
 
     /// The one of a kind of contact, circular where it is one of points, and of a lubricant that thins under shear by
@@ -81,8 +84,19 @@ impl Embedded {
         }
         match Self::of_kind(point.kind, lubricant.shear) {
             Self::Circle if point.radius_ratio() != 1.0 => Self::Ellipse,
-            Self::Circle if point.moes().m < LIGHT => Self::LightCircle,
-            of_kind => of_kind,
+            of_kind if point.radius_ratio() != 1.0 => of_kind,
+            of_kind => of_kind.under_load(point.moes().m),
+        }
+    }
+
+    /// The one of its kind that knows contacts of such a load number.
+    pub fn under_load(self, m: f64) -> Self {
+        match self {
+            Self::Circle | Self::LightCircle if m < LIGHT => Self::LightCircle,
+            Self::Circle | Self::LightCircle => Self::Circle,
+            Self::EyringCircle | Self::LightEyringCircle if m < LIGHT => Self::LightEyringCircle,
+            Self::EyringCircle | Self::LightEyringCircle => Self::EyringCircle,
+            of_all => of_all,
         }
     }
 
@@ -99,6 +113,7 @@ impl Embedded {
             Self::HeatedCircle => include_bytes!("../../assets/point_heat.rom"),
             Self::EyringLine => include_bytes!("../../assets/line_sliding.rom"),
             Self::EyringCircle => include_bytes!("../../assets/point_sliding.rom"),
+            Self::LightEyringCircle => include_bytes!("../../assets/point_light_sliding.rom"),
         }
     }
 
@@ -172,8 +187,10 @@ mod tests {
         let line = si_from_moes(&MoesRequest::new(ContactKind::Line, 50.0, 5.0)).unwrap();
         assert_eq!(Embedded::of(&line, &SQUALANE_PIP), Embedded::ThinningLine);
         let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..oil };
-        let of_eyring = [line, circle, ellipse].map(|point| Embedded::of(&point, &eyring));
-        assert_eq!(of_eyring, [Embedded::EyringLine, Embedded::EyringCircle, Embedded::EyringCircle]);
+        let of_eyring = [line, circle, ellipse, light].map(|point| Embedded::of(&point, &eyring));
+        let wanted =
+            [Embedded::EyringLine, Embedded::EyringCircle, Embedded::EyringCircle, Embedded::LightEyringCircle];
+        assert_eq!(of_eyring, wanted);
         let warm = Lubricant { heat: Some(Heat::default()), ..oil };
         let [of_line, of_circle, of_ellipse] = [line, circle, ellipse].map(|point| Embedded::of(&point, &warm));
         assert_eq!([of_line, of_circle], [Embedded::HeatedLine, Embedded::HeatedCircle]);

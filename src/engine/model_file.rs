@@ -10,7 +10,7 @@ use crate::solver::observer::Observer;
 use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 
-const VERSION: u32 = 15;
+const VERSION: u32 = 16;
 /// From it on the parts of a model have names.
 const NAMED_PARTS: u32 = 14;
 /// Before it no model said how its films rupture: by the penalty.
@@ -333,7 +333,10 @@ mod tests {
         for (own, other) in read.windows.iter().zip(&model.windows) {
             let [one, two] = [own, other].map(|window| window.shapes.as_ref().map(|shapes| shapes.radius_ratio));
             assert!(one == two && one.is_some());
-            assert!(own.snapshots.iter().map(|s| s.point).eq(other.snapshots.iter().map(|s| s.point)));
+            for (own, other) in own.snapshots.iter().zip(&other.snapshots) {
+                assert_eq!(own.point.radius_y_m, other.point.radius_y_m);
+                assert!((own.point.load / other.point.load - 1.0).abs() < 1e-5);
+            }
         }
         let lies: [&dyn Fn(&mut ReducedModel); 3] =
             [&|m| m.domain.radius_ratio = (0.5, f64::NAN), &|m| m.domain.radius_ratio = (4.0, 0.5), &|m| {
@@ -464,7 +467,7 @@ mod tests {
             assert!((&kept - &made).norm_max() < 3e-6 * made.norm_max());
             for (ours, own) in ours.snapshots.iter().zip(&own.snapshots) {
                 let (ours, own) = (ours.grid_cost.unwrap(), own.grid_cost.unwrap());
-                assert!((ours.total() / own.total() - 1.0).abs() < 1e-6);
+                assert!((ours.total() / own.total() - 1.0).abs() < 4e-3, "an estimate has two digits");
             }
         }
         // Each would keep 48 modes of its own otherwise.

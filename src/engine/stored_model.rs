@@ -9,6 +9,7 @@ mod oils;
 mod parts;
 mod rupture;
 mod shapes;
+mod snapshots;
 mod sound;
 mod window;
 
@@ -26,6 +27,7 @@ use rayon::prelude::*;
 use rupture::rupture;
 use serde::{Deserialize, Serialize};
 use shapes::shape;
+use snapshots::give_snapshots;
 use sound::{check_counts, sound_interval};
 use window::StoredWindow;
 
@@ -86,8 +88,19 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
     let (stored, rest): (StoredModel, &[u8]) =
         postcard::take_from_bytes(payload).map_err(|_| damaged("its content cannot be decoded"))?;
     let StoredModel { mut title, mut domain, mut windows, scene, mut log } = stored;
-    let Parts { rupture: ruptures, schemes, shapes, mut oils, shared, grid_costs, heat, eyring, calibrations } =
-        Parts::read(rest, windows.len(), older).ok_or(damaged("its parts"))?;
+    let parts = Parts::read(rest, windows.len(), older).ok_or(damaged("its parts"))?;
+    let Parts {
+        rupture: ruptures,
+        schemes,
+        shapes,
+        mut oils,
+        shared,
+        grid_costs,
+        heat,
+        eyring,
+        calibrations,
+        snapshots,
+    } = parts;
     if let Some((heat, of_heat)) = heat {
         (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
     }
@@ -99,6 +112,9 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
     let ascending = shapes.is_some() || oils.is_some() || windows.is_sorted_by(|a, b| a.m.0 <= b.m.0);
     if !(ascending && windows.iter().all(|window| sound_interval(window.m, f64::MAX))) {
         return Err(damaged("ranges of its windows"));
+    }
+    if let Some(snapshots) = snapshots {
+        give_snapshots(&mut windows, snapshots).ok_or(damaged("snapshots"))?;
     }
     check_counts(&windows, payload.len())?;
     if let Some(costs) = &grid_costs {

@@ -230,11 +230,11 @@ impl Training {
         let ellipses = matches!(spec.range, Range::Ellipses { .. });
         // That of ellipses is large: it stands here once it is in use.
         let (heats, shear) = (spec.range.heats(), spec.lubricant.shear);
-        let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, shear) };
-        let round = (!ellipses).then_some(of_kind);
-        let embedded = round.and_then(|which| answers.store.embedded(which).ok());
         let (lightest, heaviest) = spec.domain().m;
         let middle = (lightest * heaviest).sqrt();
+        let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, shear).under_load(middle) };
+        let round = (!ellipses).then_some(of_kind);
+        let embedded = round.and_then(|which| answers.store.embedded(which).ok());
         let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant, middle).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));

@@ -1,19 +1,16 @@
 //! What windows around anchors have in a file beside what every window has.
 
+use super::snapshots::{give_each, stored_coefficients};
 use super::sound::sound_interval;
 use super::window::{StoredWindow, accuracy};
 use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::GridCost;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{Combined, OilDomain, PodBasis, ReducedModel, SharedBasis, Snapshot, Window};
-use faer::Mat;
+use crate::solver::reduced::{Combined, OilDomain, PodBasis, ReducedModel, SharedBasis, Window};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// Accuracy of the coefficients of snapshots from which a model of many oils starts, relative to each one's own size.
-const START_ACCURACY: f64 = 1e-3;
 
 /// Accuracy of the share of each mode of a shared basis in the pressures of a window.
 const FACTOR_ACCURACY: f64 = 1e-6;
@@ -51,13 +48,7 @@ impl StoredOils {
     pub fn of(model: &ReducedModel) -> Option<Self> {
         let stored = |window: &Window| {
             let Moes { m, l } = window.anchor?;
-            let (snapshots, modes) = (&window.snapshots, window.pressure.count());
-            let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
-            let coefficients = Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default());
-            let size = |k: usize| (coefficients.col(k).squared_norm_l2() / snapshots.len() as f64).sqrt();
-            let scales: Vec<f64> = (0..modes).map(|k| 1.0 / size(k).max(f64::MIN_POSITIVE)).collect();
-            let coefficients = StoredMatrix::stepped(&coefficients, 1, &scales, START_ACCURACY);
-            Some(StoredAnchor { moes: (m, l), coefficients })
+            Some(StoredAnchor { moes: (m, l), coefficients: stored_coefficients(window) })
         };
         let oils = model.domain.oils?;
         let windows = model.windows.iter().map(stored).collect::<Option<_>>()?;
@@ -80,13 +71,6 @@ impl StoredSharedBasis {
         let basis = StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy);
         Some(Self { basis, factors: model.windows.iter().zip(all).map(|(w, own)| stored_factors(w, own)).collect() })
     }
-}
-
-/// What the grid costs the snapshots of a model of many oils; none where that was not measured.
-pub(super) fn grid_costs(model: &ReducedModel) -> Option<GridCosts> {
-    model.domain.oils?;
-    let cost = |snapshot: &Snapshot| snapshot.grid_cost.map(|cost| (cost.truncation as f32, cost.resolution as f32));
-    model.windows.iter().map(|window| window.snapshots.iter().map(cost).collect()).collect()
 }
 
 /// What a window's modes are in the shared basis: of each mode of that as exactly as it appears in the window.
@@ -159,13 +143,8 @@ pub(super) fn give_coefficients(windows: &mut [StoredWindow], oils: &mut StoredO
     if windows.len() != oils.windows.len() {
         return None;
     }
-    for (window, stored) in windows.iter_mut().zip(&mut oils.windows) {
-        let coefficients = std::mem::take(&mut stored.coefficients).into_mat(window.snapshots.len())?;
-        for (i, snapshot) in window.snapshots.iter_mut().enumerate() {
-            snapshot.coefficients = coefficients.row(i).iter().copied().collect();
-        }
-    }
-    Some(())
+    let each = windows.iter_mut().zip(&mut oils.windows);
+    each.map(|(window, stored)| give_each(window, std::mem::take(&mut stored.coefficients))).collect()
 }
 
 /// Gives a model its oils and the anchors of its windows; `None` where these do not fit it.

@@ -2,9 +2,10 @@
 
 use super::calibrations::StoredCalibrations;
 use super::former;
-use super::oils::{GridCosts, StoredOils, StoredSharedBasis, grid_costs};
+use super::oils::{GridCosts, StoredOils, StoredSharedBasis};
 use super::rupture::StoredRupture;
 use super::shapes::{StoredShapes, stored_shapes};
+use super::snapshots::StoredSnapshots;
 use crate::engine::stored_heat::StoredHeat;
 use crate::engine::stored_matrix::StoredMatrix;
 use crate::solver::reduced::{EyringDomain, HeatDomain, ReducedModel, Scheme, Window};
@@ -25,6 +26,7 @@ enum Part {
     Heat(StoredHeat, HeatDomain),
     Eyring(EyringDomain),
     Calibrations(StoredCalibrations),
+    Snapshots(StoredSnapshots),
 }
 
 /// The parts that a model has.
@@ -40,7 +42,7 @@ pub(super) struct Parts {
     pub oils: Option<StoredOils>,
     /// Of many oils whose windows share a basis.
     pub shared: Option<StoredSharedBasis>,
-    /// Of many oils where they were measured.
+    /// Of many oils where they were measured; in newer files they are with the snapshots.
     pub grid_costs: Option<GridCosts>,
     /// Of contacts with heat.
     pub heat: Option<(StoredHeat, HeatDomain)>,
@@ -48,6 +50,8 @@ pub(super) struct Parts {
     pub eyring: Option<EyringDomain>,
     /// None where nothing was measured, or windows keep it themselves.
     pub calibrations: Option<StoredCalibrations>,
+    /// Of older files none, whose windows keep them.
+    pub snapshots: Option<StoredSnapshots>,
 }
 
 impl Parts {
@@ -64,10 +68,10 @@ impl Parts {
             stored_shapes(model).map(Part::Shapes),
             StoredOils::of(model).map(Part::Oils),
             StoredSharedBasis::of(model).map(Part::SharedBasis),
-            grid_costs(model).map(Part::GridCosts),
             heat.map(|(heat, domain)| Part::Heat(heat.into(), domain)),
             model.domain.eyring.map(Part::Eyring),
             calibrations.map(Part::Calibrations),
+            Some(Part::Snapshots(StoredSnapshots::of(model))),
         ];
         let parts: Vec<Part> = parts.into_iter().flatten().collect();
         postcard::to_extend(&parts, payload).ok()
@@ -98,6 +102,7 @@ impl Parts {
                 Part::Heat(heat, domain) => known.heat.replace((heat, domain)).is_none(),
                 Part::Eyring(part) => known.eyring.replace(part).is_none(),
                 Part::Calibrations(part) => known.calibrations.replace(part).is_none(),
+                Part::Snapshots(part) => known.snapshots.replace(part).is_none(),
             };
             if !once {
                 return None;

@@ -1,14 +1,15 @@
 //! How the films of a model rupture, on its way to or from a file.
 
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::{ReducedModel, Window};
+use crate::solver::reduced::{ReducedModel, Snapshot};
 use serde::{Deserialize, Serialize};
 
 /// How films rupture that no penalty holds.
 #[derive(Serialize, Deserialize)]
 pub(super) struct StoredRupture {
     pub cavitation: Cavitation,
-    /// Of every window and each of its snapshots the first ruptured column of each line along X; empty under a penalty.
+    /// Of older files of every window and each of its snapshots the first ruptured column of each line along X; empty under a
+    /// penalty, and where snapshots keep them.
     pub fronts: Vec<Vec<Vec<usize>>>,
 }
 
@@ -16,9 +17,7 @@ impl StoredRupture {
     /// What only a model has whose films do not rupture by the penalty.
     pub fn of(model: &ReducedModel) -> Option<Self> {
         let cavitation = model.domain.lubricant.cavitation;
-        let of_window = |window: &Window| window.snapshots.iter().map(|snapshot| snapshot.fronts.clone()).collect();
-        let fronts = || model.windows.iter().map(of_window).collect();
-        (cavitation != Cavitation::Penalty).then(|| Self { cavitation, fronts: fronts() })
+        (cavitation != Cavitation::Penalty).then(|| Self { cavitation, fronts: Vec::new() })
     }
 }
 
@@ -28,21 +27,22 @@ pub(super) fn rupture(model: &mut ReducedModel, StoredRupture { cavitation, fron
         return fronts.is_empty().then_some(());
     }
     let ruptures = cavitation == Cavitation::Complementarity && !model.slides();
-    if !(ruptures && fronts.len() == model.windows.len()) {
+    if !(ruptures && (fronts.is_empty() || fronts.len() == model.windows.len())) {
         return None;
     }
-    model.domain.lubricant.cavitation = cavitation;
     for (window, fronts) in model.windows.iter_mut().zip(fronts) {
         if fronts.len() != window.snapshots.len() {
             return None;
         }
+        window.snapshots.iter_mut().zip(fronts).for_each(|(snapshot, fronts)| snapshot.fronts = fronts);
+    }
+    model.domain.lubricant.cavitation = cavitation;
+    for window in &mut model.windows {
         window.cavitation = cavitation;
         let (lines, columns) = (window.grid.lines(), window.grid.nodes().0);
-        for (snapshot, fronts) in window.snapshots.iter_mut().zip(fronts) {
-            if fronts.len() != lines || fronts.iter().any(|front| *front > columns) {
-                return None;
-            }
-            snapshot.fronts = fronts;
+        let sound = |s: &Snapshot| s.fronts.len() == lines && s.fronts.iter().all(|front| *front <= columns);
+        if !window.snapshots.iter().all(sound) {
+            return None;
         }
     }
     Some(())

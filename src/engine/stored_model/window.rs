@@ -38,6 +38,7 @@ pub(super) struct StoredWindow {
     sampling: Sampling,
     sampled_rows: Vec<usize>,
     reconstruction: StoredMatrix,
+    /// Empty but in older files.
     pub snapshots: Vec<Snapshot>,
     traction: Option<TractionRule>,
     /// None where the calibrations of all windows are kept together.
@@ -104,7 +105,7 @@ impl StoredWindow {
             sampling: window.sampling,
             sampled_rows: window.sampled_rows.clone(),
             reconstruction: stored_reconstruction(window, heat),
-            snapshots: window.snapshots.iter().map(|snapshot| without_coefficients(snapshot, window)).collect(),
+            snapshots: Vec::new(),
             traction: window.traction.clone(),
             calibration: None,
         }
@@ -199,12 +200,4 @@ fn shares_deformation(window: &Window, other: &Window) -> bool {
     let equal = || window.deformation.modes == other.deformation.modes;
     let same = || Arc::ptr_eq(&window.deformation, &other.deformation) || equal();
     window.anchor.is_some() && window.grid.spec() == other.grid.spec() && same()
-}
-
-/// A snapshot as its window keeps it: coefficients of windows around anchors have a place of their own.
-fn without_coefficients(snapshot: &Snapshot, window: &Window) -> Snapshot {
-    if window.anchor.is_none() {
-        return snapshot.clone();
-    }
-    Snapshot { coefficients: Vec::new(), fronts: Vec::new(), ..*snapshot }
 }

@@ -1,0 +1,321 @@
+//! The training solutions of a model on their way to or from a file: column by column, with as many digits as starts that are
+//! made of them ask for.
+
+use super::window::StoredWindow;
+use crate::engine::packed::{packed, unpacked};
+use crate::engine::stored_matrix::StoredMatrix;
+use crate::solver::full::GridCost;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::Sliding;
+use crate::solver::reduced::{ReducedModel, Snapshot, Window};
+use faer::Mat;
+use pco::ChunkConfig;
+use serde::{Deserialize, Serialize};
+
+/// Bits of the significand that are kept of contacts and films, a relative step of 1.5e-5: starts are a hundred times as far
+/// off.
+const DIGITS: u32 = 16;
+/// Those of what the grid costs, which is an estimate.
+const FEW_DIGITS: u32 = 8;
+/// Bits of the significand of an f32, the leading one not counted.
+const ALL_DIGITS: u32 = 23;
+
+/// So many packed numbers take a byte at most.
+const MOST_PACKED: usize = 16;
+
+/// Numbers of every snapshot: H_c, H₀, R, u_m, w, E′, η₀, α, SRR, NPR (not a number where it has none), and both parts of
+/// what the grid costs.
+const NUMBERS: usize = 12;
+
+/// Accuracy of coefficients, relative to the size of each mode's.
+const START_ACCURACY: f64 = 1e-3;
+
+/// The snapshots of all windows.
+#[derive(Serialize, Deserialize)]
+pub(super) struct StoredSnapshots {
+    kind: ContactKind,
+    /// How many each window has.
+    counts: Vec<usize>,
+    /// One for each of [`NUMBERS`]; the last two are empty where the cost of the grid was not asked for.
+    columns: Vec<Column>,
+    /// First ruptured columns of the lines of each snapshot, each but the first less the one before; none under a penalty.
+    fronts: Option<(usize, Fronts)>,
+    /// Coefficients of every window, snapshots × modes; none where they have a place of their own.
+    coefficients: Vec<StoredMatrix>,
+}
+
+/// One number of every snapshot.
+#[derive(Serialize, Deserialize)]
+enum Column {
+    Packed(Vec<u8>),
+    /// So few, or so alike, that packed ones could ask for much memory.
+    Plain(Vec<f32>),
+    /// The same for all.
+    Same(f32),
+}
+
+#[derive(Serialize, Deserialize)]
+enum Fronts {
+    Packed(Vec<u8>),
+    Plain(Vec<i16>),
+}
+
+impl Column {
+    fn of(numbers: Vec<f32>) -> Self {
+        match numbers.first() {
+            Some(first) if numbers.iter().all(|number| number.to_bits() == first.to_bits()) => Self::Same(*first),
+            _ => Self::of_any(numbers),
+        }
+    }
+
+    /// One that says how many there are.
+    fn of_any(numbers: Vec<f32>) -> Self {
+        packed(&numbers, &ChunkConfig::default(), MOST_PACKED).map_or(Self::Plain(numbers), Self::Packed)
+    }
+
+    fn into_numbers(self, count: usize) -> Option<Vec<f32>> {
+        match self {
+            Self::Packed(packed) => unpacked(count, &packed, MOST_PACKED),
+            Self::Plain(numbers) => (numbers.len() == count).then_some(numbers),
+            Self::Same(number) => Some(vec![number; count]),
+        }
+    }
+}
+
+impl StoredSnapshots {
+    /// Those of a model.
+    pub fn of(model: &ReducedModel) -> Self {
+        let all = || model.windows.iter().flat_map(|window| &window.snapshots);
+        let column = |k: usize| all().map(move |snapshot| Some(numbers(snapshot)[k]?)).collect::<Option<Vec<f32>>>();
+        let costs = column(NUMBERS - 1).is_some();
+        let columns = (0..NUMBERS).map(|k| match column(k) {
+            Some(own) if k == 0 => Column::of_any(own),
+            Some(own) if costs || k < NUMBERS - 2 => Column::of(own),
+            _ => Column::Plain(Vec::new()),
+        });
+        let columns = columns.collect();
+        let counts = model.windows.iter().map(|window| window.snapshots.len()).collect();
+        let apart = model.domain.oils.is_some() && model.windows.iter().all(|window| window.anchor.is_some());
+        let coefficients = model.windows.iter().filter(|_| !apart).map(stored_coefficients).collect();
+        Self { kind: model.contact(), counts, columns, fronts: fronts(model), coefficients }
+    }
+}
+
+/// The coefficients of a window's snapshots; no more than starts are made of them.
+pub(super) fn stored_coefficients(window: &Window) -> StoredMatrix {
+    let (snapshots, modes) = (&window.snapshots, window.pressure.count());
+    let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
+    let coefficients = Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default());
+    let size = |k: usize| (coefficients.col(k).squared_norm_l2() / snapshots.len() as f64).sqrt();
+    let scales: Vec<f64> = (0..modes).map(|k| 1.0 / size(k).max(f64::MIN_POSITIVE)).collect();
+    StoredMatrix::stepped(&coefficients, 1, &scales, START_ACCURACY)
+}
+
+/// Gives the snapshots of a window their coefficients; `None` where they do not fit.
+pub(super) fn give_each(window: &mut StoredWindow, stored: StoredMatrix) -> Option<()> {
+    let coefficients = stored.into_mat(window.snapshots.len())?;
+    for (i, snapshot) in window.snapshots.iter_mut().enumerate() {
+        snapshot.coefficients = coefficients.row(i).iter().copied().collect();
+    }
+    Some(())
+}
+
+/// The numbers of a snapshot with the digits that are kept; both last ones where the cost of its grid was asked for.
+fn numbers(snapshot: &Snapshot) -> [Option<f32>; NUMBERS] {
+    let Snapshot { point, h_0, h_c, grid_cost, .. } = snapshot;
+    let [radius, speed, load, modulus, viscosity, alpha] = point.quantities();
+    let Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr } = point.sliding;
+    let own = [*h_c, *h_0, radius, speed, load, modulus, viscosity, alpha, srr, npr.unwrap_or(f64::NAN)];
+    let mut numbers = [None; NUMBERS];
+    numbers.iter_mut().zip(own).for_each(|(number, own)| *number = Some(kept(own, DIGITS)));
+    if let Some(GridCost { truncation, resolution }) = grid_cost {
+        let few = [truncation, resolution].map(|cost| Some(kept(*cost, FEW_DIGITS)));
+        numbers[NUMBERS - 2..].copy_from_slice(&few);
+    }
+    numbers
+}
+
+/// A number with so many digits of its significand, rounded to the nearest.
+fn kept(number: f64, digits: u32) -> f32 {
+    let single = number as f32;
+    let (bits, dropped) = (single.to_bits(), ALL_DIGITS - digits);
+    let rounded = f32::from_bits(bits.wrapping_add(1 << (dropped - 1)) >> dropped << dropped);
+    if rounded.is_finite() { rounded } else { single }
+}
+
+/// The boundaries of all snapshots; none where one has no boundary, or they do not fit small numbers.
+fn fronts(model: &ReducedModel) -> Option<(usize, Fronts)> {
+    let snapshots = || model.windows.iter().flat_map(|window| &window.snapshots);
+    let lines = snapshots().next()?.fronts.len();
+    if lines == 0 || snapshots().any(|snapshot| snapshot.fronts.len() != lines) {
+        return None;
+    }
+    let mut all = Vec::new();
+    for snapshot in snapshots() {
+        let mut before = 0;
+        for front in &snapshot.fronts {
+            let front = i32::try_from(*front).ok()?;
+            all.push(i16::try_from(front - before).ok()?);
+            before = front;
+        }
+    }
+    let packed = packed(&all, &ChunkConfig::default(), MOST_PACKED);
+    Some((lines, packed.map_or(Fronts::Plain(all), Fronts::Packed)))
+}
+
+/// Gives the windows of a model their snapshots, with coefficients unless these have a place of their own; `None` where they
+/// do not fit.
+pub(super) fn give_snapshots(windows: &mut [StoredWindow], stored: StoredSnapshots) -> Option<()> {
+    let StoredSnapshots { kind, counts, columns, fronts, coefficients } = stored;
+    if counts.len() != windows.len() || windows.iter().any(|window| !window.snapshots.is_empty()) {
+        return None;
+    }
+    let count = counts.iter().try_fold(0usize, |sum, count| sum.checked_add(*count))?;
+    let mut columns = columns.into_iter();
+    // The first column says that there are so many.
+    let first = columns.next().filter(|column| !matches!(column, Column::Same(_)))?.into_numbers(count)?;
+    let mut all = vec![first];
+    let mut costs = true;
+    for (k, column) in columns.enumerate() {
+        // Where the cost of the grid was not asked for, its columns are empty.
+        let empty =
+            k + 1 >= NUMBERS - 2 && count > 0 && matches!(&column, Column::Plain(numbers) if numbers.is_empty());
+        costs &= !empty;
+        all.push(if empty { vec![0.0; count] } else { column.into_numbers(count)? });
+    }
+    if all.len() != NUMBERS {
+        return None;
+    }
+    let (lines, fronts) = match fronts {
+        None => (0, Vec::new()),
+        Some((lines, fronts)) => {
+            let wanted = lines.checked_mul(count).filter(|_| lines > 0)?;
+            let fronts = match fronts {
+                Fronts::Packed(packed) => unpacked(wanted, &packed, MOST_PACKED)?,
+                Fronts::Plain(fronts) => Some(fronts).filter(|fronts| fronts.len() == wanted)?,
+            };
+            (lines, fronts)
+        }
+    };
+    let mut next = 0;
+    for (window, count) in windows.iter_mut().zip(counts) {
+        for i in next..next + count {
+            let own: [f64; NUMBERS] = std::array::from_fn(|k| f64::from(all[k][i]));
+            let [h_c, h_0, radius, speed, load, modulus, viscosity, alpha, srr, npr, truncation, resolution] = own;
+            let newtonian_plateau_ratio = Some(npr).filter(|npr| !npr.is_nan());
+            let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio };
+            let quantities = [radius, speed, load, modulus, viscosity, alpha];
+            let point = OperatingPoint::from_quantities(kind, quantities, sliding);
+            let grid_cost = costs.then_some(GridCost { truncation, resolution });
+            let fronts = summed(&fronts[i * lines..(i + 1) * lines])?;
+            window.snapshots.push(Snapshot { point, coefficients: Vec::new(), h_0, h_c, fronts, grid_cost });
+        }
+        next += count;
+    }
+    if coefficients.is_empty() {
+        return Some(());
+    }
+    if coefficients.len() != windows.len() {
+        return None;
+    }
+    windows.iter_mut().zip(coefficients).map(|(window, stored)| give_each(window, stored)).collect()
+}
+
+/// Boundaries from what each is more than the one before; `None` where one lies before the first column.
+fn summed(steps: &[i16]) -> Option<Vec<usize>> {
+    let mut front = 0i32;
+    let sum = |step: &i16| {
+        front = front.checked_add(i32::from(*step))?;
+        usize::try_from(front).ok()
+    };
+    steps.iter().map(sum).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Embedded;
+
+    fn bare(model: &ReducedModel) -> Vec<StoredWindow> {
+        model.windows.iter().enumerate().map(|(k, window)| StoredWindow::of(model, k, window)).collect()
+    }
+
+    #[test]
+    fn contacts_films_boundaries_and_costs_come_back_to_five_digits() {
+        for which in [Embedded::LightCircle, Embedded::EyringLine, Embedded::ThinningLine] {
+            let model = which.model().unwrap();
+            let mut windows = bare(&model);
+            give_snapshots(&mut windows, StoredSnapshots::of(&model)).unwrap();
+            for (stored, window) in windows.iter().zip(&model.windows) {
+                assert_eq!(stored.snapshots.len(), window.snapshots.len());
+                let size = |k: usize| {
+                    window.snapshots.iter().map(|own| own.coefficients[k].abs()).fold(f64::MIN_POSITIVE, f64::max)
+                };
+                let sizes: Vec<f64> = (0..window.pressure.count()).map(size).collect();
+                for (found, own) in stored.snapshots.iter().zip(&window.snapshots) {
+                    assert_eq!((found.point.kind, &found.fronts), (own.point.kind, &own.fronts));
+                    let coefficients = found.coefficients.iter().zip(&own.coefficients).zip(&sizes);
+                    assert_eq!(found.coefficients.len(), if window.anchor.is_some() { 0 } else { sizes.len() });
+                    for ((found, own), size) in coefficients {
+                        assert!((found - own).abs() <= 2e-3 * size, "{found} and {own} of {size}");
+                    }
+                    let films = [(found.h_c, own.h_c), (found.h_0, own.h_0)];
+                    let [npr, own_npr] = [found, own].map(|snapshot| snapshot.point.sliding.newtonian_plateau_ratio);
+                    assert_eq!(npr.is_some(), own_npr.is_some());
+                    let slides = [found, own].map(|snapshot| snapshot.point.sliding.slide_to_roll_ratio);
+                    let quantities = found.point.quantities().into_iter().zip(own.point.quantities());
+                    for (found, own) in quantities.chain(films).chain([slides.into()]).chain(npr.zip(own_npr)) {
+                        assert!((found - own).abs() <= 8e-6 * own.abs(), "{found} and {own}");
+                    }
+                    assert_eq!(found.grid_cost.is_some(), own.grid_cost.is_some());
+                    let Some((found, own)) = found.grid_cost.zip(own.grid_cost) else { continue };
+                    for (found, own) in [(found.truncation, own.truncation), (found.resolution, own.resolution)] {
+                        assert!((found - own).abs() <= 2e-3 * own.abs(), "{found} and {own}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_keep_their_digits_and_are_rounded_to_the_nearest() {
+        assert_eq!(kept(1.0, 16).to_bits(), 1f32.to_bits());
+        assert!((f64::from(kept(1.0 + 2f64.powi(-16), 16)) - 1.0 - 2f64.powi(-16)).abs() < 1e-12);
+        assert_eq!(kept(1.0 + 2f64.powi(-18), 16).to_bits(), 1f32.to_bits());
+        assert_eq!(kept(-2.0 + 2f64.powi(-18), 16).to_bits(), (-2f32).to_bits());
+        assert!(kept(f64::from(f32::MAX), 8).is_finite() && kept(f64::NAN, 8).is_nan());
+        for number in [0.0, 3.7e-9, -12.25, 8.1e10] {
+            let once = kept(number, 16);
+            assert_eq!(kept(f64::from(once), 16).to_bits(), once.to_bits(), "{number}");
+        }
+    }
+
+    #[test]
+    fn columns_that_do_not_fit_are_refused() {
+        let model = Embedded::LightCircle.model().unwrap();
+        let given = |change: &dyn Fn(&mut StoredSnapshots)| {
+            let (mut windows, mut stored) = (bare(&model), StoredSnapshots::of(&model));
+            change(&mut stored);
+            give_snapshots(&mut windows, stored)
+        };
+        assert!(given(&|_| {}).is_some());
+        for (what, change) in [
+            ("one fewer", &(|stored: &mut StoredSnapshots| stored.counts[0] -= 1) as &dyn Fn(&mut StoredSnapshots)),
+            ("very many", &|stored| stored.counts[0] = usize::MAX),
+            ("many of the same", &|stored| {
+                stored.counts[0] = 1 << 40;
+                stored.columns[0] = Column::Same(1.0);
+            }),
+            ("a window more", &|stored| stored.counts.push(0)),
+            ("a column less", &|stored| drop(stored.columns.pop())),
+            ("no lines", &|stored| stored.fronts.as_mut().unwrap().0 = 0),
+            ("very many lines", &|stored| stored.fronts.as_mut().unwrap().0 = usize::MAX),
+            ("before the first column", &|stored| {
+                let (lines, count) = (stored.fronts.as_ref().unwrap().0, stored.counts.iter().sum::<usize>());
+                stored.fronts = Some((lines, Fronts::Plain(vec![-1; lines * count])));
+            }),
+        ] {
+            assert!(given(change).is_none(), "{what}");
+        }
+    }
+}
