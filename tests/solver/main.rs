@@ -13,6 +13,7 @@ mod embedded_model;
 mod embedded_point_model;
 mod embedded_point_shear_model;
 mod embedded_shear_model;
+mod embedded_sliding_models;
 mod iterations;
 mod line_reference;
 mod mass_conserving;

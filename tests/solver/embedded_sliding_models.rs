@@ -1,0 +1,43 @@
+//! The embedded models of contacts of oils that thin by Eyring's law.
+
+use ehl_explorer::engine::Embedded;
+use ehl_explorer::solver::full::{ContactSolver, Start};
+use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
+use ehl_explorer::solver::training::{Range, random_points};
+
+/// Tractions below this are those of contacts that hardly slide.
+const SMALL: f64 = 1e-4;
+
+/// Asserts that films and tractions of some contacts of a model's whole range are those of full solutions on its grid.
+fn lie_near_full_solutions(which: Embedded, contacts: usize) {
+    let model = which.model().unwrap();
+    let (kind, laws) = (model.contact(), model.domain.lubricant);
+    let mut solver = ContactSolver::on(&model.windows[0].grid);
+    let mut online = Online::new(model.clone(), ReducedOptions::default());
+    for point in random_points(&Range::from(&model.domain), kind, contacts, 47) {
+        let (full, solved) =
+            (solver.solve(&point, laws, Start::Cold, &()).unwrap(), online.solve(&point, laws).unwrap());
+        assert!(full.converged() && solved.trust == Trust::Trained, "{:?}", point.moes());
+        let (own, wanted) = (solved.traction.unwrap(), full.traction_coefficient());
+        let film = (solved.h_c / full.scalars.h_c - 1.0).abs();
+        let traction = (own - wanted).abs() / wanted.abs().max(SMALL);
+        assert!(
+            film < 5e-3 && traction < 2e-2,
+            "{film:.1e} and {traction:.1e} at {:?}, {:?}",
+            point.moes(),
+            point.sliding
+        );
+        assert!(solved.error.is_some_and(|error| error.h_c.bound < 0.1), "{:?}", point.moes());
+    }
+}
+
+#[test]
+fn films_and_tractions_of_sliding_lines_lie_near_full_solutions_from_the_lightest_to_the_heaviest() {
+    lie_near_full_solutions(Embedded::EyringLine, 24);
+}
+
+#[test]
+fn films_and_tractions_of_sliding_balls_lie_near_full_solutions_from_m_3_on() {
+    lie_near_full_solutions(Embedded::LightEyringCircle, 4);
+    lie_near_full_solutions(Embedded::EyringCircle, 3);
+}
