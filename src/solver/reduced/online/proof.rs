@@ -13,9 +13,14 @@ use std::cell::OnceCell;
 /// one in a hundred; a window with parts of another one does not come near.
 const WITHIN: f64 = 0.1;
 
+/// So many snapshots have to be given; a single one may lie where iterations from afar end nowhere.
+const GIVEN: usize = 2;
+/// So many are tried.
+const TRIED: usize = 4;
+
 impl ReducedModel {
-    /// Solves the contacts of a window's first and last snapshot from these; of a window around an anchor those that it
-    /// serves: others may lie far outside.
+    /// Solves the contacts of a window's first and last snapshots from these, until two are given; of a window around an
+    /// anchor those that it serves: others may lie far outside.
     pub fn reproduces_snapshots(&self, window: usize) -> bool {
         let Some(served) = self.windows.get(window) else { return false };
         let own = |snapshot: &&Snapshot| served.anchor.is_none() || self.window_for(&snapshot.point) == window;
@@ -25,7 +30,11 @@ impl ReducedModel {
         // Kriging takes as long as all the rest, and hardly any window needs it.
         let kriging = OnceCell::new();
         let kriged = |problem: &Problem| kriging.get_or_init(|| Kriging::of(served)).as_ref()?.start(&problem.point);
-        snapshots.iter().take(1).chain(snapshots.iter().skip(1).last()).all(|snapshot| {
+        let from_both_ends = (0..snapshots.len()).map(|k| match k % 2 {
+            0 => snapshots[k / 2],
+            _ => snapshots[snapshots.len() - 1 - k / 2],
+        });
+        let given = from_both_ends.take(TRIED).filter(|snapshot| {
             let Ok(problem) = Problem::new(&snapshot.point, self.domain.lubricant) else { return false };
             let mut gives = |guess: Guess| {
                 attempt(served, &mut operators, &problem, &guess, usize::MAX, &options, &mut None)
@@ -35,6 +44,8 @@ impl ReducedModel {
                 || served.anchor.is_some()
                     && kriged(&problem)
                         .is_some_and(|guess| self.shares_of_modes().iter().any(|share| gives(guess.with_modes(*share))))
-        })
+        });
+        let wanted = GIVEN.min(snapshots.len());
+        given.take(wanted).count() == wanted
     }
 }
