@@ -12,13 +12,15 @@ use faer::Mat;
 use pco::ChunkConfig;
 use serde::{Deserialize, Serialize};
 
-/// Bits of the significand that are kept of contacts and films, a relative step of 1.5e-5: starts are a hundred times as far
-/// off.
+/// Bits of the significand of an f32, the leading one not counted. Contacts keep all of them, for some lie on the edges of what
+/// a model was trained for.
+const ALL_DIGITS: u32 = 23;
+/// Those that are kept of films, a relative step of 1.5e-5: starts are a hundred times as far off.
 const DIGITS: u32 = 16;
 /// Those of what the grid costs, which is an estimate.
 const FEW_DIGITS: u32 = 8;
-/// Bits of the significand of an f32, the leading one not counted.
-const ALL_DIGITS: u32 = 23;
+/// Films stand first among the numbers of a snapshot.
+const FILMS: usize = 2;
 
 /// So many packed numbers take a byte at most.
 const MOST_PACKED: usize = 16;
@@ -26,9 +28,13 @@ const MOST_PACKED: usize = 16;
 /// Numbers of every snapshot: H_c, H₀, R, u_m, w, E′, η₀, α, SRR, NPR (not a number where it has none), and both parts of
 /// what the grid costs.
 const NUMBERS: usize = 12;
+/// The last of them are costs.
+const COSTS: usize = 2;
 
 /// Accuracy of coefficients, relative to the size of each mode's.
 const START_ACCURACY: f64 = 1e-3;
+/// How often they are rounded at most.
+const ROUNDS: usize = 6;
 
 /// The snapshots of all windows.
 #[derive(Serialize, Deserialize)]
@@ -50,8 +56,8 @@ enum Column {
     Packed(Vec<u8>),
     /// So few, or so alike, that packed ones could ask for much memory.
     Plain(Vec<f32>),
-    /// The same for all.
-    Same(f32),
+    /// The same for all, to the last digit: the constants of a lubricant have to be met.
+    Same(f64),
 }
 
 #[derive(Serialize, Deserialize)]
@@ -61,24 +67,26 @@ enum Fronts {
 }
 
 impl Column {
-    fn of(numbers: Vec<f32>) -> Self {
+    fn of(numbers: Vec<f64>, digits: u32) -> Self {
         match numbers.first() {
             Some(first) if numbers.iter().all(|number| number.to_bits() == first.to_bits()) => Self::Same(*first),
-            _ => Self::of_any(numbers),
+            _ => Self::of_any(numbers, digits),
         }
     }
 
     /// One that says how many there are.
-    fn of_any(numbers: Vec<f32>) -> Self {
+    fn of_any(numbers: Vec<f64>, digits: u32) -> Self {
+        let numbers: Vec<f32> = numbers.into_iter().map(|number| kept(number, digits)).collect();
         packed(&numbers, &ChunkConfig::default(), MOST_PACKED).map_or(Self::Plain(numbers), Self::Packed)
     }
 
-    fn into_numbers(self, count: usize) -> Option<Vec<f32>> {
-        match self {
-            Self::Packed(packed) => unpacked(count, &packed, MOST_PACKED),
-            Self::Plain(numbers) => (numbers.len() == count).then_some(numbers),
-            Self::Same(number) => Some(vec![number; count]),
-        }
+    fn into_numbers(self, count: usize) -> Option<Vec<f64>> {
+        let numbers = match self {
+            Self::Packed(packed) => unpacked(count, &packed, MOST_PACKED)?,
+            Self::Plain(numbers) => Some(numbers).filter(|numbers| numbers.len() == count)?,
+            Self::Same(number) => return Some(vec![number; count]),
+        };
+        Some(numbers.into_iter().map(f64::from).collect())
     }
 }
 
@@ -86,11 +94,14 @@ impl StoredSnapshots {
     /// Those of a model.
     pub fn of(model: &ReducedModel) -> Self {
         let all = || model.windows.iter().flat_map(|window| &window.snapshots);
-        let column = |k: usize| all().map(move |snapshot| Some(numbers(snapshot)[k]?)).collect::<Option<Vec<f32>>>();
+        let number = |snapshot: &Snapshot, k: usize| numbers(snapshot).get(k).copied().flatten();
+        let column = |k: usize| all().map(|snapshot| number(snapshot, k)).collect::<Option<Vec<f64>>>();
         let costs = column(NUMBERS - 1).is_some();
         let columns = (0..NUMBERS).map(|k| match column(k) {
-            Some(own) if k == 0 => Column::of_any(own),
-            Some(own) if costs || k < NUMBERS - 2 => Column::of(own),
+            Some(own) if k == 0 => Column::of_any(own, DIGITS),
+            Some(own) if k < FILMS => Column::of(own, DIGITS),
+            Some(own) if k < NUMBERS - COSTS => Column::of(own, ALL_DIGITS),
+            Some(own) if costs => Column::of(own, FEW_DIGITS),
             _ => Column::Plain(Vec::new()),
         });
         let columns = columns.collect();
@@ -105,10 +116,22 @@ impl StoredSnapshots {
 pub(super) fn stored_coefficients(window: &Window) -> StoredMatrix {
     let (snapshots, modes) = (&window.snapshots, window.pressure.count());
     let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
-    let coefficients = Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default());
-    let size = |k: usize| (coefficients.col(k).squared_norm_l2() / snapshots.len() as f64).sqrt();
-    let scales: Vec<f64> = (0..modes).map(|k| 1.0 / size(k).max(f64::MIN_POSITIVE)).collect();
-    StoredMatrix::stepped(&coefficients, 1, &scales, START_ACCURACY)
+    let mut coefficients = Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default());
+    // Steps go with sizes, which rounding may change: what is written is what would be written again.
+    for _ in 0..ROUNDS {
+        let stored = rounded(&coefficients);
+        match stored.clone().into_mat(snapshots.len()) {
+            Some(again) if again != coefficients => coefficients = again,
+            _ => return stored,
+        }
+    }
+    rounded(&coefficients)
+}
+
+fn rounded(coefficients: &Mat<f64>) -> StoredMatrix {
+    let size = |k: usize| (coefficients.col(k).squared_norm_l2() / coefficients.nrows() as f64).sqrt();
+    let scales: Vec<f64> = (0..coefficients.ncols()).map(|k| 1.0 / size(k).max(f64::MIN_POSITIVE)).collect();
+    StoredMatrix::stepped(coefficients, 1, &scales, START_ACCURACY)
 }
 
 /// Gives the snapshots of a window their coefficients; `None` where they do not fit.
@@ -120,26 +143,22 @@ pub(super) fn give_each(window: &mut StoredWindow, stored: StoredMatrix) -> Opti
     Some(())
 }
 
-/// The numbers of a snapshot with the digits that are kept; both last ones where the cost of its grid was asked for.
-fn numbers(snapshot: &Snapshot) -> [Option<f32>; NUMBERS] {
+/// The numbers of a snapshot; both last ones where the cost of its grid was asked for.
+fn numbers(snapshot: &Snapshot) -> [Option<f64>; NUMBERS] {
     let Snapshot { point, h_0, h_c, grid_cost, .. } = snapshot;
-    let [radius, speed, load, modulus, viscosity, alpha] = point.quantities();
+    let [radius, speed, load, modulus, viscosity, alpha] = point.quantities().map(Some);
     let Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr } = point.sliding;
-    let own = [*h_c, *h_0, radius, speed, load, modulus, viscosity, alpha, srr, npr.unwrap_or(f64::NAN)];
-    let mut numbers = [None; NUMBERS];
-    numbers.iter_mut().zip(own).for_each(|(number, own)| *number = Some(kept(own, DIGITS)));
-    if let Some(GridCost { truncation, resolution }) = grid_cost {
-        let few = [truncation, resolution].map(|cost| Some(kept(*cost, FEW_DIGITS)));
-        numbers[NUMBERS - 2..].copy_from_slice(&few);
-    }
-    numbers
+    let (srr, npr) = (Some(srr), Some(npr.unwrap_or(f64::NAN)));
+    let [truncation, resolution] = [grid_cost.map(|cost| cost.truncation), grid_cost.map(|cost| cost.resolution)];
+    [Some(*h_c), Some(*h_0), radius, speed, load, modulus, viscosity, alpha, srr, npr, truncation, resolution]
 }
 
 /// A number with so many digits of its significand, rounded to the nearest.
 fn kept(number: f64, digits: u32) -> f32 {
     let single = number as f32;
-    let (bits, dropped) = (single.to_bits(), ALL_DIGITS - digits);
-    let rounded = f32::from_bits(bits.wrapping_add(1 << (dropped - 1)) >> dropped << dropped);
+    let dropped = ALL_DIGITS.saturating_sub(digits);
+    let half = (1u32 << dropped) / 2;
+    let rounded = f32::from_bits(single.to_bits().wrapping_add(half) >> dropped << dropped);
     if rounded.is_finite() { rounded } else { single }
 }
 
@@ -179,7 +198,7 @@ pub(super) fn give_snapshots(windows: &mut [StoredWindow], stored: StoredSnapsho
     for (k, column) in columns.enumerate() {
         // Where the cost of the grid was not asked for, its columns are empty.
         let empty =
-            k + 1 >= NUMBERS - 2 && count > 0 && matches!(&column, Column::Plain(numbers) if numbers.is_empty());
+            k + 1 >= NUMBERS - COSTS && count > 0 && matches!(&column, Column::Plain(numbers) if numbers.is_empty());
         costs &= !empty;
         all.push(if empty { vec![0.0; count] } else { column.into_numbers(count)? });
     }
@@ -197,20 +216,23 @@ pub(super) fn give_snapshots(windows: &mut [StoredWindow], stored: StoredSnapsho
             (lines, fronts)
         }
     };
-    let mut next = 0;
+    let (mut columns, mut fronts): (Vec<_>, _) =
+        (all.into_iter().map(Vec::into_iter).collect(), fronts.chunks_exact(lines.max(1)));
     for (window, count) in windows.iter_mut().zip(counts) {
-        for i in next..next + count {
-            let own: [f64; NUMBERS] = std::array::from_fn(|k| f64::from(all[k][i]));
+        for _ in 0..count {
+            let mut own = [0.0; NUMBERS];
+            for (number, column) in own.iter_mut().zip(&mut columns) {
+                *number = column.next()?;
+            }
             let [h_c, h_0, radius, speed, load, modulus, viscosity, alpha, srr, npr, truncation, resolution] = own;
             let newtonian_plateau_ratio = Some(npr).filter(|npr| !npr.is_nan());
             let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio };
             let quantities = [radius, speed, load, modulus, viscosity, alpha];
             let point = OperatingPoint::from_quantities(kind, quantities, sliding);
             let grid_cost = costs.then_some(GridCost { truncation, resolution });
-            let fronts = summed(&fronts[i * lines..(i + 1) * lines])?;
+            let fronts = if lines == 0 { Vec::new() } else { summed(fronts.next()?)? };
             window.snapshots.push(Snapshot { point, coefficients: Vec::new(), h_0, h_c, fronts, grid_cost });
         }
-        next += count;
     }
     if coefficients.is_empty() {
         return Some(());
@@ -241,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn contacts_films_boundaries_and_costs_come_back_to_five_digits() {
+    fn contacts_films_boundaries_and_costs_come_back_with_the_digits_that_are_kept() {
         for which in [Embedded::LightCircle, Embedded::EyringLine, Embedded::ThinningLine] {
             let model = which.model().unwrap();
             let mut windows = bare(&model);
@@ -259,12 +281,14 @@ mod tests {
                     for ((found, own), size) in coefficients {
                         assert!((found - own).abs() <= 2e-3 * size, "{found} and {own} of {size}");
                     }
+                    for (found, own) in found.point.quantities().into_iter().zip(own.point.quantities()) {
+                        assert!((found - own).abs() <= 6e-8 * own.abs(), "{found} and {own}");
+                    }
                     let films = [(found.h_c, own.h_c), (found.h_0, own.h_0)];
                     let [npr, own_npr] = [found, own].map(|snapshot| snapshot.point.sliding.newtonian_plateau_ratio);
                     assert_eq!(npr.is_some(), own_npr.is_some());
                     let slides = [found, own].map(|snapshot| snapshot.point.sliding.slide_to_roll_ratio);
-                    let quantities = found.point.quantities().into_iter().zip(own.point.quantities());
-                    for (found, own) in quantities.chain(films).chain([slides.into()]).chain(npr.zip(own_npr)) {
+                    for (found, own) in films.into_iter().chain([slides.into()]).chain(npr.zip(own_npr)) {
                         assert!((found - own).abs() <= 8e-6 * own.abs(), "{found} and {own}");
                     }
                     assert_eq!(found.grid_cost.is_some(), own.grid_cost.is_some());
