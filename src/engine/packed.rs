@@ -3,6 +3,30 @@
 use pco::ChunkConfig;
 use pco::data_types::Number;
 use pco::standalone::{simple_compress, simple_decompress_into};
+use serde::{Deserialize, Serialize};
+
+/// Small whole numbers on their way to or from a file.
+#[derive(Serialize, Deserialize)]
+pub(super) enum Small {
+    Packed(Vec<u8>),
+    /// So few, or so alike, that packed ones could ask for much memory.
+    Plain(Vec<i16>),
+}
+
+impl Small {
+    /// These numbers, of which no more than `most` take a byte.
+    pub fn of(numbers: Vec<i16>, most: usize) -> Self {
+        packed(&numbers, &ChunkConfig::default(), most).map_or(Self::Plain(numbers), Self::Packed)
+    }
+
+    /// So many numbers; `None` where there are not as many, or more than `most` of them take a byte.
+    pub fn into_numbers(self, count: usize, most: usize) -> Option<Vec<i16>> {
+        match self {
+            Self::Packed(packed) => unpacked(count, &packed, most),
+            Self::Plain(numbers) => Some(numbers).filter(|numbers| numbers.len() == count),
+        }
+    }
+}
 
 /// Numbers in fewer bytes; none where these are so alike that more than `most` of them would take a byte.
 pub(super) fn packed<T: Number>(numbers: &[T], settings: &ChunkConfig, most: usize) -> Option<Vec<u8>> {

@@ -1,9 +1,8 @@
 //! What windows know about their errors, on its way to or from a file: small whole numbers, packed together.
 
 use super::window::StoredWindow;
-use crate::engine::packed::{packed, unpacked};
+use crate::engine::packed::Small;
 use crate::solver::reduced::{Calibration, Laws, ReducedModel};
-use pco::ChunkConfig;
 use serde::{Deserialize, Serialize};
 
 /// So many packed numbers take a byte at most.
@@ -16,14 +15,7 @@ pub(super) struct StoredCalibrations {
     windows: Vec<Option<(Laws, usize)>>,
     /// How many numbers all of them have.
     count: usize,
-    numbers: Numbers,
-}
-
-#[derive(Serialize, Deserialize)]
-enum Numbers {
-    Packed(Vec<u8>),
-    /// So few, or so alike, that packed ones could ask for much memory.
-    Plain(Vec<i16>),
+    numbers: Small,
 }
 
 impl StoredCalibrations {
@@ -40,24 +32,17 @@ impl StoredCalibrations {
             windows.push(Some((laws, calibration.evidence())));
             all.extend(numbers);
         }
-        let packed = packed(&all, &ChunkConfig::default(), MOST_PACKED);
         let count = all.len();
         let known = windows.iter().any(Option::is_some);
-        known.then(|| Self { windows, count, numbers: packed.map_or(Numbers::Plain(all), Numbers::Packed) })
+        known.then(|| Self { windows, count, numbers: Small::of(all, MOST_PACKED) })
     }
 }
 
 /// Gives the windows of a model their calibrations; `None` where these do not fit.
 pub(super) fn give_calibrations(windows: &mut [StoredWindow], stored: StoredCalibrations) -> Option<()> {
     let StoredCalibrations { windows: laws, count, numbers } = stored;
-    let numbers = match numbers {
-        Numbers::Plain(numbers) => numbers,
-        Numbers::Packed(packed) => unpacked(count, &packed, MOST_PACKED)?,
-    };
-    if laws.len() != windows.len()
-        || numbers.len() != count
-        || windows.iter().any(|window| window.calibration.is_some())
-    {
+    let numbers = numbers.into_numbers(count, MOST_PACKED)?;
+    if laws.len() != windows.len() || windows.iter().any(|window| window.calibration.is_some()) {
         return None;
     }
     let mut numbers = numbers.into_iter();
@@ -95,7 +80,7 @@ mod tests {
             ("a window more", &|stored| stored.windows.push(None)),
             ("less evidence", &|stored| stored.windows[0].as_mut().unwrap().1 -= 1),
             ("cut", &|stored| {
-                if let Numbers::Packed(packed) = &mut stored.numbers {
+                if let Small::Packed(packed) = &mut stored.numbers {
                     packed.truncate(packed.len() / 2);
                 }
             }),

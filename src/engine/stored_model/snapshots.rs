@@ -2,7 +2,7 @@
 //! made of them ask for.
 
 use super::window::StoredWindow;
-use crate::engine::packed::{packed, unpacked};
+use crate::engine::packed::{Small, packed, unpacked};
 use crate::engine::stored_matrix::StoredMatrix;
 use crate::solver::full::GridCost;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -45,7 +45,7 @@ pub(super) struct StoredSnapshots {
     /// One for each of [`NUMBERS`]; the last two are empty where the cost of the grid was not asked for.
     columns: Vec<Column>,
     /// First ruptured columns of the lines of each snapshot, each but the first less the one before; none under a penalty.
-    fronts: Option<(usize, Fronts)>,
+    fronts: Option<(usize, Small)>,
     /// Coefficients of every window, snapshots × modes; none where they have a place of their own.
     coefficients: Vec<StoredMatrix>,
 }
@@ -58,12 +58,6 @@ enum Column {
     Plain(Vec<f32>),
     /// The same for all, to the last digit: the constants of a lubricant have to be met.
     Same(f64),
-}
-
-#[derive(Serialize, Deserialize)]
-enum Fronts {
-    Packed(Vec<u8>),
-    Plain(Vec<i16>),
 }
 
 impl Column {
@@ -163,7 +157,7 @@ fn kept(number: f64, digits: u32) -> f32 {
 }
 
 /// The boundaries of all snapshots; none where one has no boundary, or they do not fit small numbers.
-fn fronts(model: &ReducedModel) -> Option<(usize, Fronts)> {
+fn fronts(model: &ReducedModel) -> Option<(usize, Small)> {
     let snapshots = || model.windows.iter().flat_map(|window| &window.snapshots);
     let lines = snapshots().next()?.fronts.len();
     if lines == 0 || snapshots().any(|snapshot| snapshot.fronts.len() != lines) {
@@ -178,8 +172,7 @@ fn fronts(model: &ReducedModel) -> Option<(usize, Fronts)> {
             before = front;
         }
     }
-    let packed = packed(&all, &ChunkConfig::default(), MOST_PACKED);
-    Some((lines, packed.map_or(Fronts::Plain(all), Fronts::Packed)))
+    Some((lines, Small::of(all, MOST_PACKED)))
 }
 
 /// Gives the windows of a model their snapshots, with coefficients unless these have a place of their own; `None` where they
@@ -209,11 +202,7 @@ pub(super) fn give_snapshots(windows: &mut [StoredWindow], stored: StoredSnapsho
         None => (0, Vec::new()),
         Some((lines, fronts)) => {
             let wanted = lines.checked_mul(count).filter(|_| lines > 0)?;
-            let fronts = match fronts {
-                Fronts::Packed(packed) => unpacked(wanted, &packed, MOST_PACKED)?,
-                Fronts::Plain(fronts) => Some(fronts).filter(|fronts| fronts.len() == wanted)?,
-            };
-            (lines, fronts)
+            (lines, fronts.into_numbers(wanted, MOST_PACKED)?)
         }
     };
     let (mut columns, mut fronts): (Vec<_>, _) =
@@ -336,7 +325,7 @@ mod tests {
             ("very many lines", &|stored| stored.fronts.as_mut().unwrap().0 = usize::MAX),
             ("before the first column", &|stored| {
                 let (lines, count) = (stored.fronts.as_ref().unwrap().0, stored.counts.iter().sum::<usize>());
-                stored.fronts = Some((lines, Fronts::Plain(vec![-1; lines * count])));
+                stored.fronts = Some((lines, Small::Plain(vec![-1; lines * count])));
             }),
         ] {
             assert!(given(change).is_none(), "{what}");
