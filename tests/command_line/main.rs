@@ -10,5 +10,7 @@ mod ellipses;
 mod heat;
 mod in_time;
 mod readme;
+mod refused;
+mod run_and_train;
 mod sliding;
 mod take_away;

@@ -1,0 +1,98 @@
+//! Scenes that are run and trained.
+
+use crate::commands::{assert_refused, json, program};
+use crate::common::scratch::Scratch;
+use std::path::PathBuf;
+use std::process::Command;
+
+#[test]
+fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
+    let folder = Scratch::new("run");
+    let scene = |name: &str, value: &str| {
+        let text = format!(
+            "Scene(version: 1, title: \"{name}\", at: Moes(m: 20, l: 5), grid: Graded, study: Point(methods: [Full]), \
+             expect: [(name: \"moes.M\", value: {value}, within: Relative(1e-6), from: \"itself\")])"
+        );
+        let path = folder.join(format!("{name}.ron"));
+        std::fs::write(&path, text).unwrap();
+        path.to_string_lossy().into_owned()
+    };
+    let (good, bad) = (scene("good", "20"), scene("bad", "21"));
+    let out = folder.join("out");
+    let output = program(&["run", &good, "--json", "--out", &out.to_string_lossy()]);
+    assert_eq!(output.status.code(), Some(0));
+    let object = json(&output);
+    assert_eq!(object["title"], "good");
+    assert_eq!(object["expectations"][0]["verdict"], "ok");
+    assert!(object["wall_s"].as_f64().unwrap() > 0.0);
+    let profile = std::fs::read_to_string(out.join("good.profile_full.csv")).unwrap();
+    assert!(profile.starts_with("X,Y,P,H,x_m,y_m,p_pa,h_m\n") && profile.lines().count() > 500);
+    assert!(out.join("good.json").is_file());
+    let output = program(&["run", &good, &bad, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 2);
+}
+
+/// A training that takes about a second on an idle core, by the automatic algorithm.
+const SMALL_TRAINING: &str = "Scene(version: 1, title: \"small\", study: Training(
+    title: \"small\",
+    range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, viscosity: 0.01),
+    plan: Adaptive(start: 20, indicator: Correction, tolerances: [1e-2, 1e-3], successes: 32, local_sigma: 0.1,
+        local_successes: 8, vicinity: 4, limit: 32),
+    windows: Given([(m: (5.0, 200.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),
+    pressure_loss: 1e-7, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,
+))";
+
+#[test]
+fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
+    use std::time::{Duration, Instant};
+    let folder = Scratch::new("killed");
+    let scene = folder.join("small.ron");
+    std::fs::write(&scene, SMALL_TRAINING).unwrap();
+    let (whole, killed) = (folder.join("whole.rom"), folder.join("killed.rom"));
+    let kept = folder.join("killed.rom.training");
+    let train = |out: &PathBuf| ["train".into(), scene.clone(), "--out".into(), out.clone()];
+    let command = |out| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ehl-explorer"));
+        command.args(train(out));
+        command
+    };
+    let output = command(&whole).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut child = command(&killed).stderr(std::process::Stdio::null()).spawn().unwrap();
+    let begin = Instant::now();
+    while !kept.exists() {
+        assert!(begin.elapsed() < Duration::from_secs(600), "nothing was kept");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(kept.exists() && !killed.exists(), "killed in the middle");
+    // Another training never overwrites what is kept.
+    let other = folder.join("other.ron");
+    std::fs::write(&other, SMALL_TRAINING.replace("seed: 1", "seed: 2")).unwrap();
+    let before = std::fs::read(&kept).unwrap();
+    let names = [&other, &killed].map(|path| path.to_string_lossy().into_owned());
+    assert_refused(&["train", &names[0], "--out", &names[1]], "another training");
+    assert_eq!(std::fs::read(&kept).unwrap(), before);
+    let output = command(&killed).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("going on with") && said.contains("full solutions"), "{said}");
+    assert!(std::fs::read(&killed).unwrap() == std::fs::read(&whole).unwrap(), "the files differ");
+    assert!(!kept.exists(), "nothing is left beside a finished model");
+}
+
+/// Matrix products once reserved twice the last-level cache for every thread, which is a gigabyte on some servers.
+#[cfg(target_os = "linux")]
+#[test]
+fn scenes_run_in_two_gigabytes_of_address_space() {
+    let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    for scene in ["point/table_2_3.ron", "reduced/fig_3_7_trajectory.ron"] {
+        let script = "ulimit -v 2000000 && exec \"$0\" run \"$1\"";
+        let mut limited = Command::new("sh");
+        limited.args(["-c", script, env!("CARGO_BIN_EXE_ehl-explorer")]).arg(scenes.join(scene));
+        let output = limited.output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{scene}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+}
