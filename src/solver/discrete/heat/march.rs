@@ -207,6 +207,8 @@ impl March {
         }
         let mut largest = 0.0f64;
         for (former, station) in self.former.iter().zip(&mut self.stations) {
+            // What has not come to rest may be back where it began.
+            largest = largest.max(station.open);
             for (theta, former) in station.theta.iter_mut().zip(former) {
                 let change = *theta - former;
                 largest = largest.max(change.abs());

@@ -15,7 +15,13 @@ const GRADIENT_FACTOR: (f64, f64) = (0.2, 5.0);
 const LARGEST_STEP: f64 = 0.1;
 
 /// Steps at most.
-const MOST_STEPS: usize = 30;
+const MOST_STEPS: usize = 60;
+
+/// Least share of a step that is taken where they turn back and forth: beside a limit of the stress heat has a kink.
+const LEAST_SHARE: f64 = 1.0 / 32.0;
+
+/// A step that turns back counts as one that does so when it is longer than this share of the one before.
+const SHORTER: f64 = 0.3;
 
 /// A step over the square of the one before it, at most.
 const BEND: f64 = 30.0;
@@ -31,6 +37,8 @@ pub struct Station {
     pub flux: [f64; 2],
     /// Steps of Newton's method that it took last.
     pub steps: usize,
+    /// The last of them where they did not come to an end, else 0.
+    pub open: f64,
 }
 
 /// The two stations next to one side of a station, for points at which the film flows here from there.
@@ -245,8 +253,9 @@ impl Place<'_> {
         let (heat, film) = (self.laws.heat, self.state.film);
         let conduction = heat.conduction / film;
         let mut factor = 1.0;
-        station.steps = 0;
+        (station.steps, station.open) = (0, 0.0);
         let mut flowing = station.flowing;
+        let (mut taken, mut before, mut size) = (1.0f64, [0.0; POINTS], 0.0f64);
         loop {
             let theta = station.theta;
             let (curved, sloped) = (apply(&across.curvature, &theta), apply(&across.slope, &theta));
@@ -308,7 +317,10 @@ impl Place<'_> {
             }
             eliminate(&mut matrix, &mut right);
             let largest = right.iter().fold(0.0f64, |largest, step| largest.max(step.abs()));
-            let share = if largest > LARGEST_STEP { LARGEST_STEP / largest } else { 1.0 };
+            let turned = inner(&right, &before) < 0.0 && largest > SHORTER * size;
+            taken = if turned { (0.5 * taken).max(LEAST_SHARE) } else { (2.0 * taken).min(1.0) };
+            (before, size) = (right, largest);
+            let share = if largest * taken > LARGEST_STEP { LARGEST_STEP / largest } else { taken };
             for (theta, step) in station.theta.iter_mut().zip(&right) {
                 *theta += share * step;
             }
@@ -316,16 +328,22 @@ impl Place<'_> {
                 *flux += share * inner(answer, &right);
             }
             station.steps += 1;
-            if largest < tolerance || !largest.is_finite() {
+            if largest < tolerance {
+                break;
+            }
+            if !largest.is_finite() || station.steps >= MOST_STEPS {
+                station.open = largest;
                 break;
             }
             let stress = flowing.stress + share * inner(&answer, &right);
             flowing = self.flowing(&station.theta, stress, factor);
-            let former = std::mem::replace(&mut factor, self.factor(flowing.mobility));
-            let moved = (factor / former - 1.0).abs();
+            let wanted = self.factor(flowing.mobility);
+            let moved = (wanted / factor - 1.0).abs();
+            // The mobility of a film that thins answers to the factor itself, and the two may turn each other back and forth.
+            let follows = taken < 1.0 && self.laws.shear.is_some();
+            factor = if follows { factor * (wanted / factor).powf(taken) } else { wanted };
             // The next step is the square of this one.
-            let done = BEND * largest * largest < tolerance && moved < tolerance.max(1e-3);
-            if done || station.steps >= MOST_STEPS {
+            if taken == 1.0 && BEND * largest * largest < tolerance && moved < tolerance.max(1e-3) {
                 break;
             }
         }

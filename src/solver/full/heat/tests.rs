@@ -133,6 +133,41 @@ fn what_is_made_leaves_through_bodies_and_with_the_oil() {
     }
 }
 
+/// Where a limit cuts the stress the heat of shear has a kink, at which the steps of a station may turn back and forth until
+/// they end where they began.
+#[test]
+fn temperatures_come_to_rest_where_a_limit_cuts_the_stress() {
+    let mut solver = FullSolver::new(GRID).unwrap();
+    let limit = LimitingStress { ambient: 5e6, slope: 0.05, eyring: Some(5e6) };
+    let oil = OilHeat {
+        heat_capacity: 1700.0,
+        conductivity: 0.11,
+        density: 900.0,
+        viscosity_temperature: 0.06,
+        ..OilHeat::default()
+    };
+    let heat = Heat { inlet_temperature: 293.15, oil, ..Heat::default() };
+    let lubricant = Lubricant { limiting_stress: Some(limit), ..warm(ShearLaw::Newtonian, heat) };
+    let at = |srr| OperatingPoint {
+        radius_m: 18.3e-3,
+        speed_m_per_s: 15.2,
+        load: 550e3,
+        modulus_pa: 220e9,
+        viscosity_pa_s: 0.0054,
+        alpha_per_pa: 2.035e-8,
+        ..point(srr)
+    };
+    let found = [0.29, 0.3, 0.31].map(|srr| solved(&mut solver, &at(srr), lubricant));
+    for solution in &found {
+        let heat = solution.heat.as_ref().unwrap();
+        assert!(heat.balance.residual().abs() < 1e-3, "{:?}", heat.balance);
+    }
+    let [less, own, more] = found.map(|solution| [solution.scalars.h_c, solution.traction_coefficient()]);
+    for ((less, own), more) in less.into_iter().zip(own).zip(more) {
+        assert!((0.5 * (less + more) / own - 1.0).abs() < 2e-3, "{less} {own} {more}");
+    }
+}
+
 #[test]
 fn what_cannot_be_computed_is_refused_in_a_sentence() {
     let refused = |point: OperatingPoint| {
