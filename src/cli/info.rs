@@ -171,6 +171,14 @@ pub fn describe(model: &ReducedModel) -> String {
             text,
             "  heat: SRR {srr}…{most}, R {radius} mm, E′ {modulus} GPa{speeds}, inlet {inlet} K, {shear:?}"
         );
+        if let Some(thermal) = heat.thermal {
+            let [(cold, hot), (from, to), (least, highest)] =
+                [thermal.inlet_temperature, thermal.effusivity, thermal.limit_slope];
+            let _ = writeln!(
+                text,
+                "  and any inlet of {cold}…{hot} K, bodies of √(kρc) {from}…{to} J/(m² K √s), limits of Λ {least}…{highest}"
+            );
+        }
     }
     if d.radius_ratio != CIRCLES {
         let _ = writeln!(text, "  R_y/R {}…{}", d.radius_ratio.0, d.radius_ratio.1);

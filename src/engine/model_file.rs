@@ -10,7 +10,7 @@ use crate::solver::observer::Observer;
 use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 
-const VERSION: u32 = 16;
+const VERSION: u32 = 17;
 /// From it on the parts of a model have names.
 const NAMED_PARTS: u32 = 14;
 /// Before it no model said how its films rupture: by the penalty.
@@ -381,7 +381,9 @@ mod tests {
         assert!(read.domain == model.domain && read.domain.heat.is_some() && read.domain.oils.is_some());
         assert!(read.windows.iter().map(|w| w.anchor).eq(model.windows.iter().map(|w| w.anchor)));
         assert_eq!(to_bytes(&read).unwrap(), bytes);
-        let lies: [fn(&mut HeatDomain); 3] = [
+        assert!(read.domain.heat.is_some_and(|heat| heat.thermal.is_some()));
+        let lies: [fn(&mut HeatDomain); 4] = [
+            |heat| heat.thermal.iter_mut().for_each(|thermal| thermal.effusivity = (f64::NAN, 1e4)),
             |heat| heat.radius_m = (0.2, 0.1),
             |heat| heat.speed_m_per_s = (f64::NAN, 3.0),
             |heat| heat.modulus_pa = (0.0, 2e11),

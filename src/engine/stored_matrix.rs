@@ -87,11 +87,10 @@ impl StoredMatrix {
         fits.then(|| Self { values: Values::Double(values().collect()), ..self })
     }
 
-    /// Columns over a grid with so many nodes across, kept to `accuracy` relative to the size Σ_k (scale_k V_ik)² of
-    /// each row.
-    pub fn stepped(matrix: &Mat<f64>, across: usize, scales: &[f64], accuracy: f64) -> Self {
+    /// Columns over a grid with so many nodes across, kept as [`Multiples::keep`] does.
+    pub fn stepped(matrix: &Mat<f64>, across: usize, scales: &[f64], [accuracy, least]: [f64; 2]) -> Self {
         let (rows, columns) = (matrix.nrows(), matrix.ncols());
-        let (multiples, matrix) = Multiples::keep(matrix.clone(), scales, accuracy);
+        let (multiples, matrix) = Multiples::keep(matrix.clone(), scales, accuracy, least);
         let Multiples { rows: exponents, columns: column_exponents } = multiples;
         let used: Vec<bool> = exponents.iter().map(Option::is_some).collect();
         let row_exponents: Vec<i16> = exponents.into_iter().flatten().collect();
@@ -132,7 +131,7 @@ impl StoredBasis {
     /// A basis over a grid with so many nodes across. What each mode loses changes the fields of the snapshots by
     /// `accuracy` of their size at every node at most (both as root mean squares over the snapshots).
     pub fn new(basis: &PodBasis, across: usize, accuracy: f64) -> Self {
-        let modes = StoredMatrix::stepped(&basis.modes, across, &basis.scales(), accuracy);
+        let modes = StoredMatrix::stepped(&basis.modes, across, &basis.scales(), [accuracy, 0.0]);
         Self { modes, singular_values: basis.singular_values.clone() }
     }
 

@@ -19,7 +19,7 @@ pub(super) use window::StoredRows;
 use super::model_file::ModelFileError;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::observer::Observer;
-use crate::solver::reduced::{Domain, ReducedModel, Window};
+use crate::solver::reduced::{Domain, HeatDomain, ReducedModel, Window};
 use calibrations::{StoredCalibrations, give_calibrations};
 use oils::{anchor, combined, deformations, give_coefficients, give_grid_costs};
 use parts::Parts;
@@ -100,9 +100,10 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
         eyring,
         calibrations,
         snapshots,
+        thermal,
     } = parts;
     if let Some((heat, of_heat)) = heat {
-        (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(of_heat));
+        (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(HeatDomain { thermal, ..of_heat }));
     }
     domain.eyring = eyring;
     if !sound_domain(&domain) {

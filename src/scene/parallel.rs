@@ -44,29 +44,30 @@ pub(super) fn full_solutions(
     lubricant: Lubricant,
     observer: &dyn Observer,
 ) -> Result<Vec<Option<Solution>>, RunError> {
-    full_solutions_told(grid, points, lubricant, observer, |_, _| {})
+    let contacts: Vec<_> = points.iter().map(|point| (*point, lubricant)).collect();
+    full_solutions_told(grid, &contacts, observer, |_, _| {})
 }
 
-/// The same; `tell` hears of each with its index as it comes, in any order and from any thread.
+/// The same of contacts with a lubricant each; `tell` hears of each with its index as it comes, in any order and from any
+/// thread.
 pub(super) fn full_solutions_told(
     grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
-    points: &[OperatingPoint],
-    lubricant: Lubricant,
+    contacts: &[(OperatingPoint, Lubricant)],
     observer: &dyn Observer,
     tell: impl Fn(usize, Option<&Solution>) + Sync,
 ) -> Result<Vec<Option<Solution>>, RunError> {
     // A full solution may take seconds: each is news.
-    let (stage, total) = ("full solutions to compare with", points.len());
+    let (stage, total) = ("full solutions to compare with", contacts.len());
     let count = Count { stage, done: AtomicUsize::new(0), total, every: 1, observer };
-    points
+    contacts
         .par_iter()
         .enumerate()
-        .map_init(Vec::<ContactSolver>::new, |solvers, (i, point)| {
+        .map_init(Vec::<ContactSolver>::new, |solvers, (i, (point, lubricant))| {
             let grid = grid(point);
             let known = solvers.iter().position(|solver| solver.grid_spec() == grid.spec());
             let known = known.map(|place| solvers.swap_remove(place));
             let mut solver = known.unwrap_or_else(|| ContactSolver::on(&grid));
-            let solution = solver.solve(point, lubricant, Start::Cold, observer);
+            let solution = solver.solve(point, *lubricant, Start::Cold, observer);
             let solution = solution.map(|solution| solver.judged(solution));
             solvers.push(solver);
             let solution = solution?;

@@ -122,6 +122,28 @@ fn the_programs_model_answers_for_a_ball_with_heat() {
 }
 
 #[test]
+fn the_programs_model_of_lines_knows_warm_inlets_other_bodies_and_other_limits() {
+    let oil = ["--lubricant", "mineral-oil", "--heat", "--srr", "0.3", "--grid", "model", "--json"];
+    let solve =
+        |more: &[&str], method: &str| json(&program(&[&CONTACT[..], &oil, more, &["--method", method]].concat()));
+    for more in [
+        &["--inlet-temperature", "353.15", "--body2", "silicon-nitride"][..],
+        &["--oil-thermal", "1900,0.12,880", "--viscosity-temperature", "0.03", "--body1", "tungsten-carbide"],
+    ] {
+        let [own, full] = ["reduced", "full"].map(|method| solve(more, method));
+        assert_eq!((&own["method"], &own["reduced"]["trained"]), (&"reduced".into(), &true.into()), "{own}");
+        for (name, bar) in [("H_c", 2e-3), ("traction", 5e-3)] {
+            let [a, b] = [&own, &full].map(|object| object[name].as_f64().unwrap());
+            assert!((a / b - 1.0).abs() < bar, "{name}: {a} {b}");
+        }
+        let [a, b] = [&own, &full].map(|object| object["heat"]["mid_film_rise_k"].as_f64().unwrap());
+        assert!((a / b - 1.0).abs() < 1e-2 && a > 1.0, "{a} {b}");
+    }
+    let hot = solve(&["--inlet-temperature", "420"], "reduced");
+    assert!(hot["warning"].as_str().unwrap().contains("inlet’s temperature = 420 K lies outside"), "{hot}");
+}
+
+#[test]
 fn what_heat_cannot_be_computed_for_is_refused_in_one_sentence() {
     for (more, words) in [
         (&["--body1", "glass"][..], "no effect without --heat"),

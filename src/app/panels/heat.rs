@@ -10,7 +10,7 @@ use crate::solver::physics::lubricant::{Heat, Lubricant};
 use egui::{Checkbox, Grid, Ui};
 
 const TIP: &str = "Temperatures across and along the film and of both bodies, and what they do to film and traction: by \
-    full solutions, of line contacts also by a reduced model that was trained with heat";
+    full solutions, of lines and circles also by a reduced model that was trained with heat";
 
 const INLET_TIP: &str = "Temperature of the oil and of both bodies in front of the contact; η₀ and α are those at it";
 const VISCOSITY_TIP: &str = "β = −d ln η/dT at ambient pressure; Doolittle’s law has constants of its own";

@@ -84,7 +84,7 @@ impl Heated {
         let HeatedOils { largest_radius_m, largest_modulus_pa, speed_m_per_s, fastest_sliding_m_per_s } =
             further.unwrap_or(any);
         let (radius_m, modulus_pa) = ((radius_m, largest_radius_m), (modulus_pa, largest_modulus_pa));
-        (heat, HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s })
+        (heat, HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s, thermal: None })
     }
 }
 

@@ -12,8 +12,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Accuracy of the share of each mode of a shared basis in the pressures of a window.
-const FACTOR_ACCURACY: f64 = 1e-6;
+/// Accuracy of the share of each mode of a shared basis in the pressures of a window: relative to that share, or to a
+/// hundredth of that of the first mode where it is less.
+const FACTOR_ACCURACY: [f64; 2] = [1e-6, 1e-2];
 
 /// The oils of a model, and where its windows lie among them.
 #[derive(Serialize, Deserialize)]

@@ -8,7 +8,7 @@ use super::shapes::{StoredShapes, stored_shapes};
 use super::snapshots::StoredSnapshots;
 use crate::engine::stored_heat::StoredHeat;
 use crate::engine::stored_matrix::StoredMatrix;
-use crate::solver::reduced::{EyringDomain, HeatDomain, ReducedModel, Scheme, Window};
+use crate::solver::reduced::{EyringDomain, HeatDomain, ReducedModel, Scheme, ThermalDomain, Window};
 use serde::{Deserialize, Serialize};
 
 /// Of every window its scheme, and what GNAT makes of the residual.
@@ -27,6 +27,7 @@ enum Part {
     Eyring(EyringDomain),
     Calibrations(StoredCalibrations),
     Snapshots(StoredSnapshots),
+    Thermal(ThermalDomain),
 }
 
 /// The parts that a model has.
@@ -52,6 +53,8 @@ pub(super) struct Parts {
     pub calibrations: Option<StoredCalibrations>,
     /// Of older files none, whose windows keep them.
     pub snapshots: Option<StoredSnapshots>,
+    /// Of contacts with heat whose thermal constants are many.
+    pub thermal: Option<ThermalDomain>,
 }
 
 impl Parts {
@@ -72,6 +75,7 @@ impl Parts {
             model.domain.eyring.map(Part::Eyring),
             calibrations.map(Part::Calibrations),
             Some(Part::Snapshots(StoredSnapshots::of(model))),
+            model.domain.heat.and_then(|heat| heat.thermal).map(Part::Thermal),
         ];
         let parts: Vec<Part> = parts.into_iter().flatten().collect();
         postcard::to_extend(&parts, payload).ok()
@@ -84,7 +88,9 @@ impl Parts {
         let schemes = parts.schemes.as_ref().is_none_or(|schemes| schemes.len() == windows);
         let of_oils = parts.shared.is_some() || parts.grid_costs.is_some() || parts.eyring.is_some();
         let beside_shapes = parts.oils.is_some() || parts.heat.is_some();
-        let together = !(parts.shapes.is_some() && beside_shapes) && (parts.oils.is_some() || !of_oils);
+        let together = !(parts.shapes.is_some() && beside_shapes)
+            && (parts.oils.is_some() || !of_oils)
+            && (parts.heat.is_some() || parts.thermal.is_none());
         (schemes && together).then_some(parts)
     }
 
@@ -103,6 +109,7 @@ impl Parts {
                 Part::Eyring(part) => known.eyring.replace(part).is_none(),
                 Part::Calibrations(part) => known.calibrations.replace(part).is_none(),
                 Part::Snapshots(part) => known.snapshots.replace(part).is_none(),
+                Part::Thermal(part) => known.thermal.replace(part).is_none(),
             };
             if !once {
                 return None;

@@ -38,7 +38,8 @@ pub(in crate::engine) fn sound_domain(domain: &Domain) -> bool {
         let intervals = [(heat.srr, LARGEST_HEATED_SRR), radius, modulus, (heat.speed_m_per_s, f64::INFINITY)];
         let lowest = [heat.radius_m.0, heat.modulus_pa.0].into_iter().all(positive);
         let sound = |(interval, most)| sound_interval(interval, most);
-        kind && lowest && heat.fastest_sliding_m_per_s > 0.0 && intervals.into_iter().all(sound)
+        let thermal = heat.thermal.is_none_or(|thermal| thermal.check().is_ok());
+        kind && lowest && thermal && heat.fastest_sliding_m_per_s > 0.0 && intervals.into_iter().all(sound)
     };
     (heat.is_some() || thins == domain.thins())
         && domain.eyring.as_ref().is_none_or(eyring_is_sound)

@@ -7,8 +7,8 @@ use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::{
-    Beside, Calibration, Combined, Domain, Keeping, PodBasis, PressureModes, ReducedModel, SampledRows, Sampling,
-    Scheme, Snapshot, TractionRule, Window,
+    Beside, Calibration, Combined, Domain, Keeping, PodBasis, PressureModes, RULE_ACCURACY, ReducedModel, SampledRows,
+    Sampling, Scheme, Snapshot, TractionRule, Window,
 };
 use faer::Mat;
 use serde::{Deserialize, Serialize};
@@ -17,9 +17,6 @@ use std::sync::Arc;
 /// Accuracy of the deformations of a plane, relative as that of pressures: their bases end at modes that are common, and no
 /// mobility multiplies what they lose. Those of a line go on to rare ones, and are kept as its pressures.
 const BENT_ACCURACY: f64 = 1e-5;
-
-/// Accuracy of what an interpolation makes of the values of its rows, relative to what it makes of all for a mode.
-const ROWS_ACCURACY: f64 = 1e-6;
 
 /// Accuracy of pressures at every node to which the basis of a window is kept.
 pub(super) fn accuracy(window: &Window, heat: bool) -> f64 {
@@ -178,7 +175,7 @@ impl StoredWindow {
 }
 
 /// What a window makes of its rows' values. Windows that come by the dozen, and those with heat, keep what a cubature makes
-/// as its weights, and what others make to six digits.
+/// as its weights, and what others make as they were trained with it.
 fn stored_reconstruction(window: &Window, heat: bool) -> StoredMatrix {
     let exact = &window.reconstruction;
     if window.anchor.is_none() && window.shapes.is_none() && !heat {
@@ -186,7 +183,7 @@ fn stored_reconstruction(window: &Window, heat: bool) -> StoredMatrix {
     }
     let rule = || StoredMatrix::weights(exact, &modes_at(&window.grid, &window.pressure, &window.sampled_rows));
     let rule = if window.sampling == Sampling::Cubature { rule() } else { None };
-    rule.unwrap_or_else(|| StoredMatrix::stepped(exact, 1, &vec![1.0; exact.ncols()], ROWS_ACCURACY))
+    rule.unwrap_or_else(|| StoredMatrix::stepped(exact, 1, &vec![1.0; exact.ncols()], [RULE_ACCURACY, 0.0]))
 }
 
 /// What all modes are at the nodes of sampled rows.

@@ -79,6 +79,7 @@ macro_rules! studies {
         /// What is asked of a scene's contact.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
+        #[expect(clippy::large_enum_variant, reason = "a scene has but one")]
         pub enum Study {
             $($(#[$about])* $name($question),)*
         }

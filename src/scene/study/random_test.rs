@@ -3,6 +3,7 @@
 use super::question::{
     Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::scene::bench::Request;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::method::Method;
 use crate::scene::parallel::full_solutions_told;
@@ -11,8 +12,10 @@ use crate::scene::statistics::percentile;
 use crate::solver::full::heat::Rises;
 use crate::solver::full::{GridCost, Scalars, Solution, grid_doubts};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::ErrorEstimate;
-use crate::solver::training::Range;
+use crate::solver::training::{HeatedOilRange, Range};
+use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, PoisonError};
 
@@ -84,6 +87,9 @@ pub struct Film {
     pub grid_cost: Option<GridCost>,
 }
 
+/// What makes seeds of points of the seed of a test.
+const SCRAMBLE: u64 = 0x9E37_79B9_7F4A_7C15;
+
 /// What a film is compared by.
 const COMPARED: [&str; 4] = ["H_c", "H_min", "traction", "mid_film_rise"];
 
@@ -148,6 +154,16 @@ impl RandomTest {
         Ok(points)
     }
 
+    /// The lubricant of a point, whichever others are tested: the scene's, or one of the range's thermal constants.
+    fn lubricant(&self, k: usize, own: Lubricant) -> Lubricant {
+        match self.range {
+            Range::HeatedOils(HeatedOilRange { thermal: Some(thermal), .. }) => {
+                thermal.drawn(own, &mut Rng::with_seed(self.seed ^ SCRAMBLE.wrapping_mul(k as u64 + 1)))
+            }
+            _ => own,
+        }
+    }
+
     /// Tests some of the points.
     fn test(
         &self,
@@ -157,13 +173,15 @@ impl RandomTest {
         tell: &Tell<'_, Row>,
     ) -> Result<(), RunError> {
         let Setting { experiment, observer, .. } = *setting;
-        for (i, point) in chosen.iter().enumerate().filter_map(|(i, k)| Some((i, points.get(*k)?))) {
+        for (i, k, point) in chosen.iter().enumerate().filter_map(|(i, k)| Some((i, *k, points.get(*k)?))) {
             if i.is_multiple_of(REPORT_EVERY) {
                 setting.step("random tests", i, chosen.len())?;
             }
             // Its numbers are those of the same contact alone, whichever were tested before it.
             setting.bench.forget();
-            let answer = setting.bench.answer(&experiment.request_at(*point), &self.method, None, observer)?;
+            let lubricant = self.lubricant(k, experiment.lubricant);
+            let request = Request { lubricant, ..experiment.request_at(*point) };
+            let answer = setting.bench.answer(&request, &self.method, None, observer)?;
             tell(Row::Test(Test {
                 point: *point,
                 film: answer.result().map(|solution| Film {
@@ -211,9 +229,10 @@ impl RandomTest {
         let (Some(source), Some(point)) = (self.method.model(), points.first()) else { return Ok(()) };
         let model = setting.bench.model_for(source, point, &experiment.lubricant, observer)?;
         let grid = |point: &OperatingPoint| model.window_at(point).grid.clone();
-        let compared: Vec<OperatingPoint> = chosen.iter().filter_map(|i| points.get(*i).copied()).collect();
+        let lubricant = |k: usize| self.lubricant(k, experiment.lubricant);
+        let compared: Vec<_> = chosen.iter().filter_map(|k| Some((*points.get(*k)?, lubricant(*k)))).collect();
         let truth = |i: usize, full: Option<&Solution>| tell(Row::Truth(chosen[i], full.map(Film::of_full)));
-        full_solutions_told(grid, &compared, experiment.lubricant, observer, truth)?;
+        full_solutions_told(grid, &compared, observer, truth)?;
         Ok(())
     }
 }

@@ -1,8 +1,10 @@
 //! What a reduced model was trained for, and whether a contact lies inside.
 
 mod eyring;
+mod thermal;
 
 pub use eyring::{EyringDomain, gradient_stress};
+pub use thermal::ThermalDomain;
 
 use super::oils::expected_film;
 use crate::solver::full::Problem;
@@ -57,6 +59,10 @@ pub struct HeatDomain {
     pub speed_m_per_s: (f64, f64),
     /// Largest |SRR| u_m \[m/s\].
     pub fastest_sliding_m_per_s: f64,
+    /// The thermal constants and limiting stresses of a model that knows many; of others these are its lubricant's. Files
+    /// keep them in a place of their own.
+    #[serde(skip)]
+    pub thermal: Option<ThermalDomain>,
 }
 
 /// What a model of many oils was trained for beside M, L, α and the largest p_H; its η₀ is one in the middle.
@@ -162,8 +168,11 @@ impl Domain {
             _ => {}
         }
         let without_heat = |laws: Lubricant| Lubricant { heat: None, ..laws.of_the_liquid() };
-        if without_heat(self.with_own_stress(asked)) != without_heat(own) {
+        if without_heat(self.with_own_constants(asked)) != without_heat(own) {
             return Some("the model was trained with other lubricant laws");
+        }
+        if self.heat.is_some_and(|heat| heat.thermal.is_some()) {
+            return None;
         }
         // Under heat a limit cuts the heat that shear makes.
         if asked.heat.is_some() && asked.limiting_stress != own.limiting_stress {
@@ -269,8 +278,12 @@ impl HeatDomain {
         if problem.shear.is_some() && given != plateau {
             return Some(format!("the model was trained with an NPR of {plateau}, not {given}"));
         }
-        // Which body is the faster one matters where they are of two materials.
-        let alike = problem.heat.is_none_or(|heat| heat.heat.bodies[0] == heat.heat.bodies[1]);
+        if let Some(outside) = self.thermal.and_then(|thermal| thermal.outside(&problem.lubricant)) {
+            return Some(outside);
+        }
+        // Which body is the faster one matters where they are of two materials, unless both were trained as either.
+        let alike =
+            problem.heat.is_none_or(|heat| heat.heat.bodies[0] == heat.heat.bodies[1]) || self.thermal.is_some();
         let srr = point.sliding.slide_to_roll_ratio;
         let srr = if alike { srr.abs() } else { srr };
         let srr = Bounded { name: "SRR", value: srr, range: self.srr, scale: 1.0, unit: "" };

@@ -16,6 +16,10 @@ const SMALLEST: f64 = 1e-30;
 /// Rounds after which what is kept stays: a row whose size lies at a power of two may turn to the next multiple once.
 const ROUNDS: usize = 8;
 
+/// Accuracy of what an interpolation makes of the values of its rows, relative to what it makes of all for a mode: residuals
+/// that are nearly zero are what it is given.
+pub const RULE_ACCURACY: f64 = 1e-4;
+
 /// What decides how exactly the modes of a window are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keeping {
@@ -59,27 +63,27 @@ pub struct Multiples {
 }
 
 impl Multiples {
-    /// Those that keep columns to `accuracy` relative to the size Σ_k (scale_k V_ik)² of each row, and what is kept: it stays
-    /// as it is when it is kept again.
-    pub fn keep(mut matrix: Mat<f64>, scales: &[f64], accuracy: f64) -> (Self, Mat<f64>) {
-        let mut multiples = Self::of(&matrix, scales, accuracy);
+    /// Those that keep columns to `accuracy` relative to the size Σ_k (scale_k V_ik)² of each row, or to `least` of the
+    /// largest row where that is more, and what is kept: it stays as it is when it is kept again.
+    pub fn keep(mut matrix: Mat<f64>, scales: &[f64], accuracy: f64, least: f64) -> (Self, Mat<f64>) {
+        let mut multiples = Self::of(&matrix, scales, accuracy, least);
         for _ in 0..ROUNDS {
             let kept = multiples.nearest(&matrix);
             if kept == matrix {
                 break;
             }
             matrix = kept;
-            multiples = Self::of(&matrix, scales, accuracy);
+            multiples = Self::of(&matrix, scales, accuracy, least);
         }
         (multiples, matrix)
     }
 
-    fn of(matrix: &Mat<f64>, scales: &[f64], accuracy: f64) -> Self {
+    fn of(matrix: &Mat<f64>, scales: &[f64], accuracy: f64, least: f64) -> Self {
         let size = |i: usize| scales.iter().enumerate().map(|(k, s)| (s * matrix[(i, k)]).powi(2)).sum::<f64>().sqrt();
         let sizes: Vec<f64> = (0..matrix.nrows()).map(size).collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         let exponent = |step: f64| step.log2().floor() as i16;
-        let rows = sizes.iter().map(|size| (*size > SMALLEST * largest).then(|| exponent(*size)));
+        let rows = sizes.iter().map(|size| (*size > SMALLEST * largest).then(|| exponent(size.max(least * largest))));
         Self { rows: rows.collect(), columns: scales.iter().map(|scale| exponent(accuracy / scale)).collect() }
     }
 
@@ -92,6 +96,12 @@ impl Multiples {
             None => 0.0,
         })
     }
+}
+
+/// What is made of the values of sampled rows, modes × rows, as it is kept where dozens of windows have one each.
+pub fn kept_rule(rule: Mat<f64>) -> Mat<f64> {
+    let scales = vec![1.0; rule.ncols()];
+    Multiples::keep(rule, &scales, RULE_ACCURACY, 0.0).1
 }
 
 impl PodBasis {
@@ -107,7 +117,7 @@ impl PodBasis {
     /// is kept again.
     pub fn kept(self, accuracy: f64) -> Self {
         let scales = self.scales();
-        Self { modes: Multiples::keep(self.modes, &scales, accuracy).1, singular_values: self.singular_values }
+        Self { modes: Multiples::keep(self.modes, &scales, accuracy, 0.0).1, singular_values: self.singular_values }
     }
 }
 
@@ -142,5 +152,19 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn small_rows_are_kept_no_better_than_a_share_of_the_largest() {
+        let matrix = Mat::from_fn(3, 5, |i, k| [1.0, 0.3, 1e-4][i] * (1.0 + i as f64 + 2.0 * k as f64).sin());
+        for (least, finer) in [(0.0, 1e-4), (1e-2, 1e-2)] {
+            let (_, kept) = Multiples::keep(matrix.clone(), &[1.0; 5], 1e-6, least);
+            let off = |i: usize| (0..5).map(|k| (kept[(i, k)] - matrix[(i, k)]).abs()).fold(0.0, f64::max);
+            assert!(off(0) > 0.0 && off(0) <= 3e-6, "{:e}", off(0));
+            assert!(off(2) > 0.0 && off(2) <= 3e-6 * finer, "{least}: {:e}", off(2));
+            assert!(Multiples::keep(kept.clone(), &[1.0; 5], 1e-6, least).1 == kept);
+        }
+        let (_, coarse) = Multiples::keep(matrix.clone(), &[1.0; 5], 1e-6, 1e-2);
+        assert!((0..5).any(|k| (coarse[(2, k)] - matrix[(2, k)]).abs() > 1e-10));
     }
 }

@@ -38,10 +38,12 @@ pub use calibration::{
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
-pub use domain::{CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, Trust, gradient_stress};
+pub use domain::{
+    CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, ThermalDomain, Trust, gradient_stress,
+};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
-pub use kept::{Keeping, Multiples};
+pub use kept::{Keeping, Multiples, RULE_ACCURACY, kept_rule};
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
 pub use model::{ModelSize, ReducedModel, SHAPE_WEIGHT, Snapshot, Window, deformation_weights, distance, separation};

@@ -15,7 +15,7 @@ use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, Opera
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
     CIRCLES, Combined, Domain, Keeping, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes,
-    SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, minimised_rows,
+    SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, kept_rule, minimised_rows,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -287,7 +287,12 @@ impl<'a> WindowTraining<'a> {
             let (from, to) = window.m;
             let served = Within { radius_ratio: window.served_ratios(), ..self.within() };
             let sampled = sample_rows(spec, &Arc::new(alone(spec, &window)), &served, rng, *observer)?;
-            window.set_rows(spec.sampling, sampled.ok_or(TrainingError::Decomposition { from, to })?);
+            let mut rows = sampled.ok_or(TrainingError::Decomposition { from, to })?;
+            let many = window.anchor.is_some() || window.shapes.is_some() || spec.range.heats();
+            if many && spec.sampling != Sampling::Cubature {
+                rows.reconstruction = kept_rule(rows.reconstruction);
+            }
+            window.set_rows(spec.sampling, rows);
         }
         Ok(window)
     }

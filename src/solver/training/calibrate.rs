@@ -8,7 +8,7 @@ use super::anchors::Cell;
 use super::indicator::Corrector;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::traction::limited;
+use super::traction::drawn;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::reduced::{Beside, Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
 use fastrand::Rng;
@@ -34,7 +34,7 @@ pub(super) fn measured(
     let served = Within { radius_ratio: window.served_ratios(), cell, ..spec.within(m) };
     let mut rng = Rng::with_seed(seed);
     let points = served.random_points(spec.evidence, &mut rng);
-    let contacts: Vec<_> = points.into_iter().map(|point| (point, limited(spec, &mut rng))).collect();
+    let contacts: Vec<_> = points.into_iter().map(|point| (point, drawn(spec, &mut rng))).collect();
     let beside = Beside::of(&model.domain);
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let solvers = || (Online::new(Arc::clone(model), ReducedOptions::default()), Corrector::of(window));

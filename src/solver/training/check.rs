@@ -1,6 +1,6 @@
 //! What a specification of a training may say.
 
-use super::{HeatedRange, Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
+use super::{HeatedOilRange, HeatedRange, Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw, ViscosityLaw};
@@ -182,7 +182,12 @@ fn heat(spec: &TrainingSpec) -> Result<(), Refused> {
     let refuse = |field, problem: &str| Err(Refused::new(field, problem));
     let alpha = match spec.range {
         Range::Heated(HeatedRange { alpha, .. }) => Some(alpha),
-        Range::HeatedOils(_) => None,
+        Range::HeatedOils(HeatedOilRange { thermal, .. }) => {
+            if let Some(why) = thermal.and_then(|thermal| thermal.outside(&spec.lubricant)) {
+                return Err(Refused::new("range.thermal", format!("must hold the scene's own constants: {why}")));
+            }
+            None
+        }
         _ if spec.lubricant.heat.is_none() => return Ok(()),
         _ => {
             let wanted = "must name R and SRR for films with heat: `Heated(…)` or `HeatedOils(…)`; or leave heat out";

@@ -6,7 +6,7 @@ use crate::solver::full::{ContactSolver, Problem, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
 use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, Lubricant};
 use crate::solver::reduced::{
-    Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Sampling, Trust, traction_curve,
+    Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Sampling, ThermalDomain, Trust, traction_curve,
 };
 use std::sync::Arc;
 
@@ -128,11 +128,15 @@ fn many_oils_with_heat_are_the_full_ones_and_bounded() {
     assert!(model.windows.len() == 2 && model.windows.iter().all(|window| window.anchor.is_some()));
     let mut online = online(&model);
     let mut full = ContactSolver::on(&model.windows[0].grid);
-    for point in random_points(&spec.range, ContactKind::Line, 8, 12) {
+    let Range::HeatedOils(HeatedOilRange { thermal: Some(thermal), .. }) = spec.range else { panic!() };
+    let mut random = fastrand::Rng::with_seed(5);
+    for (k, point) in random_points(&spec.range, ContactKind::Line, 12, 12).into_iter().enumerate() {
+        // Its own constants, and others of its range.
+        let lubricant = if k % 3 == 0 { spec.lubricant } else { thermal.drawn(spec.lubricant, &mut random) };
         online.forget();
-        let solved = online.solve(&point, spec.lubricant).unwrap();
+        let solved = online.solve(&point, lubricant).unwrap();
         assert!(solved.trust == Trust::Trained && solved.beside.is_empty(), "temperatures are not blended");
-        let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+        let truth = full.solve(&point, lubricant, Start::Cold, &()).unwrap();
         let found = errors(&online, &solved, &truth);
         for (error, bar) in found.into_iter().zip([5e-3, 1e-2, 1e-2, 3e-2]) {
             assert!(error < bar, "{point:?}: {found:?}");
@@ -144,12 +148,18 @@ fn many_oils_with_heat_are_the_full_ones_and_bounded() {
         }
     }
     let point = random_points(&spec.range, ContactKind::Line, 1, 12)[0];
-    let why = |point: OperatingPoint| match model.trust(&Problem::new(&point, spec.lubricant).unwrap()) {
+    let why = |point: OperatingPoint, laws: Lubricant| match model.trust(&Problem::new(&point, laws).unwrap()) {
         Trust::Outside(why) => why,
         Trust::Trained => String::new(),
     };
-    let larger = equal_but(&point, 5.0, 1.0);
-    assert!(why(larger).contains("a radius of 5…20 mm, not "), "{}", why(larger));
+    let (own, larger) = (spec.lubricant, equal_but(&point, 5.0, 1.0));
+    assert!(why(larger, own).contains("a radius of 5…20 mm, not "), "{}", why(larger, own));
+    let inlet = |inlet_temperature| Lubricant { heat: Some(Heat { inlet_temperature, ..Heat::default() }), ..own };
+    assert_eq!(why(point, inlet(360.0)), "");
+    let told = why(point, inlet(400.0));
+    assert!(told.contains("inlet’s temperature = 400 K lies outside the trained range 293…373 K"), "{told}");
+    assert!(why(point, Lubricant { limiting_stress: None, ..own }).contains("limiting stresses"));
+    assert!(model.domain.is_of(&inlet(360.0)));
 }
 
 #[test]
@@ -165,6 +175,11 @@ fn ranges_of_many_oils_with_heat_are_refused_with_their_field_and_hold_what_they
     assert!(refused(HeatedOilRange { radius: (0.2, 0.1), ..range }).contains("radius"));
     assert!(refused(HeatedOilRange { speed: (1.0, f64::NAN), ..range }).contains("speed"));
     assert!(refused(HeatedOilRange { sliding_speed: 0.0, ..range }).contains("sliding_speed"));
+    let thermal = range.thermal.unwrap();
+    let empty = ThermalDomain { conductivity: (0.2, 0.1), ..thermal };
+    assert!(refused(HeatedOilRange { thermal: Some(empty), ..range }).contains("thermal.conductivity"));
+    let elsewhere = ThermalDomain { inlet_temperature: (350.0, 360.0), ..thermal };
+    assert!(refused(HeatedOilRange { thermal: Some(elsewhere), ..range }).contains("must hold the scene's own"));
     let oils = OilRange { l: (-1.0, 2.0), ..range.oils };
     assert!(refused(HeatedOilRange { oils, ..range }).contains("oils"));
     assert!(good.clone().heated(None).check().is_err());

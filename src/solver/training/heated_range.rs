@@ -9,8 +9,12 @@ use super::range::{Unit, between, hertz_pressure, linear, logarithmic, single, u
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding};
 use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
-use crate::solver::reduced::HeatDomain;
+use crate::solver::reduced::{HeatDomain, ThermalDomain};
 use serde::{Deserialize, Serialize};
+
+/// How far trainings with heat reach beyond their range in M and L. At the end of what was trained a reduced spike may lie a node
+/// beside its place, which viscosity, exponential in it, makes a traction that is off by some per cent.
+const BEYOND: f64 = 1.15;
 
 /// All contacts, lines or circles, with M, L and SRR in these intervals and p_H up to a limit, with heat: R, E′, η₀ and α make M a load
 /// and L a speed, by which films warm.
@@ -73,6 +77,7 @@ impl HeatedRange {
             modulus_pa: (modulus, modulus),
             speed_m_per_s: (0.0, f64::INFINITY),
             fastest_sliding_m_per_s: f64::INFINITY,
+            thermal: None,
         }
     }
 }
@@ -93,6 +98,10 @@ pub struct HeatedOilRange {
     pub speed: (f64, f64),
     /// Largest sliding speed SRR u_m \[m/s\]: heat goes with it.
     pub sliding_speed: f64,
+    /// The thermal constants and limiting stresses, where these are more than the lubricant's own. Solutions are trained with
+    /// the lubricant's own; its traction and errors are learned from all.
+    #[serde(default)]
+    pub thermal: Option<ThermalDomain>,
 }
 
 impl HeatedOilRange {
@@ -106,7 +115,8 @@ impl HeatedOilRange {
         between(Quantity::Radius, self.radius)?;
         between(Quantity::Modulus, self.modulus)?;
         between(Quantity::Speed, self.speed)?;
-        number("sliding_speed", self.sliding_speed, 1e-3, 1e3)
+        number("sliding_speed", self.sliding_speed, 1e-3, 1e3)?;
+        self.thermal.map_or(Ok(()), |thermal| thermal.check().map_err(|refused| refused.within("thermal")))
     }
 
     /// The contact of a kind at coordinates in the unit cube, by ln M, L, α, η₀, R, SRR and E′; `None` where the range
@@ -126,16 +136,18 @@ impl HeatedOilRange {
 
     /// A little more on all sides.
     pub(super) fn beyond(&self) -> Self {
-        let Self { oils, srr, radius, modulus, speed, sliding_speed } = *self;
+        let Self { oils, srr, radius, modulus, speed, sliding_speed, thermal } = *self;
         let (_, sliding_speed) = beyond((0.0, sliding_speed));
         let [radius, modulus, speed] = [radius, modulus, speed].map(beyond);
-        Self { oils: oils.beyond(), srr, radius, modulus, speed, sliding_speed }
+        let [m, l] = [oils.m, oils.l].map(|(low, high)| (low / BEYOND, high * BEYOND));
+        Self { oils: OilRange { m, l, ..oils.beyond() }, srr, radius, modulus, speed, sliding_speed, thermal }
     }
 
     /// What a model of it declares beside the oils, M, L, α and p_H.
     pub(super) fn declared(&self) -> HeatDomain {
-        let Self { srr, radius: radius_m, modulus: modulus_pa, speed: speed_m_per_s, sliding_speed, .. } = *self;
-        HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s: sliding_speed }
+        let Self { srr, radius: radius_m, modulus: modulus_pa, speed: speed_m_per_s, sliding_speed, thermal, .. } =
+            *self;
+        HeatDomain { srr, radius_m, modulus_pa, speed_m_per_s, fastest_sliding_m_per_s: sliding_speed, thermal }
     }
 }
 

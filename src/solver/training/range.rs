@@ -94,9 +94,9 @@ impl From<&Domain> for Range {
         }
         match (oils, domain.heat) {
             (Some(oils), Some(heat)) => {
-                let HeatDomain { srr, radius_m: radius, modulus_pa: modulus, speed_m_per_s: speed, .. } = heat;
+                let HeatDomain { srr, radius_m: radius, modulus_pa: modulus, speed_m_per_s: speed, thermal, .. } = heat;
                 let sliding_speed = heat.fastest_sliding_m_per_s;
-                return Self::HeatedOils(HeatedOilRange { oils, srr, radius, modulus, speed, sliding_speed });
+                return Self::HeatedOils(HeatedOilRange { oils, srr, radius, modulus, speed, sliding_speed, thermal });
             }
             (Some(oils), None) => return Self::Oils(oils),
             (None, Some(heat)) => {

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant, ShearLaw};
-use crate::solver::reduced::Sampling;
+use crate::solver::reduced::{Sampling, ThermalDomain};
 
 /// A grid of point contacts on which a full solve takes milliseconds.
 pub(crate) const POINT_GRID: PointGridSpec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
@@ -180,6 +180,17 @@ pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec 
         modulus: (200e9, 240e9),
         speed: (0.2, 10.0),
         sliding_speed: 3.0,
+        thermal: Some(ThermalDomain {
+            inlet_temperature: (293.0, 373.0),
+            viscosity_temperature: (0.03, 0.06),
+            density_temperature: (4e-4, 9e-4),
+            conductivity: (0.1, 0.18),
+            heat_capacity: (1.5e6, 2e6),
+            effusivity: (2e3, 2e4),
+            limit_ambient: (0.0, 8e6),
+            limit_slope: (0.03, 0.1),
+            limit_eyring: (3e6, 8e6),
+        }),
     };
     let one = heated(sampling, snapshots);
     let windows = Windows::Anchored { count: 2, modes: 40, grid: HEATED_GRID, shared: 0, missing: 0.0, divided_by: 0 };

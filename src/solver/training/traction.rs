@@ -2,7 +2,7 @@
 
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::{Range, TrainingError, TrainingObserver, TrainingSpec};
+use super::{HeatedOilRange, Range, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
@@ -17,11 +17,12 @@ const SOLUTIONS_OF_WARM_PLANES: usize = 360;
 /// the contact.
 const SLOWEST: f64 = 1e-3;
 
-/// The lubricant of a training with a limiting stress of those that its range says may cut traction: pressure and film do
-/// not feel it. Its own limit, or none, where the range says nothing.
-pub(super) fn limited(spec: &TrainingSpec, rng: &mut Rng) -> Lubricant {
+/// The lubricant of a training with a limiting stress of those that its range says may cut traction, which pressure and film
+/// do not feel, or with thermal constants of its range. Its own where the range says nothing.
+pub(super) fn drawn(spec: &TrainingSpec, rng: &mut Rng) -> Lubricant {
     match spec.range {
         Range::SlidingOils(range) => range.limited(spec.lubricant, rng),
+        Range::HeatedOils(HeatedOilRange { thermal: Some(thermal), .. }) => thermal.drawn(spec.lubricant, rng),
         _ => spec.lubricant,
     }
 }
@@ -44,7 +45,7 @@ pub(super) fn traction_rule(
         point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
     }
     let contacts: Vec<(OperatingPoint, Lubricant)> =
-        points.into_iter().map(|point| (point, limited(spec, &mut rng))).collect();
+        points.into_iter().map(|point| (point, drawn(spec, &mut rng))).collect();
     let online = || Online::new(Arc::clone(model), ReducedOptions::default());
     let stresses = in_parallel(observer, "Traction", &contacts, online, |online, _, (point, lubricant)| {
         online.forget();

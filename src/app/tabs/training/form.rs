@@ -127,13 +127,17 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
             let gradient_tip = "Thick films that the pressure’s gradient shears by more are left out";
             form.row(ui, "Gradient’s stress", ("MPa", 1e6), gradient_stress, gradient_tip);
         }
-        Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, modulus, speed, sliding_speed }) => {
+        Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, modulus, speed, sliding_speed, thermal }) => {
             oils(ui, form, range);
             form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of contacts with heat");
             form.interval(ui, "Radius {R}", ("mm", 1e-3), radius, "Reduced radius of curvature (2.3)");
             form.interval(ui, "Modulus {E'}", GIGAPASCAL, modulus, "Reduced modulus (2.5)");
             form.interval(ui, "Mean speed {u_m}", ("m/s", 1.0), speed, "Faster and slower contacts are left out");
             form.row(ui, "Highest SRR {u_m}", ("m/s", 1.0), sliding_speed, "Contacts that slide faster are left out");
+            if let Some(thermal) = thermal {
+                let tip = "In front of the contact; errors are measured at any of them, and at other constants";
+                form.interval(ui, "Inlet", ("K", 1.0), &mut thermal.inlet_temperature, tip);
+            }
         }
         Range::Heated(HeatedRange { m, l, srr, max_hertz_pressure, .. }) => {
             form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19), by the load");

@@ -90,8 +90,11 @@ impl Domain {
         self.eyring?.sheared_film(&problem.point, self.stresses(&problem.lubricant)?)
     }
 
-    /// The laws of a lubricant with the model's own τ₀ where it knows all.
-    pub(super) fn with_own_stress(&self, laws: Lubricant) -> Lubricant {
+    /// The laws of a lubricant with the model's own τ₀, and thermal constants, where it knows all.
+    pub(super) fn with_own_constants(&self, mut laws: Lubricant) -> Lubricant {
+        if self.heat.is_some_and(|heat| heat.thermal.is_some()) && laws.heat.is_some() {
+            laws.heat = self.lubricant.heat;
+        }
         match (self.stresses(&laws), eyring_stress(self.lubricant.shear), laws.shear) {
             (Some(_), Some(critical_stress), ShearLaw::Eyring { npr, .. }) => {
                 Lubricant { shear: ShearLaw::Eyring { critical_stress, npr }, ..laws }
@@ -102,7 +105,7 @@ impl Domain {
 
     /// Whether it is of a lubricant, whatever limits its traction and however its films rupture.
     pub fn is_of(&self, lubricant: &Lubricant) -> bool {
-        self.with_own_stress(lubricant.of_the_liquid()) == self.lubricant.of_the_liquid()
+        self.with_own_constants(lubricant.of_the_liquid()) == self.lubricant.of_the_liquid()
     }
 
     /// The contact that has the film of another one and the model's own τ₀: of equal M, L, p_H, oil and SRR, with E′ τ₀ as
