@@ -145,6 +145,11 @@ impl StoredBasis {
         self.modes.columns
     }
 
+    /// Singular values that it has.
+    pub fn known(&self) -> usize {
+        self.singular_values.len()
+    }
+
     /// In place of a basis that is kept elsewhere: no modes over so many rows.
     pub fn elsewhere(rows: usize) -> Self {
         Self { modes: StoredMatrix { rows, ..StoredMatrix::default() }, singular_values: Vec::new() }

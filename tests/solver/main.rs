@@ -20,6 +20,7 @@ mod mass_conserving;
 mod point_reference;
 mod random_solves;
 mod rebuilt;
+mod saved_again;
 mod shear_models;
 mod shear_thinning;
 mod transient_reference;

@@ -16,7 +16,7 @@ use crate::solver::full::{ContactSolver, SolveError, Start};
 use crate::solver::observer::{NewtonStep, Observer, Progress};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::training::{Solved, TrainingError, TrainingObserver};
+use crate::solver::training::{Solved, TrainingError, TrainingObserver, TrainingSpec};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
@@ -187,8 +187,12 @@ pub(super) fn work(
         }
         Part::Training(grid, points) => {
             let spec = scene.training();
-            let how = spec.map_or_else(Default::default, |spec| (spec.lubricant, spec.tells_grid_costs()));
-            Ok(Content::Contacts(solve_all(*grid, how, points, observer)?))
+            let judged = spec.as_ref().is_some_and(TrainingSpec::tells_grid_costs);
+            let lubricant = |point: &OperatingPoint| match &spec {
+                Some(spec) => spec.lubricant_of(point),
+                None => Lubricant::default(),
+            };
+            Ok(Content::Contacts(solve_all(*grid, (lubricant, judged), points, observer)?))
         }
     }
 }
@@ -196,13 +200,13 @@ pub(super) fn work(
 /// Full solutions of a training's contacts, as it computes them itself, `judged` by what the grid costs them or not.
 fn solve_all(
     grid: GridSpec,
-    (lubricant, judged): (Lubricant, bool),
+    (lubricant, judged): (impl Fn(&OperatingPoint) -> Lubricant + Sync, bool),
     points: &[(usize, OperatingPoint)],
     observer: &dyn Observer,
 ) -> Result<Vec<(usize, OperatingPoint, Option<Solved>)>, EngineError> {
     let grid = grid.build().map_err(SolveError::from)?;
     let solve = |solver: &mut ContactSolver, (place, point): &(usize, OperatingPoint)| {
-        let solution = solver.solve(point, lubricant, Start::Cold, observer)?;
+        let solution = solver.solve(point, lubricant(point), Start::Cold, observer)?;
         if observer.cancelled() {
             return Err(EngineError::from(TrainingError::Cancelled));
         }

@@ -2,12 +2,12 @@
 
 use super::snapshots::{give_each, stored_coefficients};
 use super::sound::sound_interval;
-use super::window::{StoredWindow, accuracy};
+use super::window::StoredWindow;
 use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::GridCost;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{Combined, OilDomain, PodBasis, ReducedModel, SharedBasis, Window};
+use crate::solver::reduced::{Combined, Keeping, OilDomain, PodBasis, ReducedModel, SharedBasis, Window};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -68,7 +68,7 @@ impl StoredSharedBasis {
         let all: Vec<&Combined> =
             model.windows.iter().map(|window| window.pressure.combined()).collect::<Option<_>>()?;
         let (window, shared) = (model.windows.first()?, &all.first()?.shared);
-        let accuracy = accuracy(window, model.domain.heat.is_some());
+        let accuracy = Keeping::of(window, model.domain.heat.is_some()).accuracy();
         let basis = StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy);
         Some(Self { basis, factors: model.windows.iter().zip(all).map(|(w, own)| stored_factors(w, own)).collect() })
     }

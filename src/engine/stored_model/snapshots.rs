@@ -92,8 +92,9 @@ impl StoredSnapshots {
         let all = || model.windows.iter().flat_map(|window| &window.snapshots);
         let number = |snapshot: &Snapshot, k: usize| numbers(snapshot).get(k).copied().flatten();
         let column = |k: usize| all().map(|snapshot| number(snapshot, k)).collect::<Option<Vec<f64>>>();
-        let costs = column(NUMBERS - 1).is_some();
-        let columns = (0..NUMBERS).map(|k| match column(k) {
+        let columns: Vec<_> = (0..NUMBERS).map(column).collect();
+        let costs = columns.last().is_some_and(Option::is_some);
+        let columns = columns.into_iter().enumerate().map(|(k, own)| match own {
             Some(own) if k == 0 => Column::of_any(own, DIGITS),
             Some(own) if k < FILMS => Column::of(own, DIGITS),
             Some(own) if k < NUMBERS - COSTS => Column::of(own, ALL_DIGITS),

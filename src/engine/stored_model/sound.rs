@@ -59,16 +59,15 @@ pub(in crate::engine) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
     })
 }
 
-/// Refuses what would take more memory than a model of so many bytes does, before anything of it is built: modes come
-/// from snapshots, and every node of a grid has a byte at least.
+/// Refuses what would take more memory than a model of so many bytes does, before anything of it is built: a basis has a
+/// singular value for each mode, and every node of a grid a byte at least.
 pub(super) fn check_counts(windows: &[StoredWindow], bytes: usize) -> Result<(), ModelFileError> {
     let mut nodes = 0usize;
-    let all = windows.iter().map(|window| window.snapshots.len()).sum();
     for window in windows {
         let rows = entries(&window.grid)?;
         nodes = nodes.saturating_add(rows);
-        let fits = |basis: &StoredBasis, most: usize| basis.rows() == rows && basis.columns() <= most;
-        if !(fits(&window.pressure, window.snapshots.len()) && fits(&window.deformation, all)) {
+        let fits = |basis: &StoredBasis| basis.rows() == rows && basis.columns() <= basis.known();
+        if !(fits(&window.pressure) && fits(&window.deformation)) {
             return Err(ModelFileError::Damaged { what: "bases" });
         }
     }

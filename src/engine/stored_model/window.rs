@@ -18,12 +18,6 @@ use std::sync::Arc;
 /// mobility multiplies what they lose. Those of a line go on to rare ones, and are kept as its pressures.
 const BENT_ACCURACY: f64 = 1e-5;
 
-/// Accuracy of pressures at every node to which the basis of a window is kept.
-pub(super) fn accuracy(window: &Window, heat: bool) -> f64 {
-    let (anchored, shapes) = (window.anchor.is_some(), window.shapes.is_some());
-    Keeping { kind: window.grid.kind(), anchored, heat, shapes }.accuracy()
-}
-
 #[derive(Serialize, Deserialize)]
 pub(super) struct StoredWindow {
     pub m: (f64, f64),
@@ -84,7 +78,8 @@ impl StoredWindow {
     /// Window `k` of a model but for its calibration.
     pub fn of(model: &ReducedModel, k: usize, window: &Window) -> Self {
         let heat = model.domain.heat.is_some();
-        let basis = |basis: &PodBasis| StoredBasis::new(basis, window.grid.nodes().1, accuracy(window, heat));
+        let basis =
+            |basis: &PodBasis| StoredBasis::new(basis, window.grid.nodes().1, Keeping::of(window, heat).accuracy());
         let shared = model.windows.iter().all(|window| window.pressure.combined().is_some());
         Self {
             m: window.m,
@@ -174,11 +169,11 @@ impl StoredWindow {
     }
 }
 
-/// What a window makes of its rows' values. Windows that come by the dozen, and those with heat, keep what a cubature makes
-/// as its weights, and what others make as they were trained with it.
+/// What a window makes of its rows' values: all of it, or what a cubature makes as its weights, and what others make as they
+/// were trained with it.
 fn stored_reconstruction(window: &Window, heat: bool) -> StoredMatrix {
     let exact = &window.reconstruction;
-    if window.anchor.is_none() && window.shapes.is_none() && !heat {
+    if !Keeping::of(window, heat).shortens_rules() {
         return StoredMatrix::exact(exact);
     }
     let rule = || StoredMatrix::weights(exact, &modes_at(&window.grid, &window.pressure, &window.sampled_rows));

@@ -6,10 +6,11 @@ mod thermal;
 pub use eyring::{EyringDomain, gradient_stress};
 pub use thermal::ThermalDomain;
 
+use self::eyring::eyring_stress;
 use super::oils::expected_film;
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::{Lubricant, roelands_exponent};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw, roelands_exponent};
 use serde::{Deserialize, Serialize};
 
 /// The range a model declares to be trained for: an interval each of M, L, α and p_H at its η₀, for its lubricant.
@@ -159,20 +160,35 @@ impl Domain {
         [m, l, ratio, alpha, p_h].iter().find_map(Bounded::outside).map_or(Trust::Trained, Trust::Outside)
     }
 
+    /// The laws of a lubricant with the model's own τ₀, and thermal constants and limit, where it knows all.
+    fn with_own_constants(&self, mut laws: Lubricant) -> Lubricant {
+        if self.heat.is_some_and(|heat| heat.thermal.is_some()) && laws.heat.is_some() {
+            (laws.heat, laws.limiting_stress) = (self.lubricant.heat, self.lubricant.limiting_stress);
+        }
+        match (self.stresses(&laws), eyring_stress(self.lubricant.shear), laws.shear) {
+            (Some(_), Some(critical_stress), ShearLaw::Eyring { npr, .. }) => {
+                Lubricant { shear: ShearLaw::Eyring { critical_stress, npr }, ..laws }
+            }
+            _ => laws,
+        }
+    }
+
+    /// Whether it is of a lubricant, whatever limits its traction and however its films rupture.
+    pub fn is_of(&self, lubricant: &Lubricant) -> bool {
+        self.with_own_constants(*lubricant).of_the_liquid() == self.lubricant.of_the_liquid()
+    }
+
     /// A sentence where a problem has other laws than those the model was trained with.
     fn other_laws(&self, problem: &Problem) -> Option<&'static str> {
-        let (asked, own) = (problem.lubricant, self.lubricant);
+        let (asked, own) = (self.with_own_constants(problem.lubricant), self.lubricant);
         match (asked.heat, own.heat) {
             (Some(_), None) => return Some("the model was trained without heat"),
             (None, Some(_)) => return Some("the model was trained with heat"),
             _ => {}
         }
         let without_heat = |laws: Lubricant| Lubricant { heat: None, ..laws.of_the_liquid() };
-        if without_heat(self.with_own_constants(asked)) != without_heat(own) {
+        if without_heat(asked) != without_heat(own) {
             return Some("the model was trained with other lubricant laws");
-        }
-        if self.heat.is_some_and(|heat| heat.thermal.is_some()) {
-            return None;
         }
         // Under heat a limit cuts the heat that shear makes.
         if asked.heat.is_some() && asked.limiting_stress != own.limiting_stress {

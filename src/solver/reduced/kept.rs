@@ -5,6 +5,7 @@
 //! of thick films multiplies what is lost there. Modes are rounded to these before rows are chosen and errors measured, so
 //! that a model that was trained and one that is read are the same, and bounds are those of both.
 
+use super::model::Window;
 use super::pod::PodBasis;
 use crate::solver::physics::contact::ContactKind;
 use faer::Mat;
@@ -34,6 +35,18 @@ pub struct Keeping {
 }
 
 impl Keeping {
+    /// Of a window of a model that knows heat or does not.
+    pub fn of(window: &Window, heat: bool) -> Self {
+        let (anchored, shapes) = (window.anchor.is_some(), window.shapes.is_some());
+        Self { kind: window.grid.kind(), anchored, heat, shapes }
+    }
+
+    /// Whether what is made of the rows' values has few digits, [`RULE_ACCURACY`], or is the weights of a cubature: of windows
+    /// that come by the dozen, and of those with heat.
+    pub fn shortens_rules(self) -> bool {
+        self.anchored || self.shapes || self.heat
+    }
+
     /// Accuracy of pressures at every node, relative to their own size there.
     pub fn accuracy(self) -> f64 {
         match self.kind {

@@ -23,9 +23,9 @@ const RIDGE: f64 = 1e-9;
 
 /// Interpolates between the training solutions of a window.
 pub(super) struct Kriging {
-    /// How many numbers tell contacts apart, and whether stresses are among them.
+    /// How many numbers tell contacts apart, and whether stresses and SRR are among them.
     apart_by: usize,
-    thins: bool,
+    slides: bool,
     centre: OilPlace,
     /// Length in which places are counted.
     length: f64,
@@ -38,17 +38,19 @@ pub(super) struct Kriging {
 }
 
 impl Kriging {
-    /// Of the snapshots of a window; `None` where they are too few or do not differ enough.
-    pub fn of(window: &Window) -> Option<Self> {
+    /// Of the snapshots of a window of a model that knows heat or does not; `None` where they are too few or do not differ
+    /// enough.
+    pub fn of(window: &Window, heat: bool) -> Option<Self> {
         let snapshots = &window.snapshots;
         let (count, modes) = (snapshots.len(), window.pressure.count());
         let lines = snapshots.first()?.fronts.len();
-        let (thins, apart_by) = (window.thins, if window.thins { 6 } else { 4 });
+        let slides = window.thins || heat;
+        let apart_by = if slides { 6 } else { 4 };
         let trends = terms(apart_by);
         if count < FEWEST * trends {
             return None;
         }
-        let own: Vec<OilPlace> = snapshots.iter().map(|snapshot| oil_place(&snapshot.point, thins)).collect();
+        let own: Vec<OilPlace> = snapshots.iter().map(|snapshot| oil_place(&snapshot.point, slides)).collect();
         let centre: OilPlace = std::array::from_fn(|k| own.iter().map(|place| place[k]).sum::<f64>() / count as f64);
         let length = (own.iter().map(|place| apart(*place, centre)).sum::<f64>() / count as f64).sqrt();
         let places: Vec<OilPlace> = own.iter().map(|place| scaled(*place, centre, length)).collect();
@@ -76,12 +78,12 @@ impl Kriging {
         let weights: Vec<f64> =
             (0..count + trends).flat_map(|i| (0..numbers).map(move |k| (i, k))).map(|at| solved[at]).collect();
         let sound = weights.iter().all(|weight| weight.is_finite());
-        sound.then_some(Self { apart_by, thins, centre, length, places, weights, modes, numbers })
+        sound.then_some(Self { apart_by, slides, centre, length, places, weights, modes, numbers })
     }
 
     /// The start for a contact; `None` where it is none.
     pub fn start(&self, point: &OperatingPoint) -> Option<Guess> {
-        let place = scaled(oil_place(point, self.thins), self.centre, self.length);
+        let place = scaled(oil_place(point, self.slides), self.centre, self.length);
         let mut coefficients = vec![0.0; self.numbers];
         let near = self.places.iter().map(|other| cubed(apart(place, *other)));
         let trends = trend(place, self.apart_by);

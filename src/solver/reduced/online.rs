@@ -14,6 +14,7 @@ use super::model::{ReducedModel, Snapshot, Window};
 use super::operators::{Operators, RowObserver, Warmth};
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
+use crate::solver::full::heat::ENDURED_K;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use attempt::{Found, attempt, walk};
@@ -58,7 +59,7 @@ pub struct ReducedSolution {
     /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
     pub residual_estimate: f64,
     /// Calibrated estimate of its errors. None where the model has no calibration, or solved otherwise than it was
-    /// calibrated: outside its domain, with fewer modes or other settings.
+    /// calibrated: outside its domain, with fewer modes or other settings; nor of a film hotter than lubricants endure.
     pub error: Option<ErrorEstimate>,
     /// Whether the model was trained for the point.
     pub trust: Trust,
@@ -181,7 +182,8 @@ impl Online {
         let model = Arc::clone(&self.model);
         let point = &model.domain.as_trained(&problem.point, &problem.lubricant);
         let kriged = self.kriged(index, point);
-        let by_kriging = kriged.is_some();
+        // Without heat a start by kriging follows from the contact alone, so that nothing jumps with what was solved before.
+        let former_first = kriged.is_none() || problem.heat.is_some();
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
         };
@@ -199,13 +201,13 @@ impl Online {
         let thinning = self.model.slides();
         let mut last = ReducedError::Empty;
         let former = [self.former.continued(index, point), self.former.beside(index, point)];
-        let former = former.into_iter().filter(|_| !by_kriging);
+        let former = former.into_iter().filter(|_| former_first).flatten();
         let interpolated = std::iter::once_with(|| start::interpolated(window, point, thinning));
         let nearest = std::iter::once_with(|| start::nearest(window, point));
         // Training is shown iterations with all modes.
         let shares = if observer.is_none() { model.shares_of_modes() } else { &SHARES[..1] };
         let kriged = kriged.iter().flat_map(|guess| shares.iter().map(|share| guess.with_modes(*share)));
-        for guess in kriged.chain(former.chain(interpolated).chain(nearest).flatten()) {
+        for guess in former.chain(kriged).chain(interpolated.chain(nearest).flatten()) {
             match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
@@ -224,12 +226,11 @@ impl Online {
         }
     }
 
-    /// The start by kriging in a window around an anchor. It follows from the contact alone, so that nothing jumps with
-    /// what was solved before. With heat contacts begin from others: temperatures that are known save more.
+    /// The start by kriging in a window around an anchor.
     fn kriged(&self, index: usize, point: &OperatingPoint) -> Option<Guess> {
-        let cold = self.model.domain.heat.is_none();
-        let window = self.model.windows.get(index).filter(|window| cold && window.anchor.is_some())?;
-        self.krigings.get(index)?.get_or_init(|| Kriging::of(window)).as_ref()?.start(point)
+        let heat = self.model.domain.heat.is_some();
+        let window = self.model.windows.get(index).filter(|window| window.anchor.is_some())?;
+        self.krigings.get(index)?.get_or_init(|| Kriging::of(window, heat)).as_ref()?.start(point)
     }
 
     /// Solves a contact from one snapshot of its window and from nowhere else, showing every iterate, for the training.
@@ -269,7 +270,7 @@ impl Online {
             let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());
             estimate.traction = estimate.traction.filter(|_| meant);
         }
-        ReducedSolution {
+        let solved = ReducedSolution {
             point: problem.point,
             lubricant: problem.lubricant,
             window,
@@ -284,7 +285,17 @@ impl Online {
             residual_estimate: residual,
             error,
             trust,
-        }
+        };
+        let error = solved.error.filter(|_| !solved.is_too_hot());
+        ReducedSolution { error, ..solved }
+    }
+}
+
+impl ReducedSolution {
+    /// Whether its film is hotter than lubricants endure: of such a one nothing is promised.
+    pub fn is_too_hot(&self) -> bool {
+        let inlet_k = self.lubricant.heat.map_or(f64::NAN, |heat| heat.inlet_temperature);
+        self.heat.as_ref().is_some_and(|heat| heat.hottest_k(inlet_k) > ENDURED_K)
     }
 }
 

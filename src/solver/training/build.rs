@@ -211,7 +211,7 @@ impl<'a> WindowTraining<'a> {
                     if observer.cancelled() {
                         return Err(TrainingError::Cancelled);
                     }
-                    let solution = solver.solve(point, spec.lubricant, Start::Cold, observer)?;
+                    let solution = solver.solve(point, spec.lubricant_of(point), Start::Cold, observer)?;
                     let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                     observer.progress(Progress { stage: stage.clone(), done, total });
                     if solution.converged() {
@@ -243,6 +243,7 @@ impl<'a> WindowTraining<'a> {
             Windows::Given(_) | Windows::Automatic { .. } => (usize::MAX, 0.0),
         };
         let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.in_common.clone());
+        let own: Vec<bool> = solutions.iter().map(|s| spec.lubricant_of(&s.point) == spec.lubricant).collect();
         let cavitation = spec.lubricant.cavitation;
         let ratio = window.radius_ratio.unwrap_or(spec.domain().radius_ratio);
         let (anchored, shapes) = (anchor(window).is_some(), ratio != CIRCLES);
@@ -250,7 +251,7 @@ impl<'a> WindowTraining<'a> {
         let mut model = on_one_thread(*observer, move || {
             let most = if missing > 0.0 { most.min(modes_missing(&solutions, &grid, missing)?) } else { most };
             let limits = (losses, most, keeping.accuracy());
-            let (pressure, deformation, mut snapshots) = bases(limits, positive, &grid, &solutions, shared)?;
+            let (pressure, deformation, mut snapshots) = bases(limits, positive, &grid, (&solutions, &own), shared)?;
             if cavitation == Cavitation::Complementarity {
                 for (snapshot, solution) in snapshots.iter_mut().zip(&solutions) {
                     snapshot.fronts = fronts(&grid, |node| solution.pressure[node]);
@@ -288,8 +289,8 @@ impl<'a> WindowTraining<'a> {
             let served = Within { radius_ratio: window.served_ratios(), ..self.within() };
             let sampled = sample_rows(spec, &Arc::new(alone(spec, &window)), &served, rng, *observer)?;
             let mut rows = sampled.ok_or(TrainingError::Decomposition { from, to })?;
-            let many = window.anchor.is_some() || window.shapes.is_some() || spec.range.heats();
-            if many && spec.sampling != Sampling::Cubature {
+            let short = Keeping::of(&window, spec.range.heats()).shortens_rules();
+            if short && spec.sampling != Sampling::Cubature {
                 rows.reconstruction = kept_rule(rows.reconstruction);
             }
             window.set_rows(spec.sampling, rows);
@@ -313,12 +314,12 @@ fn without_solution(point: &OperatingPoint) -> String {
 
 /// POD of pressures, of max(P, 0) where modes are to be `positive`, and of deformations, each up to a loss of
 /// information and a number of modes, as they are kept, unless they are `in_common` with other windows; and the snapshots in
-/// the pressure basis.
+/// the pressure basis, of those solutions that are of the model's `own` lubricant.
 fn bases(
     ([pressure_loss, deformation_loss], most, accuracy): ([f64; 2], usize, f64),
     positive: bool,
     grid: &ContactGrid,
-    solutions: &[Solved],
+    (solutions, own): (&[Solved], &[bool]),
     in_common: Option<InCommon>,
 ) -> Option<(PressureModes, Arc<PodBasis>, Vec<Snapshot>)> {
     let (nodes, weights) = (grid.len(), grid.weights());
@@ -341,7 +342,9 @@ fn bases(
     let snapshots = solutions
         .iter()
         .zip(pressures.col_iter())
-        .map(|(s, p)| Snapshot {
+        .zip(own)
+        .filter(|(_, own)| **own)
+        .map(|((s, p), _)| Snapshot {
             point: s.point,
             coefficients: pressure.basis().coefficients(weights, |i| p[i]),
             h_0: s.h_0,

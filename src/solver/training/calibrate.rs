@@ -41,6 +41,10 @@ pub(super) fn measured(
     let measured = in_parallel(observer, &stage, &contacts, solvers, |(online, corrector), _, (point, lubricant)| {
         online.forget();
         let solved = online.solve(point, *lubricant).ok()?;
+        // Of a film too hot for any lubricant nothing is promised.
+        if solved.is_too_hot() {
+            return None;
+        }
         let errors = corrector.errors(online, &solved)?;
         Some(Evidence { features: Features::of(&solved, beside), errors })
     })?;

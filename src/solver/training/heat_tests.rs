@@ -126,6 +126,11 @@ fn many_oils_with_heat_are_the_full_ones_and_bounded() {
     let spec = TrainingSpec { evidence: 120, ..heated_oils(Sampling::Cubature, 90) };
     let model = Arc::new(train(&spec, &()).unwrap());
     assert!(model.windows.len() == 2 && model.windows.iter().all(|window| window.anchor.is_some()));
+    // Bases know other constants; what solves start from are contacts of its own.
+    for window in &model.windows {
+        assert!(window.snapshots.len() < 75 && window.pressure.count() == window.snapshots[0].coefficients.len());
+        assert!(window.snapshots.iter().all(|snapshot| spec.lubricant_of(&snapshot.point) == spec.lubricant));
+    }
     let mut online = online(&model);
     let mut full = ContactSolver::on(&model.windows[0].grid);
     let Range::HeatedOils(HeatedOilRange { thermal: Some(thermal), .. }) = spec.range else { panic!() };
@@ -160,6 +165,39 @@ fn many_oils_with_heat_are_the_full_ones_and_bounded() {
     assert!(told.contains("inlet’s temperature = 400 K lies outside the trained range 293…373 K"), "{told}");
     assert!(why(point, Lubricant { limiting_stress: None, ..own }).contains("limiting stresses"));
     assert!(model.domain.is_of(&inlet(360.0)));
+}
+
+#[test]
+fn every_second_training_contact_has_thermal_constants_of_the_range() {
+    let spec = heated_oils(Sampling::Cubature, 90);
+    let Range::HeatedOils(range @ HeatedOilRange { thermal: Some(thermal), .. }) = spec.range else { panic!() };
+    let points = random_points(&spec.range, ContactKind::Line, 400, 3);
+    let other: Vec<Lubricant> =
+        points.iter().map(|point| spec.lubricant_of(point)).filter(|own| *own != spec.lubricant).collect();
+    assert!((150..250).contains(&other.len()), "{}", other.len());
+    assert!(other.iter().all(|lubricant| thermal.outside(lubricant).is_none()));
+    let hot = other.iter().filter(|lubricant| lubricant.heat.unwrap().inlet_temperature > 333.0).count();
+    assert!(hot > other.len() / 3 && hot < other.len() / 3 * 2, "they are all over the interval");
+    let bare = HeatedOilRange { thermal: None, ..range };
+    let alone = TrainingSpec { range: Range::HeatedOils(bare), ..spec.clone() };
+    assert!(points.iter().all(|point| alone.lubricant_of(point) == spec.lubricant));
+}
+
+#[test]
+fn of_a_film_hotter_than_lubricants_endure_nothing_is_promised() {
+    let spec = TrainingSpec { evidence: 60, ..heated_oils(Sampling::Cubature, 60) };
+    let model = Arc::new(train(&spec, &()).unwrap());
+    let mut online = online(&model);
+    let point = random_points(&spec.range, ContactKind::Line, 1, 12)[0];
+    let warm = online.solve(&point, spec.lubricant).unwrap();
+    assert!(warm.error.is_some() && !warm.is_too_hot());
+    let rise = 573.0 - 313.15;
+    let mut hot = warm.clone();
+    let theta = &mut hot.heat.as_mut().unwrap().theta;
+    theta[7][2] = (rise - 1.0) / 313.15;
+    assert!(!hot.is_too_hot());
+    hot.heat.as_mut().unwrap().theta[7][2] = (rise + 1.0) / 313.15;
+    assert!(hot.is_too_hot());
 }
 
 #[test]

@@ -8,11 +8,11 @@ use crate::solver::reduced::{OilDomain, expected_film};
 use serde::{Deserialize, Serialize};
 
 /// By how much training reaches beyond the ends of a range.
-const BEYOND: f64 = 1.04;
+pub(super) const BEYOND: f64 = 1.04;
 
 /// An interval of positive numbers and a little more.
-pub(super) fn beyond((low, high): (f64, f64)) -> (f64, f64) {
-    (low / BEYOND, high * BEYOND)
+pub(super) fn beyond((low, high): (f64, f64), by: f64) -> (f64, f64) {
+    (low / by, high * by)
 }
 
 /// All contacts with M, L and p_H in these intervals of the oils with η₀, α and Roelands' exponent in these; by ln M,
@@ -80,12 +80,12 @@ impl OilRange {
     /// A little more on all sides: solutions there keep a model from ending at its last ones.
     pub(super) fn beyond(&self) -> Self {
         Self {
-            m: beyond(self.m),
-            l: beyond(self.l),
-            alpha: beyond(self.alpha),
-            viscosity: beyond(self.viscosity),
-            exponent: beyond(self.exponent),
-            hertz_pressure: beyond(self.hertz_pressure),
+            m: beyond(self.m, BEYOND),
+            l: beyond(self.l, BEYOND),
+            alpha: beyond(self.alpha, BEYOND),
+            viscosity: beyond(self.viscosity, BEYOND),
+            exponent: beyond(self.exponent, BEYOND),
+            hertz_pressure: beyond(self.hertz_pressure, BEYOND),
             thinnest_film: self.thinnest_film / BEYOND,
         }
     }

@@ -5,7 +5,7 @@
 //! free, and of E′ and τ₀ the product alone counts: a contact with another τ₀ than the range's lubricant is one with as
 //! much more E′. What a limiting stress cuts off traction goes with its Λ p_H over τ₀ besides.
 
-use super::oil_range::{OilRange, beyond};
+use super::oil_range::{BEYOND, OilRange, beyond};
 use super::range::{Unit, between, linear, logarithmic};
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding};
@@ -61,8 +61,8 @@ impl SlidingOilRange {
 
     /// A little more on all sides.
     pub(super) fn beyond(&self) -> Self {
-        let (_, gradient_stress) = beyond((0.0, self.gradient_stress));
-        Self { oils: self.oils.beyond(), modulus: beyond(self.modulus), gradient_stress, ..*self }
+        let (_, gradient_stress) = beyond((0.0, self.gradient_stress), BEYOND);
+        Self { oils: self.oils.beyond(), modulus: beyond(self.modulus, BEYOND), gradient_stress, ..*self }
     }
 
     /// What a model of it declares beside the oils, M, L, α and p_H.

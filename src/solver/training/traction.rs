@@ -2,7 +2,7 @@
 
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::{HeatedOilRange, Range, TrainingError, TrainingObserver, TrainingSpec};
+use super::{Range, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
@@ -22,8 +22,7 @@ const SLOWEST: f64 = 1e-3;
 pub(super) fn drawn(spec: &TrainingSpec, rng: &mut Rng) -> Lubricant {
     match spec.range {
         Range::SlidingOils(range) => range.limited(spec.lubricant, rng),
-        Range::HeatedOils(HeatedOilRange { thermal: Some(thermal), .. }) => thermal.drawn(spec.lubricant, rng),
-        _ => spec.lubricant,
+        range => range.warmed(spec.lubricant, rng),
     }
 }
 

@@ -20,7 +20,7 @@ pub struct Rises {
 }
 
 /// Temperature \[K\] above which lubricants decompose: 300 °C.
-const ENDURED_K: f64 = 573.0;
+pub(in crate::solver) const ENDURED_K: f64 = 573.0;
 
 /// Heat that is lost without a word, relative: on a line, and in a plane, whose cells are larger.
 const LARGEST_RESIDUAL: [f64; 2] = [3e-3, 1e-2];

@@ -29,7 +29,7 @@ pub fn gradient_stress(point: &OperatingPoint) -> f64 {
 }
 
 /// The Eyring stress of a law \[Pa\]; none of another one.
-fn eyring_stress(law: ShearLaw) -> Option<f64> {
+pub(super) fn eyring_stress(law: ShearLaw) -> Option<f64> {
     match law {
         ShearLaw::Eyring { critical_stress, .. } => Some(critical_stress),
         ShearLaw::Newtonian | ShearLaw::Carreau { .. } | ShearLaw::Ellis { .. } => None,
@@ -88,24 +88,6 @@ impl Domain {
     /// A sentence where a film is so thick that its pressure shears it by more than was trained.
     pub(super) fn sheared_film(&self, problem: &Problem) -> Option<String> {
         self.eyring?.sheared_film(&problem.point, self.stresses(&problem.lubricant)?)
-    }
-
-    /// The laws of a lubricant with the model's own τ₀, and thermal constants, where it knows all.
-    pub(super) fn with_own_constants(&self, mut laws: Lubricant) -> Lubricant {
-        if self.heat.is_some_and(|heat| heat.thermal.is_some()) && laws.heat.is_some() {
-            laws.heat = self.lubricant.heat;
-        }
-        match (self.stresses(&laws), eyring_stress(self.lubricant.shear), laws.shear) {
-            (Some(_), Some(critical_stress), ShearLaw::Eyring { npr, .. }) => {
-                Lubricant { shear: ShearLaw::Eyring { critical_stress, npr }, ..laws }
-            }
-            _ => laws,
-        }
-    }
-
-    /// Whether it is of a lubricant, whatever limits its traction and however its films rupture.
-    pub fn is_of(&self, lubricant: &Lubricant) -> bool {
-        self.with_own_constants(lubricant.of_the_liquid()) == self.lubricant.of_the_liquid()
     }
 
     /// The contact that has the film of another one and the model's own τ₀: of equal M, L, p_H, oil and SRR, with E′ τ₀ as

@@ -29,9 +29,6 @@ impl Found {
     }
 }
 
-/// Accuracy of the isothermal solution from which a contact with heat begins.
-const ISOTHERMAL: f64 = 1e-2;
-
 /// Turns of pressure and temperatures that a contact with heat may take per Newton step of one without.
 const TURNS_PER_STEP: usize = 4;
 
@@ -70,20 +67,9 @@ pub(super) fn attempt(
     let case = Case { problem, scale, curvature: 1.0, penalty, lift: &lift };
     let stop = Stop { tolerance: options.tolerance, max_newton: options.max_newton.min(limit) };
     let outcome = if problem.heat.is_some() {
-        let mut spent = 0;
-        if start.theta.is_empty() {
-            let stop = Stop { tolerance: ISOTHERMAL, ..stop };
-            let isothermal = problem.isothermal();
-            let cold = Case { problem: &isothermal, ..case };
-            let cold = operators.newton(&cold, &mut coefficients, &mut h_0, stop, watched(observer));
-            if !cold.converged {
-                return Err(ReducedError::NotConverged { iterations: cold.iterations, step: cold.step });
-            }
-            spent = cold.iterations;
-        }
+        // Starts are contacts with heat: temperatures come from their pressures, and no isothermal solution is in between.
         let stop = Stop { max_newton: TURNS_PER_STEP * stop.max_newton, ..stop };
-        let warm = operators.turns(&case, (&mut coefficients, &mut h_0), &start.theta, stop, watched(observer));
-        OnlineOutcome { iterations: spent + warm.iterations, ..warm }
+        operators.turns(&case, (&mut coefficients, &mut h_0), &start.theta, stop, watched(observer))
     } else {
         operators.newton(&case, &mut coefficients, &mut h_0, stop, watched(observer))
     };

@@ -28,8 +28,9 @@ impl ReducedModel {
         let options = ReducedOptions::default();
         let mut operators = operators_of(self, served, &options);
         // Kriging takes as long as all the rest, and hardly any window needs it.
-        let kriging = OnceCell::new();
-        let kriged = |problem: &Problem| kriging.get_or_init(|| Kriging::of(served)).as_ref()?.start(&problem.point);
+        let (kriging, heat) = (OnceCell::new(), self.domain.heat.is_some());
+        let kriged =
+            |problem: &Problem| kriging.get_or_init(|| Kriging::of(served, heat)).as_ref()?.start(&problem.point);
         let from_both_ends = (0..snapshots.len()).map(|k| match k % 2 {
             0 => snapshots[k / 2],
             _ => snapshots[snapshots.len() - 1 - k / 2],

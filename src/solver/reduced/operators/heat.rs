@@ -154,6 +154,13 @@ pub struct Warmth {
     pub central: Rises,
 }
 
+impl Warmth {
+    /// The highest temperature of the film \[K\] by that at the inlet.
+    pub fn hottest_k(&self, inlet_k: f64) -> f64 {
+        inlet_k * (1.0 + self.theta.iter().flatten().fold(0.0, |hottest: f64, theta| hottest.max(*theta)))
+    }
+}
+
 impl Heated {
     /// With films wanted at some places of a support.
     pub fn new(grid: &ContactGrid, support: &[Place], films: Vec<usize>) -> Self {
@@ -313,10 +320,11 @@ impl Operators {
                 self.state.spread(&self.support, None, coefficients, &mut self.scratch.fields);
             } else {
                 // Temperatures that swing with the pressure come to rest when they follow it by less.
-                share = if now > 0.8 * before { (0.75 * share).max(LEAST_SHARE) } else { (1.1 * share).min(1.0) };
+                let swings = changed > 0.8 * before;
+                share = if swings { (0.75 * share).max(LEAST_SHARE) } else { (1.5 * share).min(1.0) };
                 heated.mixing.forget();
             }
-            before = now;
+            before = changed;
         }
         // A converged iteration with an absurd residual has found garbage.
         outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
