@@ -117,7 +117,7 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
     if let Some(snapshots) = snapshots {
         give_snapshots(&mut windows, snapshots).ok_or(damaged("snapshots"))?;
     }
-    check_counts(&windows, payload.len())?;
+    check_counts(&windows, &domain, payload.len())?;
     if let Some(costs) = &grid_costs {
         give_grid_costs(&mut windows, costs).ok_or(damaged("costs of its grid"))?;
     }

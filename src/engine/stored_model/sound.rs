@@ -59,15 +59,19 @@ pub(in crate::engine) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
     })
 }
 
-/// Refuses what would take more memory than a model of so many bytes does, before anything of it is built: a basis has a
-/// singular value for each mode, and every node of a grid a byte at least.
-pub(super) fn check_counts(windows: &[StoredWindow], bytes: usize) -> Result<(), ModelFileError> {
+/// Refuses what would take more memory than a model of so many bytes does, before anything of it is built: modes come from
+/// snapshots, or, where a model knows thermal constants, from other solutions besides, each with a singular value; and every
+/// node of a grid has a byte at least.
+pub(super) fn check_counts(windows: &[StoredWindow], domain: &Domain, bytes: usize) -> Result<(), ModelFileError> {
     let mut nodes = 0usize;
+    let others = domain.heat.is_some_and(|heat| heat.thermal.is_some());
     for window in windows {
         let rows = entries(&window.grid)?;
         nodes = nodes.saturating_add(rows);
-        let fits = |basis: &StoredBasis| basis.rows() == rows && basis.columns() <= basis.known();
-        if !(fits(&window.pressure) && fits(&window.deformation)) {
+        let own = if others { window.pressure.known() } else { window.snapshots.len() };
+        let fits =
+            |basis: &StoredBasis, most: usize| basis.rows() == rows && basis.columns() <= most.min(basis.known());
+        if !(fits(&window.pressure, own) && fits(&window.deformation, usize::MAX)) {
             return Err(ModelFileError::Damaged { what: "bases" });
         }
     }
