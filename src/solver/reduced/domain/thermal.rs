@@ -1,7 +1,7 @@
 //! Thermal constants and limiting stresses that a model of contacts with heat knows beside those of its own lubricant.
 //!
 //! Temperatures have no basis: they are marched with the constants of the contact that is asked for. What pressures look like
-//! hardly hangs on them, so that one set of training solutions serves all, and errors are measured over the whole range.
+//! hangs on them little, so that a basis knows all by a few of them; errors are measured over the whole range.
 
 use super::Bounded;
 use crate::solver::limits::{Refused, interval};
