@@ -117,3 +117,25 @@ fn a_ball_with_heat_has_a_map_of_its_temperatures() {
     wait(&mut harness, "verification", |app| app.badge() == "Verified" && !app.busy());
     assert!(harness.query_by_label("Temperature map").is_none(), "the map of the film is back");
 }
+
+#[test]
+fn a_film_hotter_than_lubricants_endure_is_said_to_be_so() {
+    const HOT: &str = r#"Scene(
+        version: 1,
+        title: "A film too hot",
+        source: "none",
+        lubricant: (limiting_stress: (ambient: 5e6, slope: 0.1, eyring: 5e6)),
+        heat: (inlet_temperature: 390.0, oil: (viscosity_temperature: 0.021, conductivity: 0.105)),
+        at: Si(radius: 40e-3, speed: 1.9, load: 3.6e6, modulus: 200e9, viscosity: 0.05, alpha: 2.4e-8),
+        srr: 1.0,
+        grid: Model,
+        study: Point(methods: [Reduced(model: Embedded)]),
+    )"#;
+    let mut harness = verified();
+    let folder = Scratch::new("too-hot");
+    harness.state_mut().open_scene(&folder.write("scene.ron", HOT)).unwrap();
+    wait(&mut harness, "the hot film", |app| app.badge() == "Verified" && !app.busy());
+    click(&mut harness, "Profiles");
+    assert!(shows(&harness, "oils decompose above 573 K") && shows(&harness, "% into body 1"));
+    assert!(!shows(&harness, "Colours: from the inlet"));
+}

@@ -3,6 +3,7 @@
 
 use crate::app::color_map;
 use crate::app::context::Context;
+use crate::app::controls::warning_ui;
 use crate::app::drawn;
 use crate::app::figure::Texture;
 use crate::app::numbers;
@@ -147,7 +148,14 @@ pub fn ui(ui: &mut Ui, image: &TemperatureImage, context: &Context<'_>, (scales,
         (1.0, "Rise in K"),
         (&color_bar::strips(&color_map::table(false)), (0.0, image.largest_k)),
     );
-    balance_ui(ui, &heat.balance, hues, image.largest_k);
+    balance_ui(ui, &heat.balance, hues);
+    match heat.too_hot() {
+        Some(warning) => warning_ui(ui, &warning),
+        None => {
+            let above = numbers::quantity(image.largest_k, "K");
+            ui.weak(format!("Colours: from the inlet’s temperature to {above} above it"));
+        }
+    }
 }
 
 fn rises_plot(ui: &mut Ui, image: &TemperatureImage, (hues, scales): ([Color32; 3], Scales), fit: bool, height: f32) {
@@ -177,8 +185,8 @@ fn linked<'a>(ui: &Ui, (id, height): (&str, f32), titles: (&str, &str), scales: 
     curves::stacked(ui, direction, (id, height), titles).default_x_bounds(from, to)
 }
 
-/// Where the heat goes, as parts of a bar with their names, and what the colours of the picture above stand for.
-fn balance_ui(ui: &mut Ui, balance: &HeatBalance, hues: [Color32; 3], largest_k: f64) {
+/// Where the heat goes, as parts of a bar with their names.
+fn balance_ui(ui: &mut Ui, balance: &HeatBalance, hues: [Color32; 3]) {
     let palette = Palette::of(ui);
     let [one, two] = balance.into_bodies;
     let shares =
@@ -205,7 +213,6 @@ fn balance_ui(ui: &mut Ui, balance: &HeatBalance, hues: [Color32; 3], largest_k:
             ui.colored_label(palette.ink(color), format!("{share} % {name}"));
         }
     });
-    ui.weak(format!("Colours: from the inlet’s temperature to {} above it", numbers::quantity(largest_k, "K")));
 }
 
 #[cfg(test)]

@@ -144,8 +144,7 @@ impl Temperatures {
         let hottest = self.inlet_k + self.rise_k.iter().flatten().fold(0.0f64, |hottest, rise| hottest.max(*rise));
         (hottest > ENDURED_K).then(|| {
             format!(
-                "the film reaches {hottest:.0} K: above {ENDURED_K} K oils decompose, and no law of viscosity was \
-                 measured"
+                "the film reaches {hottest:.0} K: oils decompose above {ENDURED_K} K, and no law was measured there"
             )
         })
     }
