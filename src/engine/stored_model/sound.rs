@@ -65,13 +65,13 @@ pub(in crate::engine) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
 pub(super) fn check_counts(windows: &[StoredWindow], domain: &Domain, bytes: usize) -> Result<(), ModelFileError> {
     let mut nodes = 0usize;
     let others = domain.heat.is_some_and(|heat| heat.thermal.is_some());
+    let solutions = |window: &StoredWindow| if others { window.pressure.known() } else { window.snapshots.len() };
+    let all = windows.iter().map(solutions).sum();
     for window in windows {
         let rows = entries(&window.grid)?;
         nodes = nodes.saturating_add(rows);
-        let own = if others { window.pressure.known() } else { window.snapshots.len() };
-        let fits =
-            |basis: &StoredBasis, most: usize| basis.rows() == rows && basis.columns() <= most.min(basis.known());
-        if !(fits(&window.pressure, own) && fits(&window.deformation, usize::MAX)) {
+        let fits = |basis: &StoredBasis, most: usize| basis.rows() == rows && basis.columns() <= most;
+        if !(fits(&window.pressure, solutions(window)) && fits(&window.deformation, all)) {
             return Err(ModelFileError::Damaged { what: "bases" });
         }
     }
