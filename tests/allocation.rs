@@ -100,10 +100,19 @@ fn more_online_iterations_do_not_allocate_more() {
             exponent: (0.4, 0.8),
             hertz_pressure: (0.4e9, 3.2e9),
             thinnest_film: 0.0,
+            radius_ratio: (1.0, 1.0),
         };
         let grid = GridSpec::Graded { nodes: 240, domain: (-6.0, 1.9), registered: true };
         let spec = TrainingSpec::new(Range::Oils(range), range.m, grid, Plan::FarthestPoint { snapshots: 40 });
-        let windows = Windows::Anchored { count: 2, modes: 12, grid, shared: 0, missing: 0.0, divided_by: 0 };
+        let windows = Windows::Anchored {
+            count: 2,
+            modes: 12,
+            grid,
+            shared: 0,
+            missing: 0.0,
+            missing_of_any: 0.0,
+            divided_by: 0,
+        };
         Arc::new(train(&TrainingSpec { windows, evidence: 0, lubricant: ruptured, ..spec }, &()).unwrap())
     };
     let oiled = OperatingPoint { viscosity_pa_s: 0.03, alpha_per_pa: 18e-9, ..newtonian };

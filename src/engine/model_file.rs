@@ -200,7 +200,7 @@ mod tests {
     use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
     use crate::solver::reduced::{EyringDomain, HeatDomain, PressureModes, Sampling, Scheme, Window};
     use crate::solver::training::small::{
-        ellipses, heated, heated_balls, heated_oils, line, oils, oils_of_points, sliding_oils,
+        ellipses, heated, heated_balls, heated_ellipses, heated_oils, line, oils, oils_of_points, sliding_oils,
     };
     use crate::solver::training::{TrainingSpec, WindowSpec, Windows, train};
     use faer::Mat;
@@ -402,6 +402,21 @@ mod tests {
         let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
         assert!(read.domain == model.domain && read.contact() == ContactKind::Point && read.domain.heat.is_some());
         assert!(read.windows[0].traction.is_some() && read.windows[0].traction == model.windows[0].traction);
+    }
+
+    #[test]
+    fn heat_of_ellipses_of_many_oils_survives_a_round_trip_too() {
+        let model = train(&heated_ellipses(Sampling::Cubature, 24), &()).unwrap();
+        let bytes = to_bytes(&model).unwrap();
+        let read = from_bytes(&bytes).unwrap();
+        assert!(read.domain == model.domain && read.of_ellipses() && to_bytes(&read).unwrap() == bytes);
+        let window = &read.windows[0];
+        assert!(window.shapes.is_some() && window.anchor == model.windows[0].anchor && window.traction.is_some());
+        assert!(window.snapshots.iter().any(|snapshot| snapshot.point.radius_ratio() > 2.0));
+        // Ellipses with heat of one oil there are none.
+        let mut wrong = model;
+        wrong.domain.oils = None;
+        assert!(matches!(from_bytes(&to_bytes(&wrong).unwrap()), Err(ModelFileError::Damaged { what: "its parts" })));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::{Bench, EngineError, POINT_BUDGET, REDUCED_SHEAR_POINTS, Timing, reduced_rows};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::solver::reduced::CIRCLES;
 use crate::solver::training::{OilRange, Range, SlidingOilRange, random_points};
 
 const SEED: u64 = 2028;
@@ -17,6 +18,7 @@ const RANGE: SlidingOilRange = SlidingOilRange {
         exponent: (0.18, 1.1),
         hertz_pressure: (0.3e9, 2.5e9),
         thinnest_film: 0.015,
+        radius_ratio: CIRCLES,
     },
     srr: (0.0, 1.0),
     modulus: (200e9, 240e9),

@@ -87,8 +87,9 @@ impl Parts {
         let parts = if older { former::read(rest, windows)? } else { Self::named(rest)? };
         let schemes = parts.schemes.as_ref().is_none_or(|schemes| schemes.len() == windows);
         let of_oils = parts.shared.is_some() || parts.grid_costs.is_some() || parts.eyring.is_some();
-        let beside_shapes = parts.oils.is_some() || parts.heat.is_some();
-        let together = !(parts.shapes.is_some() && beside_shapes)
+        // Ellipses with heat are those of many oils, and none thins under shear.
+        let beside_shapes = parts.eyring.is_none() && (parts.heat.is_none() || parts.oils.is_some());
+        let together = (parts.shapes.is_none() || beside_shapes)
             && (parts.oils.is_some() || !of_oils)
             && (parts.heat.is_some() || parts.thermal.is_none());
         (schemes && together).then_some(parts)

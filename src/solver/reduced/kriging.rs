@@ -15,7 +15,7 @@ use faer::Mat;
 const fn terms(numbers: usize) -> usize {
     (numbers + 1) * (numbers + 2) / 2
 }
-const MOST_TERMS: usize = terms(6);
+const MOST_TERMS: usize = terms(7);
 /// Solutions per term without which there is no trend.
 const FEWEST: usize = 2;
 /// What trends that the solutions cannot tell apart are held by.
@@ -45,7 +45,11 @@ impl Kriging {
         let (count, modes) = (snapshots.len(), window.pressure.count());
         let lines = snapshots.first()?.fronts.len();
         let slides = window.thins || heat;
-        let apart_by = if slides { 6 } else { 4 };
+        let apart_by = match (&window.shapes, slides) {
+            (Some(_), _) => 7,
+            (None, true) => 6,
+            (None, false) => 4,
+        };
         let trends = terms(apart_by);
         if count < FEWEST * trends {
             return None;

@@ -21,10 +21,10 @@ const BLENDED: f64 = 0.05;
 pub(crate) const BEYOND_CELLS: f64 = 0.1;
 
 /// Where a contact lies among those of many oils: the first numbers tell them apart, the others are zero.
-pub(crate) type OilPlace = [f64; 6];
+pub(crate) type OilPlace = [f64; 7];
 
 /// ln M, ln L, ln p_H and z in lengths that add up to the distance of registered pressures; of oils that thin under shear,
-/// whose contacts have one τ₀, ln(p_H a/R) and |SRR| as well.
+/// whose contacts have one τ₀, ln(p_H a/R) and |SRR| as well, and of ellipses ln(R_y/R).
 pub(crate) fn oil_place(point: &OperatingPoint, thins: bool) -> OilPlace {
     let (Moes { m, l }, pressure) = (point.moes(), point.hertz().pressure_pa);
     let [stress, srr] = if thins {
@@ -33,13 +33,17 @@ pub(crate) fn oil_place(point: &OperatingPoint, thins: bool) -> OilPlace {
     } else {
         [0.0; 2]
     };
-    [0.27 * m.ln(), 0.29 * l.ln(), 0.18 * pressure.ln(), 0.34 * roelands_exponent(point), stress, srr]
+    let shape = SHAPE_LENGTH * point.radius_ratio().ln();
+    [0.27 * m.ln(), 0.29 * l.ln(), 0.18 * pressure.ln(), 0.34 * roelands_exponent(point), stress, srr, shape]
 }
 
 /// Units of ln(p_H a/R), and of |SRR|, in the lengths of [`oil_place`]: where films are thick they change pressures by up
 /// to 0.06 and 0.2, where these are thin hardly at all.
 const STRESS_LENGTH: f64 = 0.05;
 const SRR_LENGTH: f64 = 0.15;
+
+/// The unit of ln(R_y/R) there: beside ln M it counts as much as by [`separation`](super::model::separation).
+const SHAPE_LENGTH: f64 = 0.15;
 
 /// H_c in units of a²/R that Moes' formula expects of M and L.
 pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {

@@ -288,9 +288,11 @@ impl Operators {
 
     /// Turns to the shape of a contact; nothing where the window knows one only.
     pub fn take_shape(&mut self, window: &Window, problem: &Problem) {
-        let Self { shaped, state, geometry, support, .. } = self;
+        let Self { shaped, state, geometry, support, heated, .. } = self;
         let (Some(shaped), Some(shapes)) = (shaped, &window.shapes) else { return };
-        shaped.turn_to(shapes, &problem.point.ellipse(), state, geometry, &mut support.places);
+        let ellipse = problem.point.ellipse();
+        shaped.turn_to(shapes, &ellipse, state, geometry, &mut support.places);
+        heated.iter_mut().for_each(|heated| heated.across_by(ellipse.kappa));
     }
 
     /// Lets Newton's steps change the coefficients of so many modes only; those of the others must be zero.

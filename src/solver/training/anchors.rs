@@ -229,6 +229,23 @@ pub(super) fn modes_missing(solutions: &[Solved], grid: &ContactGrid, missing: f
     Some(missed.iter().position(|missed| *missed <= missing).unwrap_or(missed.len()))
 }
 
+/// How many of the modes of solutions miss no more than so much of any one of them; `None` when the decomposition fails.
+pub(super) fn modes_missing_of_any(solutions: &[Solved], grid: &ContactGrid, missing: f64) -> Option<usize> {
+    let (nodes, weights) = (grid.len(), grid.weights());
+    let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
+    let basis = PodBasis::new(pressures.as_ref(), weights, 0.0)?;
+    let most = solutions.iter().map(|solved| {
+        let shares = basis.coefficients(weights, |i| solved.pressure[i]);
+        let (mut rest, limit) = (0.0, (missing * solved.h_c.min(THIN)).powi(2));
+        let spare = shares.iter().rev().take_while(|share| {
+            rest += *share * *share;
+            rest <= limit
+        });
+        shares.len() - spare.count()
+    });
+    most.max()
+}
+
 /// Places in the middle of so many cells of (ln M, ln L).
 fn middles(places: &[Moes], count: usize) -> Vec<Moes> {
     let mut anchors: Vec<Moes> = places.first().copied().into_iter().collect();

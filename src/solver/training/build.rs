@@ -1,6 +1,6 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
-use super::anchors::{Cell, InCommon, anchor, modes_missing};
+use super::anchors::{Cell, InCommon, anchor, modes_missing, modes_missing_of_any};
 use super::one_thread::on_one_thread;
 use super::plan::{Within, grid_points};
 use super::rows::sample_rows;
@@ -69,10 +69,6 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
         Range::Sliding(SlidingRange { srr, npr, modulus, .. }) => Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
         _ => None,
     };
-    let radius_ratio = match spec.range {
-        Range::Ellipses { radius_ratio, .. } => radius_ratio,
-        _ => CIRCLES,
-    };
     let oils = match spec.range {
         Range::Oils(range)
         | Range::HeatedOils(HeatedOilRange { oils: range, .. })
@@ -96,7 +92,7 @@ pub(super) fn domain(spec: &TrainingSpec) -> Domain {
         viscosity_pa_s,
         lubricant: spec.lubricant,
         sliding,
-        radius_ratio,
+        radius_ratio: spec.range.radius_ratio(),
         oils,
         heat,
         eyring,
@@ -239,8 +235,8 @@ impl<'a> WindowTraining<'a> {
         let failed = || TrainingError::Decomposition { from, to };
         let (losses, positive) = ([spec.pressure_loss, spec.deformation_loss], spec.positive_modes);
         let (most, missing) = match spec.windows {
-            Windows::Anchored { modes, missing, .. } => (modes, missing),
-            Windows::Given(_) | Windows::Automatic { .. } => (usize::MAX, 0.0),
+            Windows::Anchored { modes, missing, missing_of_any, .. } => (modes, [missing, missing_of_any]),
+            Windows::Given(_) | Windows::Automatic { .. } => (usize::MAX, [0.0; 2]),
         };
         let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.in_common.clone());
         let own: Vec<bool> = solutions.iter().map(|s| spec.lubricant_of(&s.point) == spec.lubricant).collect();
@@ -249,7 +245,14 @@ impl<'a> WindowTraining<'a> {
         let (anchored, shapes) = (anchor(window).is_some(), ratio != CIRCLES);
         let keeping = Keeping { kind: grid.kind(), anchored, heat: spec.range.heats(), shapes };
         let mut model = on_one_thread(*observer, move || {
-            let most = if missing > 0.0 { most.min(modes_missing(&solutions, &grid, missing)?) } else { most };
+            let mut asked = Vec::new();
+            if missing[0] > 0.0 {
+                asked.push(modes_missing(&solutions, &grid, missing[0])?);
+            }
+            if missing[1] > 0.0 {
+                asked.push(modes_missing_of_any(&solutions, &grid, missing[1])?);
+            }
+            let most = asked.into_iter().max().map_or(most, |asked| most.min(asked));
             let limits = (losses, most, keeping.accuracy());
             let (pressure, deformation, mut snapshots) = bases(limits, positive, &grid, (&solutions, &own), shared)?;
             if cavitation == Cavitation::Complementarity {

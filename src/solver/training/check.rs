@@ -4,7 +4,7 @@ use super::{HeatedOilRange, HeatedRange, Plan, Range, SlidingRange, TrainingSpec
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw, ViscosityLaw};
-use crate::solver::reduced::{LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
+use crate::solver::reduced::{CIRCLES, LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
 
 /// Most points of a plan, or judged in one go.
 const MOST_POINTS: usize = 100_000;
@@ -126,12 +126,18 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
         }
         Cavitation::Penalty | Cavitation::Complementarity => {}
     }
-    if matches!(spec.range, Range::Ellipses { .. }) {
+    if spec.range.radius_ratio() != CIRCLES {
         if spec.contact() != ContactKind::Point {
             return Err(Refused::new("range", "is of ellipses, but the windows' grids are of line contacts"));
         }
         if *cavitation != Cavitation::Penalty {
             return Err(Refused::new("cavitation", "must be the penalty for a reduced model of ellipses"));
+        }
+        if matches!(spec.range, Range::SlidingOils(_)) {
+            return Err(Refused::new(
+                "range.oils.radius_ratio",
+                "must be left out: sliding oils are of lines and circles",
+            ));
         }
     }
     if spec.range.of_oils() {
@@ -216,7 +222,7 @@ fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
     match &spec.windows {
         Windows::Given(windows) => given(spec, windows),
         Windows::Automatic { modes } => count("windows.modes", *modes, 8, 1000),
-        Windows::Anchored { count: windows, modes, grid, shared, missing, divided_by } => {
+        Windows::Anchored { count: windows, modes, grid, shared, missing, missing_of_any, divided_by } => {
             count("windows.count", *windows, 1, MOST_ANCHORS)?;
             count("windows.modes", *modes, 8, 1000)?;
             if *shared > 0 {
@@ -225,11 +231,10 @@ fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
             if *divided_by > 0 {
                 count("windows.divided_by", *divided_by, 8, 1000)?;
             }
-            if !(0.0..=MOST_MISSING).contains(missing) {
-                return Err(Refused::new(
-                    "windows.missing",
-                    format!("is {missing}; it must be within 0…{MOST_MISSING}"),
-                ));
+            let missed = [("windows.missing", missing), ("windows.missing_of_any", missing_of_any)];
+            if let Some((field, missing)) = missed.iter().find(|(_, missing)| !(0.0..=MOST_MISSING).contains(*missing))
+            {
+                return Err(Refused::new(*field, format!("is {missing}; it must be within 0…{MOST_MISSING}")));
             }
             grid.check().map_err(|problem| Refused::new("windows.grid", format!("makes no sense: {problem}")))?;
             if !spec.range.of_oils() {

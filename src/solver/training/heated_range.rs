@@ -17,6 +17,9 @@ use serde::{Deserialize, Serialize};
 /// How much faster contacts slide in a training for many thermal constants than in its range: heat goes with β and the
 /// inverse of k besides, of which solutions have those in the middle.
 const WARMER: f64 = 2.0;
+/// One in so many full solutions of a line, and of a plane, has the training's own thermal constants, and is one that online
+/// iterations begin from: a solution of a plane takes seconds.
+const OWN: [u64; 2] = [4, 2];
 
 /// All contacts, lines or circles, with M, L and SRR in these intervals and p_H up to a limit, with heat: R, E′, η₀ and α make M a load
 /// and L a speed, by which films warm.
@@ -84,7 +87,7 @@ impl HeatedRange {
     }
 }
 
-/// All contacts, lines or circles, of many oils with R, E′, u_m and SRR in these intervals, with heat.
+/// All contacts of many oils with R, E′, u_m and SRR in these intervals, with heat.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeatedOilRange {
@@ -120,16 +123,16 @@ impl HeatedOilRange {
         self.thermal.map_or(Ok(()), |thermal| thermal.check().map_err(|refused| refused.within("thermal")))
     }
 
-    /// The contact of a kind at coordinates in the unit cube, by ln M, L, α, η₀, R, SRR and E′; `None` where the range
+    /// The contact of a kind at coordinates in the unit cube, by ln M, L, α, η₀, R, SRR, E′ and, of ellipses, R_y/R; `None` where the range
     /// excludes it.
     pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
-        let [.., radius, srr, modulus] = unit;
+        let [_, _, _, _, radius, srr, modulus, _] = unit;
         let request = MoesRequest {
             radius_m: Some(logarithmic(self.radius, radius)),
             modulus_pa: Some(logarithmic(self.modulus, modulus)),
             ..self.oils.request(kind, unit)
         };
-        let (point, srr) = (self.oils.contact(&request)?, linear(self.srr, srr));
+        let (point, srr) = (self.oils.contact(&request, unit)?, linear(self.srr, srr));
         let (speed, (slowest, fastest)) = (point.speed_m_per_s, self.speed);
         let inside = (slowest..=fastest).contains(&speed) && srr * speed <= self.sliding_speed;
         inside.then(|| sliding(point, srr))
@@ -164,12 +167,13 @@ impl Range {
 }
 
 impl TrainingSpec {
-    /// The lubricant of the full solution of a contact. Of a range of thermal constants every second one that a farthest-point
-    /// plan asks for, told by the last digits of its load, has some of these: the basis is made of all, snapshots are those
-    /// of the training's own lubricant.
+    /// The lubricant of the full solution of a contact. Of a range of thermal constants most of those that a farthest-point
+    /// plan asks for, told by the last digits of their loads, have some of these: the basis is made of all, snapshots are
+    /// those of the training's own lubricant.
     pub fn lubricant_of(&self, point: &OperatingPoint) -> Lubricant {
         let digits = point.load.to_bits();
-        let own = digits.is_multiple_of(2) || !matches!(self.plan, Plan::FarthestPoint { .. });
+        let own =
+            digits.is_multiple_of(OWN[self.contact() as usize]) || !matches!(self.plan, Plan::FarthestPoint { .. });
         if own { self.lubricant } else { self.range.warmed(self.lubricant, &mut Rng::with_seed(self.seed ^ digits)) }
     }
 }

@@ -69,7 +69,7 @@ use super::discrete::reynolds::PENALTY;
 use super::limits::Refused;
 use super::physics::contact::{ContactKind, OperatingPoint};
 use super::physics::lubricant::{Cavitation, Heat, Lubricant};
-use super::reduced::{Domain, ReducedModel, Sampling, Scheme};
+use super::reduced::{CIRCLES, Domain, ReducedModel, Sampling, Scheme};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
 
@@ -235,7 +235,7 @@ impl TrainingSpec {
     /// Whether a model is of the contacts that it is about.
     pub fn is_of(&self, model: &ReducedModel) -> bool {
         model.contact() == self.contact()
-            && model.of_ellipses() == matches!(self.range, Range::Ellipses { .. })
+            && model.of_ellipses() == (self.range.radius_ratio() != CIRCLES)
             && model.domain.heat.is_some() == self.range.heats()
     }
 
@@ -257,6 +257,11 @@ impl TrainingSpec {
     /// others, and fields as long as ten.
     fn warms_a_plane(&self) -> bool {
         self.range.heats() && self.contact() == ContactKind::Point
+    }
+
+    /// Whether reduced solutions have temperatures along a line.
+    fn warms_a_line(&self) -> bool {
+        self.range.heats() && self.contact() == ContactKind::Line
     }
 
     /// Its contacts with M in an interval.
@@ -299,6 +304,9 @@ pub enum Windows {
         /// far as these are thin: it has no more modes than this asks for, and all where it is 0.
         #[serde(default)]
         missing: f64,
+        /// The same of any one of its solutions: it has no more modes than the stricter of the two asks for.
+        #[serde(default)]
+        missing_of_any: f64,
         /// Pressure modes by what these miss the range is divided; 0 takes `modes`. Cells that hold hardly more solutions
         /// than that are divided no further.
         #[serde(default)]

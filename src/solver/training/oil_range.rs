@@ -4,7 +4,7 @@ use super::range::{Unit, between, logarithmic};
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
 use crate::solver::physics::lubricant::roelands_exponent;
-use crate::solver::reduced::{OilDomain, expected_film};
+use crate::solver::reduced::{CIRCLES, OilDomain, expected_film};
 use serde::{Deserialize, Serialize};
 
 /// By how much training reaches beyond the ends of a range.
@@ -16,7 +16,7 @@ pub(super) fn beyond((low, high): (f64, f64), by: f64) -> (f64, f64) {
 }
 
 /// All contacts with M, L and p_H in these intervals of the oils with η₀, α and Roelands' exponent in these; by ln M,
-/// ln L, ln α and ln η₀. R and E′ are free: what they change is in M, L and p_H.
+/// ln L, ln α, ln η₀ and, of ellipses, ln(R_y/R). R and E′ are free: what they change is in M, L and p_H.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OilRange {
@@ -36,6 +36,13 @@ pub struct OilRange {
     /// no grid of a model resolves. 0 leaves none of them out.
     #[serde(default)]
     pub thinnest_film: f64,
+    /// R_y/R of point contacts; circles where it is left out.
+    #[serde(default = "circles")]
+    pub radius_ratio: (f64, f64),
+}
+
+fn circles() -> (f64, f64) {
+    CIRCLES
 }
 
 impl OilRange {
@@ -50,12 +57,15 @@ impl OilRange {
         between(Quantity::Viscosity, self.viscosity)?;
         interval("exponent", self.exponent, 0.05, 2.0)?;
         interval("hertz_pressure", self.hertz_pressure, 1e5, 1e12)?;
+        if self.radius_ratio != CIRCLES {
+            between(Quantity::RadiusRatio, self.radius_ratio)?;
+        }
         number("thinnest_film", self.thinnest_film, 0.0, 1.0)
     }
 
     /// The operating point at coordinates in the unit cube; `None` where p_H or the exponent exclude it.
     pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
-        self.contact(&self.request(kind, unit))
+        self.contact(&self.request(kind, unit), unit)
     }
 
     /// M, L, α and η₀ at coordinates in the unit cube.
@@ -67,10 +77,16 @@ impl OilRange {
         }
     }
 
-    /// The contact that is asked for, unless p_H, the exponent or the film exclude it.
-    pub(super) fn contact(&self, request: &MoesRequest) -> Option<OperatingPoint> {
+    /// The contact that is asked for, of a shape by the last coordinate in the unit cube where the range has more than
+    /// one, unless p_H, the exponent or the film exclude it.
+    pub(super) fn contact(&self, request: &MoesRequest, [.., shape]: Unit) -> Option<OperatingPoint> {
         let inside = |value: f64, (low, high): (f64, f64)| (low..=high).contains(&value);
-        si_from_moes(request).ok().filter(|point| {
+        let circle = si_from_moes(request).ok()?;
+        let point = match self.radius_ratio {
+            CIRCLES => circle,
+            ratios => Quantity::RadiusRatio.at(&circle, logarithmic(ratios, shape)),
+        };
+        Some(point).filter(|point| {
             inside(point.hertz().pressure_pa, self.hertz_pressure)
                 && inside(roelands_exponent(point), self.exponent)
                 && expected_film(point.kind, point.moes()) >= self.thinnest_film
@@ -87,6 +103,7 @@ impl OilRange {
             exponent: beyond(self.exponent, BEYOND),
             hertz_pressure: beyond(self.hertz_pressure, BEYOND),
             thinnest_film: self.thinnest_film / BEYOND,
+            radius_ratio: self.radius_ratio,
         }
     }
 

@@ -38,13 +38,13 @@ const HEAT_LENGTHS: [f64; 2] = [0.1, 0.4];
 
 /// Where a contact of a range of many oils lies among others.
 fn place_of_oil(point: &OperatingPoint, range: &Range) -> OilPlace {
-    let [m, l, p_h, z, stress, srr] = oil_place(point, matches!(range, Range::SlidingOils(_)));
+    let [m, l, p_h, z, stress, srr, shape] = oil_place(point, matches!(range, Range::SlidingOils(_)));
     if !range.heats() {
-        return [m, l, p_h, z, stress, srr];
+        return [m, l, p_h, z, stress, srr, shape];
     }
     let by_heat = [point.speed_m_per_s.ln(), point.sliding.slide_to_roll_ratio];
     let [u, srr] = [0, 1].map(|k| HEAT_LENGTHS[k] * by_heat[k]);
-    [m, l, p_h, z, u, srr]
+    [m, l, p_h, z, u, srr, shape]
 }
 
 /// The contacts of a range, of one kind and with M in an interval.

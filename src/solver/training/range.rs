@@ -65,17 +65,17 @@ pub enum Range {
 }
 
 /// Coordinates in the unit cube, of which a range uses as many as it has quantities.
-pub(super) type Unit = [f64; 7];
+pub(super) type Unit = [f64; 8];
 
 /// Four coordinates, and the middle for all others.
 pub(super) fn in_the_middle_but([a, b, c, d]: [f64; 4]) -> Unit {
-    [a, b, c, d, 0.5, 0.5, 0.5]
+    [a, b, c, d, 0.5, 0.5, 0.5, 0.5]
 }
 
 impl From<&Domain> for Range {
     /// The intervals that a model declares; what it knows of sliding is left out.
     fn from(domain: &Domain) -> Self {
-        if domain.radius_ratio != CIRCLES {
+        if domain.radius_ratio != CIRCLES && domain.oils.is_none() {
             let Domain { m, l, radius_ratio, max_hertz_pressure_pa: max_hertz_pressure, .. } = *domain;
             return Self::Ellipses { m, l, radius_ratio, max_hertz_pressure };
         }
@@ -87,6 +87,7 @@ impl From<&Domain> for Range {
             exponent: oils.exponent,
             hertz_pressure: (oils.lowest_hertz_pressure_pa, domain.max_hertz_pressure_pa),
             thinnest_film: oils.thinnest_film,
+            radius_ratio: domain.radius_ratio,
         });
         if let Some((oils, eyring)) = oils.zip(domain.eyring) {
             let EyringDomain { srr, modulus_pa: modulus, limit_slope, gradient_stress_pa: gradient_stress } = eyring;
@@ -266,7 +267,7 @@ impl SlidingRange {
     /// The largest Hertzian pressure \[Pa\] of a kind of contact in it; 0 where M and L make no contact.
     pub fn highest_pressure(&self, kind: ContactKind) -> f64 {
         let unlimited = Self { max_hertz_pressure: None, ..*self };
-        let heaviest = unlimited.at(kind, [1.0; 7]).map_or(0.0, |point| point.hertz().pressure_pa);
+        let heaviest = unlimited.at(kind, [1.0; 8]).map_or(0.0, |point| point.hertz().pressure_pa);
         heaviest.min(self.max_hertz_pressure.unwrap_or(f64::INFINITY))
     }
 }
@@ -287,9 +288,21 @@ impl Range {
         matches!(self, Self::Oils(_) | Self::HeatedOils(_) | Self::SlidingOils(_))
     }
 
-    /// Coordinates that it uses of the unit cube, at least four.
+    /// R_y/R of its contacts; that of circles where it knows these, or lines, only.
+    pub fn radius_ratio(&self) -> (f64, f64) {
+        match self {
+            Self::Ellipses { radius_ratio, .. } => *radius_ratio,
+            Self::Oils(oils)
+            | Self::HeatedOils(HeatedOilRange { oils, .. })
+            | Self::SlidingOils(SlidingOilRange { oils, .. }) => oils.radius_ratio,
+            _ => CIRCLES,
+        }
+    }
+
+    /// Coordinates that it uses of the unit cube, at least four: all of them where the last one is a shape.
     pub(super) fn coordinates(&self) -> usize {
         match self {
+            _ if self.of_oils() && self.radius_ratio() != CIRCLES => 8,
             Self::HeatedOils(_) => 7,
             Self::SlidingOils(_) => 6,
             _ => 4,

@@ -7,6 +7,7 @@ use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{
     GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Scheme,
     Snapshot, TestSpace, Window, all_rows, cubature, dense, greedy, is_finite, minimised_rows, q_deim, separation,
@@ -21,6 +22,9 @@ use std::sync::Arc;
 /// one of all rows takes a second; of these no more trainings show theirs.
 const ROW_SNAPSHOT_SOLVES: usize = 160;
 const ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES: usize = 60;
+/// Share of the wanted rows below which a cubature does not carry a line with heat, whose modes are many: pruning has gone
+/// too far.
+const SHARE_OF_WARM_LINES: f64 = 0.85;
 /// Steps smaller than this are demanded to be right absolutely, larger ones relatively.
 const STEP_FLOOR: f64 = 0.03;
 /// Random functionals of Δp̃ per iterate, beside the one of ΔH_c, on a grid of few and of many rows.
@@ -30,8 +34,8 @@ const MANY_ROWS: usize = 3000;
 
 /// A reduced solve whose iterates are collected.
 enum Task<'a> {
-    /// At a random point, from wherever the online phase starts.
-    At(OperatingPoint),
+    /// At a random point with a lubricant, from wherever the online phase starts.
+    At(OperatingPoint, Lubricant),
     /// At a training, from its nearest other solution.
     From(&'a Snapshot, OperatingPoint),
 }
@@ -49,7 +53,7 @@ impl<'a> Task<'a> {
     fn solve(&self, spec: &TrainingSpec, online: &mut Online, keep: &mut dyn FnMut(&Iterate<'_>)) -> bool {
         online.forget();
         match self {
-            Self::At(point) => online.solve_observed(point, spec.lubricant, Some(keep)).is_ok(),
+            Self::At(point, lubricant) => online.solve_observed(point, *lubricant, Some(keep)).is_ok(),
             Self::From(snapshot, point) => online.solve_from(snapshot, point, spec.lubricant, keep).is_ok(),
         }
     }
@@ -125,7 +129,13 @@ fn sample(
         false => (ROW_SNAPSHOT_SOLVES, usize::MAX),
     };
     let points = served.random_points(solves, rng);
-    let mut tasks: Vec<Task<'_>> = points.into_iter().map(Task::At).collect();
+    // Every second line with heat has thermal constants of the range, as what a model is asked for has.
+    let mut constants = Rng::with_seed(spec.seed);
+    let mut at = |(k, point): (usize, OperatingPoint)| {
+        let other = spec.warms_a_line() && k % 2 == 1;
+        Task::At(point, if other { spec.range.warmed(spec.lubricant, &mut constants) } else { spec.lubricant })
+    };
+    let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(&mut at).collect();
     // Windows around anchors are asked up to their ends, where few random contacts lie.
     if spec.sampling == Sampling::Cubature || window.anchor.is_some() {
         let every = window.snapshots.len().div_ceil(trainings).max(1);
@@ -143,16 +153,16 @@ fn sample(
         _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
     })?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
-    let (sampling, rows_per_mode) = (spec.sampling, rows_per_mode.to_vec());
-    let scheme = spec.scheme;
-    on_one_thread(observer, move || choose(&test, (scheme, sampling), &rows_per_mode, collected, none))
+    let (of, rows_per_mode) = ((spec.scheme, spec.sampling), rows_per_mode.to_vec());
+    let share = if spec.warms_a_line() { SHARE_OF_WARM_LINES } else { 0.0 };
+    on_one_thread(observer, move || choose(&test, of, (&rows_per_mode, share), collected, none))
 }
 
 /// The rows that all evidence together speaks for, for each number of them per mode.
 fn choose(
     test: &TestSpace,
     (scheme, sampling): (Scheme, Sampling),
-    rows_per_mode: &[f64],
+    (rows_per_mode, share): (&[f64], f64),
     collected: Vec<Evidence>,
     mut equations: GoalEquations,
 ) -> Vec<Option<SampledRows>> {
@@ -168,7 +178,7 @@ fn choose(
     }
     let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
     let counts: Vec<usize> = rows_per_mode.iter().map(count).collect();
-    rows_by(test, (scheme, sampling), (&rows, &equations), (&counts, 0.0))
+    rows_by(test, (scheme, sampling), (&rows, &equations), (&counts, share))
 }
 
 /// The rows that a scheme takes by what snapshots or, for a cubature, goal equations speak for: of each count, `None`

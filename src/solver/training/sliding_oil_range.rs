@@ -50,12 +50,12 @@ impl SlidingOilRange {
     /// The contact at coordinates in the unit cube, by ln M, ln L, ln α, ln η₀, SRR and ln E′; `None` where the range
     /// excludes it.
     pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
-        let [.., srr, modulus, _] = unit;
+        let [_, _, _, _, srr, modulus, ..] = unit;
         let request =
             MoesRequest { modulus_pa: Some(logarithmic(self.modulus, modulus)), ..self.oils.request(kind, unit) };
         let slide_to_roll_ratio = linear(self.srr, srr);
         let sliding = Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: None };
-        let point = self.oils.contact(&request).filter(|point| gradient_stress(point) <= self.gradient_stress)?;
+        let point = self.oils.contact(&request, unit).filter(|point| gradient_stress(point) <= self.gradient_stress)?;
         Some(OperatingPoint { sliding, ..point })
     }
 

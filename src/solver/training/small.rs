@@ -5,7 +5,7 @@ use super::{
 };
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant, ShearLaw};
-use crate::solver::reduced::{Sampling, ThermalDomain};
+use crate::solver::reduced::{CIRCLES, Sampling, ThermalDomain};
 
 /// A grid of point contacts on which a full solve takes milliseconds.
 pub(crate) const POINT_GRID: PointGridSpec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
@@ -79,10 +79,18 @@ pub(crate) fn oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         exponent: (0.4, 0.8),
         hertz_pressure: (0.4e9, 1.6e9),
         thinnest_film: 0.0,
+        radius_ratio: CIRCLES,
     };
     let plan = Plan::FarthestPoint { snapshots };
-    let windows =
-        Windows::Anchored { count: 3, modes: 32, grid: line_grid(240), shared: 0, missing: 0.0, divided_by: 0 };
+    let windows = Windows::Anchored {
+        count: 3,
+        modes: 32,
+        grid: line_grid(240),
+        shared: 0,
+        missing: 0.0,
+        missing_of_any: 0.0,
+        divided_by: 0,
+    };
     let spec = TrainingSpec::new(Range::Oils(range), range.m, line_grid(240), plan);
     TrainingSpec { windows, pressure_loss: 1e-9, deformation_loss: 0.1, sampling, evidence: 0, seed: 5, ..spec }
 }
@@ -108,6 +116,7 @@ pub(crate) fn sliding_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec
             grid: line_grid(240),
             shared: 0,
             missing: 0.0,
+            missing_of_any: 0.0,
             divided_by: 0,
         },
         ..spec
@@ -124,9 +133,11 @@ pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
         exponent: (0.4, 0.8),
         hertz_pressure: (0.3e9, 1.6e9),
         thinnest_film: 0.16,
+        radius_ratio: CIRCLES,
     };
     let grid = GridSpec::Plane(PointGridSpec { refinement: 2.0, ..POINT_GRID });
-    let windows = Windows::Anchored { count: 2, modes: 24, grid, shared: 60, missing: 0.0, divided_by: 0 };
+    let windows =
+        Windows::Anchored { count: 2, modes: 24, grid, shared: 60, missing: 0.0, missing_of_any: 0.0, divided_by: 0 };
     let spec = TrainingSpec::new(Range::Oils(range), range.m, grid, Plan::FarthestPoint { snapshots });
     TrainingSpec {
         windows,
@@ -172,6 +183,7 @@ pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec 
         exponent: (0.4, 0.8),
         hertz_pressure: (0.5e9, 1.4e9),
         thinnest_film: 0.0,
+        radius_ratio: CIRCLES,
     };
     let range = HeatedOilRange {
         oils,
@@ -193,7 +205,15 @@ pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec 
         }),
     };
     let one = heated(sampling, snapshots);
-    let windows = Windows::Anchored { count: 2, modes: 40, grid: HEATED_GRID, shared: 0, missing: 0.0, divided_by: 0 };
+    let windows = Windows::Anchored {
+        count: 2,
+        modes: 40,
+        grid: HEATED_GRID,
+        shared: 0,
+        missing: 0.0,
+        missing_of_any: 0.0,
+        divided_by: 0,
+    };
     TrainingSpec {
         range: Range::HeatedOils(range),
         windows,
@@ -211,6 +231,17 @@ pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec
     let range = HeatedRange { m: (25.0, 40.0), l: (6.0, 8.0), srr: (0.0, 0.5), ..range };
     let windows = Windows::Given(vec![WindowSpec::new(range.m, GridSpec::Plane(POINT_GRID))]);
     TrainingSpec { range: Range::Heated(range), windows, pressure_loss: 1e-7, deformation_loss: 0.1, ..one }
+}
+
+/// Elliptical contacts with heat of many such oils.
+pub(crate) fn heated_ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
+    let lines = heated_oils(sampling, snapshots);
+    let Range::HeatedOils(range) = lines.range else { return lines };
+    let oils = OilRange { m: (25.0, 40.0), l: (6.0, 8.0), radius_ratio: (0.7, 3.0), ..range.oils };
+    let grid = GridSpec::Plane(POINT_GRID);
+    let windows =
+        Windows::Anchored { count: 1, modes: 40, grid, shared: 0, missing: 0.0, missing_of_any: 0.0, divided_by: 0 };
+    TrainingSpec { range: Range::HeatedOils(HeatedOilRange { oils, ..range }), windows, pressure_loss: 1e-7, ..lines }
 }
 
 /// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.

@@ -10,7 +10,7 @@ use crate::app::training::presets;
 use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::reduced::{Sampling, Scheme};
+use crate::solver::reduced::{CIRCLES, Sampling, Scheme};
 use crate::solver::training::{
     HeatedOilRange, HeatedRange, Indicator, OilRange, Plan, Range, SlidingOilRange, SlidingRange, TrainingSpec, Windows,
 };
@@ -161,13 +161,16 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
 
 /// What a range of oils has with heat and without.
 fn oils(ui: &mut Ui, form: &mut Form<'_>, range: &mut OilRange) {
-    let OilRange { m, l, alpha, viscosity, exponent, hertz_pressure, .. } = range;
+    let OilRange { m, l, alpha, viscosity, exponent, hertz_pressure, radius_ratio, .. } = range;
     form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
     form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
     form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");
     form.interval(ui, "Viscosity {η_0}", VISCOSITY, viscosity, "Viscosity at ambient pressure");
     form.interval(ui, "Exponent {z}", PLAIN, exponent, "Roelands’ exponent (2.12), which α and η₀ make");
     form.interval(ui, "Pressure {p_H}", GIGAPASCAL, hertz_pressure, "Hertzian pressure");
+    if *radius_ratio != CIRCLES {
+        form.interval(ui, "Ratio of radii {R_y}/{R}", PLAIN, radius_ratio, "1 is a circle");
+    }
 }
 
 /// The windows of M in a line.

@@ -108,6 +108,19 @@ impl Signal {
         }
     }
 
+    /// What it never falls below, by its constants; no finite number where one of these is none.
+    fn floor(&self) -> f64 {
+        match self {
+            Self::Constant => 1.0,
+            Self::Harmonic { amplitude, .. } | Self::TriangleToSquare { amplitude, .. } => 1.0 - amplitude.abs(),
+            Self::TwoScale { amplitudes: (one, other), .. } => 1.0 - one.abs() - other.abs(),
+            Self::Sampled { values, .. } if values.iter().all(|value| value.is_finite()) => {
+                values.iter().copied().fold(f64::INFINITY, f64::min)
+            }
+            Self::Sampled { .. } => f64::NAN,
+        }
+    }
+
     fn check_constants(&self, input: &'static str) -> Result<(), InputError> {
         let refuse = |constant: &str, value: f64, accepted: &str| {
             let value = Number(value);
@@ -191,6 +204,10 @@ impl Inputs {
     pub fn check(&self, duration: f64) -> Result<(), InputError> {
         for (input, signal) in [("radius", &self.radius), ("speed", &self.speed), ("load", &self.load)] {
             signal.check_constants(input)?;
+            let floor = signal.floor();
+            if floor.is_finite() && (floor > 0.0 || input == "speed") {
+                continue;
+            }
             let mut times: Vec<f64> = (0..=WATCHED).map(|k| duration * k as f64 / WATCHED as f64).collect();
             if let Signal::Sampled { times: knots, .. } = signal {
                 times.extend(knots.iter().filter(|knot| (0.0..=duration).contains(*knot)));
@@ -248,6 +265,22 @@ mod tests {
     }
 
     #[test]
+    fn no_signal_falls_below_what_its_constants_say_and_all_come_near_it() {
+        let sampled = Signal::Sampled { times: vec![0.2, 0.7, 1.9], values: vec![1.0, 0.3, 2.0] };
+        for signal in [
+            Signal::Constant,
+            Signal::Harmonic { amplitude: -0.7, period: 0.3 },
+            Signal::TriangleToSquare { amplitude: 0.4, period: 0.9, s: 0.5 },
+            Signal::TwoScale { amplitudes: (0.5, -0.3), periods: (1.7, 0.11) },
+            sampled,
+        ] {
+            let least = (0..=40_000).map(|k| signal.at(k as f64 * 1e-4)).fold(f64::INFINITY, f64::min);
+            let floor = signal.floor();
+            assert!(least >= floor && least < floor + 0.02, "{signal:?}: {least}, not {floor}");
+        }
+    }
+
+    #[test]
     fn inputs_without_sense_are_refused_with_the_time() {
         let message = |inputs: Inputs| inputs.check(2.0).unwrap_err().to_string();
         let deep = Signal::Harmonic { amplitude: 1.2, period: 1.0 };
@@ -263,6 +296,10 @@ mod tests {
         assert!(message(Inputs::load(short)).contains("2 times but 3 values"));
         let gap = Signal::Sampled { times: vec![0.0, 1.0], values: vec![1.0, f64::NAN] };
         assert!(message(Inputs::load(gap)).contains("finite"));
+        for amplitude in [f64::NAN, f64::INFINITY] {
+            let speed = Signal::Harmonic { amplitude, period: 1.0 };
+            assert!(message(Inputs { speed, ..Inputs::default() }).contains("must be a finite number"), "{amplitude}");
+        }
         let square = Signal::TriangleToSquare { amplitude: 0.1, period: 1.0, s: 1.0 };
         assert!(message(Inputs::load(square)).contains("steepness"));
         assert!(message(Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 0.0 })).contains("period"));

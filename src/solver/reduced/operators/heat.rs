@@ -129,8 +129,9 @@ struct Looked {
 /// Temperatures in reduced operators, and what marches them.
 pub(super) struct Heated {
     looked: Vec<Looked>,
-    /// ξ of the stations.
+    /// ξ of the stations, and Y of the lines in units of b.
     reference: Vec<f64>,
+    ordinates: Vec<f64>,
     lines: Lines,
     /// X of the support.
     x: Vec<f64>,
@@ -176,8 +177,9 @@ impl Heated {
         let film = WarmFilm { theta: vec![[0.0; RULE]; support.len()], stress: vec![0.0; support.len()] };
         Self {
             looked: looked.collect(),
-            lines: Lines::new(y, &reference, &Arc::new(MovingSource::new(&reference))),
+            lines: Lines::new(y.clone(), &reference, &Arc::new(MovingSource::new(&reference))),
             reference,
+            ordinates: y,
             x: vec![0.0; support.len()],
             films,
             spread: (1.0, spread),
@@ -196,6 +198,11 @@ impl Heated {
     /// τ̄_m at the support.
     pub fn stress(&self) -> &[f64] {
         &self.film.stress
+    }
+
+    /// Puts the lines as far apart as those of an ellipse lie.
+    pub fn across_by(&mut self, kappa: f64) {
+        self.lines.y.iter_mut().zip(&self.ordinates).for_each(|(y, own)| *y = kappa * own);
     }
 
     /// Begins a contact at a scale, at given temperatures where there are any.
