@@ -21,7 +21,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 12;
+const VERSION: u32 = 13;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
 const FORMAT: Format =
     Format { magic: b"EHLTRN\r\n", version: VERSION, oldest: VERSION, whole_hash: VERSION, max_payload: 2 << 30 };

@@ -123,8 +123,8 @@ impl HeatedOilRange {
         self.thermal.map_or(Ok(()), |thermal| thermal.check().map_err(|refused| refused.within("thermal")))
     }
 
-    /// The contact of a kind at coordinates in the unit cube, by ln M, L, α, η₀, R, SRR, E′ and, of ellipses, R_y/R; `None` where the range
-    /// excludes it.
+    /// The contact of a kind at coordinates in the unit cube, by ln M, L, α, η₀, R, SRR, E′ and, of ellipses, R_y/R; `None`
+    /// where the range excludes it.
     pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
         let [_, _, _, _, radius, srr, modulus, _] = unit;
         let request = MoesRequest {

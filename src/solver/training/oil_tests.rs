@@ -1,11 +1,11 @@
 //! Models of many oils: near full solutions of every oil, without a jump between windows, and told where they end.
 
-use super::small::{oils, oils_of_points};
+use super::small::{heated_ellipses, oils, oils_of_points};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::physics::contact::{MoesRequest, OperatingPoint, moes_film, si_from_moes};
-use crate::solver::physics::lubricant::{Cavitation, ViscosityLaw, roelands_exponent};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant, ViscosityLaw, roelands_exponent};
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust, Window, expected_film};
 use std::sync::Arc;
 
@@ -193,6 +193,31 @@ fn windows_miss_no_more_than([missing, missing_of_any]: [f64; 2], of: fn(&[f64])
         let all = window.pressure.count();
         assert!(missed(all) < 1.01 * limit && missed(all - 1) > 0.99 * limit, "{} {}", missed(all), missed(all - 1));
     }
+}
+
+#[test]
+fn ellipses_of_every_oil_are_near_full_solutions() {
+    let warm = heated_ellipses(Sampling::Cubature, 80);
+    let Range::HeatedOils(HeatedOilRange { oils, .. }) = warm.range else { panic!() };
+    let spec = TrainingSpec { range: Range::Oils(oils), lubricant: Lubricant::default(), ..warm };
+    let model = Arc::new(train(&spec, &()).unwrap());
+    assert!(Range::from(&model.domain) == spec.range && model.of_ellipses());
+    let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
+    let mut full = ContactSolver::on(&model.windows[0].grid);
+    for point in random_points(&spec.range, ContactKind::Point, 10, 6) {
+        online.forget();
+        let solved = online.solve(&point, spec.lubricant).unwrap();
+        assert_eq!(solved.trust, Trust::Trained);
+        let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
+        let off = (solved.h_c / truth.scalars.h_c - 1.0).abs();
+        assert!(off < 5e-3, "{point:?}: {off:.1e}");
+    }
+    let sliding = super::small::sliding_oils(Sampling::QDeim, 60);
+    let Range::SlidingOils(range) = sliding.range else { panic!() };
+    let oils = OilRange { radius_ratio: (0.5, 2.0), ..range.oils };
+    let range = Range::SlidingOils(super::SlidingOilRange { oils, ..range });
+    let refused = TrainingSpec { range, ..sliding }.check().unwrap_err().to_string();
+    assert!(refused.contains("line contacts"), "{refused}");
 }
 
 #[test]

@@ -131,11 +131,11 @@ fn sample(
     let points = served.random_points(solves, rng);
     // Every second line with heat has thermal constants of the range, as what a model is asked for has.
     let mut constants = Rng::with_seed(spec.seed);
-    let mut at = |(k, point): (usize, OperatingPoint)| {
+    let at = |(k, point): (usize, OperatingPoint)| {
         let other = spec.warms_a_line() && k % 2 == 1;
         Task::At(point, if other { spec.range.warmed(spec.lubricant, &mut constants) } else { spec.lubricant })
     };
-    let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(&mut at).collect();
+    let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(at).collect();
     // Windows around anchors are asked up to their ends, where few random contacts lie.
     if spec.sampling == Sampling::Cubature || window.anchor.is_some() {
         let every = window.snapshots.len().div_ceil(trainings).max(1);
