@@ -80,7 +80,8 @@ pub struct OilDomain {
     pub thinnest_film: f64,
 }
 
-fn circles() -> (f64, f64) {
+/// What is left out where a contact is a circle.
+pub(crate) fn circles() -> (f64, f64) {
     CIRCLES
 }
 

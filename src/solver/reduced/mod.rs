@@ -38,6 +38,7 @@ pub use calibration::{
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
+pub(crate) use domain::circles;
 pub use domain::{
     CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, ThermalDomain, Trust, gradient_stress,
 };

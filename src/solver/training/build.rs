@@ -241,7 +241,7 @@ impl<'a> WindowTraining<'a> {
         let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.in_common.clone());
         let own: Vec<bool> = solutions.iter().map(|s| spec.lubricant_of(&s.point) == spec.lubricant).collect();
         let cavitation = spec.lubricant.cavitation;
-        let ratio = window.radius_ratio.unwrap_or(spec.domain().radius_ratio);
+        let ratio = window.radius_ratio.unwrap_or(spec.range.radius_ratio());
         let (anchored, shapes) = (anchor(window).is_some(), ratio != CIRCLES);
         let keeping = Keeping { kind: grid.kind(), anchored, heat: spec.range.heats(), shapes };
         let mut model = on_one_thread(*observer, move || {

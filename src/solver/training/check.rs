@@ -262,7 +262,7 @@ fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
     if windows.iter().any(|w| w.m.0 >= w.m.1) || windows.windows(2).any(descend) {
         return refuse("must be non-empty intervals of M in ascending order".to_owned());
     }
-    let shapes = spec.domain().radius_ratio;
+    let shapes = spec.range.radius_ratio();
     let apart = |pair: &[WindowSpec]| match (pair[0].radius_ratio, pair[1].radius_ratio) {
         (None, None) => false,
         (Some(one), Some(other)) => one != other && one.1 > other.0,

@@ -27,6 +27,18 @@ fn errors(online: &Online, solved: &ReducedSolution, full: &Solution) -> [f64; 4
     ]
 }
 
+/// Asserts that errors stay below bars, and within three times their bounds.
+fn assert_near_and_bounded(solved: &ReducedSolution, found: [f64; 4], bars: [f64; 4]) {
+    for (error, bar) in found.into_iter().zip(bars) {
+        assert!(error < bar, "{:?}: {found:?}", solved.point);
+    }
+    let estimate = solved.error.unwrap();
+    let bounds = [Some(estimate.h_c), Some(estimate.h_min), estimate.traction, estimate.rise];
+    for (error, bound) in found.into_iter().zip(bounds) {
+        assert!(error < 3.0 * bound.map_or(f64::INFINITY, |known| known.bound), "{found:?} {estimate:?}");
+    }
+}
+
 #[test]
 fn reduced_contacts_with_heat_are_the_full_ones() {
     // What is wanted of a model with heat at worst.
@@ -104,14 +116,7 @@ fn reduced_ellipses_of_many_oils_with_heat_are_the_full_ones_and_bounded() {
         assert_eq!(solved.trust, Trust::Trained);
         let truth = full.solve(&point, lubricant, Start::Cold, &()).unwrap();
         let found = errors(&online, &solved, &truth);
-        for (error, bar) in found.into_iter().zip([1e-2, 2e-2, 2e-2, 3e-2]) {
-            assert!(error < bar, "{point:?}: {found:?}");
-        }
-        let estimate = solved.error.unwrap();
-        let bounds = [Some(estimate.h_c), Some(estimate.h_min), estimate.traction, estimate.rise];
-        for (error, bound) in found.into_iter().zip(bounds) {
-            assert!(error < 3.0 * bound.map_or(f64::INFINITY, |known| known.bound), "{found:?} {estimate:?}");
-        }
+        assert_near_and_bounded(&solved, found, [1e-2, 2e-2, 2e-2, 3e-2]);
         // Fields lie at Y = y/b, temperatures where they are in units of a, and heat flows aside as far as it is.
         let fields = online.reconstruct(&solved).unwrap();
         let (own, heat) = (fields.heat.as_ref().unwrap(), truth.heat.as_ref().unwrap());
@@ -182,14 +187,7 @@ fn many_oils_with_heat_are_the_full_ones_and_bounded() {
         assert!(solved.trust == Trust::Trained && solved.beside.is_empty(), "temperatures are not blended");
         let truth = full.solve(&point, lubricant, Start::Cold, &()).unwrap();
         let found = errors(&online, &solved, &truth);
-        for (error, bar) in found.into_iter().zip([5e-3, 1e-2, 1e-2, 3e-2]) {
-            assert!(error < bar, "{point:?}: {found:?}");
-        }
-        let estimate = solved.error.unwrap();
-        let bounds = [Some(estimate.h_c), Some(estimate.h_min), estimate.traction, estimate.rise];
-        for (error, bound) in found.into_iter().zip(bounds) {
-            assert!(error < 3.0 * bound.map_or(f64::INFINITY, |known| known.bound), "{found:?} {estimate:?}");
-        }
+        assert_near_and_bounded(&solved, found, [5e-3, 1e-2, 1e-2, 3e-2]);
     }
     let point = random_points(&spec.range, ContactKind::Line, 1, 12)[0];
     let why = |point: OperatingPoint, laws: Lubricant| match model.trust(&Problem::new(&point, laws).unwrap()) {

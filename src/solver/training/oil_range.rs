@@ -4,7 +4,7 @@ use super::range::{Unit, between, logarithmic};
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
 use crate::solver::physics::lubricant::roelands_exponent;
-use crate::solver::reduced::{CIRCLES, OilDomain, expected_film};
+use crate::solver::reduced::{CIRCLES, OilDomain, circles, expected_film};
 use serde::{Deserialize, Serialize};
 
 /// By how much training reaches beyond the ends of a range.
@@ -39,10 +39,6 @@ pub struct OilRange {
     /// R_y/R of point contacts; circles where it is left out.
     #[serde(default = "circles")]
     pub radius_ratio: (f64, f64),
-}
-
-fn circles() -> (f64, f64) {
-    CIRCLES
 }
 
 impl OilRange {

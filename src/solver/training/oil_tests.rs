@@ -200,9 +200,8 @@ fn ellipses_of_every_oil_are_near_full_solutions() {
     let warm = heated_ellipses(Sampling::Cubature, 80);
     let Range::HeatedOils(HeatedOilRange { oils, .. }) = warm.range else { panic!() };
     let spec = TrainingSpec { range: Range::Oils(oils), lubricant: Lubricant::default(), ..warm };
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let (model, mut online) = trained(&spec);
     assert!(Range::from(&model.domain) == spec.range && model.of_ellipses());
-    let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
     let mut full = ContactSolver::on(&model.windows[0].grid);
     for point in random_points(&spec.range, ContactKind::Point, 10, 6) {
         online.forget();
@@ -216,8 +215,11 @@ fn ellipses_of_every_oil_are_near_full_solutions() {
     let Range::SlidingOils(range) = sliding.range else { panic!() };
     let oils = OilRange { radius_ratio: (0.5, 2.0), ..range.oils };
     let range = Range::SlidingOils(super::SlidingOilRange { oils, ..range });
-    let refused = TrainingSpec { range, ..sliding }.check().unwrap_err().to_string();
-    assert!(refused.contains("line contacts"), "{refused}");
+    let refused = |spec: TrainingSpec| spec.check().unwrap_err().to_string();
+    let lines = TrainingSpec { range, ..sliding };
+    let points = TrainingSpec { windows: spec.windows, ..lines.clone() };
+    assert!(refused(lines.clone()).contains("line contacts"), "{}", refused(lines));
+    assert!(refused(points.clone()).contains("range.oils.radius_ratio"), "{}", refused(points));
 }
 
 #[test]

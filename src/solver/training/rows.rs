@@ -33,28 +33,29 @@ const RANDOM_FUNCTIONALS: [usize; 2] = [6, 2];
 const MANY_ROWS: usize = 3000;
 
 /// A reduced solve whose iterates are collected.
-enum Task<'a> {
-    /// At a random point with a lubricant, from wherever the online phase starts.
-    At(OperatingPoint, Lubricant),
-    /// At a training, from its nearest other solution.
-    From(&'a Snapshot, OperatingPoint),
+struct Task<'a> {
+    point: OperatingPoint,
+    lubricant: Lubricant,
+    /// At a training its nearest other solution, where it begins; a random point begins wherever the online phase starts.
+    from: Option<&'a Snapshot>,
 }
 
 impl<'a> Task<'a> {
     /// At training `k` of a window; `None` where it is the only one.
-    fn beside(window: &'a Window, k: usize) -> Option<Self> {
+    fn beside(window: &'a Window, k: usize, lubricant: Lubricant) -> Option<Self> {
         let point = window.snapshots[k].point;
         let far = |other: &Snapshot| separation(&point, &other.point);
         let others = window.snapshots.iter().enumerate().filter(|(other, _)| *other != k).map(|(_, other)| other);
-        others.min_by(|a, b| far(a).total_cmp(&far(b))).map(|nearest| Self::From(nearest, point))
+        others.min_by(|a, b| far(a).total_cmp(&far(b))).map(|nearest| Self { point, lubricant, from: Some(nearest) })
     }
 
     /// Solves, showing every iterate; false when it diverges.
-    fn solve(&self, spec: &TrainingSpec, online: &mut Online, keep: &mut dyn FnMut(&Iterate<'_>)) -> bool {
+    fn solve(&self, online: &mut Online, keep: &mut dyn FnMut(&Iterate<'_>)) -> bool {
+        let Self { point, lubricant, from } = self;
         online.forget();
-        match self {
-            Self::At(point, lubricant) => online.solve_observed(point, *lubricant, Some(keep)).is_ok(),
-            Self::From(snapshot, point) => online.solve_from(snapshot, point, spec.lubricant, keep).is_ok(),
+        match from {
+            None => online.solve_observed(point, *lubricant, Some(keep)).is_ok(),
+            Some(snapshot) => online.solve_from(snapshot, point, *lubricant, keep).is_ok(),
         }
     }
 }
@@ -133,13 +134,15 @@ fn sample(
     let mut constants = Rng::with_seed(spec.seed);
     let at = |(k, point): (usize, OperatingPoint)| {
         let other = spec.warms_a_line() && k % 2 == 1;
-        Task::At(point, if other { spec.range.warmed(spec.lubricant, &mut constants) } else { spec.lubricant })
+        let lubricant = if other { spec.range.warmed(spec.lubricant, &mut constants) } else { spec.lubricant };
+        Task { point, lubricant, from: None }
     };
     let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(at).collect();
     // Windows around anchors are asked up to their ends, where few random contacts lie.
     if spec.sampling == Sampling::Cubature || window.anchor.is_some() {
         let every = window.snapshots.len().div_ceil(trainings).max(1);
-        tasks.extend((0..window.snapshots.len()).step_by(every).filter_map(|k| Task::beside(window, k)));
+        let beside = |k| Task::beside(window, k, spec.lubricant);
+        tasks.extend((0..window.snapshots.len()).step_by(every).filter_map(beside));
     }
     let test = Arc::new(TestSpace::new(window.pressure.basis(), &window.grid));
     let none = GoalEquations::over(&test);
@@ -148,7 +151,7 @@ fn sample(
     let collected = in_parallel(observer, &stage, &tasks, online, |online, index, task| match spec.sampling {
         Sampling::Cubature => {
             let mut rng = Rng::with_seed(spec.seed.wrapping_add(index as u64));
-            Evidence::Goals(goals(spec, online, &test, none.clone(), task, &mut rng))
+            Evidence::Goals(goals(online, &test, none.clone(), task, &mut rng))
         }
         _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
     })?;
@@ -215,7 +218,7 @@ fn snapshots(spec: &TrainingSpec, online: &mut Online, test: &TestSpace, task: &
         rows.residual.push(scaled(iterate.residual));
         rows.jacobian.push(scaled(iterate.jacobian_step));
     };
-    if !task.solve(spec, online, &mut keep) {
+    if !task.solve(online, &mut keep) {
         return RowSnapshots::default();
     }
     normalise(&mut rows.residual);
@@ -235,17 +238,10 @@ fn normalise(snapshots: &mut [Vec<f64>]) {
 }
 
 /// The goal equations of every iterate of one solve added to `none`; none when it diverges.
-fn goals(
-    spec: &TrainingSpec,
-    online: &mut Online,
-    test: &TestSpace,
-    none: GoalEquations,
-    task: &Task<'_>,
-    rng: &mut Rng,
-) -> GoalEquations {
+fn goals(online: &mut Online, test: &TestSpace, none: GoalEquations, task: &Task<'_>, rng: &mut Rng) -> GoalEquations {
     let mut equations = none.clone();
     let mut keep = |iterate: &Iterate<'_>| add_goals(&mut equations, test, iterate, rng);
-    if task.solve(spec, online, &mut keep) { equations } else { none }
+    if task.solve(online, &mut keep) { equations } else { none }
 }
 
 /// Adds functionals of the step, each for f and for J V Δz̃.

@@ -195,8 +195,8 @@ impl Fields {
         let (heat, laws) = (problem.heat.as_ref()?, problem.warm_laws()?);
         let ((xi, y), across, first) = (grid.abscissae(), grid.nodes().1, grid.first_column());
         let kappa = problem.point.ellipse().kappa;
-        let in_a = |y: Vec<f64>| y.into_iter().map(|y| kappa * y).collect::<Vec<f64>>();
-        let y = &in_a(y.to_vec())[..];
+        let in_a = |y: &[f64]| y.iter().map(|y| kappa * y).collect::<Vec<f64>>();
+        let y = &in_a(y)[..];
         let x: Vec<f64> = xi.iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
         let gradient = PlaneGradient::new(&x, y);
         let state = |node: usize| {
@@ -209,7 +209,7 @@ impl Fields {
         };
         let stations = Stations::of(grid);
         let at: Vec<f64> = stations.xi(grid).iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
-        let mut lines = Lines::new(in_a(stations.y(grid)), &at, &Arc::new(MovingSource::new(&at)));
+        let mut lines = Lines::new(in_a(&stations.y(grid)), &at, &Arc::new(MovingSource::new(&at)));
         if theta.len() != lines.stations().count() {
             return None;
         }
