@@ -10,7 +10,7 @@ use crate::solver::observer::Observer;
 use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 
-const VERSION: u32 = 17;
+const VERSION: u32 = 18;
 /// From it on the parts of a model have names.
 const NAMED_PARTS: u32 = 14;
 /// Before it no model said how its films rupture: by the penalty.

@@ -30,12 +30,12 @@ impl Small {
 
 /// Numbers in fewer bytes; none where these are so alike that more than `most` of them would take a byte.
 pub(super) fn packed<T: Number>(numbers: &[T], settings: &ChunkConfig, most: usize) -> Option<Vec<u8>> {
-    simple_compress(numbers, settings).ok().filter(|packed| numbers.len() <= most * packed.len())
+    simple_compress(numbers, settings).ok().filter(|packed| numbers.len() <= most.saturating_mul(packed.len()))
 }
 
 /// So many numbers; `None` where there are not as many, or more than `most` of them take a byte.
 pub(super) fn unpacked<T: Number + Default>(count: usize, packed: &[u8], most: usize) -> Option<Vec<T>> {
-    if count > most * packed.len() {
+    if count > most.saturating_mul(packed.len()) {
         return None;
     }
     let mut numbers = vec![T::default(); count];

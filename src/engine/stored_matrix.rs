@@ -6,6 +6,7 @@
 
 mod curves;
 mod former;
+mod sorted;
 
 use crate::solver::reduced::{Multiples, PodBasis};
 use curves::{Curves, Lattice, runs};
@@ -13,6 +14,7 @@ use faer::Mat;
 use former::Steps;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use sorted::Sorted;
 
 /// How far, relative to itself, a row of a cubature may lie from a multiple of the modes at its node: as rare modes do that
 /// were kept once.
@@ -37,6 +39,8 @@ enum Values {
     Weights(Vec<f32>),
     /// Curves without their misses, and these packed.
     Packed(Curves, Vec<u8>),
+    /// Curves without their misses, and these sorted by those beside them.
+    Sorted(Curves, Sorted),
 }
 
 impl Default for Values {
@@ -102,7 +106,7 @@ impl StoredMatrix {
         let (orders, misses): (Vec<_>, Vec<_>) = kept.collect::<Vec<_>>().into_iter().unzip();
         let (runs, misses) = (runs(&used), misses.concat());
         let curves = Curves { across, runs, row_exponents, column_exponents, orders, misses };
-        Self { rows, columns, values: curves.packed() }
+        Self { rows, columns, values: curves.packed(&used) }
     }
 
     /// Rows that it says it has.
@@ -120,6 +124,7 @@ impl StoredMatrix {
             Values::Steps(steps) => steps.values(rows, columns)?,
             Values::Curves(curves) => curves.values(rows, columns)?,
             Values::Packed(curves, misses) => curves.with_misses(&misses)?.values(rows, columns)?,
+            Values::Sorted(curves, misses) => curves.with_sorted(misses, rows)?.values(rows, columns)?,
             Values::Weights(_) => return None,
         };
         let sound = values.len() == count && values.iter().all(|v| v.is_finite());
@@ -296,6 +301,6 @@ mod tests {
         assert!(stored.into_basis(150).unwrap().modes == modes);
         // What packs so well that a few bytes would ask for much is not packed.
         let still = Curves { misses: vec![0; plain.misses.len()], ..plain };
-        assert!(matches!(still.packed(), Values::Curves(_)));
+        assert!(matches!(still.packed(&[true; 150]), Values::Curves(_)));
     }
 }

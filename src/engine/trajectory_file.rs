@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// What the versions of models in time count on from: programs that know none of them say that the file is newer.
 const KIND: u32 = 1 << 16;
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const FORMAT: Format =
     Format { magic: MAGIC, version: KIND + VERSION, oldest: KIND + 1, whole_hash: 0, max_payload: MAX_PAYLOAD };
 

@@ -2,6 +2,7 @@
 //! before.
 
 use super::Values;
+use super::sorted::{Neighbours, Sorted};
 use crate::engine::packed::{packed, unpacked};
 use pco::{ChunkConfig, DeltaSpec, ModeSpec};
 use rayon::prelude::*;
@@ -14,6 +15,8 @@ const MOST_ALONG: u8 = 5;
 const MOST_BESIDE: u8 = 2;
 /// So many packed misses take a byte at most.
 const MOST_PACKED: usize = 4;
+/// Bytes by which the numbers of kinds exceed those of their packed misses, at most.
+const OF_KINDS: usize = 300;
 
 /// Columns over a grid as multiples of 2^(exponent of the row + exponent of the column).
 #[derive(Clone, Serialize, Deserialize)]
@@ -32,15 +35,20 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    /// With the misses packed, unless they are so few bytes that reading them would make much of little.
-    pub fn packed(mut self) -> Values {
+    /// With the misses of these rows packed, by kinds where there are enough of them, unless they are so few bytes that
+    /// reading them would make much of little.
+    pub fn packed(mut self, used: &[bool]) -> Values {
         let settings = ChunkConfig::default().with_mode_spec(ModeSpec::Classic).with_delta_spec(DeltaSpec::NoOp);
-        match packed(&self.misses, &settings, MOST_PACKED) {
-            Some(packed) => {
-                self.misses.clear();
-                Values::Packed(self, packed)
+        let together = packed(&self.misses, &settings, MOST_PACKED);
+        let neighbours = Neighbours::of(used, self.across);
+        let sorted = Sorted::of(&self.misses, (&neighbours, self.column_exponents.len()), &settings, MOST_PACKED);
+        let misses = std::mem::take(&mut self.misses);
+        match (sorted, together) {
+            (Some(sorted), Some(together)) if sorted.bytes() + OF_KINDS < together.len() => {
+                Values::Sorted(self, sorted)
             }
-            None => Values::Curves(self),
+            (_, Some(together)) => Values::Packed(self, together),
+            _ => Values::Curves(Self { misses, ..self }),
         }
     }
 
@@ -49,6 +57,15 @@ impl Curves {
     pub fn with_misses(mut self, packed: &[u8]) -> Option<Self> {
         let count = self.row_exponents.len().checked_mul(self.column_exponents.len())?;
         self.misses = unpacked(count, packed, MOST_PACKED)?;
+        Some(self)
+    }
+
+    /// The same of misses that were sorted, of so many rows.
+    pub fn with_sorted(mut self, sorted: Sorted, rows: usize) -> Option<Self> {
+        let fits =
+            |used: &Vec<bool>| self.across > 0 && used.iter().filter(|used| **used).count() == self.row_exponents.len();
+        let neighbours = Neighbours::of(&flags(&self.runs, rows).filter(fits)?, self.across);
+        self.misses = sorted.into_numbers(&neighbours, self.column_exponents.len(), MOST_PACKED)?;
         Some(self)
     }
 

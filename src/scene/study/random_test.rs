@@ -99,7 +99,7 @@ const REPORT_EVERY: usize = 32;
 /// One column of the table, of a test and its truth.
 type Compared = (&'static str, fn(&Test, &Film) -> f64);
 
-const COLUMNS: [Compared; 17] = [
+const COLUMNS: [Compared; 21] = [
     ("M", |test, _| test.point.moes().m),
     ("L", |test, _| test.point.moes().l),
     ("alpha", |test, _| test.point.alpha_per_pa),
@@ -117,6 +117,10 @@ const COLUMNS: [Compared; 17] = [
     ("traction_full", |_, full| full.traction),
     ("mid_film_rise_k", |test, _| test.film.unwrap_or(Film::NONE).mid_film_rise_k()),
     ("mid_film_rise_k_full", |_, full| full.mid_film_rise_k()),
+    ("H_c_bound", |test, _| test.bounds()[0].unwrap_or(f64::NAN)),
+    ("H_min_bound", |test, _| test.bounds()[1].unwrap_or(f64::NAN)),
+    ("traction_bound", |test, _| test.bounds()[2].unwrap_or(f64::NAN)),
+    ("mid_film_rise_bound", |test, _| test.bounds()[3].unwrap_or(f64::NAN)),
 ];
 
 impl Film {

@@ -8,8 +8,8 @@
 //! whatever the law misses.
 //!
 //! Windows around anchors are too many for hundreds of measured errors each, and the errors of one model follow one law:
-//! the law is that of all evidence together, the quantile that of the window's own and of some of theirs, and how large
-//! errors are around a place each window's own evidence says.
+//! the law is that of all evidence together, with what a window's own says of its linear terms, the quantile that of the
+//! window's own and of some of theirs, and how large errors are around a place each window's own evidence says.
 //!
 //! What the quantile counts in decides how loose a bound is. Of errors that are normally distributed, with a size known
 //! everywhere, no bound that holds for 99.6 % is less than 4.3 times the true error in the median; counted in the local

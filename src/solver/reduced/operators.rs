@@ -6,6 +6,7 @@ mod least_squares;
 mod newton;
 mod shaped;
 mod support;
+mod traction;
 
 pub(crate) use front::{cut_off, fronts, passed_rows};
 pub use heat::Warmth;
@@ -17,15 +18,14 @@ use self::heat::Heated;
 use self::least_squares::LeastSquares;
 use self::shaped::Shaped;
 use self::support::{StateRows, Support};
+use self::traction::Rule;
 use super::dense::{self, SmallSystem};
 use super::minimisation::Scheme;
 use super::model::{Window, deformation_weights};
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
-use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::discrete::reynolds::{CENTER, RowGeometry, STENCIL};
-use crate::solver::full::heat::mid_stress_pa;
-use crate::solver::full::{Problem, mid_film_stress};
+use crate::solver::full::Problem;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 use faer::{Mat, MatRef};
@@ -50,8 +50,8 @@ pub(crate) struct Operators {
     residual_reconstruction: Option<Mat<f64>>,
     /// wᵀ V_p.
     load_row: Vec<f64>,
-    /// Places in the support, and weights, of the rule for the traction; empty without one.
-    traction: Vec<(usize, f64)>,
+    /// The rule for an isothermal traction; none of a model that knows no sliding.
+    rule: Option<Rule>,
     /// V_δ V_δᵀ W K V_p over the whole node array, for reconstruction; none where the exact K V_p is used, which the
     /// window has.
     projected: Option<Mat<f64>>,
@@ -97,18 +97,22 @@ impl Operators {
     /// Operators with the first `modes` pressure modes and, if given, the first `deformation_modes` deformation modes;
     /// `thinning` for lubricants that thin under shear.
     pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>, thinning: bool) -> Self {
-        Self::with_support(window, modes, deformation_modes, thinning, &[])
+        let mut out = Self::with_support(window, modes, deformation_modes, thinning, &[]);
+        out.rule = Rule::of(window, (out.modes, out.axes), out.projected.as_ref());
+        out
     }
 
     /// Operators of contacts with heat.
     pub fn with_heat(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
-        let further = heat::further_nodes(&window.grid);
+        let (nodes, weights) = window.traction.as_ref().map(|rule| rule.over(&window.grid)).unwrap_or_default();
+        let further = [heat::further_nodes(&window.grid), nodes.clone()].concat();
         let mut out = Self::with_support(window, modes, deformation_modes, true, &further);
-        let rule = out.traction.iter().map(|(place, _)| *place);
-        let mut films: Vec<usize> = out.stencil.iter().flatten().copied().chain(rule).collect();
+        let rule: Vec<(usize, f64)> = nodes.iter().map(|node| out.place(*node)).zip(weights).collect();
+        let asked = rule.iter().map(|(place, _)| *place);
+        let mut films: Vec<usize> = out.stencil.iter().flatten().copied().chain(asked).collect();
         films.sort_unstable();
         films.dedup();
-        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support.places, films)));
+        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support.places, films, rule)));
         out
     }
 
@@ -139,40 +143,19 @@ impl Operators {
         };
         let rows = &window.sampled_rows;
         let (stencils, geometry): (Vec<_>, Vec<_>) = rows.iter().map(|&row| reference.row(row)).unzip();
-        let rule = window.traction.iter().flat_map(|rule| &rule.nodes);
         let ruptures = window.cavitation == Cavitation::Complementarity;
         let passed = if ruptures { front::support(window) } else { Vec::new() };
-        let own: Vec<usize> = stencils.iter().flatten().chain(further).chain(rule).copied().collect();
+        let own: Vec<usize> = stencils.iter().flatten().chain(further).copied().collect();
         let support = Support::new(reference, own, passed);
         let nodes = support.nodes();
         let stencil = stencils.iter().map(|stencil| stencil.map(|node| support.place(node))).collect();
-        let own = window.pressure.at(&nodes, modes);
-        let deformation = match &projected {
-            Some(projected) => Mat::from_fn(nodes.len(), modes, |i, k| projected[(nodes[i], k)]),
-            None => window.pressure.flexed_at(&nodes, modes),
-        };
+        let deformation = deformed_at(window, projected.as_ref(), &nodes, modes);
         let axes = match reference.kind() {
             _ if !thinning => 0,
             ContactKind::Line => 1,
             ContactKind::Point => 2,
         };
-        let rows_of =
-            |values: &Mat<f64>| -> Vec<f64> { values.row_iter().flat_map(|row| row.iter().copied()).collect() };
-        let mut state =
-            StateRows { modes, values: rows_of(&own), deformations: rows_of(&deformation), gradients: Vec::new() };
-        if axes > 0 {
-            let (gradient, (_, ny)) = (reference.gradient(), reference.nodes());
-            let basis = &window.pressure.basis().modes;
-            let columns: Vec<Vec<f64>> = (0..modes).map(|k| basis.col(k).iter().copied().collect()).collect();
-            for axis in 0..axes {
-                for &node in &nodes {
-                    let at = |column: &Vec<f64>| gradient.at(column, node / ny, node % ny)[axis];
-                    state.gradients.extend(columns.iter().map(at));
-                }
-            }
-        }
-        let traction = window.traction.iter().flat_map(|rule| rule.nodes.iter().zip(&rule.weights));
-        let traction = traction.map(|(&node, &weight)| (support.place(node), weight)).collect();
+        let mut state = StateRows::of(window, &nodes, (modes, axes), &deformation);
         let weights = reference.weights();
         let load_row = window.pressure.carried(weights, modes);
         let front = ruptures.then(|| {
@@ -199,7 +182,7 @@ impl Operators {
             },
             residual_reconstruction: window.residual_reconstruction.clone(),
             load_row,
-            traction,
+            rule: None,
             projected,
             deformation_error,
             at_zero: None,
@@ -255,27 +238,15 @@ impl Operators {
         sampled.chain(passed).map(|place| self.scratch.nodes[place].flow)
     }
 
-    /// Traction coefficient (3.41) of the state evaluated last, by the window's rule; `None` where it has none. With heat
-    /// it is that of the film with the temperatures of the last turns.
-    pub fn traction(&self, problem: &Problem, scale: f64) -> Option<f64> {
-        if self.traction.is_empty() || self.axes == 0 {
-            return None;
+    /// Traction coefficient (3.41) of a state by the window's rule; `None` where it has none. With heat it is that of the
+    /// state evaluated last, with the temperatures of the last turns.
+    pub fn traction(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64) -> Option<f64> {
+        let Case { problem, scale, curvature, .. } = *case;
+        match (&self.heated, &mut self.rule) {
+            (Some(heated), _) => heated.traction(problem, scale, &self.support.places, &self.scratch.fields),
+            (None, Some(rule)) => Some(rule.traction(problem, (scale, curvature), (coefficients, h_0))),
+            (None, None) => None,
         }
-        let (s, count) = (&self.scratch, self.support.len());
-        if let Some((heated, heat)) = self.heated.as_ref().zip(problem.heat.as_ref()) {
-            let stress = heated.stress();
-            let (kind, places) = (problem.point.kind, &self.support.places);
-            let pressure = |k: usize| carried(kind, -1.0 + (places[k].xi + 1.0) * scale, s.fields[k]);
-            let of = |&(k, weight): &(usize, f64)| weight * mid_stress_pa(problem, heat, stress[k], pressure(k));
-            return Some(scale * self.traction.iter().map(of).sum::<f64>() * problem.point.area_per_load());
-        }
-        let gradients = &s.fields[2 * count..];
-        let stress = |&(k, weight): &(usize, f64)| {
-            let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
-            weight * mid_film_stress(problem, NodeState { pressure: s.fields[k], gradient, film: s.films[k] })
-        };
-        let force: f64 = self.traction.iter().map(stress).sum();
-        Some(scale * force * problem.point.area_per_load())
     }
 
     /// K V_p or V_δ V_δᵀ W K V_p over the whole node array of the window these operators are of.
@@ -327,10 +298,7 @@ impl Operators {
             _ => {
                 if self.at_zero.as_ref().is_none_or(|(of, _)| *of != scale) {
                     let nodes: Vec<usize> = zero.iter().map(|(node, _)| *node).collect();
-                    let deformation = match &self.projected {
-                        Some(whole) => Mat::from_fn(nodes.len(), self.modes, |i, k| whole[(nodes[i], k)]),
-                        None => window.pressure.flexed_at(&nodes, self.modes),
-                    };
+                    let deformation = deformed_at(window, self.projected.as_ref(), &nodes, self.modes);
                     let sum =
                         |k: usize| zero.iter().enumerate().map(|(i, (_, w))| w * deformation[(i, k)]).sum::<f64>();
                     self.at_zero = Some((scale, (0..self.modes).map(|k| scale * sum(k)).collect()));
@@ -359,5 +327,13 @@ impl Operators {
         if factor.is_finite() && factor > 0.0 {
             coefficients.iter_mut().for_each(|c| *c *= factor);
         }
+    }
+}
+
+/// K V_p of so many modes at some nodes, as far as a basis of deformations represents it where there is one.
+fn deformed_at(window: &Window, projected: Option<&Mat<f64>>, nodes: &[usize], modes: usize) -> Mat<f64> {
+    match projected {
+        Some(projected) => Mat::from_fn(nodes.len(), modes, |i, k| projected[(nodes[i], k)]),
+        None => window.pressure.flexed_at(nodes, modes),
     }
 }

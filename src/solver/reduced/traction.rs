@@ -1,22 +1,27 @@
 //! Traction (3.41) without large-scale work: the shear stress at mid-film of few nodes, with non-negative weights.
 //!
-//! The nodes are among those that the sampled rows depend on anyway, so that pressure, film and gradient are known
-//! there when the online iteration ends, and some more: rows crowd where the equations differ, and leave much of a contact
-//! whose stress is cut unseen. The weights are fitted by non-negative least squares to ∫τ dX/∫τ dX = 1 over many reduced
-//! solutions under sliding: each contact counts the same, however large its traction is.
+//! The nodes are among those that the sampled rows depend on and some more: rows crowd where the equations differ, and leave
+//! much of a contact whose stress is cut unseen. The weights are fitted by non-negative least squares to ∫τ dX/∫τ dX = 1
+//! over many reduced solutions under sliding: each contact counts the same, however large its traction is.
+//!
+//! A line without heat has so few nodes that all of them are asked, by the trapezoidal rule: where a limit begins to cut the
+//! stress, few nodes missed tractions by a hundred times what the reduced pressures do, and bounds had to allow for it
+//! everywhere.
 
 use super::cubature::GoalEquations;
 use super::model::Window;
 use crate::solver::discrete::grid::ContactGrid;
 use serde::{Deserialize, Serialize};
 
-/// Nodes of a rule. They cost little, being evaluated anyway; a third of them would err by more than the reduced fields.
-const NODES: usize = 180;
+/// Nodes of a rule, and of one with heat, whose nodes are evaluated in every turn. With a third of the latter rules would err
+/// by more than the reduced fields.
+const NODES: usize = 360;
+const NODES_WITH_HEAT: usize = 180;
 /// Along X every so many nodes may be taken that no sampled row depends on, and across.
 const BETWEEN: usize = 5;
 const BESIDE: usize = 3;
 
-/// Weights of the mid-film stress at few nodes.
+/// Weights of the mid-film stress at few nodes; without nodes of its own it is the trapezoidal rule over all of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TractionRule {
     /// Nodes of the window's grid, ascending.
@@ -26,9 +31,23 @@ pub struct TractionRule {
 }
 
 impl TractionRule {
-    /// The rule that reproduces ∫τ for the stresses of many solutions, each given at every node of a window's grid.
-    /// `None` when there are too few solutions, or the fit fails.
-    pub fn fit(window: &Window, stresses: &[Vec<f64>]) -> Option<Self> {
+    /// The trapezoidal rule over all nodes.
+    pub fn whole() -> Self {
+        Self { nodes: Vec::new(), weights: Vec::new() }
+    }
+
+    /// Nodes of a window's grid, ascending, and their weights in ξ and Y.
+    pub fn over(&self, grid: &ContactGrid) -> (Vec<usize>, Vec<f64>) {
+        if self.nodes.is_empty() {
+            return quadrature(grid).into_iter().enumerate().filter(|(_, weight)| *weight > 0.0).unzip();
+        }
+        (self.nodes.clone(), self.weights.clone())
+    }
+
+    /// The rule that reproduces ∫τ for the stresses of many solutions, with heat or without, each given at every node of a
+    /// window's grid. `None` when there are too few solutions, or the fit fails.
+    pub fn fit(window: &Window, heat: bool, stresses: &[Vec<f64>]) -> Option<Self> {
+        let most = if heat { NODES_WITH_HEAT } else { NODES };
         let quadrature = quadrature(&window.grid);
         let (_, across) = window.grid.nodes();
         let between = |node: &usize| (node / across).is_multiple_of(BETWEEN) && (node % across).is_multiple_of(BESIDE);
@@ -44,10 +63,10 @@ impl TractionRule {
                 equations.add(|node| quadrature[node] * stress[node] / force, quadrature.len());
             }
         }
-        if equations.count() < NODES {
+        if equations.count() < most {
             return None;
         }
-        let (nodes, relative) = equations.fit(NODES)?;
+        let (nodes, relative) = equations.fit(most)?;
         let weights = nodes.iter().zip(relative).map(|(&node, relative)| relative * quadrature[node]).collect();
         Some(Self { nodes, weights })
     }
@@ -56,7 +75,7 @@ impl TractionRule {
     pub fn sound(&self, grid: &ContactGrid) -> bool {
         self.nodes.len() == self.weights.len()
             && self.nodes.windows(2).all(|pair| pair[0] < pair[1])
-            && self.nodes.last().is_some_and(|&last| last < grid.len())
+            && self.nodes.last().is_none_or(|&last| last < grid.len())
             && self.weights.iter().all(|weight| weight.is_finite() && *weight >= 0.0)
     }
 }

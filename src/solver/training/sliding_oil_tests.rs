@@ -129,7 +129,9 @@ fn traction_does_not_jump_between_windows_and_knows_its_limits() {
         let solved = online.solve(&at(f64::from(step) / 200.0), laws).unwrap();
         blended += usize::from(!solved.beside.is_empty());
         let fields = online.reconstruct(&solved).unwrap().traction_coefficient();
-        assert!((solved.traction.unwrap() / fields - 1.0).abs() < 2e-2);
+        // A line's rule is that of the whole grid; a blend of tractions is near that of the blend.
+        let near = if solved.beside.is_empty() { 1e-9 } else { 1e-4 };
+        assert!((solved.traction.unwrap() / fields - 1.0).abs() < near);
         tractions.push(solved.traction.unwrap().ln());
     }
     assert!((2..200).contains(&blended), "{blended}");

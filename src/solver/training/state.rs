@@ -240,7 +240,7 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         }
         log.extend(state.windows[k].search.describe(&spec.plan));
         if let Some(rule) = &trained.traction {
-            log.push(format!("traction from the stress at {} nodes", rule.nodes.len()));
+            log.push(format!("traction from the stress at {} nodes", rule.over(&trained.grid).0.len()));
         }
         logs.push(log);
         windows.push(trained);

@@ -3,7 +3,7 @@
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
 use super::{Range, TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
 use fastrand::Rng;
@@ -26,7 +26,8 @@ pub(super) fn drawn(spec: &TrainingSpec, rng: &mut Rng) -> Lubricant {
     }
 }
 
-/// Fits the rule of a window to reduced solutions of the contacts that it serves, `model` being the model of it alone; `None` where the fit fails.
+/// Fits the rule of a window to reduced solutions of the contacts that it serves, `model` being the model of it alone; `None`
+/// where the fit fails. That of a line without heat is the whole grid's.
 ///
 /// # Errors
 /// When the observer cancels.
@@ -37,6 +38,9 @@ pub(super) fn traction_rule(
     seed: u64,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<TractionRule>, TrainingError> {
+    if spec.contact() == ContactKind::Line && !spec.warms_a_line() {
+        return Ok(Some(TractionRule::whole()));
+    }
     let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);
     let solutions = if spec.warms_a_plane() { SOLUTIONS_OF_WARM_PLANES } else { SOLUTIONS };
     let mut points: Vec<OperatingPoint> = served.random_points(solutions, &mut rng);
@@ -52,6 +56,6 @@ pub(super) fn traction_rule(
         fields.ok().map(|fields| fields.mid_film_stress())
     })?;
     let stresses: Vec<Vec<f64>> = stresses.into_iter().flatten().collect();
-    let model = Arc::clone(model);
-    on_one_thread(observer, move || TractionRule::fit(model.windows.first()?, &stresses))
+    let (model, heat) = (Arc::clone(model), spec.lubricant.heat.is_some());
+    on_one_thread(observer, move || TractionRule::fit(model.windows.first()?, heat, &stresses))
 }

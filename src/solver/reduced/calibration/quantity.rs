@@ -14,11 +14,15 @@ const BELIEF: f64 = 0.8;
 /// Share of the overall mean square in the local one.
 const COMMON: f64 = 0.1;
 /// Part of the evidence that must lie below the bound; more than the 99 % promised, since fresh points scatter.
-const QUANTILE: f64 = 0.995;
+const QUANTILE: f64 = 0.994;
 
 /// As so many pieces of a window's own evidence counts what all windows say of how far errors scatter: a few hundred scores
 /// alone hardly tell beyond which of them one in two hundred lies.
 const OTHERS: f64 = 400.0;
+
+/// As so many further pieces of evidence, at which a window's errors follow the law of all windows, that law may count
+/// against the window's own.
+const OWN_RIDGES: [f64; 6] = [1.0, 3.0, 10.0, 30.0, 100.0, 1e6];
 
 /// Leverage of the law beyond which no more is made of it.
 const MOST_LEVERAGE: f64 = 0.5;
@@ -49,13 +53,15 @@ impl Quantity {
         if known.len() < LEAST_EVIDENCE {
             return None;
         }
-        let law = least_squares(&known)?;
-        let windows = terms.iter().zip(logs).map(|(terms, logs)| {
-            let surplus = terms.iter().zip(logs).map(|(terms, log)| kept_surplus(log - dot(&law, terms))).collect();
-            Self { law: law.clone(), ..Self::of_surplus(surplus) }
+        let common = least_squares(&known)?;
+        let share = common.len() as f64 / known.len() as f64;
+        let windows = own_laws(&common, terms, logs)?.into_iter().zip(terms).zip(logs).map(|((own, terms), logs)| {
+            let surplus = terms.iter().zip(logs).map(|(terms, log)| kept_surplus(log - dot(&own.law, terms))).collect();
+            let unseen = 1.0 / (1.0 - (share + own.leverage).min(MOST_LEVERAGE));
+            (Self { law: own.law, ..Self::of_surplus(surplus) }, unseen)
         });
-        let mut windows: Vec<Self> = windows.collect();
-        measure(&mut windows, neighbours);
+        let (mut windows, unseen): (Vec<Self>, Vec<f64>) = windows.unzip();
+        measure(&mut windows, &unseen, neighbours);
         Some(windows)
     }
 
@@ -97,28 +103,68 @@ pub(super) fn quadratic(x: &[f64]) -> Vec<f64> {
     [1.0].into_iter().chain(x.iter().copied()).chain(products).collect()
 }
 
+/// The law of one window.
+struct OwnLaw {
+    law: Vec<f64>,
+    /// Mean leverage of what its own evidence adds.
+    leverage: f64,
+    /// Squares of what it misses of the window's evidence, as if that had not been seen.
+    missed: f64,
+}
+
+/// The laws of windows: that of all, and beside it what each one's own evidence says of the linear terms, against as much
+/// of the common law as misses least of evidence that was not seen (generalised cross-validation).
+fn own_laws(common: &[f64], terms: &[Vec<Vec<f64>>], logs: &[Vec<f64>]) -> Option<Vec<OwnLaw>> {
+    let with = |ridge: &f64| {
+        let own = terms.iter().zip(logs).map(|(terms, logs)| own_law(common, terms, logs, *ridge));
+        own.collect::<Option<Vec<OwnLaw>>>()
+    };
+    let missed = |laws: &Vec<OwnLaw>| laws.iter().map(|own| own.missed).sum::<f64>();
+    OWN_RIDGES.iter().filter_map(with).min_by(|a, b| missed(a).total_cmp(&missed(b)))
+}
+
+fn own_law(common: &[f64], terms: &[Vec<f64>], logs: &[f64], ridge: f64) -> Option<OwnLaw> {
+    let known = terms.iter().zip(logs).filter(|(_, log)| log.is_finite());
+    let known: Vec<(&[f64], f64)> = known.map(|(terms, log)| (terms.as_slice(), log - dot(common, terms))).collect();
+    // 1 + n + n(n + 1)/2 terms are of n features.
+    let linear = (0..common.len()).find(|n| (n + 1) * (n + 2) / 2 == common.len())? + 1;
+    let product = |r: usize, c: usize| known.iter().map(|(terms, _)| terms[r] * terms[c]).sum::<f64>();
+    let products = Mat::from_fn(linear, linear, product);
+    let normal = Mat::from_fn(linear, linear, |r, c| products[(r, c)] + if r == c { ridge } else { 0.0 });
+    // What the window adds, and what its own evidence weighs in it.
+    let right = Mat::from_fn(linear, 1 + linear, |r, c| match c {
+        0 => known.iter().map(|(terms, rest)| terms[r] * rest).sum::<f64>(),
+        _ => products[(r, c - 1)],
+    });
+    let solved = dense::solved(normal.as_ref(), right);
+    let added: Vec<f64> = solved.col(0).iter().copied().collect();
+    let leverage = (0..linear).map(|k| solved[(k, k + 1)]).sum::<f64>() / known.len().max(1) as f64;
+    let rest = |(terms, rest): &(&[f64], f64)| (rest - dot(&added, terms)).powi(2);
+    let missed = known.iter().map(rest).sum::<f64>() / (1.0 - leverage.min(MOST_LEVERAGE)).powi(2);
+    let mut law = common.to_vec();
+    law.iter_mut().zip(&added).for_each(|(law, own)| *law += own);
+    (missed.is_finite() && law.iter().all(|v| v.is_finite())).then_some(OwnLaw { law, leverage, missed })
+}
+
 /// What bounds need beside the law, from the surpluses of several windows. Errors change their sign over the range and
 /// are tiny beside the places where they do: logarithms scatter much there and say nothing about how large an error can
 /// be. So the bound counts in the root mean square of the errors around, relative to the law.
 ///
 /// The law was fitted to the very errors that it is held against, as if its freedom were evidence. Each would be missed
-/// by 1/(1 − h) as much had the law not seen it, h being its leverage, on average terms over evidence (generalised
-/// cross-validation).
-fn measure(windows: &mut [Quantity], neighbours: &[Vec<Neighbours>]) {
-    let (mut freedom, mut evidence) = (0, 0);
+/// by `unseen` = 1/(1 − h) as much had the law not seen it, h being its leverage, on average terms over evidence
+/// (generalised cross-validation).
+fn measure(windows: &mut [Quantity], unseen: &[f64], neighbours: &[Vec<Neighbours>]) {
     for own in &mut *windows {
         let squares = own.squares.iter().filter(|square| square.is_finite());
         let count = squares.clone().count();
         own.mean_square = squares.map(|square| f64::from(*square)).sum::<f64>() / count.max(1) as f64;
-        (freedom, evidence) = (own.law.len(), evidence + count);
     }
-    let unseen = 1.0 / (1.0 - (freedom as f64 / evidence.max(1) as f64).min(MOST_LEVERAGE));
-    let scores_of = |(own, neighbours): (&Quantity, &Vec<Neighbours>)| {
+    let scores_of = |((own, unseen), neighbours): ((&Quantity, &f64), &Vec<Neighbours>)| {
         let known = own.surplus.iter().zip(neighbours).filter(|(surplus, _)| surplus.is_finite());
         let score = |(surplus, near): (&f32, &Neighbours)| (unseen * f64::from(*surplus)).exp() / own.size(near);
         known.map(score).collect::<Vec<f64>>()
     };
-    let scores: Vec<Vec<f64>> = windows.iter().zip(neighbours).map(scores_of).collect();
+    let scores: Vec<Vec<f64>> = windows.iter().zip(unseen).zip(neighbours).map(scores_of).collect();
     let all = scores.concat();
     // A window alone has no others.
     let others = if windows.len() > 1 { OTHERS / all.len().max(1) as f64 } else { 0.0 };

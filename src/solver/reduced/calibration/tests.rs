@@ -103,6 +103,27 @@ fn windows_with_little_evidence_each_learn_together() {
 }
 
 #[test]
+fn windows_whose_errors_grow_in_other_directions_have_laws_of_their_own() {
+    let window = |k: usize, count: usize, seed: u64| -> Vec<Evidence> {
+        let mut cases = signed(count, seed);
+        let slope = if k.is_multiple_of(2) { 2.0 } else { -2.0 };
+        cases.iter_mut().for_each(|case| case.errors.h_c *= (slope * (case.features.values[0] - 3.5)).exp());
+        cases
+    };
+    let evidence: Vec<Vec<Evidence>> = (0..12).map(|k| window(k, 100, k as u64)).collect();
+    let slices: Vec<&[Evidence]> = evidence.iter().map(Vec::as_slice).collect();
+    let mut ratios = Vec::new();
+    for (k, calibration) in Calibration::fit_together(&slices).into_iter().map(Option::unwrap).enumerate() {
+        let ratio = |case: &Evidence| calibration.estimate(&case.features).h_c.bound / case.errors.h_c;
+        ratios.extend(window(k, 200, 100 + k as u64).iter().map(ratio));
+    }
+    ratios.sort_by(f64::total_cmp);
+    assert!(ratios[24] >= 1.0, "the bound covers 99 %: {}", ratios[24]);
+    // One law for all has 8; the best there is has 4.3.
+    assert!(ratios[1200] < 5.5, "{}", ratios[1200]);
+}
+
+#[test]
 fn a_residual_beyond_the_evidence_raises_the_bound_in_proportion() {
     let evidence = synthetic(300, 3);
     let calibration = Calibration::fit(&evidence).unwrap();

@@ -76,7 +76,7 @@ pub(super) fn attempt(
     let h_c = h_0 + (operators.lifted(&lift, &coefficients) + offset);
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
-        let traction = operators.traction(problem, scale);
+        let traction = operators.traction(&case, &coefficients, h_0);
         let fronts = operators.fronts().collect();
         let heat = operators.warmth(problem);
         Ok(Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat })

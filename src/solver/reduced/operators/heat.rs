@@ -9,7 +9,7 @@ use crate::solver::discrete::grid::{ContactGrid, INLET};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, RULE, Spread, WarmFilm, apply};
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::Problem;
-use crate::solver::full::heat::{Mixing, Rises, one_sided};
+use crate::solver::full::heat::{Mixing, Rises, mid_stress_pa, one_sided};
 use crate::solver::physics::contact::ContactKind;
 use std::sync::Arc;
 
@@ -137,6 +137,8 @@ pub(super) struct Heated {
     x: Vec<f64>,
     /// Places in the support at which rows and the traction want a film.
     films: Vec<usize>,
+    /// Places among them, and weights, of the rule for the traction; empty without one.
+    rule: Vec<(usize, f64)>,
     /// How these have their temperatures at a scale, and the film's temperatures on the support.
     spread: (f64, Spread),
     film: WarmFilm,
@@ -163,8 +165,8 @@ impl Warmth {
 }
 
 impl Heated {
-    /// With films wanted at some places of a support.
-    pub fn new(grid: &ContactGrid, support: &[Place], films: Vec<usize>) -> Self {
+    /// With films wanted at some places of a support, and by a rule for the traction at some of these.
+    pub fn new(grid: &ContactGrid, support: &[Place], films: Vec<usize>, rule: Vec<(usize, f64)>) -> Self {
         let place = |node: usize| support.partition_point(|place| place.node < node);
         let stations = Stations::of(grid);
         let looked = stations
@@ -182,6 +184,7 @@ impl Heated {
             ordinates: y,
             x: vec![0.0; support.len()],
             films,
+            rule,
             spread: (1.0, spread),
             film,
             mixing: Mixing::default(),
@@ -195,9 +198,13 @@ impl Heated {
         (&mut self.film, &self.films)
     }
 
-    /// τ̄_m at the support.
-    pub fn stress(&self) -> &[f64] {
-        &self.film.stress
+    /// The traction coefficient of the last turns, given the support and P there; `None` without a rule for it.
+    pub fn traction(&self, problem: &Problem, scale: f64, places: &[Place], pressure: &[f64]) -> Option<f64> {
+        let heat = problem.heat.as_ref().filter(|_| !self.rule.is_empty())?;
+        let carried = |k: usize| carried(problem.point.kind, -1.0 + (places[k].xi + 1.0) * scale, pressure[k]);
+        let stress = |k: usize| mid_stress_pa(problem, heat, self.film.stress[k], carried(k));
+        let force: f64 = self.rule.iter().map(|&(k, weight)| weight * stress(k)).sum();
+        Some(scale * force * problem.point.area_per_load())
     }
 
     /// Puts the lines as far apart as those of an ellipse lie.

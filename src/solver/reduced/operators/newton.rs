@@ -194,8 +194,7 @@ impl Operators {
         for part in seen(self.support.own, self.front.as_ref()) {
             let places = self.support.places[part.clone()].iter().zip(&deformation[part.clone()]);
             for (film, (place, deformation)) in s.films[part].iter_mut().zip(places) {
-                let x = -1.0 + (place.xi + 1.0) * scale;
-                *film = offset + (0.5 * curvature * x * x + place.across) + scale * deformation;
+                *film = offset + place.gap(scale, curvature) + scale * deformation;
             }
         }
     }

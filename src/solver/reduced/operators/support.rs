@@ -2,7 +2,9 @@
 
 use super::front::Front;
 use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::reduced::model::Window;
 use crate::solver::reduced::sums::rows_times;
+use faer::Mat;
 use std::ops::Range;
 
 /// Where a node lies.
@@ -12,6 +14,14 @@ pub(super) struct Place {
     pub xi: f64,
     /// Y²/2: what the undeformed gap has across.
     pub across: f64,
+}
+
+impl Place {
+    /// The gap of the undeformed bodies there, with H₀ = 0.
+    pub fn gap(&self, scale: f64, curvature: f64) -> f64 {
+        let x = -1.0 + (self.xi + 1.0) * scale;
+        0.5 * curvature * x * x + self.across
+    }
 }
 
 /// Nodes, each once.
@@ -82,6 +92,36 @@ pub(super) struct StateRows {
 }
 
 impl StateRows {
+    /// Those of a window's modes at these nodes, whose deformation is given, with gradients along so many axes.
+    pub fn of(window: &Window, nodes: &[usize], (modes, axes): (usize, usize), deformation: &Mat<f64>) -> Self {
+        let rows_of =
+            |values: &Mat<f64>| -> Vec<f64> { values.row_iter().flat_map(|row| row.iter().copied()).collect() };
+        let values = rows_of(&window.pressure.at(nodes, modes));
+        let mut gradients = Vec::new();
+        if axes > 0 {
+            let (gradient, (_, ny)) = (window.grid.gradient(), window.grid.nodes());
+            let basis = &window.pressure.basis().modes;
+            let columns: Vec<Vec<f64>> = (0..modes).map(|k| basis.col(k).iter().copied().collect()).collect();
+            for axis in 0..axes {
+                for &node in nodes {
+                    let at = |column: &Vec<f64>| gradient.at(column, node / ny, node % ny)[axis];
+                    gradients.extend(columns.iter().map(at));
+                }
+            }
+        }
+        Self { modes, values, deformations: rows_of(deformation), gradients }
+    }
+
+    /// P, K P and the gradients of coefficients at all nodes, without a rupture boundary.
+    pub fn spread_all(&self, coefficients: &[f64], out: &mut [f64]) {
+        let count = self.values.len() / self.modes.max(1);
+        let (pressure, rest) = out.split_at_mut(count);
+        let (deformation, gradients) = rest.split_at_mut(count);
+        rows_times(&self.values, coefficients, pressure);
+        rows_times(&self.deformations, coefficients, deformation);
+        rows_times(&self.gradients, coefficients, gradients);
+    }
+
     /// K V_p.
     pub fn deformations<'a>(&'a self, front: Option<&'a Front>) -> &'a [f64] {
         front.map_or(&self.deformations, Front::deformations)
