@@ -146,15 +146,16 @@ fn a_light_ball_is_drawn_by_the_model_of_such_and_says_what_its_domain_leaves_ou
     let mut harness = crate::driver::window(explorer, [1280.0, 1500.0]);
     click(&mut harness, "Ball");
     for (name, value) in [("Lubricant number L", 5.0), ("Load number M", 7.8)] {
+        // It goes on to repaint as long as the model is being read.
         harness.get_by_label(name).set_value_accesskit(value);
-        harness.run();
+        harness.run_steps(2);
     }
     let of_model = |app: &Explorer| app.nodes() == Some((364, 51)) && !app.busy();
     let known = ["Verified", "Roughly right"];
     wait(&mut harness, "its true errors", |app| of_model(app) && known.contains(&app.badge().as_str()));
     let film = harness.state().central_film().unwrap();
     harness.get_by_label("Load number M").set_value_accesskit(3.5);
-    harness.run();
+    harness.run_steps(2);
     wait(&mut harness, "those of a lighter one", |app| of_model(app) && app.badge() == "Grid does not do");
     assert!(harness.state().central_film().unwrap() > 1.5 * film, "H counts in a²/R, and a is smaller");
     let detail = harness.state().badge_detail();
