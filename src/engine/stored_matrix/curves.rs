@@ -15,7 +15,7 @@ const MOST_ALONG: u8 = 5;
 const MOST_BESIDE: u8 = 2;
 /// So many packed misses take a byte at most.
 const MOST_PACKED: usize = 4;
-/// Bytes by which the numbers of kinds exceed those of their packed misses, at most.
+/// Bytes that kinds may take beside their packed misses: some six for each of some fifty.
 const OF_KINDS: usize = 300;
 
 /// Columns over a grid as multiples of 2^(exponent of the row + exponent of the column).

@@ -243,7 +243,7 @@ impl Operators {
     pub fn traction(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64) -> Option<f64> {
         let Case { problem, scale, curvature, .. } = *case;
         match (&self.heated, &mut self.rule) {
-            (Some(heated), _) => heated.traction(problem, scale, &self.support.places, &self.scratch.fields),
+            (Some(heated), _) => heated.traction(problem, scale, &self.scratch.fields),
             (None, Some(rule)) => Some(rule.traction(problem, (scale, curvature), (coefficients, h_0))),
             (None, None) => None,
         }

@@ -198,10 +198,10 @@ impl Heated {
         (&mut self.film, &self.films)
     }
 
-    /// The traction coefficient of the last turns, given the support and P there; `None` without a rule for it.
-    pub fn traction(&self, problem: &Problem, scale: f64, places: &[Place], pressure: &[f64]) -> Option<f64> {
+    /// The traction coefficient of the last turns, given P at the support; `None` without a rule for it.
+    pub fn traction(&self, problem: &Problem, scale: f64, pressure: &[f64]) -> Option<f64> {
         let heat = problem.heat.as_ref().filter(|_| !self.rule.is_empty())?;
-        let carried = |k: usize| carried(problem.point.kind, -1.0 + (places[k].xi + 1.0) * scale, pressure[k]);
+        let carried = |k: usize| carried(problem.point.kind, self.x[k], pressure[k]);
         let stress = |k: usize| mid_stress_pa(problem, heat, self.film.stress[k], carried(k));
         let force: f64 = self.rule.iter().map(|&(k, weight)| weight * stress(k)).sum();
         Some(scale * force * problem.point.area_per_load())

@@ -112,16 +112,6 @@ impl StateRows {
         Self { modes, values, deformations: rows_of(deformation), gradients }
     }
 
-    /// P, K P and the gradients of coefficients at all nodes, without a rupture boundary.
-    pub fn spread_all(&self, coefficients: &[f64], out: &mut [f64]) {
-        let count = self.values.len() / self.modes.max(1);
-        let (pressure, rest) = out.split_at_mut(count);
-        let (deformation, gradients) = rest.split_at_mut(count);
-        rows_times(&self.values, coefficients, pressure);
-        rows_times(&self.deformations, coefficients, deformation);
-        rows_times(&self.gradients, coefficients, gradients);
-    }
-
     /// K V_p.
     pub fn deformations<'a>(&'a self, front: Option<&'a Front>) -> &'a [f64] {
         front.map_or(&self.deformations, Front::deformations)

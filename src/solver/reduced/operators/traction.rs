@@ -2,7 +2,7 @@
 //! steps have ended, so that they know nothing of its nodes.
 
 use super::deformed_at;
-use super::support::{Place, StateRows, Support};
+use super::support::{StateRows, Support};
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::{Problem, mid_film_stress};
 use crate::solver::reduced::model::Window;
@@ -12,7 +12,7 @@ use faer::Mat;
 pub(super) struct Rule {
     /// Of each node in ξ and Y.
     weights: Vec<f64>,
-    places: Vec<Place>,
+    support: Support,
     state: StateRows,
     /// Work space: P, K P and the gradients.
     fields: Vec<f64>,
@@ -25,10 +25,10 @@ impl Rule {
     pub fn of(window: &Window, (modes, axes): (usize, usize), projected: Option<&Mat<f64>>) -> Option<Self> {
         let rule = window.traction.as_ref().filter(|_| axes > 0 && window.shapes.is_none())?;
         let (nodes, weights) = rule.over(&window.grid);
-        let places = Support::new(&window.grid, nodes.clone(), Vec::new()).places;
+        let support = Support::new(&window.grid, nodes.clone(), Vec::new());
         let deformation = deformed_at(window, projected, &nodes, modes);
         let state = StateRows::of(window, &nodes, (modes, axes), &deformation);
-        Some(Self { fields: vec![0.0; (2 + axes) * nodes.len()], weights, places, state })
+        Some(Self { fields: vec![0.0; (2 + axes) * nodes.len()], weights, support, state })
     }
 
     /// The traction coefficient of a state.
@@ -38,15 +38,15 @@ impl Rule {
         (scale, curvature): (f64, f64),
         (coefficients, h_0): (&[f64], f64),
     ) -> f64 {
-        let Self { weights, places, state, fields } = self;
-        state.spread_all(coefficients, fields);
-        let count = places.len();
+        let Self { weights, support, state, fields } = self;
+        state.spread(support, None, coefficients, fields);
+        let count = support.len();
         let (pressure, rest) = fields.split_at(count);
         let (deformation, gradients) = rest.split_at(count);
         let offset = h_0 - 0.5 * scale.ln();
         let stress = |k: usize| {
             let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
-            let film = offset + places[k].gap(scale, curvature) + scale * deformation[k];
+            let film = offset + support.places[k].gap(scale, curvature) + scale * deformation[k];
             mid_film_stress(problem, NodeState { pressure: pressure[k], gradient, film })
         };
         let force: f64 = weights.iter().enumerate().map(|(k, weight)| weight * stress(k)).sum();
