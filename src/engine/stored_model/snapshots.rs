@@ -7,17 +7,15 @@ use crate::engine::stored_matrix::StoredMatrix;
 use crate::solver::full::GridCost;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Sliding;
-use crate::solver::reduced::{ReducedModel, Snapshot, Window};
+use crate::solver::reduced::{
+    ALL_DIGITS, FILM_DIGITS, ReducedModel, START_ACCURACY, Snapshot, Window, kept_digits, kept_starts,
+};
 use faer::Mat;
 use pco::ChunkConfig;
 use serde::{Deserialize, Serialize};
 
-/// Bits of the significand of an f32, the leading one not counted. Contacts keep all of them, for some lie on the edges of what
-/// a model was trained for.
-const ALL_DIGITS: u32 = 23;
-/// Those that are kept of films, a relative step of 1.5e-5: starts are a hundred times as far off.
-const DIGITS: u32 = 16;
-/// Those of what the grid costs, which is an estimate.
+/// Bits of the significand of an f32 that are kept of what the grid costs, which is an estimate. Contacts keep all of them, for
+/// some lie on the edges of what a model was trained for.
 const FEW_DIGITS: u32 = 8;
 /// Films stand first among the numbers of a snapshot.
 const FILMS: usize = 2;
@@ -30,13 +28,6 @@ const MOST_PACKED: usize = 16;
 const NUMBERS: usize = 12;
 /// The last of them are costs.
 const COSTS: usize = 2;
-
-/// Accuracy of the coefficients of the first mode, relative to their size.
-const START_ACCURACY: f64 = 1e-3;
-/// How many times less exactly those of rare modes are kept at most: starts know little of these.
-const COARSEST: f64 = 20.0;
-/// How often they are rounded at most.
-const ROUNDS: usize = 6;
 
 /// The snapshots of all windows.
 #[derive(Serialize, Deserialize)]
@@ -72,7 +63,7 @@ impl Column {
 
     /// One that says how many there are.
     fn of_any(numbers: Vec<f64>, digits: u32) -> Self {
-        let numbers: Vec<f32> = numbers.into_iter().map(|number| kept(number, digits)).collect();
+        let numbers: Vec<f32> = numbers.into_iter().map(|number| kept_digits(number, digits)).collect();
         packed(&numbers, &ChunkConfig::default(), MOST_PACKED).map_or(Self::Plain(numbers), Self::Packed)
     }
 
@@ -95,8 +86,8 @@ impl StoredSnapshots {
         let columns: Vec<_> = (0..NUMBERS).map(column).collect();
         let costs = columns.last().is_some_and(Option::is_some);
         let columns = columns.into_iter().enumerate().map(|(k, own)| match own {
-            Some(own) if k == 0 => Column::of_any(own, DIGITS),
-            Some(own) if k < FILMS => Column::of(own, DIGITS),
+            Some(own) if k == 0 => Column::of_any(own, FILM_DIGITS),
+            Some(own) if k < FILMS => Column::of(own, FILM_DIGITS),
             Some(own) if k < NUMBERS - COSTS => Column::of(own, ALL_DIGITS),
             Some(own) if costs => Column::of(own, FEW_DIGITS),
             _ => Column::Plain(Vec::new()),
@@ -109,28 +100,12 @@ impl StoredSnapshots {
     }
 }
 
-/// The coefficients of a window's snapshots; no more than starts are made of them.
+/// The coefficients of a window's snapshots.
 pub(super) fn stored_coefficients(window: &Window) -> StoredMatrix {
     let (snapshots, modes) = (&window.snapshots, window.pressure.count());
     let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
-    let mut coefficients = Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default());
-    // Steps go with sizes, which rounding may change: what is written is what would be written again.
-    for _ in 0..ROUNDS {
-        let stored = rounded(&coefficients);
-        match stored.clone().into_mat(snapshots.len()) {
-            Some(again) if again != coefficients => coefficients = again,
-            _ => return stored,
-        }
-    }
-    rounded(&coefficients)
-}
-
-fn rounded(coefficients: &Mat<f64>) -> StoredMatrix {
-    let size = |k: usize| (coefficients.col(k).squared_norm_l2() / coefficients.nrows() as f64).sqrt();
-    let sizes: Vec<f64> = (0..coefficients.ncols()).map(|k| size(k).max(f64::MIN_POSITIVE)).collect();
-    let largest = sizes.iter().copied().fold(0.0, f64::max);
-    let scales: Vec<f64> = sizes.iter().map(|own| 1.0 / (own * (largest / own).sqrt().min(COARSEST))).collect();
-    StoredMatrix::stepped(coefficients, 1, &scales, [START_ACCURACY, 0.0])
+    let (scales, kept) = kept_starts(Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default()));
+    StoredMatrix::stepped(&kept, 1, &scales, [START_ACCURACY, 0.0])
 }
 
 /// Gives the snapshots of a window their coefficients; `None` where they do not fit.
@@ -150,15 +125,6 @@ fn numbers(snapshot: &Snapshot) -> [Option<f64>; NUMBERS] {
     let (srr, npr) = (Some(srr), Some(npr.unwrap_or(f64::NAN)));
     let [truncation, resolution] = [grid_cost.map(|cost| cost.truncation), grid_cost.map(|cost| cost.resolution)];
     [Some(*h_c), Some(*h_0), radius, speed, load, modulus, viscosity, alpha, srr, npr, truncation, resolution]
-}
-
-/// A number with so many digits of its significand, rounded to the nearest.
-fn kept(number: f64, digits: u32) -> f32 {
-    let single = number as f32;
-    let dropped = ALL_DIGITS.saturating_sub(digits);
-    let half = (1u32 << dropped) / 2;
-    let rounded = f32::from_bits(single.to_bits().wrapping_add(half) >> dropped << dropped);
-    if rounded.is_finite() { rounded } else { single }
 }
 
 /// The boundaries of all snapshots; none where one has no boundary, or they do not fit small numbers.
@@ -264,18 +230,11 @@ mod tests {
             give_snapshots(&mut windows, StoredSnapshots::of(&model)).unwrap();
             for (stored, window) in windows.iter().zip(&model.windows) {
                 assert_eq!(stored.snapshots.len(), window.snapshots.len());
-                let size = |k: usize| {
-                    window.snapshots.iter().map(|own| own.coefficients[k].abs()).fold(f64::MIN_POSITIVE, f64::max)
-                };
-                let sizes: Vec<f64> = (0..window.pressure.count()).map(size).collect();
+                let modes = window.pressure.count();
                 for (found, own) in stored.snapshots.iter().zip(&window.snapshots) {
                     assert_eq!((found.point.kind, &found.fronts), (own.point.kind, &own.fronts));
-                    let coefficients = found.coefficients.iter().zip(&own.coefficients).zip(&sizes);
-                    let coarser = |size: f64| (sizes[0] / size).sqrt().clamp(1.0, COARSEST);
-                    assert_eq!(found.coefficients.len(), if window.anchor.is_some() { 0 } else { sizes.len() });
-                    for ((found, own), size) in coefficients {
-                        assert!((found - own).abs() <= 4e-3 * coarser(*size) * size, "{found} and {own} of {size}");
-                    }
+                    assert_eq!(found.coefficients.len(), if window.anchor.is_some() { 0 } else { modes });
+                    assert!(found.coefficients.iter().zip(&own.coefficients).all(|(found, own)| found == own));
                     for (found, own) in found.point.quantities().into_iter().zip(own.point.quantities()) {
                         assert!((found - own).abs() <= 6e-8 * own.abs(), "{found} and {own}");
                     }
@@ -293,19 +252,6 @@ mod tests {
                     }
                 }
             }
-        }
-    }
-
-    #[test]
-    fn numbers_keep_their_digits_and_are_rounded_to_the_nearest() {
-        assert_eq!(kept(1.0, 16).to_bits(), 1f32.to_bits());
-        assert!((f64::from(kept(1.0 + 2f64.powi(-16), 16)) - 1.0 - 2f64.powi(-16)).abs() < 1e-12);
-        assert_eq!(kept(1.0 + 2f64.powi(-18), 16).to_bits(), 1f32.to_bits());
-        assert_eq!(kept(-2.0 + 2f64.powi(-18), 16).to_bits(), (-2f32).to_bits());
-        assert!(kept(f64::from(f32::MAX), 8).is_finite() && kept(f64::NAN, 8).is_nan());
-        for number in [0.0, 3.7e-9, -12.25, 8.1e10] {
-            let once = kept(number, 16);
-            assert_eq!(kept(f64::from(once), 16).to_bits(), once.to_bits(), "{number}");
         }
     }
 

@@ -290,17 +290,21 @@ impl<'a> Fit<'a> {
 
 /// Fewest rows per mode that are accepted: a rule with fewer leaves the reduced Jacobian (nearly) singular.
 const LEAST_ROWS_PER_MODE: f64 = 1.2;
+/// Share of the wanted rows below which pruning has gone too far: so few carry neither lines with heat, steps in time nor
+/// cold circles that slide.
+const LEAST_SHARE: f64 = 0.85;
 
-/// Sampled rows with G = V_Iᵀ diag(w ω), at most `target`; a rule of fewer than `few` gives way to a closer fit, where
-/// that has them. `None` when the equations are satisfied by too few rows to carry the modes: collect more of them.
-pub fn cubature(test: &TestSpace, equations: &GoalEquations, target: usize, few: usize) -> Option<SampledRows> {
+/// Sampled rows with G = V_Iᵀ diag(w ω), at most `target`; a rule of far fewer gives way to a closer fit, where that has
+/// them. `None` when the equations are satisfied by too few rows to carry the modes: collect more of them.
+pub fn cubature(test: &TestSpace, equations: &GoalEquations, target: usize) -> Option<SampledRows> {
     let modes = test.modes.ncols();
     let least = (LEAST_ROWS_PER_MODE * modes as f64).ceil() as usize;
+    let few = ((LEAST_SHARE * target as f64) as usize).max(least);
     let solved = equations.solve(target);
     let of = |count: usize| move |(rows, _): &(Vec<usize>, Vec<f64>)| rows.len() >= count;
     // Pruning lets neighbours go together where their columns hardly differ; the closer fit keeps one of them.
-    let closer = if solved.as_ref().is_some_and(of(few.max(least))) { None } else { equations.fit(target) };
-    let (rows, relative) = closer.filter(of(few.max(least))).or(solved.filter(of(least)))?;
+    let closer = if solved.as_ref().is_some_and(of(few)) { None } else { equations.fit(target) };
+    let (rows, relative) = closer.filter(of(few)).or(solved.filter(of(least)))?;
     let reconstruction =
         Mat::from_fn(modes, rows.len(), |k, r| relative[r] * test.weights[rows[r]] * test.modes[(rows[r], k)]);
     Some(SampledRows::tested(rows, reconstruction))

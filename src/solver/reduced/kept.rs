@@ -3,9 +3,10 @@
 //! A file has a mode's values as multiples of a power of two, one for each node times one for each mode: a mode that hardly
 //! appears in any solution needs few digits, and a node where pressures are small as many as any other, since the mobility
 //! of thick films multiplies what is lost there. Modes are rounded to these before rows are chosen and errors measured, so
-//! that a model that was trained and one that is read are the same, and bounds are those of both.
+//! that a model that was trained and one that is read are the same, and bounds are those of both. So are what starts are
+//! made of: where films are thin, what Newton's last step leaves of a start that is a thousandth off is what they are off.
 
-use super::model::Window;
+use super::model::{Snapshot, Window};
 use super::pod::PodBasis;
 use crate::solver::physics::contact::ContactKind;
 use faer::Mat;
@@ -20,6 +21,15 @@ const ROUNDS: usize = 8;
 /// Accuracy of what an interpolation makes of the values of its rows, relative to what it makes of all for a mode: residuals
 /// that are nearly zero are what it is given.
 pub const RULE_ACCURACY: f64 = 1e-4;
+
+/// Bits of the significand of an f32, the leading one not counted.
+pub const ALL_DIGITS: u32 = 23;
+/// Those that are kept of films of snapshots, a relative step of 1.5e-5: starts are a hundred times as far off.
+pub const FILM_DIGITS: u32 = 16;
+/// Accuracy of the coefficients of the first mode in snapshots, relative to their size.
+pub const START_ACCURACY: f64 = 1e-3;
+/// How many times less exactly those of rare modes are kept at most: starts know little of these.
+const COARSEST: f64 = 20.0;
 
 /// What decides how exactly the modes of a window are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,6 +127,48 @@ pub fn kept_rule(rule: Mat<f64>) -> Mat<f64> {
     Multiples::keep(rule, &scales, RULE_ACCURACY, 0.0).1
 }
 
+/// A number with so many digits of its significand, rounded to the nearest.
+pub fn kept_digits(number: f64, digits: u32) -> f32 {
+    let single = number as f32;
+    let dropped = ALL_DIGITS.saturating_sub(digits);
+    let half = (1u32 << dropped) / 2;
+    let rounded = f32::from_bits(single.to_bits().wrapping_add(half) >> dropped << dropped);
+    if rounded.is_finite() { rounded } else { single }
+}
+
+/// Coefficients of a window's snapshots, snapshots × modes, as they are kept, and the scales of their columns: no more than
+/// starts are made of them.
+pub fn kept_starts(mut coefficients: Mat<f64>) -> (Vec<f64>, Mat<f64>) {
+    // Steps go with sizes, which rounding may change: what is kept stays as it is when it is kept again.
+    for _ in 0..ROUNDS {
+        let (_, kept) = Multiples::keep(coefficients.clone(), &start_scales(&coefficients), START_ACCURACY, 0.0);
+        if kept == coefficients {
+            break;
+        }
+        coefficients = kept;
+    }
+    (start_scales(&coefficients), coefficients)
+}
+
+fn start_scales(coefficients: &Mat<f64>) -> Vec<f64> {
+    let size = |k: usize| (coefficients.col(k).squared_norm_l2() / coefficients.nrows() as f64).sqrt();
+    let sizes: Vec<f64> = (0..coefficients.ncols()).map(|k| size(k).max(f64::MIN_POSITIVE)).collect();
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    sizes.iter().map(|own| 1.0 / (own * (largest / own).sqrt().min(COARSEST))).collect()
+}
+
+/// Snapshots of a window, in so many modes, with their films and coefficients as they are kept.
+pub fn keep_snapshots(snapshots: &mut [Snapshot], modes: usize) {
+    let of = |snapshot: &Snapshot, k: usize| snapshot.coefficients.get(k).copied().unwrap_or_default();
+    let (_, kept) = kept_starts(Mat::from_fn(snapshots.len(), modes, |i, k| of(&snapshots[i], k)));
+    for (snapshot, kept) in snapshots.iter_mut().zip(kept.row_iter()) {
+        snapshot.coefficients = kept.iter().copied().collect();
+        for film in [&mut snapshot.h_0, &mut snapshot.h_c] {
+            *film = f64::from(kept_digits(*film, FILM_DIGITS));
+        }
+    }
+}
+
 impl PodBasis {
     /// How large each mode's share in the snapshots is, root mean square: σ_k over the root of their number.
     pub fn scales(&self) -> Vec<f64> {
@@ -164,6 +216,31 @@ mod tests {
                     assert!(off < 30.0 * accuracy * size, "{accuracy:e} {k} {i}: {off:e} of {size:e}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn starts_stay_as_they_are_when_they_are_kept_again_and_rare_modes_have_fewer_digits() {
+        let size = |k: usize| [1.3, 2e-2, 1e-5][k];
+        let coefficients = Mat::from_fn(40, 3, |i, k| size(k) * (1.0 + (i * (k + 2)) as f64 * 0.7).sin());
+        let (scales, kept) = kept_starts(coefficients.clone());
+        assert!(kept_starts(kept.clone()) == (scales, kept.clone()));
+        for (k, least) in [(0, 1e-5), (1, 1e-4), (2, 1e-3)] {
+            let off = (0..40).map(|i| (kept[(i, k)] - coefficients[(i, k)]).abs()).fold(0.0, f64::max) / size(k);
+            assert!(off > least && off < 2e-2, "{k}: {off:e}");
+        }
+    }
+
+    #[test]
+    fn numbers_keep_their_digits_and_are_rounded_to_the_nearest() {
+        assert_eq!(kept_digits(1.0, 16).to_bits(), 1f32.to_bits());
+        assert!((f64::from(kept_digits(1.0 + 2f64.powi(-16), 16)) - 1.0 - 2f64.powi(-16)).abs() < 1e-12);
+        assert_eq!(kept_digits(1.0 + 2f64.powi(-18), 16).to_bits(), 1f32.to_bits());
+        assert_eq!(kept_digits(-2.0 + 2f64.powi(-18), 16).to_bits(), (-2f32).to_bits());
+        assert!(kept_digits(f64::from(f32::MAX), 8).is_finite() && kept_digits(f64::NAN, 8).is_nan());
+        for number in [0.0, 3.7e-9, -12.25, 8.1e10] {
+            let once = kept_digits(number, 16);
+            assert_eq!(kept_digits(f64::from(once), 16).to_bits(), once.to_bits(), "{number}");
         }
     }
 

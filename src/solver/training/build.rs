@@ -15,7 +15,8 @@ use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, Opera
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
     CIRCLES, Combined, Domain, Keeping, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes,
-    SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, kept_rule, minimised_rows,
+    SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, keep_snapshots, kept_rule,
+    minimised_rows,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -342,7 +343,7 @@ fn bases(
         Some(deformation) => deformation,
         None => Arc::new(PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), deformation_loss)?),
     };
-    let snapshots = solutions
+    let mut snapshots: Vec<Snapshot> = solutions
         .iter()
         .zip(pressures.col_iter())
         .zip(own)
@@ -356,6 +357,7 @@ fn bases(
             grid_cost: s.grid_cost,
         })
         .collect();
+    keep_snapshots(&mut snapshots, pressure.count());
     Some((pressure, deformation, snapshots))
 }
 

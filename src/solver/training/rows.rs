@@ -22,9 +22,6 @@ use std::sync::Arc;
 /// one of all rows takes a second; of these no more trainings show theirs.
 const ROW_SNAPSHOT_SOLVES: usize = 160;
 const ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES: usize = 60;
-/// Share of the wanted rows below which a cubature does not carry a line with heat, whose modes are many: pruning has gone
-/// too far.
-const SHARE_OF_WARM_LINES: f64 = 0.85;
 /// Steps smaller than this are demanded to be right absolutely, larger ones relatively.
 const STEP_FLOOR: f64 = 0.03;
 /// Random functionals of Δp̃ per iterate, beside the one of ΔH_c, on a grid of few and of many rows.
@@ -157,15 +154,14 @@ fn sample(
     })?;
     observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
     let (of, rows_per_mode) = ((spec.scheme, spec.sampling), rows_per_mode.to_vec());
-    let share = if spec.warms_a_line() { SHARE_OF_WARM_LINES } else { 0.0 };
-    on_one_thread(observer, move || choose(&test, of, (&rows_per_mode, share), collected, none))
+    on_one_thread(observer, move || choose(&test, of, &rows_per_mode, collected, none))
 }
 
 /// The rows that all evidence together speaks for, for each number of them per mode.
 fn choose(
     test: &TestSpace,
     (scheme, sampling): (Scheme, Sampling),
-    (rows_per_mode, share): (&[f64], f64),
+    rows_per_mode: &[f64],
     collected: Vec<Evidence>,
     mut equations: GoalEquations,
 ) -> Vec<Option<SampledRows>> {
@@ -181,16 +177,16 @@ fn choose(
     }
     let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
     let counts: Vec<usize> = rows_per_mode.iter().map(count).collect();
-    rows_by(test, (scheme, sampling), (&rows, &equations), (&counts, share))
+    rows_by(test, (scheme, sampling), (&rows, &equations), &counts)
 }
 
 /// The rows that a scheme takes by what snapshots or, for a cubature, goal equations speak for: of each count, `None`
-/// where the linear algebra gives up. A cubature of less than a `share` of the count gives way to a closer fit.
+/// where the linear algebra gives up.
 pub(super) fn rows_by(
     test: &TestSpace,
     (scheme, sampling): (Scheme, Sampling),
     (rows, equations): (&RowSnapshots, &GoalEquations),
-    (counts, share): (&[usize], f64),
+    counts: &[usize],
 ) -> Vec<Option<SampledRows>> {
     let chosen = match sampling {
         _ if scheme != Scheme::Galerkin => {
@@ -198,10 +194,7 @@ pub(super) fn rows_by(
         }
         Sampling::QDeim => q_deim(test, rows, counts),
         Sampling::Greedy => counts.iter().map(|count| greedy(test, rows, *count)).collect(),
-        Sampling::Cubature => {
-            let few = |count: usize| (share * count as f64) as usize;
-            counts.iter().map(|&count| cubature(test, equations, count, few(count))).collect()
-        }
+        Sampling::Cubature => counts.iter().map(|count| cubature(test, equations, *count)).collect(),
         Sampling::All => counts.iter().map(|_| Some(all_rows(test))).collect(),
     };
     let finite = |chosen: &SampledRows| is_finite(chosen.reconstruction.as_ref());

@@ -17,9 +17,6 @@ use std::sync::Arc;
 const ITERATES: usize = 600;
 const LOCAL_ITERATES: usize = 300;
 
-/// Share of the wanted rows below which a cubature does not carry steps in time: pruning has gone too far.
-const SHARE: f64 = 0.85;
-
 /// What one march contributes.
 #[derive(Clone)]
 struct Evidence {
@@ -56,8 +53,7 @@ pub(super) fn sampled_rows(
         observer.progress(Progress { stage: "Row sampling".to_owned(), done, total });
         let target = (test.modes.ncols() as f64 * rows_per_mode).round() as usize;
         let of = (scheme, sampling);
-        let sampled =
-            on_one_thread(observer, move || rows_by(&test, of, (&seen.rows, &seen.goals), (&[target], SHARE)).pop())?;
+        let sampled = on_one_thread(observer, move || rows_by(&test, of, (&seen.rows, &seen.goals), &[target]).pop())?;
         Ok(sampled.flatten().filter(|rows| is_finite(rows.reconstruction.as_ref())))
     };
     tests.into_iter().zip(seen).enumerate().map(sample).collect()

@@ -43,8 +43,9 @@ impl ReducedModel {
             };
             gives(start::carried(snapshot, &problem.point))
                 || served.anchor.is_some()
-                    && kriged(&problem)
-                        .is_some_and(|guess| self.shares_of_modes().iter().any(|share| gives(guess.with_modes(*share))))
+                    && kriged(&problem).is_some_and(|guess| {
+                        self.shares_of_modes().0.iter().any(|share| gives(guess.with_modes(*share)))
+                    })
         });
         let wanted = GIVEN.min(snapshots.len());
         given.take(wanted).count() == wanted
