@@ -10,7 +10,6 @@ use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::{
     ALL_DIGITS, FILM_DIGITS, ReducedModel, START_ACCURACY, Snapshot, Window, kept_digits, kept_starts,
 };
-use faer::Mat;
 use pco::ChunkConfig;
 use serde::{Deserialize, Serialize};
 
@@ -102,9 +101,7 @@ impl StoredSnapshots {
 
 /// The coefficients of a window's snapshots.
 pub(super) fn stored_coefficients(window: &Window) -> StoredMatrix {
-    let (snapshots, modes) = (&window.snapshots, window.pressure.count());
-    let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
-    let (scales, kept) = kept_starts(Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default()));
+    let (scales, kept) = kept_starts(&window.snapshots, window.pressure.count());
     StoredMatrix::stepped(&kept, 1, &scales, [START_ACCURACY, 0.0])
 }
 

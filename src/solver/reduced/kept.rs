@@ -136,9 +136,14 @@ pub fn kept_digits(number: f64, digits: u32) -> f32 {
     if rounded.is_finite() { rounded } else { single }
 }
 
-/// Coefficients of a window's snapshots, snapshots × modes, as they are kept, and the scales of their columns: no more than
-/// starts are made of them.
-pub fn kept_starts(mut coefficients: Mat<f64>) -> (Vec<f64>, Mat<f64>) {
+/// Coefficients of a window's snapshots in so many modes, snapshots × modes, as they are kept, and the scales of their
+/// columns: no more than starts are made of them.
+pub fn kept_starts(snapshots: &[Snapshot], modes: usize) -> (Vec<f64>, Mat<f64>) {
+    let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
+    kept_coefficients(Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default()))
+}
+
+fn kept_coefficients(mut coefficients: Mat<f64>) -> (Vec<f64>, Mat<f64>) {
     // Steps go with sizes, which rounding may change: what is kept stays as it is when it is kept again.
     for _ in 0..ROUNDS {
         let (_, kept) = Multiples::keep(coefficients.clone(), &start_scales(&coefficients), START_ACCURACY, 0.0);
@@ -159,8 +164,7 @@ fn start_scales(coefficients: &Mat<f64>) -> Vec<f64> {
 
 /// Snapshots of a window, in so many modes, with their films and coefficients as they are kept.
 pub fn keep_snapshots(snapshots: &mut [Snapshot], modes: usize) {
-    let of = |snapshot: &Snapshot, k: usize| snapshot.coefficients.get(k).copied().unwrap_or_default();
-    let (_, kept) = kept_starts(Mat::from_fn(snapshots.len(), modes, |i, k| of(&snapshots[i], k)));
+    let (_, kept) = kept_starts(snapshots, modes);
     for (snapshot, kept) in snapshots.iter_mut().zip(kept.row_iter()) {
         snapshot.coefficients = kept.iter().copied().collect();
         for film in [&mut snapshot.h_0, &mut snapshot.h_c] {
@@ -223,8 +227,8 @@ mod tests {
     fn starts_stay_as_they_are_when_they_are_kept_again_and_rare_modes_have_fewer_digits() {
         let size = |k: usize| [1.3, 2e-2, 1e-5][k];
         let coefficients = Mat::from_fn(40, 3, |i, k| size(k) * (1.0 + (i * (k + 2)) as f64 * 0.7).sin());
-        let (scales, kept) = kept_starts(coefficients.clone());
-        assert!(kept_starts(kept.clone()) == (scales, kept.clone()));
+        let (scales, kept) = kept_coefficients(coefficients.clone());
+        assert!(kept_coefficients(kept.clone()) == (scales, kept.clone()));
         for (k, least) in [(0, 1e-5), (1, 1e-4), (2, 1e-3)] {
             let off = (0..40).map(|i| (kept[(i, k)] - coefficients[(i, k)]).abs()).fold(0.0, f64::max) / size(k);
             assert!(off > least && off < 2e-2, "{k}: {off:e}");

@@ -30,8 +30,6 @@ const FIRST_ATTEMPTS: usize = 12;
 /// most; from other starts films were off by up to 5e-2. Circles that thin under shear find their solutions from other starts,
 /// all but five of 20,000, which are tried with fewer modes at last. Of lines all modes count.
 static SHARES: [f64; 5] = [1.0, 0.875, 0.75, 0.625, 0.5];
-/// Those of an iteration that is shown to a training: all modes.
-const SHOWN: (&[f64], &[f64]) = (&[1.0], &[]);
 
 /// What the online phase returns: small numbers only; fields are reconstructed on request.
 #[derive(Clone, Debug, PartialEq)]
@@ -207,7 +205,7 @@ impl Online {
         let former = former.into_iter().filter(|_| former_first).flatten();
         let interpolated = std::iter::once_with(|| start::interpolated(window, point, thinning));
         let nearest = std::iter::once_with(|| start::nearest(window, point));
-        let (at_once, at_last) = if observer.is_none() { model.shares_of_modes() } else { SHOWN };
+        let (at_once, at_last) = if observer.is_none() { model.shares_of_modes() } else { all_modes() };
         let with = |shares: &'static [f64]| {
             kriged.iter().flat_map(move |guess| shares.iter().map(|share| guess.with_modes(*share)))
         };
@@ -309,13 +307,17 @@ impl ReducedSolution {
 impl ReducedModel {
     /// Shares of the modes with which its iterations are tried at once, and where no start led to a solution.
     fn shares_of_modes(&self) -> (&'static [f64], &'static [f64]) {
-        let (all, fewer) = SHARES.split_at(1);
         match (self.contact(), self.slides()) {
             (ContactKind::Point, false) => (&SHARES, &[]),
-            (ContactKind::Point, true) if self.domain.heat.is_none() => (all, fewer),
-            _ => (all, &[]),
+            (ContactKind::Point, true) if self.domain.heat.is_none() => SHARES.split_at(1),
+            _ => all_modes(),
         }
     }
+}
+
+/// No fewer than all modes: so are iterations that are shown to a training.
+fn all_modes() -> (&'static [f64], &'static [f64]) {
+    (SHARES.split_at(1).0, &[])
 }
 
 fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Operators {
