@@ -73,10 +73,8 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
 }
 
 #[test]
-fn its_traction_by_few_nodes_is_that_of_its_fields() {
+fn its_traction_without_fields_is_that_of_its_fields() {
     let mut online = online();
-    let rule = online.model.windows.iter().map(|window| window.traction.clone().unwrap());
-    assert!(rule.map(|rule| rule.nodes.len()).all(|nodes| (20..=180).contains(&nodes)));
     let mut off = Vec::new();
     for (k, point) in points(300).into_iter().enumerate() {
         // Every other one slides slowly.
@@ -91,10 +89,9 @@ fn its_traction_by_few_nodes_is_that_of_its_fields() {
             assert_eq!(solved.traction, Some(0.0));
         }
     }
-    off.sort_by(f64::total_cmp);
-    let (p95, worst) = (off[off.len() * 95 / 100], off[off.len() - 1]);
-    println!("rule of the traction against all nodes: 95 % {p95:.1e}, max {worst:.1e}");
-    assert!(p95 < 1e-3 && worst < 5e-3, "95 % {p95:.1e}, max {worst:.1e}");
+    let worst = off.into_iter().fold(0.0, f64::max);
+    println!("traction without fields against that of fields: {worst:.1e} at most");
+    assert!(worst < 1e-9, "{worst:.1e}");
 }
 
 #[test]
