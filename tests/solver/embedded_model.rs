@@ -88,6 +88,28 @@ fn corners_of_the_range_agree_with_full_solutions() {
 }
 
 #[test]
+fn bounds_allow_for_what_a_penalty_moves_films_by() {
+    let mut online = online();
+    let laws = [Cavitation::Penalty, Cavitation::Complementarity];
+    let laws = laws.map(|cavitation| Lubricant { cavitation, ..Lubricant::default() });
+    let mut solver = ContactSolver::on(&online.model.windows[0].grid);
+    let mut closest = 0.0f64;
+    for (m, l) in [(3.0, 2.0), (10.0, 12.0), (30.0, 5.0), (100.0, 2.0), (100.0, 10.0), (300.0, 2.0), (500.0, 2.5)] {
+        let [allows, knows] = laws.map(|oil| online.solve(&at(m, l), oil).unwrap().error.unwrap());
+        let [penalty, exact] = laws.map(|oil| solver.solve(&at(m, l), oil, Start::Cold, &()).unwrap().scalars);
+        for (allows, knows, penalty, exact) in [
+            (allows.h_c.bound, knows.h_c.bound, penalty.h_c, exact.h_c),
+            (allows.h_min.bound, knows.h_min.bound, penalty.h_min, exact.h_min),
+        ] {
+            let (moved, allowed) = ((penalty / exact - 1.0).abs(), allows - knows);
+            assert!(moved < allowed && allowed < 5e-5, "{moved:.1e} of {allowed:.1e} at M = {m}, L = {l}");
+            closest = closest.max(moved / allowed);
+        }
+    }
+    assert!(closest > 0.5, "{closest}");
+}
+
+#[test]
 fn the_rupture_boundary_lies_behind_the_last_pressure_so_that_the_smallest_film_is_right() {
     let mut online = online();
     let Range::Oils(all) = Range::from(&online.model.domain) else { panic!("a model of many oils") };

@@ -16,7 +16,7 @@ use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
 use crate::solver::full::heat::ENDURED_K;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
-use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use attempt::{Found, attempt, walk};
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -257,6 +257,13 @@ impl Online {
         Ok(self.keep(&problem, index, found))
     }
 
+    /// Whether errors of a window were measured by complementarity and are so small that it counts: those of lines.
+    fn was_measured_by_complementarity(&self, window: usize) -> bool {
+        let window = self.model.windows.get(window);
+        self.model.contact() == ContactKind::Line
+            && window.is_some_and(|window| window.cavitation == Cavitation::Complementarity)
+    }
+
     /// Remembers a solution as the next start and returns it.
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
         let theta = found.theta().to_vec();
@@ -270,6 +277,9 @@ impl Online {
         let mut error = calibration
             .filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default())
             .map(|c| c.estimate(&Features::new(&point, residual, &coefficients, Beside::of(domain))));
+        if self.was_measured_by_complementarity(window) && problem.lubricant.cavitation == Cavitation::Penalty {
+            error = error.map(|estimate| estimate.against_penalty(problem.point.moes().m));
+        }
         if let Some(estimate) = error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
             let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());
