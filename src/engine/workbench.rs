@@ -11,7 +11,7 @@ use crate::solver::full::{Problem, Solution, SolveError, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::TrajectoryModel;
-use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, STANDS_IN, Trust, Window};
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -171,6 +171,7 @@ impl Workbench {
                 facts.error = solved.error;
                 facts.traction = solved.traction;
                 facts.size.pressure = solved.coefficients.len();
+                warnings.extend(solved.stands_in.then(|| STANDS_IN.to_owned()));
                 // A Newtonian film does not feel the sliding, but its traction does.
                 let solution = online.reconstruct(&solved)?.of_problem(*problem);
                 warnings.extend(resolution_warning(&solution));

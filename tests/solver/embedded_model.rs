@@ -5,7 +5,7 @@ use ehl_explorer::engine::Embedded;
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
-use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
+use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use ehl_explorer::solver::training::{OilRange, Range, random_points};
 use std::sync::Arc;
 
@@ -107,6 +107,23 @@ fn bounds_allow_for_what_a_penalty_moves_films_by() {
         }
     }
     assert!(closest > 0.5, "{closest}");
+}
+
+#[test]
+fn what_a_window_beside_the_contacts_own_answers_says_so_and_promises_nothing() {
+    let contact = at(40.0, 10.0);
+    let mut model = ReducedModel::clone(&Embedded::Line.model().unwrap());
+    let own = model.window_for(&contact);
+    // Equations that are all zero have no solution.
+    model.windows[own].reconstruction.fill(0.0);
+    let mut online = Online::new(Arc::new(model), ReducedOptions::default());
+    let solved = online.solve(&contact, Lubricant::default()).unwrap();
+    assert!(solved.stands_in && solved.window != own && solved.trust == Trust::Trained);
+    assert_eq!(solved.error, None);
+    let by_its_own = self::online().solve(&contact, Lubricant::default()).unwrap();
+    assert!(!by_its_own.stands_in && by_its_own.window == own && by_its_own.error.is_some());
+    let off = (solved.h_c / by_its_own.h_c - 1.0).abs();
+    assert!(off < 1e-2, "{off:.1e}");
 }
 
 #[test]

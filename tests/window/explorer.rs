@@ -8,6 +8,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{Embedded, model_file};
 use ehl_explorer::scene::{Scene, Study};
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
 use ehl_explorer::solver::reduced::ReducedModel;
 use ehl_explorer::solver::training::train;
 use std::path::Path;
@@ -208,6 +209,36 @@ fn the_badge_estimates_first_and_knows_later() {
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     let detail = harness.state().badge_detail();
     assert!(detail.contains("Δ{H_c}") && detail.contains('%') && !detail.contains("e−7"), "{detail}");
+}
+
+#[test]
+fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() {
+    let mut model = ReducedModel::clone(&Embedded::Line.model().unwrap());
+    let window = |m: f64| model.window_for(&si_from_moes(&MoesRequest::new(ContactKind::Line, m, 10.0)).unwrap());
+    let (own, beyond) = (window(100.0), (1..40).map(|k| 100.0 / 1.05f64.powi(k)).find(|m| window(*m) != window(100.0)));
+    // Equations that are all zero have no solution: but one window has none.
+    let others = model.windows.iter_mut().enumerate().filter(|(k, _)| *k != own);
+    others.for_each(|(_, window)| window.reconstruction.fill(0.0));
+    let (mut harness, folder) = (open_with(Some(Arc::new(model))), Scratch::new("stands-in"));
+    let near = |m: f64| {
+        let scene =
+            format!("Scene(version: 1, title: \"t\", at: Moes(m: {m}, l: 10.0), study: Point(methods: [Full]))");
+        folder.write(&format!("{m}.ron"), &scene)
+    };
+    let mut promised = |m: f64| {
+        harness.state_mut().open_scene(&near(m)).unwrap();
+        harness.step();
+        assert_eq!(harness.state().badge(), "Reduced model");
+        let why = harness.get_by_label("Trust in the picture").accesskit_node().description().unwrap_or_default();
+        (harness.state().badge_detail(), why)
+    };
+    let (detail, why) = promised(100.0);
+    assert!(detail.starts_with("{H_c} within") && why.starts_with("Calibrated bounds"), "{detail}; {why}");
+    let (detail, why) = promised(beyond.unwrap());
+    assert!(detail.starts_with("no error bound: a window beside its own answers"), "{detail}");
+    assert!(why.starts_with("The window of the reduced model that this contact belongs to"), "{why}");
+    assert!(!why.contains(".."), "{why}");
+    wait(&mut harness, "verification", |app| ["Verified", "Roughly right", "Far off"].contains(&app.badge().as_str()));
 }
 
 #[test]

@@ -129,6 +129,7 @@ impl Answers {
                     error: reduced.error,
                     iterations: reduced.iterations,
                     window: reduced.window,
+                    stands_in: reduced.stands_in,
                 };
                 let (cuts, traction) = (self.cuts, reduced.traction);
                 self.picture = Some(Picture::new(key, origin, Arc::new(fields), cuts, traction));

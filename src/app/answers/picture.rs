@@ -40,6 +40,8 @@ pub enum Origin {
         iterations: usize,
         /// Window that served it.
         window: usize,
+        /// Whether that is not the contact's own, which found no solution.
+        stands_in: bool,
     },
     /// By the full solver.
     Full,
@@ -50,7 +52,7 @@ impl Origin {
     pub fn describe(&self) -> String {
         match self {
             Self::Full => "full solution".to_owned(),
-            Self::Reduced { residual_estimate, error, iterations, window } => {
+            Self::Reduced { residual_estimate, error, iterations, window, .. } => {
                 let bound = match error {
                     Some(e) => format!("error bounds H_c {:e}, H_min {:e}", e.h_c.bound, e.h_min.bound),
                     None => "no calibrated error bound".to_owned(),

@@ -9,7 +9,7 @@ use crate::app::display::Thresholds;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::solver::full::GridCost;
-use crate::solver::reduced::ErrorEstimate;
+use crate::solver::reduced::{ErrorEstimate, STANDS_IN};
 use egui::{Align, Color32, CornerRadius, Frame, Label, Layout, Margin, RichText, Stroke, Ui, vec2};
 
 /// What the badge says.
@@ -98,7 +98,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                 Kind::Verified,
             ),
         },
-        (Origin::Reduced { residual_estimate, error, iterations, window }, _) => {
+        (Origin::Reduced { residual_estimate, error, iterations, window, stands_in }, _) => {
             let how = format!(
                 "{iterations} reduced Newton steps in window {}, residual e_f {}",
                 window + 1,
@@ -130,6 +130,9 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                             "Calibrated bounds: 99 of 100 random contacts of the trained range err by less. They count \
                              against a full solution on the same grid",
                         ),
+                        None if stands_in => {
+                            ("no error bound: a window beside its own answers".to_owned(), STANDS_IN)
+                        }
                         None => (
                             format!("no error bound, residual {{e_f}} {}", numbers::small(residual_estimate)),
                             "The model was not calibrated as it is used here (fewer modes, or an older training). e_f of \
@@ -140,9 +143,9 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                         Some(failure) => failure.message.trim_end_matches('.'),
                         None => "True errors follow with the full solve",
                     };
-                    let doubtful = answers.verify_failure.is_some() || picture.costly_grid;
+                    let doubtful = answers.verify_failure.is_some() || picture.costly_grid || stands_in;
                     let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
-                    make("Reduced model", with_grid(detail, grid_cost), format!("{meaning}. {of_grid}{next}. {how}"), kind)
+                    make("Reduced model", with_grid(detail, grid_cost), format!("{} {of_grid}{next}. {how}", sentence(meaning)), kind)
                 }
             }
         }

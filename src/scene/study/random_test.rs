@@ -35,8 +35,8 @@ pub struct RandomTest {
     /// Full solutions on the model's own grid are compared at this many of the points.
     #[serde(default)]
     pub compare: usize,
-    /// Full solutions at this many more, before those: where the method failed, then where its bound is largest. They
-    /// show where to look, and count in no statistics of errors.
+    /// Full solutions at this many more, before those: where the method failed, then where it gives no bound, then where
+    /// its bound is largest. They show where to look, and count in no statistics of errors.
     #[serde(default, skip_serializing_if = "is_none")]
     pub worst: usize,
 }
@@ -208,7 +208,7 @@ impl RandomTest {
             return Default::default();
         }
         let doubt = |(test, _): Tested| match test.film {
-            Some(_) => test.estimate.map_or(0.0, |error| error.h_c.bound),
+            Some(_) => test.estimate.map_or(f64::MAX, |error| error.h_c.bound),
             None => f64::INFINITY,
         };
         let doubts: Vec<f64> = tests(rows).into_iter().map(doubt).collect();
@@ -343,7 +343,8 @@ impl Question for RandomTest {
     }
 
     /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and seconds; of a reduced one
-    /// `untrained`, `compared`, `full_failures`, its errors, and what its bounds are worth. `grid_error_max` is the
+    /// `untrained`, `without_bound` (answers, where others have one), `compared`, `full_failures`, its errors, and what its
+    /// bounds are worth. `grid_error_max` is the
     /// largest share of H_c that the grid costs a full solution; a warning says where it is too much.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (of, tests) = (Some(&self.method), own(rows));
@@ -367,6 +368,11 @@ impl Question for RandomTest {
             return;
         }
         found.push("untrained", of, tests.iter().filter(|(test, _)| test.untrained).count() as f64);
+        let answers = || tests.iter().filter(|(test, _)| test.film.is_some());
+        let without = answers().filter(|(test, _)| test.estimate.is_none()).count();
+        if without < answers().count() {
+            found.push("without_bound", of, without as f64);
+        }
         if self.compare == 0 {
             return;
         }
@@ -438,10 +444,13 @@ impl Question for RandomTest {
 #[cfg(test)]
 mod tests_of_rows {
     use super::*;
+    use crate::scene::{ModelSource, Scene};
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::{FullSolver, Start};
     use crate::solver::physics::contact::Sliding;
     use crate::solver::physics::lubricant::Heat;
+    use crate::solver::reduced::Estimated;
+    use crate::solver::training::QuantityBox;
 
     #[test]
     fn a_truth_finds_its_test_whenever_it_comes() {
@@ -461,6 +470,39 @@ mod tests_of_rows {
         let [h_c, h_min, traction, rise] = test.film.unwrap().errors(&full);
         assert!((h_c.unwrap() - 0.1).abs() < 1e-12 && (h_min.unwrap() - 0.1).abs() < 1e-12);
         assert!(traction.is_none() && rise.is_none());
+    }
+
+    #[test]
+    fn most_doubtful_are_failures_then_answers_without_a_bound_then_large_bounds() {
+        let bound = |h_c: f64| {
+            let of = |bound: f64| Estimated { likely: bound / 4.0, bound };
+            ErrorEstimate { h_c: of(h_c), h_min: of(h_c), state: of(h_c), traction: None, rise: None }
+        };
+        let film = Film { h_c: 1.0, h_min: 0.9, traction: f64::NAN, rises: None, grid_cost: None };
+        let test = |film, estimate| {
+            let point = OperatingPoint::TABLE_2_1;
+            Row::Test(Test { point, film, newton_iterations: 3, wall_s: 0.0, untrained: false, estimate })
+        };
+        let rows = [
+            test(Some(film), Some(bound(1e-3))),
+            test(Some(film), None),
+            test(Some(film), Some(bound(0.3))),
+            test(None, None),
+        ];
+        let study = RandomTest {
+            range: Range::Box(QuantityBox::TABLE_3_1),
+            tests: 4,
+            seed: 1,
+            method: Method::Reduced { model: ModelSource::Embedded, pressure_loss: None, deformation_loss: None },
+            compare: 2,
+            worst: 3,
+        };
+        assert_eq!(study.compared(rows.iter()), [vec![3, 1, 2], vec![0]]);
+        let scene = Scene::from_ron("Scene(version: 1, title: \"t\", study: Point(methods: [Full]))").unwrap();
+        let mut found = Findings::default();
+        study.findings(&scene.experiment(), &rows.iter().collect::<Vec<_>>(), &mut found);
+        let value = |name: &str| found.values.iter().find(|value| value.name == name).map(|value| value.value);
+        assert_eq!((value("failures"), value("without_bound")), (Some(1.0), Some(1.0)));
     }
 
     #[test]

@@ -18,6 +18,7 @@
 mod features;
 mod neighbours;
 mod quantity;
+mod rupture;
 mod steps;
 #[cfg(test)]
 mod tests;
@@ -35,11 +36,6 @@ use steps::kept_place;
 const AROUND: usize = 48;
 /// Errors below this are noise of the three Newton steps they were measured by.
 const FLOOR: f64 = 1e-8;
-/// By how much a penalty of γ = 1e6 moves H_c of lines against complementarity at most, relative to it.
-const PENALTY_MOVES_H_C: f64 = 3.5e-7;
-/// And H_min, whose place is where the film ruptures: so much, and so much for each unit of M. Of 2,000 contacts with M 2…1000
-/// it is moved by 8e-7 in the median and by up to 3.8e-5, more than the bounds of most that do not allow for it.
-const PENALTY_MOVES_H_MIN: (f64, f64) = (2e-6, 4e-8);
 /// Evidence without which nothing is said.
 pub const LEAST_EVIDENCE: usize = 100;
 /// Evidence of a window's own without which nothing is said there, where several learn together.
@@ -69,15 +65,6 @@ pub struct ErrorEstimate {
     /// Of the rise of temperature at mid-film, X = 0, of a model that knows heat; where it rises by less than a kelvin,
     /// in kelvin.
     pub rise: Option<Estimated>,
-}
-
-impl ErrorEstimate {
-    /// The same against a full solution by the penalty, of a line at this M whose errors were measured by complementarity.
-    pub fn against_penalty(mut self, m: f64) -> Self {
-        self.h_c.bound += PENALTY_MOVES_H_C;
-        self.h_min.bound += PENALTY_MOVES_H_MIN.0 + PENALTY_MOVES_H_MIN.1 * m;
-        self
-    }
 }
 
 /// What a window knows about its own errors.

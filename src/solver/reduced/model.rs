@@ -1,6 +1,6 @@
 //! What a reduced model is made of.
 
-use super::calibration::Calibration;
+use super::calibration::{Calibration, ErrorEstimate, Features};
 use super::combined::PressureModes;
 use super::domain::{CIRCLES, Domain, Trust};
 use super::minimisation::Scheme;
@@ -208,6 +208,18 @@ impl Window {
         far.then(|| {
             format!("its residual of {residual:.1e} is far beyond those of the training, {largest:.1e} at most")
         })
+    }
+
+    /// How far a solution of its own at a point is likely to be off from the full one that ruptures by a law; `None` until
+    /// errors were measured.
+    pub fn likely_error(
+        &self,
+        features: &Features,
+        point: &OperatingPoint,
+        asked: Cavitation,
+    ) -> Option<ErrorEstimate> {
+        let estimate = self.calibration.as_ref()?.estimate(features);
+        Some(estimate.against(point, asked, self.cavitation))
     }
 
     /// R_y/R that it serves: all of a window that knows one shape.

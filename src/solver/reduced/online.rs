@@ -16,7 +16,7 @@ use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
 use crate::solver::full::heat::ENDURED_K;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
-use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::physics::lubricant::Lubricant;
 use attempt::{Found, attempt, walk};
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -31,6 +31,10 @@ const FIRST_ATTEMPTS: usize = 12;
 /// all but five of 20,000, which are tried with fewer modes at last. Of lines all modes count.
 static SHARES: [f64; 5] = [1.0, 0.875, 0.75, 0.625, 0.5];
 
+/// What is said of a solution by another window than the contact's own.
+pub const STANDS_IN: &str = "the window of the reduced model that this contact belongs to found no solution; the one beside \
+    it answers, whose errors were not measured here";
+
 /// What the online phase returns: small numbers only; fields are reconstructed on request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReducedSolution {
@@ -40,6 +44,8 @@ pub struct ReducedSolution {
     pub lubricant: Lubricant,
     /// The window that served it.
     pub window: usize,
+    /// Whether that is not the contact's own, which found no solution: errors were not measured there.
+    pub stands_in: bool,
     /// Coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
     /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
@@ -60,7 +66,8 @@ pub struct ReducedSolution {
     /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
     pub residual_estimate: f64,
     /// Calibrated estimate of its errors. None where the model has no calibration, or solved otherwise than it was
-    /// calibrated: outside its domain, with fewer modes or other settings; nor of a film hotter than lubricants endure.
+    /// calibrated: outside its domain, by another window, with fewer modes or other settings; nor of a film hotter than
+    /// lubricants endure.
     pub error: Option<ErrorEstimate>,
     /// Whether the model was trained for the point.
     pub trust: Trust,
@@ -129,7 +136,7 @@ impl Online {
             Err(why @ ReducedError::NotConverged { .. }) => {
                 let next = self.model.next_anchor(point.moes(), index).ok_or(why.clone())?;
                 let solved = self.iterated(next, point, lubricant, None).map_err(|_| why)?;
-                (ReducedSolution { error: None, ..solved }, Vec::new())
+                (ReducedSolution { error: None, stands_in: true, ..solved }, Vec::new())
             }
             Err(why) => return Err(why),
         };
@@ -257,13 +264,6 @@ impl Online {
         Ok(self.keep(&problem, index, found))
     }
 
-    /// Whether errors of a window were measured by complementarity and are so small that it counts: those of lines.
-    fn was_measured_by_complementarity(&self, window: usize) -> bool {
-        let window = self.model.windows.get(window);
-        self.model.contact() == ContactKind::Line
-            && window.is_some_and(|window| window.cavitation == Cavitation::Complementarity)
-    }
-
     /// Remembers a solution as the next start and returns it.
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
         let theta = found.theta().to_vec();
@@ -273,13 +273,11 @@ impl Online {
         let knows_traction = domain.knows_traction(problem);
         self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone(), theta });
         let trust = self.model.trust(problem);
-        let calibration = self.model.windows.get(window).and_then(|w| w.calibration.as_ref());
-        let mut error = calibration
-            .filter(|_| trust == Trust::Trained && self.options == ReducedOptions::default())
-            .map(|c| c.estimate(&Features::new(&point, residual, &coefficients, Beside::of(domain))));
-        if self.was_measured_by_complementarity(window) && problem.lubricant.cavitation == Cavitation::Penalty {
-            error = error.map(|estimate| estimate.against_penalty(problem.point.moes().m));
-        }
+        let as_measured = trust == Trust::Trained && self.options == ReducedOptions::default();
+        let mut error = self.model.windows.get(window).filter(|_| as_measured).and_then(|window| {
+            let features = Features::new(&point, residual, &coefficients, Beside::of(domain));
+            window.likely_error(&features, &problem.point, problem.lubricant.cavitation)
+        });
         if let Some(estimate) = error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
             let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());
@@ -289,6 +287,7 @@ impl Online {
             point: problem.point,
             lubricant: problem.lubricant,
             window,
+            stands_in: false,
             coefficients,
             fronts,
             beside: Vec::new(),

@@ -128,15 +128,10 @@ fn own_law(common: &[f64], terms: &[Vec<f64>], logs: &[f64], ridge: f64) -> Opti
     let known: Vec<(&[f64], f64)> = known.map(|(terms, log)| (terms.as_slice(), log - dot(common, terms))).collect();
     // 1 + n + n(n + 1)/2 terms are of n features.
     let linear = (0..common.len()).find(|n| (n + 1) * (n + 2) / 2 == common.len())? + 1;
-    let product = |r: usize, c: usize| known.iter().map(|(terms, _)| terms[r] * terms[c]).sum::<f64>();
-    let products = Mat::from_fn(linear, linear, product);
-    let normal = Mat::from_fn(linear, linear, |r, c| products[(r, c)] + if r == c { ridge } else { 0.0 });
+    let (products, rests) = moments(&known, linear);
     // What the window adds, and what its own evidence weighs in it.
-    let right = Mat::from_fn(linear, 1 + linear, |r, c| match c {
-        0 => known.iter().map(|(terms, rest)| terms[r] * rest).sum::<f64>(),
-        _ => products[(r, c - 1)],
-    });
-    let solved = dense::solved(normal.as_ref(), right);
+    let right = Mat::from_fn(linear, 1 + linear, |r, c| if c == 0 { rests[(r, 0)] } else { products[(r, c - 1)] });
+    let solved = dense::solved(with_ridge(products, ridge).as_ref(), right);
     let added: Vec<f64> = solved.col(0).iter().copied().collect();
     let leverage = (0..linear).map(|k| solved[(k, k + 1)]).sum::<f64>() / known.len().max(1) as f64;
     let rest = |(terms, rest): &(&[f64], f64)| (rest - dot(&added, terms)).powi(2);
@@ -186,14 +181,22 @@ fn quantile(mut scores: Vec<(f64, f64)>) -> f64 {
     reached.or(scores.last()).map_or(0.0, |(score, _)| *score)
 }
 
+/// The first terms times each other and times what they are to fit, summed over what is known.
+fn moments(known: &[(&[f64], f64)], count: usize) -> (Mat<f64>, Mat<f64>) {
+    let product = |r: usize, c: usize| known.iter().map(|(terms, _)| terms[r] * terms[c]).sum::<f64>();
+    let fitted = |r: usize, _| known.iter().map(|(terms, value)| terms[r] * value).sum::<f64>();
+    (Mat::from_fn(count, count, product), Mat::from_fn(count, 1, fitted))
+}
+
+fn with_ridge(mut products: Mat<f64>, ridge: f64) -> Mat<f64> {
+    (0..products.nrows()).for_each(|k| products[(k, k)] += ridge);
+    products
+}
+
 /// Coefficients that fit the known logarithms, with a slight ridge for features that do not vary.
 fn least_squares(known: &[(&[f64], f64)]) -> Option<Vec<f64>> {
-    let count = known.first()?.0.len();
-    let normal = Mat::from_fn(count, count, |r, c| {
-        known.iter().map(|(terms, _)| terms[r] * terms[c]).sum::<f64>() + if r == c { 1e-3 } else { 0.0 }
-    });
-    let rhs = Mat::from_fn(count, 1, |r, _| known.iter().map(|(terms, log)| terms[r] * log).sum::<f64>());
-    let solved = dense::solved(normal.as_ref(), rhs);
+    let (products, logs) = moments(known, known.first()?.0.len());
+    let solved = dense::solved(with_ridge(products, 1e-3).as_ref(), logs);
     let law: Vec<f64> = solved.col(0).iter().copied().collect();
     law.iter().all(|v| v.is_finite()).then_some(law)
 }
