@@ -344,8 +344,8 @@ impl Question for RandomTest {
 
     /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and seconds; of a reduced one
     /// `untrained`, `without_bound` (answers, where others have one), `compared`, `full_failures`, its errors, and what its
-    /// bounds are worth. `grid_error_max` is the
-    /// largest share of H_c that the grid costs a full solution; a warning says where it is too much.
+    /// bounds are worth. `grid_error_max` is the largest share of H_c that the grid costs a full solution; a warning says
+    /// where it is too much.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (of, tests) = (Some(&self.method), own(rows));
         let failures = tests.iter().filter(|(test, _)| test.film.is_none()).count();
