@@ -52,9 +52,10 @@ impl Origin {
     pub fn describe(&self) -> String {
         match self {
             Self::Full => "full solution".to_owned(),
-            Self::Reduced { residual_estimate, error, iterations, window, .. } => {
+            Self::Reduced { residual_estimate, error, iterations, window, stands_in } => {
                 let bound = match error {
                     Some(e) => format!("error bounds H_c {:e}, H_min {:e}", e.h_c.bound, e.h_min.bound),
+                    None if *stands_in => "no error bound: a window beside the contact's own answers".to_owned(),
                     None => "no calibrated error bound".to_owned(),
                 };
                 let window = window + 1;
