@@ -41,7 +41,7 @@ struct StoredModel {
     log: Vec<String>,
 }
 
-/// Solves each window at two of its own snapshots, the first and the last.
+/// Solves each window at two of its own snapshots.
 ///
 /// # Errors
 /// When a window does not give the H_c that it was trained from, or when the observer cancels.
