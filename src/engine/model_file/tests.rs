@@ -4,12 +4,11 @@ use crate::engine::checked_file::HEADER;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
-use crate::solver::reduced::{EyringDomain, HeatDomain, PressureModes, Sampling, Scheme, Window};
+use crate::solver::reduced::{EyringDomain, HeatDomain, PressureModes, Sampling, Scheme};
 use crate::solver::training::small::{
     ellipses, heated, heated_balls, heated_ellipses, heated_oils, line, oils, oils_of_points, sliding_oils,
 };
 use crate::solver::training::{TrainingSpec, WindowSpec, Windows, train};
-use faer::Mat;
 
 #[test]
 fn the_embedded_models_are_intact_small_and_survive_a_round_trip() {
@@ -285,15 +284,9 @@ fn windows_of_points_keep_one_basis_and_what_their_grid_costs() {
     assert_eq!(read.domain, model.domain);
     for (ours, own) in read.windows.iter().zip(&model.windows) {
         let (kept, made) = (ours.pressure.combined().unwrap(), own.pressure.combined().unwrap());
-        assert!((&kept.factors - &made.factors).norm_max() < 1e-2);
-        // A mode that hardly appears in any pressure needs few digits.
-        let sigma = own.pressure.singular_values();
-        let modes = |window: &Window| {
-            let basis = window.pressure.basis();
-            Mat::from_fn(window.grid.len(), window.pressure.count(), |i, k| sigma[k] * basis.modes[(i, k)])
-        };
-        let (kept, made) = (modes(ours), modes(own));
-        assert!((&kept - &made).norm_max() < 3e-6 * made.norm_max());
+        // Rows are chosen and bounds measured before a model is written: modes are rounded before.
+        assert!(kept.factors == made.factors && kept.shared.basis.modes == made.shared.basis.modes);
+        assert!(ours.pressure.basis().modes == own.pressure.basis().modes);
         for (ours, own) in ours.snapshots.iter().zip(&own.snapshots) {
             let (ours, own) = (ours.grid_cost.unwrap(), own.grid_cost.unwrap());
             assert!((ours.total() / own.total() - 1.0).abs() < 4e-3, "an estimate has two digits");

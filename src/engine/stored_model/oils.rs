@@ -7,14 +7,12 @@ use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::GridCost;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{Combined, Keeping, OilDomain, PodBasis, ReducedModel, SharedBasis, Window};
+use crate::solver::reduced::{
+    Combined, Keeping, OilDomain, PodBasis, ReducedModel, SharedBasis, Window, factor_accuracy, factor_scales,
+};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// Accuracy of the share of each mode of a shared basis in the pressures of a window: relative to that share, or to a
-/// hundredth of that of the first mode where it is less.
-const FACTOR_ACCURACY: [f64; 2] = [1e-6, 1e-2];
 
 /// The oils of a model, and where its windows lie among them.
 #[derive(Serialize, Deserialize)]
@@ -76,10 +74,9 @@ impl StoredSharedBasis {
 
 /// What a window's modes are in the shared basis: of each mode of that as exactly as it appears in the window.
 fn stored_factors(window: &Window, combined: &Combined) -> StoredMatrix {
-    let (factors, count) = (&combined.factors, window.pressure.singular_values().len() as f64);
-    let sizes = window.pressure.singular_values().iter().take(factors.ncols());
-    let scales: Vec<f64> = sizes.map(|sigma| (sigma / count.sqrt()).max(f64::MIN_POSITIVE)).collect();
-    StoredMatrix::stepped(factors, 1, &scales, FACTOR_ACCURACY)
+    let factors = &combined.factors;
+    let scales = factor_scales(window.pressure.singular_values(), factors.ncols());
+    StoredMatrix::stepped(factors, 1, &scales, factor_accuracy(factors, &scales))
 }
 
 /// Gives the snapshots of a model's windows what their grid costs them; `None` where that does not fit them.

@@ -28,6 +28,15 @@ pub const ALL_DIGITS: u32 = 23;
 pub const FILM_DIGITS: u32 = 16;
 /// Accuracy of the coefficients of the first mode in snapshots, relative to their size.
 pub const START_ACCURACY: f64 = 1e-3;
+/// Accuracy of the share of each mode of a shared basis in the pressures of a window, relative to that share.
+const FACTOR_ACCURACY: f64 = 1e-6;
+/// The share, relative to the largest, below which digits are those of that.
+const SMALL_SHARE: f64 = 1e-2;
+/// The same where that spoils modes: of windows whose pressures hardly differ it left half of them.
+const SMALLER_SHARE: f64 = 1e-3;
+/// What a mode of norm one may lose by that and still be one: those that follow it are noise, and equations that ask for
+/// their coefficients are singular.
+const SPOILT: f64 = 0.1;
 /// How many times less exactly those of rare modes are kept at most: starts know little of these.
 const COARSEST: f64 = 20.0;
 
@@ -125,6 +134,36 @@ impl Multiples {
 pub fn kept_rule(rule: Mat<f64>) -> Mat<f64> {
     let scales = vec![1.0; rule.ncols()];
     Multiples::keep(rule, &scales, RULE_ACCURACY, 0.0).1
+}
+
+/// How large the share of each of the first modes, so many at most, in the solutions of a window is, root mean square.
+pub fn factor_scales(singular_values: &[f64], modes: usize) -> Vec<f64> {
+    let count = (singular_values.len() as f64).sqrt();
+    singular_values.iter().take(modes).map(|sigma| (sigma / count).max(f64::MIN_POSITIVE)).collect()
+}
+
+/// What a window's orthonormal modes are in a shared basis, as it is kept, up to the first of them that is spoilt by that.
+pub fn kept_factors(factors: Mat<f64>, scales: &[f64]) -> Mat<f64> {
+    let keep = |columns: usize, share: f64| {
+        let (some, scales) = (factors.get(.., ..columns).to_owned(), &scales[..columns]);
+        Multiples::keep(some, scales, FACTOR_ACCURACY, share).1
+    };
+    let spoilt = |kept: &Mat<f64>| (0..kept.ncols()).find(|&k| (kept.col(k) - factors.col(k)).norm_l2() > SPOILT);
+    let all = factors.ncols().min(scales.len());
+    let kept = keep(all, SMALL_SHARE);
+    if spoilt(&kept).is_none() {
+        return kept;
+    }
+    let finer = keep(all, SMALLER_SHARE);
+    // Steps go with the sizes of rows, which have fewer modes then.
+    spoilt(&finer).map_or(finer, |first| keep(first, SMALLER_SHARE))
+}
+
+/// The accuracy to which the factors that [`kept_factors`] has made stay as they are, and the least share that it counts
+/// for.
+pub fn factor_accuracy(factors: &Mat<f64>, scales: &[f64]) -> [f64; 2] {
+    let stays = Multiples::keep(factors.clone(), scales, FACTOR_ACCURACY, SMALL_SHARE).1 == *factors;
+    [FACTOR_ACCURACY, if stays { SMALL_SHARE } else { SMALLER_SHARE }]
 }
 
 /// A number with so many digits of its significand, rounded to the nearest.
@@ -233,6 +272,24 @@ mod tests {
             let off = (0..40).map(|i| (kept[(i, k)] - coefficients[(i, k)]).abs()).fold(0.0, f64::max) / size(k);
             assert!(off > least && off < 2e-2, "{k}: {off:e}");
         }
+    }
+
+    #[test]
+    fn modes_in_a_shared_basis_end_where_their_digits_do() {
+        let of = Mat::from_fn(40, 12, |i, k| ((i * (k + 3)) as f64 * 0.61).sin() * 0.6f64.powi(i as i32));
+        let factors = PodBasis::new(of.as_ref(), &[1.0; 40], 0.0).unwrap().cut(12).modes;
+        let falls = |by: f64| -> Vec<f64> { (0..12).map(|k| by.powi(k)).collect() };
+        // The rarest share, how many modes are left, and to what share they are kept.
+        for (by, modes, share) in [(0.6, 12..=12, 1e-2), (0.2, 12..=12, 1e-3), (0.03, 3..=8, 1e-3)] {
+            let kept = kept_factors(factors.clone(), &falls(by));
+            let scales = &falls(by)[..kept.ncols()];
+            assert!(modes.contains(&kept.ncols()), "{by}: {}", kept.ncols());
+            let lost = |k: usize| (kept.col(k) - factors.col(k)).norm_l2();
+            assert!(lost(0) > 0.0 && (0..kept.ncols()).all(|k| lost(k) < SPOILT), "{by}: {}", lost(kept.ncols() - 1));
+            assert_eq!(factor_accuracy(&kept, scales), [FACTOR_ACCURACY, share], "{by}");
+            assert!(Multiples::keep(kept.clone(), scales, FACTOR_ACCURACY, share).1 == kept);
+        }
+        assert_eq!(factor_scales(&[8.0, 2.0, 0.0, 0.0], 3), [4.0, 1.0, f64::MIN_POSITIVE]);
     }
 
     #[test]

@@ -13,7 +13,9 @@ use super::{TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::SolveError;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{BEYOND_CELLS, PodBasis, ReducedModel, SharedBasis, deformation_weights, from_anchor};
+use crate::solver::reduced::{
+    BEYOND_CELLS, Keeping, PodBasis, ReducedModel, SharedBasis, deformation_weights, from_anchor,
+};
 use faer::Mat;
 use fastrand::Rng;
 use std::sync::Arc;
@@ -133,6 +135,7 @@ pub(super) fn in_common(
         let own = window.solved.iter().take(window.inherited);
         pool.extend(own.filter(|solved| cell.holds(solved.point.moes(), 0.0)).cloned());
     }
+    let heat = spec.range.heats();
     let (wanted, loss, (from, to), positive) = (grid, spec.deformation_loss, first.window.m, spec.positive_modes);
     let bases = on_one_thread(observer, move || {
         let grid = wanted.build().map_err(SolveError::from)?;
@@ -146,6 +149,8 @@ pub(super) fn in_common(
         }
         let counted = Mat::from_fn(grid.len(), pool.len(), |i, j| value(pressures[(i, j)]) / pool[j].h_c.min(THIN));
         let basis = PodBasis::new(counted.as_ref(), grid.weights(), 0.0).ok_or_else(failed)?.cut(shared);
+        let keeping = Keeping { kind: grid.kind(), anchored: true, heat, shapes: false };
+        let basis = basis.kept(keeping.accuracy());
         Ok(InCommon { deformation, pressure: Some(Arc::new(SharedBasis::new(basis, &grid))) })
     })?;
     bases.map(Some)
