@@ -143,7 +143,7 @@ pub fn factor_scales(singular_values: &[f64], modes: usize) -> Vec<f64> {
 }
 
 /// What a window's orthonormal modes are in a shared basis, as it is kept, up to the first of them that is spoilt by that.
-pub fn kept_factors(factors: Mat<f64>, scales: &[f64]) -> Mat<f64> {
+pub(super) fn kept_factors(factors: Mat<f64>, scales: &[f64]) -> Mat<f64> {
     let keep = |columns: usize, share: f64| {
         let (some, scales) = (factors.get(.., ..columns).to_owned(), &scales[..columns]);
         Multiples::keep(some, scales, FACTOR_ACCURACY, share).1
@@ -159,8 +159,8 @@ pub fn kept_factors(factors: Mat<f64>, scales: &[f64]) -> Mat<f64> {
     spoilt(&finer).map_or(finer, |first| keep(first, SMALLER_SHARE))
 }
 
-/// The accuracy to which the factors that [`kept_factors`] has made stay as they are, and the least share that it counts
-/// for.
+/// The accuracy to which what a window's modes are in a shared basis stays as it is once it is kept, and the least share
+/// that it counts for.
 pub fn factor_accuracy(factors: &Mat<f64>, scales: &[f64]) -> [f64; 2] {
     let stays = Multiples::keep(factors.clone(), scales, FACTOR_ACCURACY, SMALL_SHARE).1 == *factors;
     [FACTOR_ACCURACY, if stays { SMALL_SHARE } else { SMALLER_SHARE }]
