@@ -104,19 +104,20 @@ fn a_payload_that_lies_is_refused_even_with_a_right_hash() {
 
 #[test]
 fn the_law_of_rupture_and_the_scheme_survive_a_round_trip_and_must_fit_the_windows() {
-    let spec = line(Sampling::QDeim, 24).under(Cavitation::Complementarity);
-    let model = train(&spec, &()).unwrap();
-    let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
-    let (own, other) = (&read.windows[0], &model.windows[0]);
-    assert_eq!((read.domain, own.cavitation), (model.domain.clone(), Cavitation::Complementarity));
-    assert!(own.snapshots.iter().map(|s| &s.fronts).eq(other.snapshots.iter().map(|s| &s.fronts)));
-    let lies: [&dyn Fn(&mut ReducedModel); 2] =
-        [&|m| m.windows[0].snapshots[3].fronts[0] = 10_000, &|m| m.windows[0].snapshots[3].fronts.clear()];
-    for lie in lies {
-        let mut wrong = model.clone();
-        lie(&mut wrong);
-        let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
-        assert!(matches!(refused, Some(ModelFileError::Damaged { what: "rupture" })), "{refused:?}");
+    for spec in [line(Sampling::QDeim, 24), sliding_oils(Sampling::QDeim, 40)] {
+        let model = train(&spec.under(Cavitation::Complementarity), &()).unwrap();
+        let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
+        let (own, other) = (&read.windows[0], &model.windows[0]);
+        assert_eq!((read.domain, own.cavitation), (model.domain.clone(), Cavitation::Complementarity));
+        assert!(own.snapshots.iter().map(|s| &s.fronts).eq(other.snapshots.iter().map(|s| &s.fronts)));
+        let lies: [&dyn Fn(&mut ReducedModel); 2] =
+            [&|m| m.windows[0].snapshots[3].fronts[0] = 10_000, &|m| m.windows[0].snapshots[3].fronts.clear()];
+        for lie in lies {
+            let mut wrong = model.clone();
+            lie(&mut wrong);
+            let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "rupture" })), "{refused:?}");
+        }
     }
     let scheme = Scheme::Gnat { weighted: true };
     let model = train(&TrainingSpec { scheme, ..line(Sampling::QDeim, 24) }, &()).unwrap();

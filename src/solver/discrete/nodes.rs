@@ -116,23 +116,45 @@ impl Nodes {
                     *node = own.node;
                 });
             }
-            Order::Alone | Order::BesideTheFormer => {
+            Order::Alone => {
+                for (k, (own, node)) in self.thinning.iter_mut().zip(nodes).enumerate() {
+                    *own = thinned(k, &own.known);
+                    *node = own.node;
+                }
+            }
+            Order::BesideTheFormer => {
+                // Between two evaluations the stress hardly changes; in the first one the node before is near.
                 let mut former = KnownFilm::default();
                 for (k, (own, node)) in self.thinning.iter_mut().zip(nodes).enumerate() {
-                    // Between two evaluations the stress hardly changes; in the first one the node before is near.
-                    let beside = order == Order::BesideTheFormer && own.known.is_empty();
-                    *own = thinned(k, if beside { &former } else { &own.known });
-                    *node = own.node;
-                    if order == Order::BesideTheFormer {
-                        former = own.known;
-                    }
+                    *own = thinned(k, if own.known.is_empty() { &former } else { &own.known });
+                    (*node, former) = (own.node, own.known);
                 }
             }
         }
     }
 
-    /// Evaluates a part of the nodes of (P, H), of a Newtonian lubricant.
-    pub fn evaluate_part(&mut self, laws: &Laws<'_>, part: Range<usize>, (pressure, film): (&[f64], &[f64])) {
+    /// Evaluates a part of the nodes of (P, H) in the order [`Order::BesideTheFormer`]; `gradient` as of
+    /// [`Self::evaluate`].
+    pub fn evaluate_part(
+        &mut self,
+        laws: &Laws<'_>,
+        part: Range<usize>,
+        (pressure, film): (&[f64], &[f64]),
+        gradient: impl Fn(usize) -> [f64; 2],
+    ) {
+        if let Some(law) = laws.shear {
+            self.thinning.resize(self.nodes.len(), ShearNode::default());
+            let mut former = KnownFilm::default();
+            for k in part {
+                let own = &mut self.thinning[k];
+                let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
+                let known = if own.known.is_empty() { former } else { own.known };
+                *own = ShearNode::near(&known, laws.fluid, law, laws.inverse_lambda, state, FilmTreatment::default());
+                (self.nodes[k], former) = (own.node, own.known);
+            }
+            return;
+        }
+        self.thinning.clear();
         let states = pressure[part.clone()].chunks(AT_ONCE).zip(film[part.clone()].chunks(AT_ONCE));
         for (nodes, (pressures, films)) in self.nodes[part].chunks_mut(AT_ONCE).zip(states) {
             let mut several = [0.0; AT_ONCE];

@@ -160,7 +160,7 @@ impl Operators {
         let load_row = window.pressure.carried(weights, modes);
         let front = ruptures.then(|| {
             let whole = std::mem::take(&mut state.deformations);
-            Front::new(window, &support, (&state.values, whole), &load_row)
+            Front::new(window, &support, (&state, whole), &load_row)
         });
         let shaped = window.shapes.as_ref().map(|shapes| {
             let across = state.gradients.get(support.len() * modes..).unwrap_or_default();

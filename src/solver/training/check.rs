@@ -3,7 +3,7 @@
 use super::{HeatedOilRange, HeatedRange, Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw, ViscosityLaw};
+use crate::solver::physics::lubricant::{Cavitation, ShearLaw, ViscosityLaw};
 use crate::solver::reduced::{CIRCLES, LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
 
 /// Most points of a plan, or judged in one go.
@@ -113,11 +113,10 @@ fn search(start: usize, tolerances: &[f64], limit: usize) -> Result<(), Refused>
 /// lubricant's own.
 fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     spec.lubricant.check().map_err(|problem| Refused::new("lubricant", format!("is refused: {problem}")))?;
-    let Lubricant { cavitation, shear, .. } = &spec.lubricant;
+    let cavitation = &spec.lubricant.cavitation;
     match cavitation {
-        Cavitation::Complementarity if *shear != ShearLaw::Newtonian => {
-            let limit =
-                "is complementarity, but reduced models of lubricants that thin under shear rupture by the penalty";
+        Cavitation::Complementarity if spec.range.heats() => {
+            let limit = "is complementarity, but reduced models of films with heat rupture by the penalty";
             return Err(Refused::new("cavitation", limit));
         }
         Cavitation::MassConserving { .. } => {

@@ -1,10 +1,10 @@
 //! Models of films that rupture by complementarity: near full solutions of the same law, with the boundary where it is.
 
-use super::small::{line, line_grid, point};
+use super::small::{line, line_grid, point, sliding_oils, sliding_oils_of_points};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Start};
-use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, fronts};
 use std::sync::Arc;
 
@@ -16,20 +16,27 @@ fn on(grid: GridSpec, spec: TrainingSpec) -> TrainingSpec {
     TrainingSpec { windows: Windows::Given(vec![WindowSpec::new((1.0, 500.0), grid)]), ..spec }
 }
 
-/// Largest relative error of H_c at fresh points, and how far the boundary lies from the full solutions'.
-fn errors(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> (f64, usize) {
+/// Largest relative errors of H_c, and of traction where there is one, at fresh points, and how far the boundary lies from
+/// the full solutions'.
+fn errors(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> ([f64; 2], usize) {
     let grid = &model.windows[0].grid;
     let mut online = Online::new(Arc::clone(model), ReducedOptions::default());
     let mut full = ContactSolver::on(grid);
-    let (mut worst, mut off) = (0.0, 0);
+    let (mut worst, mut off) = ([0.0; 2], 0);
     for point in random_points(&spec.range, spec.contact(), 16, 77) {
         online.forget();
         let solved = online.solve(&point, spec.lubricant).unwrap();
         let fields = online.reconstruct(&solved).unwrap();
         let truth = full.solve(&point, spec.lubricant, Start::Cold, &()).unwrap();
         assert!(truth.converged());
-        worst = f64::max(worst, (solved.h_c / truth.scalars.h_c - 1.0).abs());
-        assert!((fields.scalars.h_c / solved.h_c - 1.0).abs() < 1e-8, "the film of the fields is that of the solve");
+        worst[0] = f64::max(worst[0], (solved.h_c / truth.scalars.h_c - 1.0).abs());
+        if let Some(traction) = solved.traction {
+            worst[1] = f64::max(worst[1], (traction / truth.traction_coefficient() - 1.0).abs());
+        }
+        // Pressures of modes that share a basis are made in single precision, and bodies deform by ten times the film.
+        let (shares, apart) = (model.windows[0].pressure.combined().is_some(), fields.scalars.h_c / solved.h_c - 1.0);
+        let digits = if shares { 1e-6 } else { 1e-8 };
+        assert!(apart.abs() < digits, "{:?}: the film of the fields is by {apart:.1e} another", spec.contact());
         let true_fronts = fronts(grid, |node| truth.pressure[node]);
         off = true_fronts.iter().zip(&solved.fronts).map(|(a, b)| a.abs_diff(*b)).fold(off, usize::max);
         assert_eq!(true_fronts.len(), solved.fronts.len());
@@ -53,7 +60,7 @@ fn line_models_are_near_full_complementarity_with_the_boundary_within_a_node() {
         let spec = ruptured(on(grid, line(sampling, 50)));
         let model = Arc::new(train(&spec, &()).unwrap());
         assert_eq!(model.domain.lubricant.cavitation, Cavitation::Complementarity);
-        let (worst, off) = errors(&spec, &model);
+        let ([worst, _], off) = errors(&spec, &model);
         assert!(worst < 2e-3 && off <= 1, "{grid:?}, {sampling:?}: H_c {worst:.1e}, {off} nodes");
     }
 }
@@ -87,15 +94,17 @@ fn a_boundary_that_begins_elsewhere_is_found_and_the_order_of_solves_does_not_ma
 fn point_models_are_near_full_complementarity() {
     let spec = ruptured(point(Sampling::Cubature, 24));
     let model = Arc::new(train(&spec, &()).unwrap());
-    let (worst, off) = errors(&spec, &model);
+    let ([worst, _], off) = errors(&spec, &model);
     assert!(worst < 6e-3 && off <= 2, "H_c {worst:.1e}, {off} nodes");
 }
 
 #[test]
-fn lubricants_that_thin_under_shear_are_refused() {
-    let shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
-    let spec = line(Sampling::QDeim, 8);
-    let spec = ruptured(TrainingSpec { lubricant: Lubricant { shear, ..spec.lubricant }, ..spec });
-    let sentence = spec.check().unwrap_err().to_string();
-    assert!(sentence.contains("`cavitation` is complementarity") && sentence.contains("penalty"), "{sentence}");
+fn models_of_oils_that_thin_under_shear_are_near_full_complementarity() {
+    for (spec, allowed) in [(sliding_oils(Sampling::QDeim, 60), 2e-3), (sliding_oils_of_points(70), 6e-3)] {
+        let spec = ruptured(spec);
+        let model = Arc::new(train(&spec, &()).unwrap());
+        let ([film, traction], off) = errors(&spec, &model);
+        let told = format!("{:?}: H_c {film:.1e}, traction {traction:.1e}, {off} nodes", spec.contact());
+        assert!(film < allowed && traction < allowed && traction > 0.0 && off <= 2, "{told}");
+    }
 }

@@ -194,7 +194,7 @@ fn ranges_of_sliding_oils_are_refused_with_their_field() {
     }
     let newtonian = TrainingSpec { lubricant: Lubricant::default(), ..good.clone() };
     assert!(refused(newtonian).contains("Eyring"));
-    assert!(refused(good.under(Cavitation::Complementarity)).contains("penalty"));
+    assert!(good.under(Cavitation::Complementarity).check().is_ok());
     let points = random_points(&Range::SlidingOils(range), ContactKind::Line, 200, 3);
     assert_eq!(points.len(), 200);
     for point in points {

@@ -151,6 +151,17 @@ pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
     }
 }
 
+/// Circular contacts of oils that thin by Eyring's law, in two such windows.
+pub(crate) fn sliding_oils_of_points(snapshots: usize) -> TrainingSpec {
+    let (spec, sliding) = (oils_of_points(snapshots), sliding_oils(Sampling::Cubature, snapshots));
+    let (Range::Oils(oils), Range::SlidingOils(range)) = (spec.range, sliding.range) else { return spec };
+    TrainingSpec {
+        range: Range::SlidingOils(SlidingOilRange { oils, ..range }),
+        lubricant: Lubricant { cavitation: Cavitation::Complementarity, ..sliding.lubricant },
+        ..spec
+    }
+}
+
 const HEATED_GRID: GridSpec = GridSpec::Graded { nodes: 280, domain: (-10.0, 2.0), registered: true };
 
 /// Line contacts with heat of an oil whose stress is limited, between steel bodies.

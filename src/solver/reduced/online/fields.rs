@@ -171,6 +171,11 @@ struct Fields {
 }
 
 impl Fields {
+    /// X of the columns of nodes.
+    fn x(&self) -> Vec<f64> {
+        self.grid.abscissae().0.iter().map(|xi| -1.0 + (xi + 1.0) * self.scale).collect()
+    }
+
     /// λ behind the rupture boundary, node array; empty where there is none.
     fn multiplier(&self) -> Vec<f64> {
         let Self { problem, grid, scale, pressure, film, fronts } = self;
@@ -178,7 +183,7 @@ impl Fields {
             return Vec::new();
         }
         let mut multiplier = vec![0.0; pressure.len()];
-        let nodes = Nodes::of(problem.laws(), &grid.gradient(), pressure, film);
+        let nodes = Nodes::of(problem.laws(), &PlaneGradient::new(&self.x(), grid.abscissae().1), pressure, film);
         for unknown in 0..grid.unknowns() {
             let (line, column) = grid.line_and_column(grid.node(unknown));
             if column >= fronts[line] {
@@ -193,11 +198,11 @@ impl Fields {
     fn temperatures(&self, theta: &[Profile]) -> Option<Temperatures> {
         let Self { problem, grid, scale, pressure, film, .. } = self;
         let (heat, laws) = (problem.heat.as_ref()?, problem.warm_laws()?);
-        let ((xi, y), across, first) = (grid.abscissae(), grid.nodes().1, grid.first_column());
+        let ((_, y), across, first) = (grid.abscissae(), grid.nodes().1, grid.first_column());
         let kappa = problem.point.ellipse().kappa;
         let in_a = |y: &[f64]| y.iter().map(|y| kappa * y).collect::<Vec<f64>>();
         let y = &in_a(y)[..];
-        let x: Vec<f64> = xi.iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
+        let x = self.x();
         let gradient = PlaneGradient::new(&x, y);
         let state = |node: usize| {
             let mut slopes = gradient.at_node(pressure, node);

@@ -300,7 +300,7 @@ impl Operators {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
         let Some(heated) = self.heated.as_mut() else { return outcome };
         heated.begin(&self.support.places, case.scale, theta);
-        self.state.spread(&self.support, None, coefficients, &mut self.scratch.fields);
+        self.state.spread(self.support.own, None, coefficients, &mut self.scratch.fields);
         self.scratch.nodes.forget();
         let (mut changed, mut share, mut before) = (1e-3f64, 1.0f64, f64::INFINITY);
         for turn in 1..=stop.max_newton {
@@ -331,7 +331,7 @@ impl Operators {
             if now < NEAR && omega == 1.0 && changed > outcome.step {
                 // Newton's steps need no help; where these are small it is the temperatures that take their time.
                 heated.mix(coefficients, h_0);
-                self.state.spread(&self.support, None, coefficients, &mut self.scratch.fields);
+                self.state.spread(self.support.own, None, coefficients, &mut self.scratch.fields);
             } else {
                 // Temperatures that swing with the pressure come to rest when they follow it by less.
                 let swings = changed > 0.8 * before;

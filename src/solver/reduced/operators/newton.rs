@@ -97,7 +97,7 @@ impl Operators {
         mut observer: Option<RowObserver<'_>>,
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
-        self.state.spread(&self.support, self.front.as_mut(), coefficients, &mut self.scratch.fields);
+        self.state.spread(self.support.own, self.front.as_mut(), coefficients, &mut self.scratch.fields);
         // The films of another contact are no start.
         self.scratch.nodes.forget();
         // Whether the last derivatives are those of a place so near that their factors serve again.
@@ -157,14 +157,14 @@ impl Operators {
     /// Takes a share of the step that was solved for, and of its fields; returns its size, relative.
     pub(super) fn take_step(&mut self, omega: f64, coefficients: &mut [f64], h_0: &mut f64) -> f64 {
         let (s, count) = (&mut self.scratch, self.support.len());
-        let (fields, gradients) = s.fields.split_at_mut(2 * count);
-        let (steps, slopes) = s.step_fields.split_at(2 * count);
         for part in seen(self.support.own, self.front.as_ref()) {
-            for part in [part.clone(), count + part.start..count + part.end] {
-                fields[part.clone()].iter_mut().zip(&steps[part]).for_each(|(field, step)| *field += omega * step);
+            for (field, step) in s.fields.chunks_exact_mut(count).zip(s.step_fields.chunks_exact(count)) {
+                field[part.clone()]
+                    .iter_mut()
+                    .zip(&step[part.clone()])
+                    .for_each(|(field, step)| *field += omega * step);
             }
         }
-        gradients.iter_mut().zip(slopes).for_each(|(field, step)| *field += omega * step);
         let (mut change, mut size) = (0.0, 0.0);
         for (c, d) in coefficients.iter_mut().zip(&s.system.rhs) {
             *c += omega * d;
@@ -177,12 +177,11 @@ impl Operators {
 
     /// Lets the rupture boundary follow a step.
     fn follow(&mut self, scale: f64, omega: f64, coefficients: &[f64]) -> Moved {
-        let Self { front, state, load_row, scratch: s, support, .. } = self;
+        let Self { front, state, load_row, scratch: s, .. } = self;
         let Some(front) = front else { return Moved::Still };
-        let (count, shift) = (2 * support.len(), s.system.rhs[state.modes]);
-        let changed = Changed { load_row, fields: &mut s.fields[..count] };
-        let steps = (&s.step_fields[..count], shift);
-        front.follow((&s.nodes, &state.values), (scale, omega), steps, coefficients, changed)
+        let steps = (s.step_fields.as_slice(), s.system.rhs[state.modes]);
+        let changed = Changed { load_row, fields: &mut s.fields };
+        front.follow((&s.nodes, state), (scale, omega), steps, coefficients, changed)
     }
 
     /// The films of the fields.
@@ -221,9 +220,9 @@ impl Operators {
                 s.nodes.evaluate_warm_at(wanted, &laws, (pressure, &s.films), gradient, warm);
             }
             None if self.front.is_some() => {
-                // Models that know a rupture boundary are Newtonian.
+                let laws = Laws { shear, ..problem.laws() };
                 for part in seen(self.support.own, self.front.as_ref()) {
-                    s.nodes.evaluate_part(&problem.laws(), part, (pressure, &s.films));
+                    s.nodes.evaluate_part(&laws, part, (pressure, &s.films), gradient);
                 }
             }
             None => s.nodes.evaluate(
@@ -408,7 +407,7 @@ impl Operators {
     pub(super) fn damping(&mut self, scale: f64) -> f64 {
         let s = &mut self.scratch;
         let (step, dh_0) = s.system.rhs.split_at(self.modes);
-        self.state.spread(&self.support, self.front.as_mut(), step, &mut s.step_fields);
+        self.state.spread(self.support.own, self.front.as_mut(), step, &mut s.step_fields);
         let (pressure, deformation) = s.step_fields.split_at(self.support.len());
         let (mut largest, mut omega, dh_0) = (0.0f64, 1.0f64, dh_0[0]);
         for part in seen(self.support.own, self.front.as_ref()) {

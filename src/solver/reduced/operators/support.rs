@@ -117,18 +117,29 @@ impl StateRows {
         front.map_or(&self.deformations, Front::deformations)
     }
 
-    /// P, K P and the gradients of coefficients at the parts of the support that are seen.
-    pub fn spread(&self, support: &Support, front: Option<&mut Front>, coefficients: &[f64], out: &mut [f64]) {
-        let (count, own) = (support.len(), support.own);
-        let (pressure, rest) = out.split_at_mut(count);
-        let (deformation, gradients) = rest.split_at_mut(count);
+    /// P, K P and the gradients of coefficients, one behind the other, at the parts of a support that are seen: the `own`
+    /// places of its rows, and what lies near a rupture boundary.
+    pub fn spread(&self, own: usize, front: Option<&mut Front>, coefficients: &[f64], out: &mut [f64]) {
+        let count = self.count();
+        let (state, gradients) = out.split_at_mut(2 * count);
+        let (pressure, deformation) = state.split_at_mut(count);
         rows_times(&self.values, coefficients, &mut pressure[..own]);
         rows_times(self.deformations(front.as_deref()), coefficients, &mut deformation[..own]);
-        if !gradients.is_empty() {
-            rows_times(&self.gradients, coefficients, gradients);
+        for (gradient, rows) in gradients.chunks_exact_mut(count).zip(self.gradient_rows()) {
+            rows_times(rows, coefficients, &mut gradient[..own]);
         }
         if let Some(front) = front {
-            front.spread(&self.values, coefficients, (pressure, deformation));
+            front.spread(self, coefficients, out);
         }
+    }
+
+    /// How many places there are.
+    pub fn count(&self) -> usize {
+        self.values.len() / self.modes
+    }
+
+    /// The gradients, axis by axis.
+    pub fn gradient_rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.gradients.chunks_exact(self.values.len())
     }
 }

@@ -39,8 +39,8 @@ impl Rule {
         (coefficients, h_0): (&[f64], f64),
     ) -> f64 {
         let Self { weights, support, state, fields } = self;
-        state.spread(support, None, coefficients, fields);
         let count = support.len();
+        state.spread(count, None, coefficients, fields);
         let (pressure, rest) = fields.split_at(count);
         let (deformation, gradients) = rest.split_at(count);
         let offset = h_0 - 0.5 * scale.ln();

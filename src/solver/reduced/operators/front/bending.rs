@@ -1,6 +1,6 @@
 //! What the boundary changes of K V and K P: at places of it that are kept, and by the nodes between.
 
-use super::Front;
+use super::{Front, StateRows};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::reduced::model::{Snapshot, Window};
@@ -132,31 +132,33 @@ impl Front {
         }
     }
 
-    /// P and K P of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what nodes between B
+    /// P, K P and the gradients of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what nodes between B
     /// and its place in K V bend, and finds both near B.
-    pub fn spread(&mut self, values: &[f64], coefficients: &[f64], (pressure, deformation): (&mut [f64], &mut [f64])) {
+    pub fn spread(&mut self, state: &StateRows, coefficients: &[f64], fields: &mut [f64]) {
+        let (pressure, rest) = fields.split_at_mut(state.count());
         for line in &self.lines {
             for passed in &self.nodes[line.first + line.front..line.first + line.count] {
                 pressure[passed.place] = 0.0;
             }
         }
         self.find_bending(coefficients);
-        self.bend_part(0..self.own, deformation);
-        self.spread_near(values, coefficients, (pressure, deformation));
+        self.bend_part(0..self.own, rest);
+        self.spread_near(state, coefficients, fields);
     }
 
-    /// P and K P of coefficients near B, where what bends is known.
-    pub(super) fn spread_near(
-        &self,
-        values: &[f64],
-        coefficients: &[f64],
-        (pressure, deformation): (&mut [f64], &mut [f64]),
-    ) {
+    /// P, K P and the gradients of coefficients near B, where what bends is known.
+    pub(super) fn spread_near(&self, state: &StateRows, coefficients: &[f64], fields: &mut [f64]) {
+        let count = state.count();
+        let (pressure, rest) = fields.split_at_mut(count);
+        let (deformation, gradients) = rest.split_at_mut(count);
         let rows = self.deformations();
         for near in self.near() {
             for place in near.clone() {
-                pressure[place] = if self.cut[place] { 0.0 } else { row_times(values, place, coefficients) };
+                pressure[place] = if self.cut[place] { 0.0 } else { row_times(&state.values, place, coefficients) };
                 deformation[place] = row_times(rows, place, coefficients);
+                for (gradient, rows) in gradients.chunks_exact_mut(count).zip(state.gradient_rows()) {
+                    gradient[place] = row_times(rows, place, coefficients);
+                }
             }
             self.bend_part(near, deformation);
         }
