@@ -132,8 +132,8 @@ impl Front {
         }
     }
 
-    /// P, K P and the gradients of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what nodes between B
-    /// and its place in K V bend, and finds both near B.
+    /// P, K P and the gradients of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what
+    /// nodes between B and its place in K V bend, and finds all three near B.
     pub fn spread(&mut self, state: &StateRows, coefficients: &[f64], fields: &mut [f64]) {
         let (pressure, rest) = fields.split_at_mut(state.count());
         for line in &self.lines {
