@@ -39,6 +39,7 @@ use crate::solver::full::{ContactSolver, FullSolver, PointSolver, Scalars, Solut
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
+use faer::Mat;
 use std::sync::Arc;
 
 /// 2² − 1: an error of second order on a grid and on the one with half its spacing.
@@ -230,15 +231,16 @@ fn converged(solution: Solution, grid: &str) -> Result<Solution, SplitError> {
 /// The projection of a full state onto the trial space of a reduced solution, among pressures that carry the load.
 fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolution) -> ReducedSolution {
     let weights = window.grid.weights();
-    let mut coefficients = window.pressure.basis().coefficients(weights, |i| full.pressure[i]);
-    let mut load = window.pressure.basis().coefficients(weights, |_| 1.0);
-    coefficients.truncate(reduced.coefficients.len());
-    load.truncate(reduced.coefficients.len());
-    // The modes are orthonormal, so the shortest way to the right load runs along its own coefficients.
+    let basis = window.pressure.basis().clone().cut(reduced.coefficients.len());
+    let load = basis.coefficients(weights, |_| 1.0);
+    // The shortest way to the right load runs along the best approximation of what carries it.
+    let fields = Mat::from_fn(weights.len(), 2, |i, k| if k == 0 { full.pressure[i] } else { 1.0 });
+    let best = basis.best_coefficients(weights, fields.as_ref());
+    let [mut coefficients, way] = [0, 1].map(|k| best.col(k).iter().copied().collect::<Vec<f64>>());
     let missing = full.problem.load / full.mesh.scale - dot(&load, &coefficients);
-    let step = missing / dot(&load, &load);
-    for (c, l) in coefficients.iter_mut().zip(&load) {
-        *c += step * l;
+    let step = missing / dot(&load, &way);
+    for (c, way) in coefficients.iter_mut().zip(&way) {
+        *c += step * way;
     }
     let ruptured = !reduced.fronts.is_empty();
     let fronts = if ruptured { fronts(&window.grid, |node| full.pressure[node]) } else { Vec::new() };

@@ -1,5 +1,6 @@
 //! Proper orthogonal decomposition under quadrature weights, (2.88)–(2.95).
 
+use super::dense;
 use faer::linalg::solvers::Svd;
 use faer::{ColRef, Mat, MatRef};
 
@@ -64,6 +65,17 @@ impl PodBasis {
     pub fn coefficients(&self, weights: &[f64], value: impl Fn(usize) -> f64) -> Vec<f64> {
         let of = |mode: ColRef<'_, f64>| mode.iter().zip(weights).enumerate().map(|(i, (v, w))| w * v * value(i)).sum();
         self.modes.col_iter().map(of).collect()
+    }
+
+    /// The coefficients of the best approximations of fields, one per column over the node array: modes × fields; not finite
+    /// where modes depend on each other. Modes that were rounded are not quite orthonormal: of a rare one
+    /// [`Self::coefficients`] would be what it shares with the first, a thousand times its own.
+    pub fn best_coefficients(&self, weights: &[f64], fields: MatRef<'_, f64>) -> Mat<f64> {
+        let modes = self.modes.as_ref();
+        let weighted =
+            |fields: MatRef<'_, f64>| Mat::from_fn(fields.nrows(), fields.ncols(), |i, j| weights[i] * fields[(i, j)]);
+        let inner = |fields: MatRef<'_, f64>| dense::product(modes.transpose(), weighted(fields).as_ref());
+        dense::solved(inner(modes).as_ref(), inner(fields))
     }
 
     /// Loss of information when only the first `k` modes are kept, (2.90).

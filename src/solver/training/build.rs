@@ -343,14 +343,15 @@ fn bases(
         Some(deformation) => deformation,
         None => Arc::new(PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), deformation_loss)?),
     };
+    let coefficients = pressure.coefficients(weights, &pressures);
     let mut snapshots: Vec<Snapshot> = solutions
         .iter()
-        .zip(pressures.col_iter())
+        .zip(coefficients.col_iter())
         .zip(own)
         .filter(|(_, own)| **own)
-        .map(|((s, p), _)| Snapshot {
+        .map(|((s, coefficients), _)| Snapshot {
             point: s.point,
-            coefficients: pressure.basis().coefficients(weights, |i| p[i]),
+            coefficients: coefficients.iter().copied().collect(),
             h_0: s.h_0,
             h_c: s.h_c,
             fronts: Vec::new(),
