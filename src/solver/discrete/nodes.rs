@@ -107,29 +107,21 @@ impl Nodes {
             let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
             ShearNode::near(known, fluid, law, inverse_lambda, state, treatment)
         };
-        let nodes = &mut self.nodes;
         match order {
             Order::Parallel => {
-                let all = self.thinning.par_iter_mut().zip(nodes).enumerate().with_min_len(SHARE[1]);
+                let all = self.thinning.par_iter_mut().zip(&mut self.nodes).enumerate().with_min_len(SHARE[1]);
                 all.for_each(|(k, (own, node))| {
                     *own = thinned(k, &own.known);
                     *node = own.node;
                 });
             }
             Order::Alone => {
-                for (k, (own, node)) in self.thinning.iter_mut().zip(nodes).enumerate() {
+                for (k, (own, node)) in self.thinning.iter_mut().zip(&mut self.nodes).enumerate() {
                     *own = thinned(k, &own.known);
                     *node = own.node;
                 }
             }
-            Order::BesideTheFormer => {
-                // Between two evaluations the stress hardly changes; in the first one the node before is near.
-                let mut former = KnownFilm::default();
-                for (k, (own, node)) in self.thinning.iter_mut().zip(nodes).enumerate() {
-                    *own = thinned(k, if own.known.is_empty() { &former } else { &own.known });
-                    (*node, former) = (own.node, own.known);
-                }
-            }
+            Order::BesideTheFormer => self.thin_beside_the_former(0..self.nodes.len(), thinned),
         }
     }
 
@@ -143,15 +135,7 @@ impl Nodes {
         gradient: impl Fn(usize) -> [f64; 2],
     ) {
         if let Some(law) = laws.shear {
-            self.thinning.resize(self.nodes.len(), ShearNode::default());
-            let mut former = KnownFilm::default();
-            for k in part {
-                let own = &mut self.thinning[k];
-                let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
-                let known = if own.known.is_empty() { former } else { own.known };
-                *own = ShearNode::near(&known, laws.fluid, law, laws.inverse_lambda, state, FilmTreatment::default());
-                (self.nodes[k], former) = (own.node, own.known);
-            }
+            self.thin(laws, law, part, (pressure, film), gradient);
             return;
         }
         self.thinning.clear();
@@ -163,6 +147,38 @@ impl Nodes {
             for (node, (state, (&p, &h))) in nodes.iter_mut().zip(fluid.iter().zip(pressures.iter().zip(films))) {
                 *node = Node::of_state(state, laws.inverse_lambda, p, h);
             }
+        }
+    }
+
+    /// Evaluates some of the nodes of (P, H), of a lubricant that thins, in the order [`Order::BesideTheFormer`];
+    /// `gradient` as of [`Self::evaluate`].
+    pub fn thin(
+        &mut self,
+        laws: &Laws<'_>,
+        law: &ScaledShear,
+        wanted: impl IntoIterator<Item = usize>,
+        (pressure, film): (&[f64], &[f64]),
+        gradient: impl Fn(usize) -> [f64; 2],
+    ) {
+        self.thinning.resize(self.nodes.len(), ShearNode::default());
+        self.thin_beside_the_former(wanted, |k, known| {
+            let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
+            ShearNode::near(known, laws.fluid, law, laws.inverse_lambda, state, FilmTreatment::default())
+        });
+    }
+
+    /// Thins some of the nodes in the order [`Order::BesideTheFormer`], by a law that is given a node and the film near
+    /// which its own is: between two evaluations the stress hardly changes, in the first one the node before is near.
+    fn thin_beside_the_former(
+        &mut self,
+        wanted: impl IntoIterator<Item = usize>,
+        thinned: impl Fn(usize, &KnownFilm) -> ShearNode,
+    ) {
+        let mut former = KnownFilm::default();
+        for k in wanted {
+            let own = &mut self.thinning[k];
+            *own = thinned(k, if own.known.is_empty() { &former } else { &own.known });
+            (self.nodes[k], former) = (own.node, own.known);
         }
     }
 

@@ -2,8 +2,10 @@
 
 use super::small::{line, line_grid, point, sliding_oils, sliding_oils_of_points};
 use super::*;
-use crate::solver::discrete::grid::GridSpec;
-use crate::solver::full::{ContactSolver, Start};
+use crate::solver::discrete::grid::{ContactGrid, GridSpec};
+use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::generalized::PlaneGradient;
+use crate::solver::full::{ContactSolver, Solution, Start};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, fronts};
 use std::sync::Arc;
@@ -44,8 +46,23 @@ fn errors(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> ([f64; 2], usize) {
         assert!(fields.pressure.iter().zip(&fields.multiplier).all(|(p, multiplier)| p * multiplier == 0.0));
         let highest = |field: &[f64]| field.iter().copied().fold(0.0, f64::max);
         assert!((highest(&fields.multiplier) / highest(&truth.multiplier) - 1.0).abs() < 0.1);
+        let missed = missed_by_multiplier(&fields, grid) / highest(&fields.multiplier);
+        assert!(missed < 1e-9, "{:?}: λ balances the rows but for {missed:.1e}", spec.contact());
     }
     (worst, off)
+}
+
+/// By how much λ misses what balances the rows behind the boundary with every node evaluated by its law, at most.
+fn missed_by_multiplier(fields: &Solution, grid: &ContactGrid) -> f64 {
+    let gradient = PlaneGradient::new(&fields.x, &fields.y);
+    let nodes = Nodes::of(fields.problem.laws(), &gradient, &fields.pressure, &fields.film);
+    let behind = (0..grid.unknowns()).filter(|unknown| fields.multiplier[grid.node(*unknown)] != 0.0);
+    let missed = behind.map(|unknown| {
+        let (stencil, geometry) = grid.row(unknown);
+        let row = nodes.row(&geometry.scaled(fields.mesh.scale), 0.0, stencil);
+        (row.value + fields.multiplier[grid.node(unknown)]).abs()
+    });
+    missed.fold(0.0, f64::max)
 }
 
 #[test]

@@ -35,6 +35,12 @@ const EXPLORER_NODES: usize = 632;
 const EXPLORER_INLET: f64 = -20.0;
 const EXPLORER_OUTLET: f64 = 3.2;
 
+/// X = −1 + (ξ + 1) s of a reference abscissa ξ under the map with scale s.
+#[inline]
+pub fn stretched(xi: f64, scale: f64) -> f64 {
+    -1.0 + (xi + 1.0) * scale
+}
+
 impl GridSpec {
     /// The dissertation's grid: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
@@ -162,7 +168,7 @@ impl ReferenceGrid {
 
     /// The grid under the map with scale s.
     pub fn scaled(self: &Arc<Self>, scale: f64) -> LineGrid {
-        let x: Vec<f64> = self.xi.iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
+        let x: Vec<f64> = self.xi.iter().map(|xi| stretched(*xi, scale)).collect();
         let weights = self.weights.iter().map(|w| w * scale).collect();
         let rows = x.windows(4).map(|w| RowGeometry::new([w[0], w[1], w[2], w[3]])).collect();
         LineGrid { reference: Arc::clone(self), scale, x, weights, rows }

@@ -12,7 +12,7 @@ pub use error::{GridError, MAX_BYTES};
 pub use fitting::that_would_do;
 pub use line::{
     FIRST_UNKNOWN, INLET, LONGEST_INLET, LONGEST_OUTLET, LineGrid, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid,
-    registration_scale, spike_position,
+    registration_scale, spike_position, stretched,
 };
 pub use point::{PointGrid, PointGridSpec};
 

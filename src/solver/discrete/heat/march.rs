@@ -8,6 +8,7 @@ use super::across::{ACROSS, POINTS, Profile, inner};
 use super::film::WarmLaws;
 use super::station::{Limit, Made, Neighbours, Place, Side, Station};
 use super::surfaces::MovingSource;
+use crate::solver::discrete::grid::stretched;
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use std::sync::Arc;
 
@@ -167,10 +168,10 @@ impl March {
         }
     }
 
-    /// Cold stations at −1 + (ξ + 1) s, of the reference abscissae ξ by which it was made.
+    /// Cold stations at X = −1 + (ξ + 1) s, of the reference abscissae ξ by which it was made.
     pub fn begin(&mut self, reference: &[f64], scale: f64) {
         for (x, xi) in self.x.iter_mut().zip(reference) {
-            *x = -1.0 + (xi + 1.0) * scale;
+            *x = stretched(*xi, scale);
         }
         self.root = scale.sqrt();
         self.stations.fill(Station::default());

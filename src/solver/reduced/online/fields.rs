@@ -1,9 +1,9 @@
 //! From a reduced solution back to fields: the only large-scale work online, on request.
 
 use super::{Online, ReducedError, ReducedSolution, operators_of};
-use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::discrete::grid::{ContactGrid, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, Spread, apply};
-use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::nodes::{Laws, Nodes};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
@@ -143,7 +143,7 @@ impl Online {
         let (offset, curvature) = (h_0 - 0.5 * scale.ln(), ellipse.gap_curvature());
         let across: Vec<f64> = (0..across).map(|j| window.grid.place(j).1).map(|y| curvature * y * y).collect();
         for (i, column) in film.chunks_exact_mut(across.len()).enumerate() {
-            let x = -1.0 + (window.grid.place(i * across.len()).0 + 1.0) * scale;
+            let x = stretched(window.grid.place(i * across.len()).0, scale);
             for (h, across) in column.iter_mut().zip(&across) {
                 *h = offset + 0.5 * (x * x + across) + scale * *h;
             }
@@ -173,7 +173,7 @@ struct Fields {
 impl Fields {
     /// X of the columns of nodes.
     fn x(&self) -> Vec<f64> {
-        self.grid.abscissae().0.iter().map(|xi| -1.0 + (xi + 1.0) * self.scale).collect()
+        self.grid.abscissae().0.iter().map(|xi| stretched(*xi, self.scale)).collect()
     }
 
     /// λ behind the rupture boundary, node array; empty where there is none.
@@ -183,13 +183,30 @@ impl Fields {
             return Vec::new();
         }
         let mut multiplier = vec![0.0; pressure.len()];
-        let nodes = Nodes::of(problem.laws(), &PlaneGradient::new(&self.x(), grid.abscissae().1), pressure, film);
-        for unknown in 0..grid.unknowns() {
-            let (line, column) = grid.line_and_column(grid.node(unknown));
-            if column >= fronts[line] {
-                let (stencil, geometry) = grid.row(unknown);
-                multiplier[grid.node(unknown)] = -nodes.row(&geometry.scaled(*scale), 0.0, stencil).value;
-            }
+        let behind = || {
+            (0..grid.unknowns()).filter(|&unknown| {
+                let (line, column) = grid.line_and_column(grid.node(unknown));
+                column >= fronts[line]
+            })
+        };
+        let mut nodes = Nodes::new(pressure.len(), problem.shear.is_some());
+        let (laws, state) = (problem.laws(), (&pressure[..], &film[..]));
+        let gradient = PlaneGradient::new(&self.x(), grid.abscissae().1);
+        let gradient = |node: usize| gradient.at_node(pressure, node);
+        let reached = behind().flat_map(|unknown| grid.row(unknown).0).min().unwrap_or(pressure.len());
+        nodes.evaluate_part(&Laws { shear: None, ..laws }, reached..pressure.len(), state, gradient);
+        if let Some(law) = laws.shear {
+            // Where no pressure is near, thinning moves nothing, and most rows behind the boundary are there.
+            let near = |node: &usize| pressure[*node] != 0.0 || gradient(*node) != [0.0; 2];
+            let asked = behind().map(|unknown| grid.row(unknown).0).filter(|stencil| stencil.iter().any(near));
+            let mut wanted: Vec<usize> = asked.flatten().collect();
+            wanted.sort_unstable();
+            wanted.dedup();
+            nodes.thin(&laws, law, wanted, state, gradient);
+        }
+        for unknown in behind() {
+            let (stencil, geometry) = grid.row(unknown);
+            multiplier[grid.node(unknown)] = -nodes.row(&geometry.scaled(*scale), 0.0, stencil).value;
         }
         multiplier
     }
@@ -213,7 +230,7 @@ impl Fields {
             NodeState { pressure: pressure[node], gradient: slopes, film: film[node] }
         };
         let stations = Stations::of(grid);
-        let at: Vec<f64> = stations.xi(grid).iter().map(|xi| -1.0 + (xi + 1.0) * scale).collect();
+        let at: Vec<f64> = stations.xi(grid).iter().map(|xi| stretched(*xi, *scale)).collect();
         let mut lines = Lines::new(in_a(&stations.y(grid)), &at, &Arc::new(MovingSource::new(&at)));
         if theta.len() != lines.stations().count() {
             return None;

@@ -324,7 +324,7 @@ impl Front {
             return Moved::Still;
         }
         let Changed { load_row, fields } = changed;
-        let s = state.count();
+        let s = self.cut.len();
         let turns = if self.strides { TURNS } else { self.turns };
         self.passing.clear();
         for line in &mut self.lines {

@@ -5,7 +5,7 @@
 use super::Operators;
 use super::newton::{Case, OnlineOutcome, RowObserver, Slopes, Stop};
 use super::support::Place;
-use crate::solver::discrete::grid::{ContactGrid, INLET};
+use crate::solver::discrete::grid::{ContactGrid, INLET, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, RULE, Spread, WarmFilm, apply};
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::Problem;
@@ -221,7 +221,7 @@ impl Heated {
             station.theta = *theta;
         }
         for (x, place) in self.x.iter_mut().zip(support) {
-            *x = -1.0 + (place.xi + 1.0) * scale;
+            *x = stretched(place.xi, scale);
         }
         if self.spread.0 != scale {
             // Line contacts alone are stretched.

@@ -1,7 +1,7 @@
 //! The nodes on which the rows of some operators depend, and their modes there.
 
 use super::front::Front;
-use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::discrete::grid::{ContactGrid, stretched};
 use crate::solver::reduced::model::Window;
 use crate::solver::reduced::sums::rows_times;
 use faer::Mat;
@@ -19,7 +19,7 @@ pub(super) struct Place {
 impl Place {
     /// The gap of the undeformed bodies there, with H₀ = 0.
     pub fn gap(&self, scale: f64, curvature: f64) -> f64 {
-        let x = -1.0 + (self.xi + 1.0) * scale;
+        let x = stretched(self.xi, scale);
         0.5 * curvature * x * x + self.across
     }
 }
@@ -120,7 +120,7 @@ impl StateRows {
     /// P, K P and the gradients of coefficients, one behind the other, at the parts of a support that are seen: the `own`
     /// places of its rows, and what lies near a rupture boundary.
     pub fn spread(&self, own: usize, front: Option<&mut Front>, coefficients: &[f64], out: &mut [f64]) {
-        let count = self.count();
+        let count = self.values.len() / self.modes;
         let (state, gradients) = out.split_at_mut(2 * count);
         let (pressure, deformation) = state.split_at_mut(count);
         rows_times(&self.values, coefficients, &mut pressure[..own]);
@@ -131,11 +131,6 @@ impl StateRows {
         if let Some(front) = front {
             front.spread(self, coefficients, out);
         }
-    }
-
-    /// How many places there are.
-    pub fn count(&self) -> usize {
-        self.values.len() / self.modes
     }
 
     /// The gradients, axis by axis.

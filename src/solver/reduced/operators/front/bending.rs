@@ -135,7 +135,7 @@ impl Front {
     /// P, K P and the gradients of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what
     /// nodes between B and its place in K V bend, and finds all three near B.
     pub fn spread(&mut self, state: &StateRows, coefficients: &[f64], fields: &mut [f64]) {
-        let (pressure, rest) = fields.split_at_mut(state.count());
+        let (pressure, rest) = fields.split_at_mut(self.cut.len());
         for line in &self.lines {
             for passed in &self.nodes[line.first + line.front..line.first + line.count] {
                 pressure[passed.place] = 0.0;
@@ -148,7 +148,7 @@ impl Front {
 
     /// P, K P and the gradients of coefficients near B, where what bends is known.
     pub(super) fn spread_near(&self, state: &StateRows, coefficients: &[f64], fields: &mut [f64]) {
-        let count = state.count();
+        let count = self.cut.len();
         let (pressure, rest) = fields.split_at_mut(count);
         let (deformation, gradients) = rest.split_at_mut(count);
         let rows = self.deformations();
