@@ -152,7 +152,7 @@ impl PressureModes {
     }
 
     /// The coefficients of fields, one per column over the node array: modes × fields; of combinations those of the best
-    /// approximations.
+    /// approximations. Of modes of their own starts alone are made of these.
     pub fn coefficients(&self, weights: &[f64], fields: &Mat<f64>) -> Mat<f64> {
         if self.combined.is_some() {
             return self.basis().best_coefficients(weights, fields.as_ref());

@@ -69,7 +69,7 @@ impl PodBasis {
 
     /// The coefficients of the best approximations of fields, one per column over the node array: modes × fields; not finite
     /// where modes depend on each other. Modes that were rounded are not quite orthonormal: of a rare one
-    /// [`Self::coefficients`] would be what it shares with the first, a thousand times its own.
+    /// [`Self::coefficients`] has mostly what it shares with the first.
     pub fn best_coefficients(&self, weights: &[f64], fields: MatRef<'_, f64>) -> Mat<f64> {
         let modes = self.modes.as_ref();
         let weighted =
