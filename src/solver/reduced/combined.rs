@@ -217,15 +217,20 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 
+    /// So many pressures like a contact's, each further along X and steeper than the one before.
+    fn bumps(grid: &ContactGrid, count: usize, (further, steeper): (f64, f64)) -> Mat<f64> {
+        Mat::from_fn(grid.len(), count, |i, k| {
+            let ((x, y), k) = (grid.place(i), k as f64);
+            let inside = (1.0 - (x - further * k).powi(2) - y * y).max(0.0);
+            if grid.weights()[i] > 0.0 { inside.powf(0.5 + steeper * k) } else { 0.0 }
+        })
+    }
+
     #[test]
     fn combinations_are_the_modes_of_pressures_within_the_shared_basis() {
         let grid = GridSpec::Plane(PointGridSpec::uniform(0.1, 0.2, (-4.0, 2.0, -2.0))).build().unwrap();
         let weights = grid.weights();
-        let bump = |k: usize, i: usize| {
-            let (x, y) = grid.place(i);
-            (1.0 - (x - 0.02 * k as f64).powi(2) - y * y).max(0.0).powf(0.5 + 0.05 * k as f64)
-        };
-        let pressures = Mat::from_fn(grid.len(), 12, |i, k| if weights[i] > 0.0 { bump(k, i) } else { 0.0 });
+        let pressures = bumps(&grid, 12, (0.02, 0.05));
         let shared = Arc::new(SharedBasis::new(PodBasis::new(pressures.as_ref(), weights, 0.0).unwrap(), &grid));
         let own = pressures.get(.., ..5).to_owned();
         let made = Combined::of(&shared, &own, weights, (0.0, 4)).unwrap();
@@ -256,11 +261,7 @@ mod tests {
     fn combinations_of_rounded_modes_miss_no_more_than_the_shared_basis_does() {
         let grid = GridSpec::Plane(PointGridSpec::uniform(0.05, 0.1, (-4.0, 2.0, -2.0))).build().unwrap();
         let weights = grid.weights();
-        let bump = |k: usize, i: usize| {
-            let (x, y) = grid.place(i);
-            (1.0 - (x - 0.01 * k as f64).powi(2) - y * y).max(0.0).powf(0.5 + 0.02 * k as f64)
-        };
-        let pressures = Mat::from_fn(grid.len(), 30, |i, k| if weights[i] > 0.0 { bump(k, i) } else { 0.0 });
+        let pressures = bumps(&grid, 30, (0.01, 0.02));
         let rounded = PodBasis::new(pressures.as_ref(), weights, 0.0).unwrap().cut(25).kept(3e-8);
         let missed = |basis: &PodBasis, own: &Mat<f64>| {
             let made = dense::product(basis.modes.as_ref(), basis.best_coefficients(weights, own.as_ref()).as_ref());

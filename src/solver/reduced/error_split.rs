@@ -232,7 +232,7 @@ fn converged(solution: Solution, grid: &str) -> Result<Solution, SplitError> {
 fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolution) -> ReducedSolution {
     let weights = window.grid.weights();
     let basis = window.pressure.basis().clone().cut(reduced.coefficients.len());
-    let load = basis.coefficients(weights, |_| 1.0);
+    let load = window.pressure.carried(weights, basis.modes.ncols());
     // The shortest way to the right load runs along the best approximation of what carries it.
     let fields = Mat::from_fn(weights.len(), 2, |i, k| if k == 0 { full.pressure[i] } else { 1.0 });
     let best = basis.best_coefficients(weights, fields.as_ref());

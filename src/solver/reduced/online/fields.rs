@@ -183,29 +183,28 @@ impl Fields {
             return Vec::new();
         }
         let mut multiplier = vec![0.0; pressure.len()];
-        let behind = || {
-            (0..grid.unknowns()).filter(|&unknown| {
-                let (line, column) = grid.line_and_column(grid.node(unknown));
-                column >= fronts[line]
-            })
+        let ruptured = |unknown: &usize| {
+            let (line, column) = grid.line_and_column(grid.node(*unknown));
+            column >= fronts[line]
         };
+        let behind: Vec<usize> = (0..grid.unknowns()).filter(ruptured).collect();
+        let rows: Vec<_> = behind.iter().map(|&unknown| grid.row(unknown)).collect();
         let mut nodes = Nodes::new(pressure.len(), problem.shear.is_some());
         let (laws, state) = (problem.laws(), (&pressure[..], &film[..]));
         let gradient = PlaneGradient::new(&self.x(), grid.abscissae().1);
         let gradient = |node: usize| gradient.at_node(pressure, node);
-        let reached = behind().flat_map(|unknown| grid.row(unknown).0).min().unwrap_or(pressure.len());
+        let reached = rows.iter().flat_map(|(stencil, _)| *stencil).min().unwrap_or(pressure.len());
         nodes.evaluate_part(&Laws { shear: None, ..laws }, reached..pressure.len(), state, gradient);
         if let Some(law) = laws.shear {
             // Where no pressure is near, thinning moves nothing, and most rows behind the boundary are there.
             let near = |node: &usize| pressure[*node] != 0.0 || gradient(*node) != [0.0; 2];
-            let asked = behind().map(|unknown| grid.row(unknown).0).filter(|stencil| stencil.iter().any(near));
-            let mut wanted: Vec<usize> = asked.flatten().collect();
+            let asked = rows.iter().filter(|(stencil, _)| stencil.iter().any(near));
+            let mut wanted: Vec<usize> = asked.flat_map(|(stencil, _)| *stencil).collect();
             wanted.sort_unstable();
             wanted.dedup();
             nodes.thin(&laws, law, wanted, state, gradient);
         }
-        for unknown in behind() {
-            let (stencil, geometry) = grid.row(unknown);
+        for (unknown, (stencil, geometry)) in behind.into_iter().zip(rows) {
             multiplier[grid.node(unknown)] = -nodes.row(&geometry.scaled(*scale), 0.0, stencil).value;
         }
         multiplier
