@@ -2,7 +2,7 @@
 
 use ehl_explorer::engine::Embedded;
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
+use ehl_explorer::solver::reduced::{Online, ReducedOptions, ReducedSolution, Trust};
 use ehl_explorer::solver::training::{Range, random_points};
 
 /// Tractions below this are those of contacts that hardly slide.
@@ -40,4 +40,23 @@ fn films_and_tractions_of_sliding_lines_lie_near_full_solutions_from_the_lightes
 fn films_and_tractions_of_sliding_balls_lie_near_full_solutions_from_m_3_on() {
     lie_near_full_solutions(Embedded::LightEyringCircle, 4);
     lie_near_full_solutions(Embedded::EyringCircle, 3);
+}
+
+#[test]
+fn contacts_that_end_at_a_larger_step_have_the_same_films_and_tractions_in_fewer_steps() {
+    let model = Embedded::EyringCircle.model().unwrap();
+    let laws = model.domain.lubricant;
+    let points = random_points(&Range::from(&model.domain), model.contact(), 40, 48);
+    let solved = [1e-3, ReducedOptions::default().tolerance].map(|tolerance| {
+        let mut online = Online::new(model.clone(), ReducedOptions { tolerance, ..ReducedOptions::default() });
+        points.iter().map(|point| online.solve(point, laws).unwrap()).collect::<Vec<_>>()
+    });
+    let [early, late] = &solved;
+    for (early, late) in early.iter().zip(late) {
+        let (own, wanted) = (early.traction.unwrap(), late.traction.unwrap());
+        let (film, traction) = ((early.h_c / late.h_c - 1.0).abs(), (own - wanted).abs() / wanted.abs().max(SMALL));
+        assert!(film < 1e-3 && traction < 2e-3, "{film:.1e}, {traction:.1e}, {:?}", late.point.moes());
+    }
+    let steps = |of: &[ReducedSolution]| of.iter().map(|solved| solved.iterations).sum::<usize>();
+    assert!(steps(early) < steps(late));
 }

@@ -133,9 +133,10 @@ impl Nodes {
         part: Range<usize>,
         (pressure, film): (&[f64], &[f64]),
         gradient: impl Fn(usize) -> [f64; 2],
+        treatment: FilmTreatment,
     ) {
         if let Some(law) = laws.shear {
-            self.thin(laws, law, part, (pressure, film), gradient);
+            self.thin((laws, law), part, (pressure, film), gradient, treatment);
             return;
         }
         self.thinning.clear();
@@ -154,16 +155,16 @@ impl Nodes {
     /// `gradient` as of [`Self::evaluate`].
     pub fn thin(
         &mut self,
-        laws: &Laws<'_>,
-        law: &ScaledShear,
+        (laws, law): (&Laws<'_>, &ScaledShear),
         wanted: impl IntoIterator<Item = usize>,
         (pressure, film): (&[f64], &[f64]),
         gradient: impl Fn(usize) -> [f64; 2],
+        treatment: FilmTreatment,
     ) {
         self.thinning.resize(self.nodes.len(), ShearNode::default());
         self.thin_beside_the_former(wanted, |k, known| {
             let state = NodeState { pressure: pressure[k], gradient: gradient(k), film: film[k] };
-            ShearNode::near(known, laws.fluid, law, laws.inverse_lambda, state, FilmTreatment::default())
+            ShearNode::near(known, laws.fluid, law, laws.inverse_lambda, state, treatment)
         });
     }
 

@@ -24,6 +24,7 @@ use super::minimisation::Scheme;
 use super::model::{Window, deformation_weights};
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
+use crate::solver::discrete::reynolds::film_integrals::LAST_STEP;
 use crate::solver::discrete::reynolds::{CENTER, RowGeometry, STENCIL};
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::ContactKind;
@@ -77,6 +78,8 @@ struct Scratch {
     step_fields: Vec<f64>,
     films: Vec<f64>,
     nodes: Nodes,
+    /// The step that ends the iteration of a film of a node that thins.
+    film_step: f64,
     values: Vec<f64>,
     jacobian_rows: Vec<f64>,
     /// By the films of each row's nodes, and by all of them at once.
@@ -194,6 +197,7 @@ impl Operators {
                 step_fields: vec![0.0; (2 + axes) * s],
                 films: vec![0.0; s],
                 nodes: Nodes::new(s, axes > 0),
+                film_step: LAST_STEP,
                 values: vec![0.0; n],
                 jacobian_rows: vec![0.0; n * modes],
                 film_slopes: vec![[0.0; STENCIL]; n],

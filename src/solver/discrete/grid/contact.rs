@@ -180,18 +180,25 @@ impl ContactGrid {
 
     /// Deformations of nodes by unit pressure at each of others, one after the other, in ξ.
     pub fn kernel_columns(&self, nodes: &[usize], others: &[usize]) -> Vec<f32> {
-        let entries = others.iter().flat_map(|&other| nodes.iter().map(move |&node| (node, other)));
+        let mut entries = Vec::with_capacity(nodes.len() * others.len());
         match self {
-            Self::Line(grid) => entries.map(|(node, other)| grid.flexibility.entry(node, other) as f32).collect(),
+            Self::Line(grid) => {
+                for &other in others {
+                    entries.extend(nodes.iter().map(|&node| grid.flexibility.entry(node, other) as f32));
+                }
+            }
             Self::Point(grid) => {
-                // Equal distances along X are equal entries.
                 let (ny, blocks) = (grid.ny(), grid.flexibility.column_blocks());
-                let entry = |(node, other): (usize, usize)| {
-                    blocks[(node / ny).abs_diff(other / ny)][(other % ny - 1) * ny + node % ny] as f32
-                };
-                entries.map(entry).collect()
+                let places: Vec<(usize, usize)> = nodes.iter().map(|node| (node / ny, node % ny)).collect();
+                for other in others {
+                    // Equal distances along X are equal entries.
+                    let (column, from) = (other / ny, (other % ny - 1) * ny);
+                    let entry = |&(own, across): &(usize, usize)| blocks[own.abs_diff(column)][from + across] as f32;
+                    entries.extend(places.iter().map(entry));
+                }
             }
         }
+        entries
     }
 
     /// Quadrature weights of node arrays in ξ and Y; zero where P vanishes.

@@ -58,10 +58,10 @@ const MUCH_MORE_FLUID: f64 = 10.0;
 
 /// A step, relative to τ_m, below which the next one, its square, would be below rounding: the integrals then follow it
 /// to first order.
-const LAST_STEP: f64 = 1e-7;
+pub const LAST_STEP: f64 = 1e-7;
 
-/// The same relative to a and b, where τ_m is so much smaller that rounding hides it.
-const LAST_STEP_ACROSS: f64 = 1e-9;
+/// The share of it relative to a and b that counts as well, where τ_m is so much smaller that rounding hides it.
+const ACROSS: f64 = 1e-2;
 
 /// Stresses are far from overflowing: `hypot` would take longer than a sum over the rule.
 #[inline]
@@ -75,9 +75,14 @@ fn times(m: [f64; 3], v: [f64; 2]) -> [f64; 2] {
 
 /// Solves the inner problem and returns the integrals with their derivatives.
 pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIntegrals {
+    alone(law, rule, load, LAST_STEP)
+}
+
+/// The same until a step is as small as `last`.
+fn alone(law: &Fluidity, rule: &FilmRule, load: FilmLoad, last: f64) -> FilmIntegrals {
     let rule = shortened(law, rule, &load);
     let (start, iterations) = cold_start(law, rule, &load);
-    solve(law, rule, load, start, iterations).1
+    solve(law, rule, load, (start, last), iterations).1
 }
 
 /// A first τ_m, and the evaluations of the film that it took.
@@ -94,12 +99,12 @@ fn cold_start(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> ([f64; 2], us
     (mid, 0)
 }
 
-/// Newton's method from a τ_m; returns the size of its first step as well.
+/// Newton's method from a τ_m until a step is as small as `last`; returns the size of its first step as well.
 fn solve(
     law: &Fluidity,
     rule: &FilmRule,
     load: FilmLoad,
-    mut mid: [f64; 2],
+    (mut mid, last): ([f64; 2], f64),
     mut iterations: usize,
 ) -> (f64, FilmIntegrals) {
     let FilmLoad { a, b, sliding } = load;
@@ -113,7 +118,7 @@ fn solve(
         let step = times(inverse, excess).map(|s| -s);
         first.get_or_insert(length(step));
         mid = [mid[0] + step[0], mid[1] + step[1]];
-        let small = LAST_STEP * length(mid) + LAST_STEP_ACROSS * (a.abs() + b.abs());
+        let small = last * (length(mid) + ACROSS * (a.abs() + b.abs()));
         if length(step) <= small {
             for (g, slope) in moments.fluidity.iter_mut().zip(moments.slope) {
                 *g += slope[0] * step[0] + slope[1] * step[1];

@@ -6,7 +6,7 @@
 //! reaches from X −3 to +2, across to Y ±2 and to the diagonals, as ∂f/∂P + (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y with the
 //! fixed difference operators of [`NodalGradient`].
 
-use super::film_integrals::{FilmLoad, FilmRule, KnownFilm, PRODUCTION_RULE, film_integrals_near};
+use super::film_integrals::{FilmLoad, FilmRule, KnownFilm, LAST_STEP, PRODUCTION_RULE, film_integrals_near};
 use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
 use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
 use rayon::prelude::*;
@@ -35,11 +35,13 @@ pub struct FilmTreatment {
     /// Whether they count as constants in the Jacobian: cheaper, and as good within rounding of the answer, but no
     /// longer quadratic.
     pub frozen: bool,
+    /// The step of the stress at mid-film, relative to it, that ends its iteration: the integrals miss the square of it.
+    pub last_step: f64,
 }
 
 impl Default for FilmTreatment {
     fn default() -> Self {
-        Self { rule: &PRODUCTION_RULE, frozen: false }
+        Self { rule: &PRODUCTION_RULE, frozen: false, last_step: LAST_STEP }
     }
 }
 
@@ -88,7 +90,7 @@ impl ShearNode {
         if load == FilmLoad::default() {
             return newtonian;
         }
-        let integrals = film_integrals_near(&shear.fluidity, treatment.rule, load, known);
+        let integrals = film_integrals_near(&shear.fluidity, (treatment.rule, treatment.last_step), load, known);
         let srr = shear.slide_to_roll_ratio;
         let carried = 1.0 - srr * integrals.shift;
         let mut out = Self {
@@ -252,6 +254,21 @@ impl PlaneGradient {
         let across = self.across.at(&values[i * ny..(i + 1) * ny], j);
         [upstream + own * values[node] + downstream, across]
     }
+
+    /// What the gradient at a node is made of, along and across: neighbours upstream, the node itself and neighbours
+    /// downstream, with their weights; those that the node lacks have weight zero and its own index.
+    pub fn parts(&self, node: usize) -> [[(usize, f64); 3]; 2] {
+        let ny = self.across();
+        let (i, j) = (node / ny, node % ny);
+        let part = |weights: &[[f64; 3]], at: usize, stride: usize| {
+            let [west, own, east] = weights[at];
+            let (first, last) = (at == 0, at + 1 == weights.len());
+            let upstream = if first { (node, 0.0) } else { (node - stride, west) };
+            let downstream = if last { (node, 0.0) } else { (node + stride, east) };
+            [upstream, (node, own), downstream]
+        };
+        [part(&self.along.weights, i, ny), part(&self.across.weights, j, 1)]
+    }
 }
 
 #[cfg(test)]
@@ -353,6 +370,16 @@ mod tests {
         let (one, other) = (scaled(CARREAU, 0.3), scaled(CARREAU, -0.3));
         let (a, b) = (evaluate(&one, &PRESSURES, &FILMS).0, evaluate(&other, &PRESSURES, &FILMS).0);
         assert!((a / b - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_parts_of_a_gradient_add_up_to_it() {
+        let plane = PlaneGradient::new(&X, &[-1.0, -0.6, -0.3, 0.0]);
+        let values: Vec<f64> = (0..4 * X.len()).map(|k| (k as f64 * 0.7).sin()).collect();
+        for node in 0..values.len() {
+            let sums = plane.parts(node).map(|part| part.iter().map(|(k, w)| w * values[*k]).sum::<f64>());
+            assert_eq!(sums, plane.at_node(&values, node), "{node}");
+        }
     }
 
     #[test]

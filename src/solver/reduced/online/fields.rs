@@ -4,7 +4,7 @@ use super::{Online, ReducedError, ReducedSolution, operators_of};
 use crate::solver::discrete::grid::{ContactGrid, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, Spread, apply};
 use crate::solver::discrete::nodes::{Laws, Nodes};
-use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
+use crate::solver::discrete::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient};
 use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
 use crate::solver::physics::contact::ContactKind;
@@ -194,7 +194,9 @@ impl Fields {
         let gradient = PlaneGradient::new(&self.x(), grid.abscissae().1);
         let gradient = |node: usize| gradient.at_node(pressure, node);
         let reached = rows.iter().flat_map(|(stencil, _)| *stencil).min().unwrap_or(pressure.len());
-        nodes.evaluate_part(&Laws { shear: None, ..laws }, reached..pressure.len(), state, gradient);
+        let treatment = FilmTreatment::default();
+        let newtonian = Laws { shear: None, ..laws };
+        nodes.evaluate_part(&newtonian, reached..pressure.len(), state, gradient, treatment);
         if let Some(law) = laws.shear {
             // Where no pressure is near, thinning moves nothing, and most rows behind the boundary are there.
             let near = |node: &usize| pressure[*node] != 0.0 || gradient(*node) != [0.0; 2];
@@ -202,7 +204,7 @@ impl Fields {
             let mut wanted: Vec<usize> = asked.flat_map(|(stencil, _)| *stencil).collect();
             wanted.sort_unstable();
             wanted.dedup();
-            nodes.thin(&laws, law, wanted, state, gradient);
+            nodes.thin((&laws, law), wanted, state, gradient, treatment);
         }
         for (unknown, (stencil, geometry)) in behind.into_iter().zip(rows) {
             multiplier[grid.node(unknown)] = -nodes.row(&geometry.scaled(*scale), 0.0, stencil).value;

@@ -3,7 +3,7 @@
 //! Temperatures need no basis.
 
 use super::Operators;
-use super::newton::{Case, OnlineOutcome, RowObserver, Slopes, Stop};
+use super::newton::{Case, OnlineOutcome, RowObserver, Slopes, Stop, Wanted};
 use super::support::Place;
 use crate::solver::discrete::grid::{ContactGrid, INLET, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, RULE, Spread, WarmFilm, apply};
@@ -310,7 +310,7 @@ impl Operators {
             heated.look(&self.scratch.fields, &self.scratch.films, case.scale);
             Heated::state(&heated.lines, (coefficients, *h_0), &mut heated.from);
             changed = heated.march(case.problem, share, (1e-2 * changed).clamp(stop.tolerance, 1e-3));
-            outcome.residual = self.evaluate(case, coefficients, *h_0, Some(Slopes::Usual));
+            outcome.residual = self.evaluate(case, coefficients, *h_0, Wanted::Step(Slopes::Usual));
             if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
                 return outcome;
             }

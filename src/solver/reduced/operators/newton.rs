@@ -6,6 +6,7 @@ use super::front::{Changed, Front, Moved};
 use super::least_squares::LeastSquares;
 use super::support::seen;
 use crate::solver::discrete::nodes::{Laws, Order};
+use crate::solver::discrete::reynolds::film_integrals::LAST_STEP;
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::reynolds::{CENTER, SOUTH, STENCIL};
 use crate::solver::full::Problem;
@@ -25,6 +26,10 @@ const SHRINKS: f64 = 0.3;
 /// How much modes are held at zero behind the rupture boundary, relative to the equations' own size.
 const RESTRAINED: f64 = 1e-6;
 
+/// The step that ends the iteration of a thinning node's film, over the square of the one that ends the whole iteration.
+/// Either leaves the square of its own step: at 1e-3 both are alike, at 1e-5 films are exact to rounding.
+const FILM_STEP: f64 = 1e3;
+
 /// How exact the derivatives of rows are.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Slopes {
@@ -32,6 +37,17 @@ pub(super) enum Slopes {
     Usual,
     /// With K V of its own place.
     Exact,
+}
+
+/// What rows are evaluated for.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Wanted {
+    /// A step, by their derivatives.
+    Step(Slopes),
+    /// A step by former derivatives, and what the rupture boundary looks at.
+    StepAgain,
+    /// What is left of them where the iteration ended.
+    Rest,
 }
 
 /// How an online Newton iteration ended.
@@ -102,9 +118,10 @@ impl Operators {
         self.scratch.nodes.forget();
         // Whether the last derivatives are those of a place so near that their factors serve again.
         let mut near = false;
+        self.scratch.film_step = (FILM_STEP * stop.tolerance * stop.tolerance).min(stop.tolerance).max(LAST_STEP);
         for iteration in 1..=stop.max_newton {
             let slopes = if iteration > SWIFT { Slopes::Exact } else { Slopes::Usual };
-            self.evaluate(case, coefficients, *h_0, if near { None } else { Some(slopes) });
+            self.evaluate(case, coefficients, *h_0, if near { Wanted::StepAgain } else { Wanted::Step(slopes) });
             let solved = if near {
                 self.step_again(case.problem, case.scale, coefficients)
             } else {
@@ -133,7 +150,7 @@ impl Operators {
                 break;
             }
         }
-        outcome.residual = self.evaluate(case, coefficients, *h_0, None);
+        outcome.residual = self.evaluate(case, coefficients, *h_0, Wanted::Rest);
         // A converged iteration with an absurd residual has found garbage.
         outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
         outcome
@@ -199,14 +216,19 @@ impl Operators {
     }
 
     /// Evaluates the sampled rows at the fields; returns e_f^I.
-    pub(super) fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, slopes: Option<Slopes>) -> f64 {
+    pub(super) fn evaluate(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64, wanted: Wanted) -> f64 {
         self.lay_films(case, h_0);
-        self.evaluate_nodes(case);
+        self.evaluate_nodes(case, wanted == Wanted::Rest);
+        let slopes = match wanted {
+            Wanted::Step(slopes) => Some(slopes),
+            Wanted::StepAgain | Wanted::Rest => None,
+        };
         self.evaluate_rows(case, coefficients, slopes)
     }
 
-    /// The nodes of the fields.
-    fn evaluate_nodes(&mut self, case: &Case<'_>) {
+    /// The nodes of the fields. At the `end` of an iteration those of the rows alone, unless time goes on from what flows
+    /// at the others, and without what thinning adds to derivatives.
+    fn evaluate_nodes(&mut self, case: &Case<'_>, end: bool) {
         let Case { problem, scale, .. } = *case;
         let s = &mut self.scratch;
         let count = self.support.len();
@@ -214,6 +236,8 @@ impl Operators {
         let gradients = &rest[count..];
         let shear = problem.shear.as_ref().filter(|_| self.axes > 0);
         let gradient = |k: usize| [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
+        let treatment = FilmTreatment { last_step: s.film_step, frozen: end, ..FilmTreatment::default() };
+        let asking = self.front.as_ref().filter(|front| !end || front.strides);
         match self.heated.as_mut().zip(problem.warm_laws()) {
             Some((heated, laws)) => {
                 let (warm, wanted) = heated.film();
@@ -221,15 +245,15 @@ impl Operators {
             }
             None if self.front.is_some() => {
                 let laws = Laws { shear, ..problem.laws() };
-                for part in seen(self.support.own, self.front.as_ref()) {
-                    s.nodes.evaluate_part(&laws, part, (pressure, &s.films), gradient);
+                for part in seen(self.support.own, asking) {
+                    s.nodes.evaluate_part(&laws, part, (pressure, &s.films), gradient, treatment);
                 }
             }
             None => s.nodes.evaluate(
                 Laws { shear, ..problem.laws() },
                 (pressure, &s.films),
                 gradient,
-                FilmTreatment::default(),
+                treatment,
                 Order::BesideTheFormer,
             ),
         }

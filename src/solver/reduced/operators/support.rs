@@ -99,13 +99,22 @@ impl StateRows {
         let values = rows_of(&window.pressure.at(nodes, modes));
         let mut gradients = Vec::new();
         if axes > 0 {
-            let (gradient, (_, ny)) = (window.grid.gradient(), window.grid.nodes());
-            let basis = &window.pressure.basis().modes;
-            let columns: Vec<Vec<f64>> = (0..modes).map(|k| basis.col(k).iter().copied().collect()).collect();
+            // Modes are made where gradients ask for them only: over all nodes that takes longer than some solves.
+            let gradient = window.grid.gradient();
+            let parts: Vec<_> = nodes.iter().map(|node| gradient.parts(*node)).collect();
+            let mut asked: Vec<usize> = parts.iter().flatten().flatten().map(|(node, _)| *node).collect();
+            asked.sort_unstable();
+            asked.dedup();
+            let around = rows_of(&window.pressure.at(&asked, modes));
+            let row = |node: &usize| &around[asked.partition_point(|asked| asked < node) * modes..][..modes];
             for axis in 0..axes {
-                for &node in nodes {
-                    let at = |column: &Vec<f64>| gradient.at(column, node / ny, node % ny)[axis];
-                    gradients.extend(columns.iter().map(at));
+                for parts in &parts {
+                    let start = gradients.len();
+                    gradients.resize(start + modes, 0.0);
+                    for (node, weight) in &parts[axis] {
+                        let sums = gradients[start..].iter_mut().zip(row(node));
+                        sums.for_each(|(sum, value)| *sum += weight * value);
+                    }
                 }
             }
         }

@@ -66,14 +66,19 @@ impl Front {
             let cut =
                 self.lines.iter().zip(&fronts).flat_map(|(line, front)| line.first + front..line.first + line.count);
             let cut: Vec<usize> = cut.collect();
-            let bent = Mat::from_fn(cut.len(), s, |k, place| f64::from(self.bends[cut[k] * s + place]));
-            let own = Mat::from_fn(cut.len(), modes, |k, mode| self.modes[cut[k] * modes + mode]);
+            let (mut bent, mut own) = (Vec::with_capacity(cut.len() * s), Vec::with_capacity(cut.len() * modes));
+            for k in &cut {
+                bent.extend(self.bends[k * s..][..s].iter().map(|bend| f64::from(*bend)));
+                own.extend_from_slice(&self.modes[k * modes..][..modes]);
+            }
+            let bent = MatRef::from_row_major_slice(&bent, cut.len(), s);
+            let own = MatRef::from_row_major_slice(&own, cut.len(), modes);
             let mut deformation = whole.to_vec();
             let out = MatMut::from_row_major_slice_mut(&mut deformation, s, modes);
-            matmul(out, Accum::Add, bent.transpose(), own.as_ref(), -1.0, Par::Seq);
+            matmul(out, Accum::Add, bent.transpose(), own, -1.0, Par::Seq);
             let mut behind = Mat::zeros(modes, modes);
             if self.restrains {
-                matmul(behind.as_mut(), Accum::Replace, own.transpose(), own.as_ref(), 1.0, Par::Seq);
+                matmul(behind.as_mut(), Accum::Replace, own.transpose(), own, 1.0, Par::Seq);
             }
             let mut load = whole_load.to_vec();
             for k in cut {
