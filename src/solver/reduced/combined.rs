@@ -56,7 +56,7 @@ fn carried(weights: &[f64], modes: MatRef<'_, f64>) -> Vec<f64> {
 fn rows(matrix: &Mat<f64>, nodes: &[usize], columns: usize) -> Mat<f64> {
     let mut out = Mat::zeros(nodes.len(), columns);
     for k in 0..columns {
-        // By slices: entries of a matrix one by one took half of what the first visit to a window costs.
+        // By slices: entries of a matrix one by one took a quarter of the time of the first visit to a window.
         let column = matrix.col_as_slice(k);
         out.col_as_slice_mut(k).iter_mut().zip(nodes).for_each(|(out, node)| *out = column[*node]);
     }
