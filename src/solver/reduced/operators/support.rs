@@ -3,7 +3,7 @@
 use super::front::Front;
 use crate::solver::discrete::grid::{ContactGrid, stretched};
 use crate::solver::reduced::model::Window;
-use crate::solver::reduced::sums::rows_times;
+use crate::solver::reduced::sums::{add_columns, rows_times};
 use faer::Mat;
 use std::ops::Range;
 
@@ -106,15 +106,12 @@ impl StateRows {
             asked.sort_unstable();
             asked.dedup();
             let around = rows_of(&window.pressure.at(&asked, modes));
-            let row = |node: &usize| &around[asked.partition_point(|asked| asked < node) * modes..][..modes];
+            let row = |node: usize| &around[asked.partition_point(|asked| *asked < node) * modes..][..modes];
             for axis in 0..axes {
                 for parts in &parts {
                     let start = gradients.len();
                     gradients.resize(start + modes, 0.0);
-                    for (node, weight) in &parts[axis] {
-                        let sums = gradients[start..].iter_mut().zip(row(node));
-                        sums.for_each(|(sum, value)| *sum += weight * value);
-                    }
+                    add_columns(parts[axis].map(|(node, weight)| (weight, row(node))), &mut gradients[start..]);
                 }
             }
         }
