@@ -318,7 +318,7 @@ impl ReducedModel {
     fn shares_of_modes(&self) -> (&'static [f64], &'static [f64]) {
         match (self.contact(), self.slides()) {
             (ContactKind::Point, false) => (&SHARES, &[]),
-            (ContactKind::Point, true) if self.domain.heat.is_none() => SHARES.split_at(1),
+            (ContactKind::Point, true) => SHARES.split_at(1),
             _ => all_modes(),
         }
     }

@@ -51,7 +51,7 @@ pub(crate) struct Operators {
     residual_reconstruction: Option<Mat<f64>>,
     /// wᵀ V_p.
     load_row: Vec<f64>,
-    /// The rule for an isothermal traction; none of a model that knows no sliding.
+    /// The rule for the traction; none of a model that knows no sliding.
     rule: Option<Rule>,
     /// V_δ V_δᵀ W K V_p over the whole node array, for reconstruction; none where the exact K V_p is used, which the
     /// window has.
@@ -107,15 +107,13 @@ impl Operators {
 
     /// Operators of contacts with heat.
     pub fn with_heat(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
-        let (nodes, weights) = window.traction.as_ref().map(|rule| rule.over(&window.grid)).unwrap_or_default();
-        let further = [heat::further_nodes(&window.grid), nodes.clone()].concat();
+        let further = heat::further_nodes(&window.grid);
         let mut out = Self::with_support(window, modes, deformation_modes, true, &further);
-        let rule: Vec<(usize, f64)> = nodes.iter().map(|node| out.place(*node)).zip(weights).collect();
-        let asked = rule.iter().map(|(place, _)| *place);
-        let mut films: Vec<usize> = out.stencil.iter().flatten().copied().chain(asked).collect();
+        let mut films: Vec<usize> = out.stencil.iter().flatten().copied().collect();
         films.sort_unstable();
         films.dedup();
-        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support.places, films, rule)));
+        out.heated = Some(Box::new(Heated::new(&window.grid, &out.support.places, films)));
+        out.rule = Rule::of(window, (out.modes, out.axes), out.projected.as_ref());
         out
     }
 
@@ -165,10 +163,7 @@ impl Operators {
             let whole = std::mem::take(&mut state.deformations);
             Front::new(window, &support, (&state, whole), &load_row)
         });
-        let shaped = window.shapes.as_ref().map(|shapes| {
-            let across = state.gradients.get(support.len() * modes..).unwrap_or_default();
-            Shaped::new(shapes, (&nodes, modes), (&geometry, &support.places, across))
-        });
+        let shaped = Shaped::of(window, (&nodes, modes), (&geometry, &support.places, &state));
         let (n, s) = (rows.len(), support.len());
         let size = modes + 1;
         Self {
@@ -242,15 +237,12 @@ impl Operators {
         sampled.chain(passed).map(|place| self.scratch.nodes[place].flow)
     }
 
-    /// Traction coefficient (3.41) of a state by the window's rule; `None` where it has none. With heat it is that of the
-    /// state evaluated last, with the temperatures of the last turns.
+    /// Traction coefficient (3.41) of a state by the window's rule, with heat by the temperatures of the last turns; `None`
+    /// where it has none.
     pub fn traction(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64) -> Option<f64> {
         let Case { problem, scale, curvature, .. } = *case;
-        match (&self.heated, &mut self.rule) {
-            (Some(heated), _) => heated.traction(problem, scale, &self.scratch.fields),
-            (None, Some(rule)) => Some(rule.traction(problem, (scale, curvature), (coefficients, h_0))),
-            (None, None) => None,
-        }
+        let rule = self.rule.as_mut()?;
+        Some(rule.traction(problem, (scale, curvature), (coefficients, h_0), self.heated.as_deref()))
     }
 
     /// K V_p or V_δ V_δᵀ W K V_p over the whole node array of the window these operators are of.
@@ -263,11 +255,12 @@ impl Operators {
 
     /// Turns to the shape of a contact; nothing where the window knows one only.
     pub fn take_shape(&mut self, window: &Window, problem: &Problem) {
-        let Self { shaped, state, geometry, support, heated, .. } = self;
+        let Self { shaped, state, geometry, support, heated, rule, .. } = self;
         let (Some(shaped), Some(shapes)) = (shaped, &window.shapes) else { return };
         let ellipse = problem.point.ellipse();
         shaped.turn_to(shapes, &ellipse, state, geometry, &mut support.places);
         heated.iter_mut().for_each(|heated| heated.across_by(ellipse.kappa));
+        rule.iter_mut().for_each(|rule| rule.take_shape(shapes, &ellipse));
     }
 
     /// Lets Newton's steps change the coefficients of so many modes only; those of the others must be zero.

@@ -9,10 +9,8 @@ use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule}
 use fastrand::Rng;
 use std::sync::Arc;
 
-/// Reduced solutions that a rule is fitted to, several per node; of a plane with heat two per node, whose fields take as
-/// long as ten of the others.
+/// Reduced solutions that a rule is fitted to, several per node.
 const SOLUTIONS: usize = 1000;
-const SOLUTIONS_OF_WARM_PLANES: usize = 360;
 /// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of
 /// the contact.
 const SLOWEST: f64 = 1e-3;
@@ -27,7 +25,7 @@ pub(super) fn drawn(spec: &TrainingSpec, rng: &mut Rng) -> Lubricant {
 }
 
 /// Fits the rule of a window to reduced solutions of the contacts that it serves, `model` being the model of it alone; `None`
-/// where the fit fails. That of a line without heat is the whole grid's.
+/// where the fit fails. That of a line is the whole grid's.
 ///
 /// # Errors
 /// When the observer cancels.
@@ -38,12 +36,11 @@ pub(super) fn traction_rule(
     seed: u64,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<TractionRule>, TrainingError> {
-    if spec.contact() == ContactKind::Line && !spec.warms_a_line() {
+    if spec.contact() == ContactKind::Line {
         return Ok(Some(TractionRule::whole()));
     }
     let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);
-    let solutions = if spec.warms_a_plane() { SOLUTIONS_OF_WARM_PLANES } else { SOLUTIONS };
-    let mut points: Vec<OperatingPoint> = served.random_points(solutions, &mut rng);
+    let mut points: Vec<OperatingPoint> = served.random_points(SOLUTIONS, &mut rng);
     for point in points.iter_mut().step_by(2) {
         point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
     }
@@ -56,6 +53,6 @@ pub(super) fn traction_rule(
         fields.ok().map(|fields| fields.mid_film_stress())
     })?;
     let stresses: Vec<Vec<f64>> = stresses.into_iter().flatten().collect();
-    let (model, heat) = (Arc::clone(model), spec.lubricant.heat.is_some());
-    on_one_thread(observer, move || TractionRule::fit(model.windows.first()?, heat, &stresses))
+    let model = Arc::clone(model);
+    on_one_thread(observer, move || TractionRule::fit(model.windows.first()?, &stresses))
 }

@@ -187,6 +187,23 @@ impl WarmLaws<'_> {
         Sheared::at(self.shear.as_ref(), &rest, &[0.0], (stress, 0.0), (0.0, 0.0)).fluidity[0]
     }
 
+    /// τ̄ at mid-film at θ, given at the points of the rule; none where surfaces overlap.
+    pub fn mid_stress(&self, state: NodeState, theta: &[f64; RULE]) -> f64 {
+        if state.film <= 0.0 {
+            return 0.0;
+        }
+        self.sheared(state, &self.heat.fluid.at(state.pressure, theta).fluidity, 0.0).0
+    }
+
+    /// τ̄ at mid-film, from one nearby on, and the film that is driven so, given what it is at rest.
+    fn sheared(&self, state: NodeState, rest: &[f64; RULE], near: f64) -> (f64, Sheared<RULE>) {
+        let NodeState { gradient, film, .. } = state;
+        let (offsets, weights) = rule();
+        let [along, aside] = gradient.map(|slope| self.heat.gradient * film * slope);
+        let drive = Drive { along, aside, rate: self.slip() / film };
+        Sheared::sliding(self.shear.as_ref(), rest, (&offsets, &weights), drive, near)
+    }
+
     /// The node at θ, given at the points of the rule. `stress` is the stress at mid-film, to begin with and found.
     pub fn node(&self, state: NodeState, theta: &[f64; RULE], stress: &mut f64) -> ShearNode {
         let NodeState { pressure, gradient: [gradient, gradient_y], film } = state;
@@ -198,9 +215,7 @@ impl WarmLaws<'_> {
         }
         let (offsets, weights) = rule();
         let rate = self.slip() / film;
-        let drive = Drive { along: kappa * film * gradient, aside: kappa * film * gradient_y, rate };
-        let (mid, sheared) =
-            Sheared::sliding(self.shear.as_ref(), &fluid.fluidity, (&offsets, &weights), drive, *stress);
+        let (mid, sheared) = self.sheared(state, &fluid.fluidity, *stress);
         *stress = mid;
         let (rest, rest_p) =
             (apply(&ACROSS.rest_on_rule, &fluid.density), apply(&ACROSS.rest_on_rule, &fluid.density_p));

@@ -9,7 +9,7 @@ use crate::solver::discrete::grid::{ContactGrid, INLET, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, RULE, Spread, WarmFilm, apply};
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::Problem;
-use crate::solver::full::heat::{Mixing, Rises, mid_stress_pa, one_sided};
+use crate::solver::full::heat::{Mixing, Rises, one_sided};
 use crate::solver::physics::contact::ContactKind;
 use std::sync::Arc;
 
@@ -126,6 +126,35 @@ struct Looked {
     inlet: [usize; 3],
 }
 
+/// How some nodes have their temperatures from the lines that are marched.
+pub(super) struct Onto {
+    /// (ξ, Y) of the nodes.
+    places: Vec<(f64, f64)>,
+    /// The scale of the last contact, and where values come from at that one.
+    scale: f64,
+    spread: Spread,
+}
+
+impl Onto {
+    /// Of nodes at these (ξ, Y).
+    pub fn new(places: impl Iterator<Item = (f64, f64)>) -> Self {
+        Self { places: places.collect(), scale: f64::NAN, spread: Spread::default() }
+    }
+
+    /// Finds out where values come from at a scale: line contacts alone are stretched.
+    fn follow(&mut self, lines: &Lines, ordinates: &[f64], scale: f64) {
+        if self.scale != scale {
+            let places = self.places.iter().map(|&(xi, y)| (stretched(xi, scale), y));
+            (self.scale, self.spread) = (scale, Spread::new(lines.x(), ordinates, places));
+        }
+    }
+
+    /// θ at the nodes, at the points of the rule across the film.
+    fn theta<'a>(&'a self, lines: &'a Lines) -> impl Iterator<Item = [f64; RULE]> + 'a {
+        self.spread.profiles(lines).map(|profile| apply(&ACROSS.to_rule, &profile))
+    }
+}
+
 /// Temperatures in reduced operators, and what marches them.
 pub(super) struct Heated {
     looked: Vec<Looked>,
@@ -135,12 +164,10 @@ pub(super) struct Heated {
     lines: Lines,
     /// X of the support.
     x: Vec<f64>,
-    /// Places in the support at which rows and the traction want a film.
+    /// Places in the support at which rows want a film.
     films: Vec<usize>,
-    /// Places among them, and weights, of the rule for the traction; empty without one.
-    rule: Vec<(usize, f64)>,
-    /// How these have their temperatures at a scale, and the film's temperatures on the support.
-    spread: (f64, Spread),
+    /// How these have their temperatures, and the film's temperatures on the support.
+    onto: Onto,
     film: WarmFilm,
     mixing: Mixing,
     /// p̃, H₀ and θ before a turn and after it.
@@ -165,8 +192,8 @@ impl Warmth {
 }
 
 impl Heated {
-    /// With films wanted at some places of a support, and by a rule for the traction at some of these.
-    pub fn new(grid: &ContactGrid, support: &[Place], films: Vec<usize>, rule: Vec<(usize, f64)>) -> Self {
+    /// With films wanted at some places of a support.
+    pub fn new(grid: &ContactGrid, support: &[Place], films: Vec<usize>) -> Self {
         let place = |node: usize| support.partition_point(|place| place.node < node);
         let stations = Stations::of(grid);
         let looked = stations
@@ -174,8 +201,7 @@ impl Heated {
             .zip(stations.inlets())
             .map(|(nodes, inlet)| Looked { stations: nodes.into_iter().map(place).collect(), inlet: inlet.map(place) });
         let (reference, y) = (stations.xi(grid), stations.y(grid));
-        let places = films.iter().map(|&k| grid.place(support[k].node));
-        let spread = Spread::new(&reference, &y, places);
+        let onto = Onto::new(films.iter().map(|&k| grid.place(support[k].node)));
         let film = WarmFilm { theta: vec![[0.0; RULE]; support.len()], stress: vec![0.0; support.len()] };
         Self {
             looked: looked.collect(),
@@ -184,8 +210,7 @@ impl Heated {
             ordinates: y,
             x: vec![0.0; support.len()],
             films,
-            rule,
-            spread: (1.0, spread),
+            onto,
             film,
             mixing: Mixing::default(),
             from: Vec::new(),
@@ -198,13 +223,10 @@ impl Heated {
         (&mut self.film, &self.films)
     }
 
-    /// The traction coefficient of the last turns, given P at the support; `None` without a rule for it.
-    pub fn traction(&self, problem: &Problem, scale: f64, pressure: &[f64]) -> Option<f64> {
-        let heat = problem.heat.as_ref().filter(|_| !self.rule.is_empty())?;
-        let carried = |k: usize| carried(problem.point.kind, self.x[k], pressure[k]);
-        let stress = |k: usize| mid_stress_pa(problem, heat, self.film.stress[k], carried(k));
-        let force: f64 = self.rule.iter().map(|&(k, weight)| weight * stress(k)).sum();
-        Some(scale * force * problem.point.area_per_load())
+    /// θ of the last turns at other nodes than the rows', at the points of the rule across the film.
+    pub fn theta_at<'a>(&'a self, onto: &'a mut Onto, scale: f64) -> impl Iterator<Item = [f64; RULE]> + 'a {
+        onto.follow(&self.lines, &self.ordinates, scale);
+        onto.theta(&self.lines)
     }
 
     /// Puts the lines as far apart as those of an ellipse lie.
@@ -223,11 +245,7 @@ impl Heated {
         for (x, place) in self.x.iter_mut().zip(support) {
             *x = stretched(place.xi, scale);
         }
-        if self.spread.0 != scale {
-            // Line contacts alone are stretched.
-            let places = self.films.iter().map(|&k| (self.x[k], 0.0));
-            self.spread = (scale, Spread::new(self.lines.x(), &self.lines.y, places));
-        }
+        self.onto.follow(&self.lines, &self.ordinates, scale);
         self.film.stress.fill(0.0);
         self.mixing.begin();
     }
@@ -252,8 +270,8 @@ impl Heated {
     fn march(&mut self, problem: &Problem, share: f64, tolerance: f64) -> f64 {
         let Some(course) = problem.course(&[]) else { return f64::NAN };
         let changed = self.lines.march(&course, (share, tolerance), false);
-        for (&k, profile) in self.films.iter().zip(self.spread.1.profiles(&self.lines)) {
-            self.film.theta[k] = apply(&ACROSS.to_rule, &profile);
+        for (&k, theta) in self.films.iter().zip(self.onto.theta(&self.lines)) {
+            self.film.theta[k] = theta;
         }
         changed
     }

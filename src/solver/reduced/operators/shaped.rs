@@ -4,6 +4,7 @@
 use super::support::{Place, StateRows};
 use crate::solver::discrete::reynolds::RowGeometry;
 use crate::solver::physics::contact::Ellipse;
+use crate::solver::reduced::model::Window;
 use crate::solver::reduced::shapes::Shapes;
 
 /// What there is for every shape, and the one that the operators have.
@@ -22,23 +23,24 @@ pub(super) struct Shaped {
 }
 
 impl Shaped {
-    /// On a support, by the rows, places and gradients across of a circle.
-    pub fn new(
-        shapes: &Shapes,
+    /// Of a window on a support, by the rows, places and modes of a circle; `None` where it knows circles or lines only.
+    pub fn of(
+        window: &Window,
         (support, modes): (&[usize], usize),
-        (geometry, places, gradients): (&[RowGeometry], &[Place], &[f64]),
-    ) -> Self {
+        (geometry, places, state): (&[RowGeometry], &[Place], &StateRows),
+    ) -> Option<Self> {
+        let shapes = window.shapes.as_ref()?;
         let rows = |matrix: &faer::Mat<f32>| -> Vec<f64> {
             support.iter().flat_map(|&node| (0..modes).map(move |k| f64::from(matrix[(node, k)]))).collect()
         };
-        Self {
+        Some(Self {
             ellipse: None,
             weights: vec![0.0; shapes.flexed.len()],
             flexed: shapes.flexed.iter().map(rows).collect(),
             geometry: geometry.to_vec(),
             across: places.iter().map(|place| place.across).collect(),
-            gradients: gradients.to_vec(),
-        }
+            gradients: state.gradients.get(support.len() * modes..).unwrap_or_default().to_vec(),
+        })
     }
 
     /// Gives the operators a shape, unless they have it.

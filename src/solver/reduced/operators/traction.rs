@@ -1,11 +1,17 @@
-//! The traction (3.41) of an isothermal film by a window's rule, over nodes of its own: it is asked for once, when Newton's
-//! steps have ended, so that they know nothing of its nodes.
+//! The traction (3.41) by a window's rule, over nodes of its own: it is asked for once, when Newton's steps have ended, so
+//! that they know nothing of its nodes.
 
 use super::deformed_at;
+use super::heat::{Heated, Onto, carried};
+use super::shaped::Shaped;
 use super::support::{StateRows, Support};
+use crate::solver::discrete::grid::stretched;
 use crate::solver::discrete::reynolds::generalized::NodeState;
+use crate::solver::full::heat::mid_stress_pa;
 use crate::solver::full::{Problem, mid_film_stress};
+use crate::solver::physics::contact::Ellipse;
 use crate::solver::reduced::model::Window;
+use crate::solver::reduced::shapes::Shapes;
 use faer::Mat;
 
 /// A rule with the modes at its nodes.
@@ -14,42 +20,66 @@ pub(super) struct Rule {
     weights: Vec<f64>,
     support: Support,
     state: StateRows,
+    /// What follows the shape of an ellipse; none of a window that knows circles or lines.
+    shaped: Option<Shaped>,
+    /// How the nodes have their temperatures; not asked without heat.
+    onto: Onto,
     /// Work space: P, K P and the gradients.
     fields: Vec<f64>,
 }
 
 impl Rule {
     /// That of a window with one, of so many modes, where gradients along so many axes are known, with what a basis of
-    /// deformations represents of K V_p where there is one; `None` without a rule, and of windows of ellipses, which know
-    /// traction with heat only.
+    /// deformations represents of K V_p where there is one; `None` without a rule.
     pub fn of(window: &Window, (modes, axes): (usize, usize), projected: Option<&Mat<f64>>) -> Option<Self> {
-        let rule = window.traction.as_ref().filter(|_| axes > 0 && window.shapes.is_none())?;
+        let rule = window.traction.as_ref().filter(|_| axes > 0)?;
         let (nodes, weights) = rule.over(&window.grid);
         let support = Support::new(&window.grid, nodes.clone(), Vec::new());
         let deformation = deformed_at(window, projected, &nodes, modes);
         let state = StateRows::of(window, &nodes, (modes, axes), &deformation);
-        Some(Self { fields: vec![0.0; (2 + axes) * nodes.len()], weights, support, state })
+        let shaped = Shaped::of(window, (&nodes, modes), (&[], &support.places, &state));
+        let onto = Onto::new(nodes.iter().map(|&node| window.grid.place(node)));
+        Some(Self { fields: vec![0.0; (2 + axes) * nodes.len()], weights, support, state, shaped, onto })
     }
 
-    /// The traction coefficient of a state.
+    /// Turns to the shape of a contact; nothing where the window knows one only.
+    pub fn take_shape(&mut self, shapes: &Shapes, ellipse: &Ellipse) {
+        if let Some(shaped) = &mut self.shaped {
+            shaped.turn_to(shapes, ellipse, &mut self.state, &mut [], &mut self.support.places);
+        }
+    }
+
+    /// The traction coefficient of a state, with the temperatures of the last turns where there are some.
     pub fn traction(
         &mut self,
         problem: &Problem,
         (scale, curvature): (f64, f64),
         (coefficients, h_0): (&[f64], f64),
+        heated: Option<&Heated>,
     ) -> f64 {
-        let Self { weights, support, state, fields } = self;
+        let Self { weights, support, state, onto, fields, .. } = self;
         let count = support.len();
         state.spread(count, None, coefficients, fields);
         let (pressure, rest) = fields.split_at(count);
         let (deformation, gradients) = rest.split_at(count);
         let offset = h_0 - 0.5 * scale.ln();
-        let stress = |k: usize| {
+        let state = |k: usize| {
             let gradient = [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
             let film = offset + support.places[k].gap(scale, curvature) + scale * deformation[k];
-            mid_film_stress(problem, NodeState { pressure: pressure[k], gradient, film })
+            NodeState { pressure: pressure[k], gradient, film }
         };
-        let force: f64 = weights.iter().enumerate().map(|(k, weight)| weight * stress(k)).sum();
+        let force: f64 = match (heated, problem.warm_laws()) {
+            (Some(heated), Some(laws)) => {
+                let stress = |k: usize, theta| {
+                    let x = stretched(support.places[k].xi, scale);
+                    let carried = carried(problem.point.kind, x, pressure[k]);
+                    mid_stress_pa(problem, laws.heat, laws.mid_stress(state(k), &theta), carried)
+                };
+                let across = heated.theta_at(onto, scale).enumerate();
+                across.zip(&*weights).map(|((k, theta), weight)| weight * stress(k, theta)).sum()
+            }
+            _ => weights.iter().enumerate().map(|(k, weight)| weight * mid_film_stress(problem, state(k))).sum(),
+        };
         scale * force * problem.point.area_per_load()
     }
 }
