@@ -222,14 +222,16 @@ impl Online {
                 Err(error) => last = error,
             }
         }
-        // The last resorts: walk from the nearest snapshot's operating point to this one, and do with fewer modes.
-        let walked = window
-            .nearest(point)
-            .and_then(|(snapshot, _)| walk(window, operators, &problem, snapshot, &self.options, &mut observer));
-        let mut fewer = |guess: Guess| {
+        // The last resorts: do with fewer modes, and walk from the nearest snapshot's operating point to this one. With heat a
+        // walk that leads nowhere takes seconds.
+        let fewer = with(at_last).find_map(|guess| {
             attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer).ok()
-        };
-        match walked.or_else(|| with(at_last).find_map(&mut fewer)) {
+        });
+        let found = fewer.or_else(|| {
+            let (snapshot, _) = window.nearest(point)?;
+            walk(window, operators, &problem, snapshot, &self.options, &mut observer)
+        });
+        match found {
             Some(found) => Ok(self.keep(&problem, index, found)),
             None => {
                 self.forget();

@@ -127,7 +127,7 @@ struct Looked {
 }
 
 /// How some nodes have their temperatures from the lines that are marched.
-pub(super) struct Onto {
+pub(super) struct Interpolation {
     /// (ξ, Y) of the nodes.
     places: Vec<(f64, f64)>,
     /// The scale of the last contact, and where values come from at that one.
@@ -135,7 +135,7 @@ pub(super) struct Onto {
     spread: Spread,
 }
 
-impl Onto {
+impl Interpolation {
     /// Of nodes at these (ξ, Y).
     pub fn new(places: impl Iterator<Item = (f64, f64)>) -> Self {
         Self { places: places.collect(), scale: f64::NAN, spread: Spread::default() }
@@ -167,7 +167,7 @@ pub(super) struct Heated {
     /// Places in the support at which rows want a film.
     films: Vec<usize>,
     /// How these have their temperatures, and the film's temperatures on the support.
-    onto: Onto,
+    interpolation: Interpolation,
     film: WarmFilm,
     mixing: Mixing,
     /// p̃, H₀ and θ before a turn and after it.
@@ -201,7 +201,7 @@ impl Heated {
             .zip(stations.inlets())
             .map(|(nodes, inlet)| Looked { stations: nodes.into_iter().map(place).collect(), inlet: inlet.map(place) });
         let (reference, y) = (stations.xi(grid), stations.y(grid));
-        let onto = Onto::new(films.iter().map(|&k| grid.place(support[k].node)));
+        let interpolation = Interpolation::new(films.iter().map(|&k| grid.place(support[k].node)));
         let film = WarmFilm { theta: vec![[0.0; RULE]; support.len()], stress: vec![0.0; support.len()] };
         Self {
             looked: looked.collect(),
@@ -210,7 +210,7 @@ impl Heated {
             ordinates: y,
             x: vec![0.0; support.len()],
             films,
-            onto,
+            interpolation,
             film,
             mixing: Mixing::default(),
             from: Vec::new(),
@@ -224,9 +224,13 @@ impl Heated {
     }
 
     /// θ of the last turns at other nodes than the rows', at the points of the rule across the film.
-    pub fn theta_at<'a>(&'a self, onto: &'a mut Onto, scale: f64) -> impl Iterator<Item = [f64; RULE]> + 'a {
-        onto.follow(&self.lines, &self.ordinates, scale);
-        onto.theta(&self.lines)
+    pub fn theta_at<'a>(
+        &'a self,
+        interpolation: &'a mut Interpolation,
+        scale: f64,
+    ) -> impl Iterator<Item = [f64; RULE]> + 'a {
+        interpolation.follow(&self.lines, &self.ordinates, scale);
+        interpolation.theta(&self.lines)
     }
 
     /// Puts the lines as far apart as those of an ellipse lie.
@@ -245,7 +249,7 @@ impl Heated {
         for (x, place) in self.x.iter_mut().zip(support) {
             *x = stretched(place.xi, scale);
         }
-        self.onto.follow(&self.lines, &self.ordinates, scale);
+        self.interpolation.follow(&self.lines, &self.ordinates, scale);
         self.film.stress.fill(0.0);
         self.mixing.begin();
     }
@@ -270,7 +274,7 @@ impl Heated {
     fn march(&mut self, problem: &Problem, share: f64, tolerance: f64) -> f64 {
         let Some(course) = problem.course(&[]) else { return f64::NAN };
         let changed = self.lines.march(&course, (share, tolerance), false);
-        for (&k, theta) in self.films.iter().zip(self.onto.theta(&self.lines)) {
+        for (&k, theta) in self.films.iter().zip(self.interpolation.theta(&self.lines)) {
             self.film.theta[k] = theta;
         }
         changed

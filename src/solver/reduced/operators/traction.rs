@@ -2,7 +2,7 @@
 //! that they know nothing of its nodes.
 
 use super::deformed_at;
-use super::heat::{Heated, Onto, carried};
+use super::heat::{Heated, Interpolation, carried};
 use super::shaped::Shaped;
 use super::support::{StateRows, Support};
 use crate::solver::discrete::grid::stretched;
@@ -23,7 +23,7 @@ pub(super) struct Rule {
     /// What follows the shape of an ellipse; none of a window that knows circles or lines.
     shaped: Option<Shaped>,
     /// How the nodes have their temperatures; not asked without heat.
-    onto: Onto,
+    interpolation: Interpolation,
     /// Work space: P, K P and the gradients.
     fields: Vec<f64>,
 }
@@ -38,8 +38,8 @@ impl Rule {
         let deformation = deformed_at(window, projected, &nodes, modes);
         let state = StateRows::of(window, &nodes, (modes, axes), &deformation);
         let shaped = Shaped::of(window, (&nodes, modes), (&[], &support.places, &state));
-        let onto = Onto::new(nodes.iter().map(|&node| window.grid.place(node)));
-        Some(Self { fields: vec![0.0; (2 + axes) * nodes.len()], weights, support, state, shaped, onto })
+        let interpolation = Interpolation::new(nodes.iter().map(|&node| window.grid.place(node)));
+        Some(Self { fields: vec![0.0; (2 + axes) * nodes.len()], weights, support, state, shaped, interpolation })
     }
 
     /// Turns to the shape of a contact; nothing where the window knows one only.
@@ -57,7 +57,7 @@ impl Rule {
         (coefficients, h_0): (&[f64], f64),
         heated: Option<&Heated>,
     ) -> f64 {
-        let Self { weights, support, state, onto, fields, .. } = self;
+        let Self { weights, support, state, interpolation, fields, .. } = self;
         let count = support.len();
         state.spread(count, None, coefficients, fields);
         let (pressure, rest) = fields.split_at(count);
@@ -75,7 +75,7 @@ impl Rule {
                     let carried = carried(problem.point.kind, x, pressure[k]);
                     mid_stress_pa(problem, laws.heat, laws.mid_stress(state(k), &theta), carried)
                 };
-                let across = heated.theta_at(onto, scale).enumerate();
+                let across = heated.theta_at(interpolation, scale).enumerate();
                 across.zip(&*weights).map(|((k, theta), weight)| weight * stress(k, theta)).sum()
             }
             _ => weights.iter().enumerate().map(|(k, weight)| weight * mid_film_stress(problem, state(k))).sum(),
