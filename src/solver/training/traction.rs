@@ -25,7 +25,7 @@ pub(super) fn drawn(spec: &TrainingSpec, rng: &mut Rng) -> Lubricant {
 }
 
 /// Fits the rule of a window to reduced solutions of the contacts that it serves, `model` being the model of it alone; `None`
-/// where the fit fails. That of a line is the whole grid's.
+/// where the fit fails. That of a line without heat is the whole grid's.
 ///
 /// # Errors
 /// When the observer cancels.
@@ -36,7 +36,7 @@ pub(super) fn traction_rule(
     seed: u64,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<TractionRule>, TrainingError> {
-    if spec.contact() == ContactKind::Line {
+    if spec.contact() == ContactKind::Line && spec.lubricant.heat.is_none() {
         return Ok(Some(TractionRule::whole()));
     }
     let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);
