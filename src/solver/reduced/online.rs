@@ -27,8 +27,8 @@ const FIRST_ATTEMPTS: usize = 12;
 /// Shares of the modes with which an iteration for a circle is tried. Where it gets nowhere with all, sampled rows
 /// may have no solution: the last modes hardly appear in any pressure, and a basis that windows share knows them only
 /// in part. Without these all seven converged that had not among 60,000 contacts of three trainings, H_c off by 3.4e-3 at
-/// most; from other starts films were off by up to 5e-2. Circles that thin under shear find their solutions from other starts,
-/// all but five of 20,000, which are tried with fewer modes at last. Of lines all modes count.
+/// most; from other starts films were off by up to 5e-2. Circles that thin under shear or have heat find their solutions from
+/// other starts, all but five of 20,000 and two of 5,000, which are tried with fewer modes at last. Of lines all modes count.
 static SHARES: [f64; 5] = [1.0, 0.875, 0.75, 0.625, 0.5];
 
 /// What is said of a solution by another window than the contact's own.

@@ -254,7 +254,7 @@ impl TrainingSpec {
     }
 
     /// Whether reduced solutions have temperatures along the lines of a plane, of which all rows take as long as a hundred
-    /// others, and fields as long as ten.
+    /// others.
     fn warms_a_plane(&self) -> bool {
         self.range.heats() && self.contact() == ContactKind::Point
     }

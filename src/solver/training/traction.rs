@@ -36,7 +36,7 @@ pub(super) fn traction_rule(
     seed: u64,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<TractionRule>, TrainingError> {
-    if spec.contact() == ContactKind::Line && spec.lubricant.heat.is_none() {
+    if spec.contact() == ContactKind::Line && !spec.warms_a_line() {
         return Ok(Some(TractionRule::whole()));
     }
     let mut rng = Rng::with_seed(seed ^ 0x7AC7_1041);
