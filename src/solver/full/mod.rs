@@ -28,6 +28,6 @@ pub(crate) use solution::under_contact;
 pub use solution::{Mesh, Problem, Report, Scalars, Solution, SolveError, Termination, Traction, scalars_of};
 pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start, most_newton};
 pub use system::{SolveOptions, System};
-pub(crate) use traction::mid_film_stress;
+pub(crate) use traction::mid_film_stresses;
 pub use traction::{PLAUSIBLE_EXPONENT, PLAUSIBLE_TRACTION, Shear, TractionDoubt};
 pub use trust::{GridCost, grid_doubts};

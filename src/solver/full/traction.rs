@@ -219,8 +219,13 @@ impl Problem {
 
 /// τ_zx \[Pa\] at mid-film of one node, cut to the limiting stress where the lubricant has one.
 pub(crate) fn mid_film_stress(problem: &Problem, state: NodeState) -> f64 {
+    mid_film_stresses(problem, state).0
+}
+
+/// [`mid_film_stress`], and what it were without a limit.
+pub(crate) fn mid_film_stresses(problem: &Problem, state: NodeState) -> (f64, f64) {
     let film = FilmStress::new(problem, state);
-    film.limited(film.mid_pa)[0]
+    (film.limited(film.mid_pa)[0], film.mid_pa[0])
 }
 
 impl FilmStress {

@@ -149,7 +149,7 @@ impl Calibration {
 
     /// Whether it is of contacts that have so much beside M, L and α.
     pub fn is_of(&self, beside: Beside) -> bool {
-        (self.ranges.len(), self.quantities.len()) == (beside.features(), beside.quantities())
+        beside.has_had(self.ranges.len()) && self.quantities.len() == beside.quantities()
     }
 
     /// Whether its errors are those against full solutions, not what a few full Newton steps change.

@@ -59,6 +59,8 @@ pub struct ReducedSolution {
     pub h_c: f64,
     /// Traction coefficient (3.41) by the window's rule on few nodes; none of a model that does not know sliding.
     pub traction: Option<f64>,
+    /// The share of that traction, 0…1, that the limiting stress takes; none with heat, or where no rule says it.
+    pub cut: Option<f64>,
     /// Its temperatures; none without heat.
     pub heat: Option<Warmth>,
     /// Newton steps.
@@ -276,16 +278,7 @@ impl Online {
         self.former.remember(Known { window, point, coefficients: known, h_c, fronts: fronts.clone(), theta });
         let trust = self.model.trust(problem);
         let as_measured = trust == Trust::Trained && self.options == ReducedOptions::default();
-        let mut error = self.model.windows.get(window).filter(|_| as_measured).and_then(|window| {
-            let features = Features::new(&point, residual, &coefficients, Beside::of(domain));
-            window.likely_error(&features, &problem.point, problem.lubricant.cavitation)
-        });
-        if let Some(estimate) = error.as_mut().filter(|estimate| estimate.traction.is_some()) {
-            // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
-            let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());
-            estimate.traction = estimate.traction.filter(|_| meant);
-        }
-        let solved = ReducedSolution {
+        let mut solved = ReducedSolution {
             point: problem.point,
             lubricant: problem.lubricant,
             window,
@@ -295,15 +288,25 @@ impl Online {
             beside: Vec::new(),
             h_0,
             h_c,
-            traction: traction.filter(|_| knows_traction),
+            traction: traction.filter(|_| knows_traction).map(|traction| traction.coefficient),
+            cut: traction.and_then(|traction| traction.cut),
             heat,
             iterations,
             residual_estimate: residual,
-            error,
+            error: None,
             trust,
         };
-        let error = solved.error.filter(|_| !solved.is_too_hot());
-        ReducedSolution { error, ..solved }
+        let own = self.model.windows.get(window).filter(|_| as_measured && !solved.is_too_hot());
+        solved.error = own.and_then(|window| {
+            let features = Features::of(&solved, &point, Beside::of(domain));
+            window.likely_error(&features, &problem.point, problem.lubricant.cavitation)
+        });
+        if let Some(estimate) = solved.error.as_mut().filter(|estimate| estimate.traction.is_some()) {
+            // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
+            let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());
+            estimate.traction = estimate.traction.filter(|_| meant);
+        }
+        solved
     }
 }
 

@@ -46,7 +46,7 @@ pub(super) fn measured(
             return None;
         }
         let errors = corrector.errors(online, &solved)?;
-        Some(Evidence { features: Features::of(&solved, beside), errors })
+        Some(Evidence { features: Features::of(&solved, point, beside), errors })
     })?;
     Ok(measured.into_iter().flatten().collect())
 }

@@ -146,6 +146,31 @@ fn traction_does_not_jump_between_windows_and_knows_its_limits() {
 }
 
 #[test]
+fn the_share_of_a_traction_that_a_limit_takes_is_told() {
+    let spec = sliding_oils(Sampling::QDeim, 60);
+    let (_, mut online) = trained(&spec);
+    let mut most = 0.0f64;
+    for point in random_points(&spec.range, ContactKind::Line, 6, 31) {
+        online.forget();
+        let free = online.solve(&point, spec.lubricant).unwrap();
+        assert_eq!(free.cut, Some(0.0));
+        let mut before = 1.0;
+        for slope in [0.01, 0.03, 0.1] {
+            online.forget();
+            let solved = online.solve(&point, limited(spec.lubricant, 0.0, slope)).unwrap();
+            let cut = solved.cut.unwrap();
+            // A limit cuts traction only: the state is the same one.
+            if let (Some(own), Some(free), true) = (solved.traction, free.traction, solved.beside.is_empty()) {
+                assert!((cut - (1.0 - own / free)).abs() < 1e-7, "{cut} {own} {free}");
+            }
+            assert!((0.0..=before).contains(&cut), "{cut} after {before}");
+            (before, most) = (cut, most.max(cut));
+        }
+    }
+    assert!(most > 0.3, "{most}");
+}
+
+#[test]
 fn what_lies_outside_is_told_by_the_number_that_does() {
     let spec = sliding_oils(Sampling::QDeim, 60);
     let domain = spec.domain();

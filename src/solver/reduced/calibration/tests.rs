@@ -17,7 +17,7 @@ fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
             let place = [2.0 + 3.0 * a, 2.0 + 18.0 * b, -19.0 + c];
             let residual = -8.0 + k + (4.0 * a).sin();
             let error = residual - 2.0 + (6.0 * a).cos() * b + (0.3 + b) * n;
-            let values = [place[0], place[1], place[2], residual, -12.0, 0.0, 0.0, 0.0];
+            let values = [place[0], place[1], place[2], residual, -12.0, 0.0, 0.0, 0.0, 0.0];
             Evidence {
                 features: Features { values, beside: Beside::Nothing },
                 errors: Measured {
@@ -183,6 +183,65 @@ fn the_rise_has_a_bound_of_its_own_where_a_model_knows_heat() {
     let estimate = calibration.estimate(&cases[7].features);
     assert!((estimate.rise.unwrap().bound / estimate.h_c.bound / 3.0 - 1.0).abs() < 0.1, "{estimate:?}");
     assert!(estimate.traction.is_some());
+}
+
+/// Contacts of oils that thin: tractions err by a hundredth where a limit cuts them everywhere.
+fn cut(count: usize, seed: u64) -> Vec<Evidence> {
+    let mut rng = Rng::with_seed(seed ^ 99);
+    let mut cases = signed(count, seed);
+    for case in &mut cases {
+        let values = &mut case.features.values;
+        (values[5], values[6], values[7], values[8]) = (rng.f64(), rng.f64(), rng.f64(), -6.0 * rng.f64());
+        let size = 0.01f64.powf(1.0 + values[8] / 6.0);
+        (case.features.beside, case.errors.traction) = (Beside::SlidingOfOils, Some(size * case.errors.h_c));
+    }
+    cases
+}
+
+#[test]
+fn bounds_of_tractions_follow_what_a_limit_cuts() {
+    let blind = |mut cases: Vec<Evidence>| {
+        cases.iter_mut().for_each(|case| case.features.values[8] = 0.0);
+        cases
+    };
+    let median = |learned: &[Evidence], fresh: &[Evidence]| {
+        let calibration = Calibration::fit(learned).unwrap();
+        assert!(calibration.is_of(Beside::SlidingOfOils) && calibration.sound());
+        let ratio = |case: &Evidence| {
+            calibration.estimate(&case.features).traction.unwrap().bound / case.errors.traction.unwrap()
+        };
+        let mut ratios: Vec<f64> = fresh.iter().map(ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        assert!(ratios[40] >= 1.0, "the bound covers 99 %: {}", ratios[40]);
+        ratios[2000]
+    };
+    let (learned, fresh) = (cut(1000, 8), cut(4000, 9));
+    let (knowing, not) = (median(&learned, &fresh), median(&blind(learned), &blind(fresh)));
+    assert!(knowing < 6.0 && not > 2.0 * knowing, "{knowing} {not}");
+}
+
+#[test]
+fn calibrations_of_former_versions_say_what_they_did() {
+    let mut cases = cut(300, 4);
+    cases.iter_mut().for_each(|case| case.features.values[8] = 0.0);
+    let whole = Calibration::fit(&cases).unwrap();
+    let mut former = whole.clone();
+    // Theirs lack the last feature: its range, its place, and the terms that it is in.
+    former.ranges.pop();
+    let coordinates = whole.ranges.len() - SIGNS.len();
+    former.places = whole.places.chunks(coordinates).flat_map(|place| &place[..coordinates - 1]).copied().collect();
+    let others = quadratic(&[1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0]);
+    for quantity in &mut former.quantities {
+        let kept = quantity.law.iter().zip(&others).filter(|(_, kept)| **kept > 0.0);
+        quantity.law = kept.map(|(law, _)| *law).collect();
+    }
+    assert!(former.is_of(Beside::SlidingOfOils) && former.sound());
+    for case in cut(20, 5) {
+        let [own, without] = [&whole, &former].map(|known| known.estimate(&case.features).traction.unwrap());
+        assert!((own.bound / without.bound - 1.0).abs() < 1e-9, "{own:?} {without:?}");
+    }
+    former.ranges.pop();
+    assert!(!former.is_of(Beside::SlidingOfOils) && !former.sound(), "no other number was ever theirs");
 }
 
 #[test]

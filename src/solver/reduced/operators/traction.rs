@@ -8,11 +8,21 @@ use super::support::{StateRows, Support};
 use crate::solver::discrete::grid::stretched;
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::heat::mid_stress_pa;
-use crate::solver::full::{Problem, mid_film_stress};
+use crate::solver::full::{Problem, mid_film_stresses};
 use crate::solver::physics::contact::Ellipse;
 use crate::solver::reduced::model::Window;
 use crate::solver::reduced::shapes::Shapes;
 use faer::Mat;
+
+/// The traction of a reduced solution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Traction {
+    /// Its coefficient.
+    pub coefficient: f64,
+    /// The share that the limiting stress takes of what it were without one, 0…1; none with heat, whose temperatures are
+    /// those under the limit.
+    pub cut: Option<f64>,
+}
 
 /// A rule with the modes at its nodes.
 pub(super) struct Rule {
@@ -49,14 +59,14 @@ impl Rule {
         }
     }
 
-    /// The traction coefficient of a state, with the temperatures of the last turns where there are some.
+    /// The traction of a state, with the temperatures of the last turns where there are some.
     pub fn traction(
         &mut self,
         problem: &Problem,
         (scale, curvature): (f64, f64),
         (coefficients, h_0): (&[f64], f64),
         heated: Option<&Heated>,
-    ) -> f64 {
+    ) -> Traction {
         let Self { weights, support, state, interpolation, fields, .. } = self;
         let count = support.len();
         state.spread(count, None, coefficients, fields);
@@ -68,7 +78,7 @@ impl Rule {
             let film = offset + support.places[k].gap(scale, curvature) + scale * deformation[k];
             NodeState { pressure: pressure[k], gradient, film }
         };
-        let force: f64 = match (heated, problem.warm_laws()) {
+        let (force, unlimited) = match (heated, problem.warm_laws()) {
             (Some(heated), Some(laws)) => {
                 let stress = |k: usize, theta| {
                     let x = stretched(support.places[k].xi, scale);
@@ -76,10 +86,19 @@ impl Rule {
                     mid_stress_pa(problem, laws.heat, laws.mid_stress(state(k), &theta), carried)
                 };
                 let across = heated.theta_at(interpolation, scale).enumerate();
-                across.zip(&*weights).map(|((k, theta), weight)| weight * stress(k, theta)).sum()
+                (across.zip(&*weights).map(|((k, theta), weight)| weight * stress(k, theta)).sum::<f64>(), None)
             }
-            _ => weights.iter().enumerate().map(|(k, weight)| weight * mid_film_stress(problem, state(k))).sum(),
+            _ => {
+                let (mut force, mut unlimited) = (0.0, 0.0);
+                for (k, weight) in weights.iter().enumerate() {
+                    let (own, without) = mid_film_stresses(problem, state(k));
+                    force += weight * own;
+                    unlimited += weight * without;
+                }
+                (force, Some(unlimited))
+            }
         };
-        scale * force * problem.point.area_per_load()
+        let cut = |unlimited: f64| if unlimited == 0.0 { 0.0 } else { (1.0 - force / unlimited).clamp(0.0, 1.0) };
+        Traction { coefficient: scale * force * problem.point.area_per_load(), cut: unlimited.map(cut) }
     }
 }
