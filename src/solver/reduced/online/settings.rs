@@ -100,7 +100,8 @@ pub struct ReducedOptions {
     pub pressure_modes: Option<usize>,
     /// Use the dissertation's V_δ V_δᵀ K V_p with this many deformation modes instead of the exact K V_p.
     pub deformation_modes: Option<usize>,
-    /// Stop on ‖Δp̃‖/‖p̃‖ below this. Newton converges quadratically: the error left is the square of it.
+    /// Stop on ‖Δp̃‖/‖p̃‖ below this, where films are thin below a share of it. Newton converges quadratically: the error left
+    /// is the square of it.
     pub tolerance: f64,
     /// Newton steps at most.
     pub max_newton: usize,
