@@ -123,7 +123,7 @@ pub trait NewtonSpace: Space + Sized {
         matrix: &mut Self::Matrix,
         control: &Self::Control,
         rows: &ScaledRows<'_>,
-        go_on: impl Fn() -> bool,
+        go_on: impl Fn() -> bool + Sync,
     ) -> bool;
 }
 

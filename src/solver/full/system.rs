@@ -414,10 +414,14 @@ impl<S: NewtonSpace> System<S> {
         let Preconditioner { matrix, .. } = preconditioner;
         let go_on = || !observer.cancelled();
         let scaled = ScaledRows { rows, thinning: thinning.as_deref(), scaling, fractions: active.fractions() };
-        if !space.assemble(matrix, &options.control, &scaled, go_on) {
-            return LinearOutcome { iterations: 0, relative_residual: f64::NAN };
+        let stopped = LinearOutcome { iterations: 0, relative_residual: f64::NAN };
+        if !space.assemble(matrix, &options.control, &scaled, go_on) || !go_on() {
+            return stopped;
         }
         preconditioner.border(space, &scaled);
+        if !go_on() {
+            return stopped;
+        }
         for ((r, row), s) in rhs.iter_mut().zip(rows).zip(scaling) {
             *r = -row.value * s;
         }

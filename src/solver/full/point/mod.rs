@@ -171,7 +171,7 @@ impl NewtonSpace for PlaneSpace {
         matrix: &mut PlaneMatrix,
         _: &LimitedSteps,
         rows: &ScaledRows<'_>,
-        go_on: impl Fn() -> bool,
+        go_on: impl Fn() -> bool + Sync,
     ) -> bool {
         matrix.build(&self.grid, rows, go_on)
     }

@@ -6,6 +6,7 @@ use crate::solver::discrete::grid::PointGrid;
 use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, SOUTH, STENCIL, WEST, WEST2};
 use crate::solver::full::newton_space::{Factors, ScaledRows};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three
 /// are no faster.
@@ -34,7 +35,7 @@ impl PlaneMatrix {
         &mut self,
         grid: &PointGrid,
         &ScaledRows { rows, scaling, fractions, .. }: &ScaledRows<'_>,
-        go_on: impl Fn() -> bool,
+        go_on: impl Fn() -> bool + Sync,
     ) -> bool {
         let (m, ny) = (grid.column_unknowns(), grid.ny());
         let columns = grid.nx() - 2;
@@ -51,7 +52,13 @@ impl PlaneMatrix {
             }
         }
         let (kernel, d_h32) = (&self.kernel, &self.d_h);
+        let stopped = AtomicBool::new(!go_on());
         self.matrix.rows_mut().for_each(|row| {
+            // Whoever wants to stop is heard at every row, and what is then half a matrix is used by nobody.
+            if stopped.load(Ordering::Relaxed) || !go_on() {
+                stopped.store(true, Ordering::Relaxed);
+                return;
+            }
             for part in 0..REACH {
                 let c = row.index * REACH + part;
                 if c >= columns {
@@ -98,7 +105,7 @@ impl PlaneMatrix {
                 }
             }
         });
-        self.matrix.factorise(go_on)
+        !stopped.into_inner() && self.matrix.factorise(go_on)
     }
 
     fn prepare(&mut self, grid: &PointGrid) {
