@@ -218,7 +218,7 @@ impl Problem {
 }
 
 /// τ_zx \[Pa\] at mid-film of one node, cut to the limiting stress where the lubricant has one.
-pub(crate) fn mid_film_stress(problem: &Problem, state: NodeState) -> f64 {
+fn mid_film_stress(problem: &Problem, state: NodeState) -> f64 {
     mid_film_stresses(problem, state).0
 }
 

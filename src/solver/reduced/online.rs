@@ -59,7 +59,8 @@ pub struct ReducedSolution {
     pub h_c: f64,
     /// Traction coefficient (3.41) by the window's rule on few nodes; none of a model that does not know sliding.
     pub traction: Option<f64>,
-    /// The share of that traction, 0…1, that the limiting stress takes; none with heat, or where no rule says it.
+    /// The share that the limiting stress takes of what its own window's traction were without one, 0…1; none with heat, or
+    /// where no rule says it.
     pub cut: Option<f64>,
     /// Its temperatures; none without heat.
     pub heat: Option<Warmth>,

@@ -6,7 +6,6 @@ use crate::solver::discrete::grid::PointGrid;
 use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, SOUTH, STENCIL, WEST, WEST2};
 use crate::solver::full::newton_space::{Factors, ScaledRows};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three
 /// are no faster.
@@ -52,12 +51,9 @@ impl PlaneMatrix {
             }
         }
         let (kernel, d_h32) = (&self.kernel, &self.d_h);
-        let stopped = AtomicBool::new(!go_on());
-        self.matrix.rows_mut().for_each(|row| {
-            // Whoever wants to stop is heard at every row, and what is then half a matrix is used by nobody.
-            if stopped.load(Ordering::Relaxed) || !go_on() {
-                stopped.store(true, Ordering::Relaxed);
-                return;
+        let assembled = self.matrix.rows_mut().try_for_each(|row| {
+            if !go_on() {
+                return None;
             }
             for part in 0..REACH {
                 let c = row.index * REACH + part;
@@ -104,8 +100,9 @@ impl PlaneMatrix {
                     }
                 }
             }
+            Some(())
         });
-        !stopped.into_inner() && self.matrix.factorise(go_on)
+        assembled.is_some() && self.matrix.factorise(go_on)
     }
 
     fn prepare(&mut self, grid: &PointGrid) {
