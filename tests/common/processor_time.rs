@@ -1,5 +1,6 @@
 //! Processor time of a thread: what its work costs, however busy the machine is.
 
+use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
 /// Processor time this thread has had so far, to about a millisecond; where the system does not tell, time on the wall.
@@ -17,4 +18,11 @@ pub fn of_this_thread() -> Duration {
 /// Does work on one thread, so that this thread's processor time is that of all of it.
 pub fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(work)
+}
+
+/// A piece of work of the kind that drawing a frame is: numbers are written, kept by name, found again and summed up.
+pub fn fixed_work() -> usize {
+    let names: Vec<String> = (0..1000_u32).map(|k| format!("{:.4}", f64::from(k).sqrt())).collect();
+    let kept: HashMap<&str, usize> = names.iter().enumerate().map(|(k, name)| (name.as_str(), k)).collect();
+    names.iter().rev().filter_map(|name| kept.get(name.as_str())).sum()
 }

@@ -215,7 +215,7 @@ fn a_frame_with_the_map_is_cheap() {
     click(&mut harness, "Contact map");
     click(&mut harness, "Interferogram");
     // A new phase every frame: the picture is made anew every time.
-    assert_cheap(&mut harness, 40, 12.0, |harness, k| {
+    assert_cheap(&mut harness, 40, 8.0, |harness, k| {
         harness.get_by_label("Phase").set_value_accesskit(f64::from(9 * k));
     });
 }

@@ -166,7 +166,7 @@ fn idle_means_idle() {
 fn a_frame_is_cheap() {
     let mut harness = open();
     settled(&mut harness);
-    assert_cheap(&mut harness, 40, 8.0, |_, _| ());
+    assert_cheap(&mut harness, 40, 2.5, |_, _| ());
 }
 
 #[test]

@@ -220,7 +220,7 @@ fn a_frame_of_a_dragged_amplitude_is_cheap() {
     click(&mut harness, "Transient");
     rest_in_time(&mut harness);
     // Everything replays in other threads; this one draws what they have found.
-    assert_cheap(&mut harness, 40, 16.0, |harness, k| {
+    assert_cheap(&mut harness, 40, 6.0, |harness, k| {
         let slider = harness.get_by_role_and_label(Role::Slider, "Load amplitude");
         slider.set_value_accesskit(0.1 + 0.002 * f64::from(k));
     });
