@@ -42,7 +42,7 @@ use crate::scene::Table;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::ReducedModel;
-use answers::jobs::{JobKind, wake};
+use answers::jobs::wake;
 use command::Command;
 use context::Commands;
 use desk::{Desk, Opened};
@@ -60,7 +60,7 @@ use panels::settings::Settings;
 use session::{Keeper, Place};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tab::Tab;
 use tabs::Tabs;
 
@@ -165,6 +165,12 @@ impl Explorer {
     /// Leaves the system's file dialogs alone; the path fields remain. For tests.
     pub fn without_system_dialogs(mut self) -> Self {
         self.desk.files.native_dialogs = false;
+        self
+    }
+
+    /// Lets a frame wait for the reduced model for as long as this, however busy the machine is. For tests.
+    pub fn waiting_for_answers(mut self, patience: Duration) -> Self {
+        self.desk.answers.be_patient(patience);
         self
     }
 
@@ -307,7 +313,7 @@ impl Explorer {
         desk.answers.settle(ctx, &desk.document);
         desk.transient.settle(ctx, &desk.answers.store);
         // A contact that is being solved is waited for.
-        desk.fit_plots &= desk.answers.jobs.busy(JobKind::Live) && !desk.answers.picture_is_current();
+        desk.fit_plots &= desk.answers.coming() && !desk.answers.picture_is_current();
     }
 
     /// Hands what has changed in this frame to the keeper of the session.
@@ -416,7 +422,7 @@ impl Explorer {
 
     /// Whether a computation runs or waits.
     pub fn busy(&self) -> bool {
-        [JobKind::Live, JobKind::Refine, JobKind::Verify].into_iter().any(|kind| self.desk.answers.jobs.busy(kind))
+        self.desk.answers.busy()
     }
 
     /// Whether the study of the open scene runs.

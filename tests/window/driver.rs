@@ -26,11 +26,19 @@ pub const TABS: [&str; 10] = [
 pub const CONTROLS: [Role; 7] =
     [Role::Button, Role::Slider, Role::SpinButton, Role::CheckBox, Role::RadioButton, Role::ComboBox, Role::TextInput];
 
+/// Longer than any reduced solve takes on the busiest machine: what a frame of a test shows does not depend on it.
+pub const PATIENCE: Duration = Duration::from_secs(60);
+
 /// The explorer in a window of its own.
 pub type Window = Harness<'static, Explorer>;
 
 /// A window of a size in points.
 pub fn window(explorer: Explorer, size: [f32; 2]) -> Window {
+    impatient_window(explorer.waiting_for_answers(PATIENCE), size)
+}
+
+/// The same, which waits within a frame for as long as the explorer does.
+pub fn impatient_window(explorer: Explorer, size: [f32; 2]) -> Window {
     Harness::builder().with_size(size).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
 }
 

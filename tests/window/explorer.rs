@@ -173,12 +173,37 @@ fn a_frame_is_cheap() {
 fn a_dragged_frame_of_the_embedded_model_is_cheap() {
     let mut harness = open_embedded();
     settled(&mut harness);
-    assert_cheap(&mut harness, 120, 4.0, |harness, k| {
+    assert_cheap(&mut harness, 120, 3.0, |harness, k| {
         assert!(harness.state().central_film().is_some(), "the picture follows within the frame");
         // Through the windows of the model, from nearly rigid to nearly Hertzian.
         harness.get_by_label("Load number M").set_value_accesskit(5.0 * 1.027f64.powi(k.into()));
     });
     assert!(harness.state().central_film().is_some(), "the picture follows within the frame");
+}
+
+#[test]
+fn a_reduced_answer_that_is_late_is_drawn_when_it_comes_and_what_there_was_is_grey_until_then() {
+    let explorer = Explorer::new(Some(Embedded::Line.model().unwrap())).without_system_dialogs();
+    let mut harness = crate::driver::impatient_window(explorer.waiting_for_answers(Duration::ZERO), [1280.0, 800.0]);
+    let arrived = |app: &Explorer| app.central_film().is_some();
+    wait(&mut harness, "the first picture", arrived);
+    let (mut late, first) = (0, harness.state().central_film());
+    for k in 0..40 {
+        harness.get_by_label("Load number M").set_value_accesskit(5.0 * 1.05f64.powi(k));
+        harness.step();
+        let app = harness.state();
+        if !arrived(app) {
+            late += 1;
+            assert!(app.busy() && app.badge() == "Computing", "{} {}", app.busy(), app.badge());
+            assert!(app.drawn().any(|(name, present, grey)| name == "profiles" && !present && grey));
+        }
+    }
+    println!("{late} of 40 answers were late");
+    assert!(late > 0);
+    wait(&mut harness, "the last picture", arrived);
+    assert_ne!(harness.state().central_film(), first);
+    assert_eq!(harness.state().badge(), "Reduced model");
+    wait(&mut harness, "verification", |app| app.badge() == "Verified");
 }
 
 #[test]

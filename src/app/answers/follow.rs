@@ -1,19 +1,19 @@
-//! How the picture follows the document: at once by the reduced model, else by the full solver in the worker; and when
-//! the sliders rest, the truth about it.
+//! How the picture follows the document: by the reduced model, as a rule within the frame, else by the full solver in the
+//! worker; and when the sliders rest, the truth about it.
 
 use super::jobs::{FullSolve, GridChoice, JobKind};
+use super::live::Solved;
 use super::picture::{Cuts, Origin, Picture};
 use super::{Answers, Ask, PassedOver, REST_S};
 use crate::app::document::{Document, Key};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::reduced::{ReducedModel, ReducedOptions, Trust};
+use crate::solver::reduced::{ReducedModel, Trust};
 use egui::Context;
 use std::sync::Arc;
-use std::time::Instant;
 
 impl Answers {
-    /// Answers a changed document: at once by the reduced model, else by the full solver in the worker. Called after
-    /// the panels.
+    /// Answers a changed document by the reduced model, as a rule at once, else by the full solver in the worker. Called
+    /// after the panels.
     pub fn refresh(&mut self, ctx: &Context, document: &Document) {
         if self.reading.is_none()
             && let Some(which) = self.models.late_for(&document.point, &document.lubricant)
@@ -21,11 +21,15 @@ impl Answers {
             self.read(ctx, which);
         }
         let ask = Ask::of(document, &self.models);
-        if self.asked == Some(ask) {
-            return;
+        if self.asked != Some(ask) {
+            self.ask(ctx, document, ask);
         }
+        self.receive_reduced(ctx, document);
+    }
+
+    fn ask(&mut self, ctx: &Context, document: &Document, ask: Ask) {
         let former = self.asked.replace(ask);
-        let Ask { key, options, .. } = ask;
+        let key = ask.key;
         let drawn = former.is_some_and(|former| self.picture.as_ref().is_some_and(|p| p.key == former.key));
         let same_means = former.is_some_and(|former| Ask { key, ..former } == ask);
         // What solves took belongs to a kind of contact and its means.
@@ -44,22 +48,64 @@ impl Answers {
                 return;
             }
         }
-        if self.refresh_reduced(document, key, options) {
-            if self.full.as_ref().is_some_and(|full| full.key == key && self.is_of_another_grid(&key, &full.solution)) {
-                self.full = None;
+        self.verify_due = false;
+        self.passed_over = self.untried(document);
+        match self.model(document) {
+            Some(model) if self.passed_over.is_none() => {
+                let model = Arc::clone(model);
+                self.live.submit(ctx, ask, model);
             }
-            self.compare();
-            self.verify_due = !self.full_is_current();
-        } else {
-            self.comparison = None;
-            let live = self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full);
-            if live {
-                self.submit(ctx, document, JobKind::Live);
-            }
-            // A quick grid follows the hand; the chosen one answers when it rests.
-            let finer = ask.plane.is_some_and(|plane| !live || plane != quick(plane));
-            self.verify_due = finer && !self.is_settled(&key);
+            _ => self.full_follows(ctx, document, ask),
         }
+    }
+
+    /// Takes in what the reduced model has answered.
+    fn receive_reduced(&mut self, ctx: &Context, document: &Document) {
+        for (ask, answer) in self.live.poll() {
+            let present = self.asked == Some(ask);
+            match answer {
+                Ok(solved) => {
+                    self.reduced_times.add(solved.wall_s);
+                    if present || !self.picture_is_current() {
+                        self.picture = Some(drawn_of(ask.key, *solved, self.cuts));
+                        self.drop_full_of_another_grid(&ask.key);
+                        self.compare();
+                    }
+                    if present {
+                        self.verify_due = !self.full_is_current();
+                        self.look_when_rested(ctx);
+                    }
+                }
+                Err(why) if present => {
+                    self.passed_over = Some(PassedOver::Failed(why));
+                    self.full_follows(ctx, document, ask);
+                }
+                Err(_) => {}
+            }
+        }
+    }
+
+    fn drop_full_of_another_grid(&mut self, key: &Key) {
+        if self.full.as_ref().is_some_and(|full| full.key == *key && self.is_of_another_grid(key, &full.solution)) {
+            self.full = None;
+        }
+    }
+
+    /// No reduced model draws the picture.
+    fn full_follows(&mut self, ctx: &Context, document: &Document, ask: Ask) {
+        let key = ask.key;
+        self.comparison = None;
+        let live = self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full);
+        if live {
+            self.submit(ctx, document, JobKind::Live);
+        }
+        // A quick grid follows the hand; the chosen one answers when it rests.
+        let finer = ask.plane.is_some_and(|plane| !live || plane != quick(plane));
+        self.verify_due = finer && !self.is_settled(&key);
+        self.look_when_rested(ctx);
+    }
+
+    fn look_when_rested(&self, ctx: &Context) {
         if self.verify_due {
             ctx.request_repaint_after_secs(REST_S as f32);
         }
@@ -101,44 +147,6 @@ impl Answers {
             None => Some(PassedOver::NoModel),
             Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
             Some(Trust::Trained) => None,
-        }
-    }
-
-    /// Tries the reduced model; `false` when the full solver has to take over.
-    fn refresh_reduced(&mut self, document: &Document, key: Key, options: ReducedOptions) -> bool {
-        self.passed_over = self.untried(document);
-        let (None, Some(model)) = (&self.passed_over, self.model(document).cloned()) else { return false };
-        if self.online.as_ref().is_none_or(|o| *o.options() != options || !Arc::ptr_eq(&o.model, &model)) {
-            if let Some(former) = self.online.take() {
-                self.store.give_back(former);
-            }
-            self.online = Some(self.store.online(&model, options));
-        }
-        let Some(online) = &mut self.online else { return false };
-        // Operators belong to the model and its truncation: the time shown is the solve's alone.
-        online.prepare(&key.point);
-        let begin = Instant::now();
-        let solved = online.solve(&key.point, key.lubricant);
-        let wall_s = begin.elapsed().as_secs_f64();
-        let result = solved.and_then(|reduced| online.reconstruct(&reduced).map(|fields| (reduced, fields)));
-        match result {
-            Ok((reduced, fields)) => {
-                self.reduced_times.add(wall_s);
-                let origin = Origin::Reduced {
-                    residual_estimate: reduced.residual_estimate,
-                    error: reduced.error,
-                    iterations: reduced.iterations,
-                    window: reduced.window,
-                    stands_in: reduced.stands_in,
-                };
-                let (cuts, traction) = (self.cuts, reduced.traction);
-                self.picture = Some(Picture::new(key, origin, Arc::new(fields), cuts, traction));
-                true
-            }
-            Err(error) => {
-                self.passed_over = Some(PassedOver::Failed(error.to_string()));
-                false
-            }
         }
     }
 
@@ -184,6 +192,19 @@ impl Answers {
         self.verify_failure = None;
         self.submit(ctx, document, JobKind::Verify);
     }
+}
+
+/// The picture of a reduced solution.
+fn drawn_of(key: Key, solved: Solved, cuts: Cuts) -> Picture {
+    let Solved { reduced, fields, .. } = solved;
+    let origin = Origin::Reduced {
+        residual_estimate: reduced.residual_estimate,
+        error: reduced.error,
+        iterations: reduced.iterations,
+        window: reduced.window,
+        stands_in: reduced.stands_in,
+    };
+    Picture::new(key, origin, Arc::new(fields), cuts, reduced.traction)
 }
 
 /// The grid of pictures that follow the hand: the quick one, unless the chosen one is as quick.

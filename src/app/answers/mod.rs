@@ -1,12 +1,13 @@
 //! What has been asked of the engine and what came of it: the picture, the truth about it, or why there is none.
 //!
-//! An [`Ask`] is read off the document in every frame. It is answered at once by the reduced model, else by the full
-//! solver in the worker; when the sliders rest, a full solution checks the reduced one. Everything here belongs to an
+//! An [`Ask`] is read off the document in every frame. It is answered by the reduced model, as a rule within the frame,
+//! else by the full solver in the worker; when the sliders rest, a full solution checks the reduced one. Everything here belongs to an
 //! ask, and nobody but this module changes it.
 
 mod follow;
 pub mod grid_error;
 pub mod jobs;
+mod live;
 pub mod picture;
 mod receive;
 mod times;
@@ -18,11 +19,13 @@ use crate::engine::Store;
 use crate::engine::job::Job;
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::{Problem, Report, Solution};
-use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
+use crate::solver::reduced::{ReducedModel, ReducedOptions, Trust};
 use grid_error::GridError;
-use jobs::Jobs;
+use jobs::{JobKind, Jobs};
+use live::Live;
 use picture::{Comparison, Cuts, Origin, Picture};
 use std::sync::Arc;
+use std::time::Duration;
 use times::Times;
 
 /// Seconds of rest after which a verification starts by itself.
@@ -106,7 +109,7 @@ pub struct Answers {
     grid_error: Option<GridError>,
     /// A model of the program on its way.
     reading: Option<Job<Arc<ReducedModel>>>,
-    online: Option<Online>,
+    live: Live,
     asked: Option<Ask>,
     cuts: Cuts,
     changed_at: f64,
@@ -136,6 +139,7 @@ impl Answers {
     pub fn new(models: Models, store: Store) -> Self {
         Self {
             jobs: Jobs::new(&store),
+            live: Live::new(&store),
             store,
             models,
             picture: None,
@@ -151,7 +155,6 @@ impl Answers {
             no_estimate: None,
             grid_error: None,
             reading: None,
-            online: None,
             asked: None,
             cuts: Cuts::default(),
             changed_at: 0.0,
@@ -217,6 +220,21 @@ impl Answers {
         self.picture.as_ref().filter(|_| self.picture_is_current())
     }
 
+    /// Whether the contact of the sliders is being solved, for its picture or for the truth about it.
+    pub fn busy(&self) -> bool {
+        self.coming() || [JobKind::Refine, JobKind::Verify].into_iter().any(|kind| self.jobs.busy(kind))
+    }
+
+    /// Whether a picture is on its way.
+    pub fn coming(&self) -> bool {
+        self.live.busy() || self.jobs.busy(JobKind::Live)
+    }
+
+    /// Lets a frame wait for the reduced model for so long, instead of as long as no hand feels it.
+    pub fn be_patient(&mut self, patience: Duration) {
+        self.live.be_patient(patience);
+    }
+
     /// Whether the full solution belongs to the sliders.
     pub fn full_is_current(&self) -> bool {
         self.is_of_the_ask(self.full.as_ref())
@@ -265,7 +283,7 @@ impl Answers {
     }
 
     fn models_have_changed(&mut self) {
-        self.online = None;
+        self.live.forget();
         self.comparison = None;
         self.asked = None;
     }

@@ -74,9 +74,9 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
             "The reduced model of such contacts is being read; until it is there the full solver draws the picture".to_owned(),
             Kind::Neutral,
         ),
-        (Origin::Full, _) if !answers.picture_is_current() => make(
+        (origin, _) if !answers.picture_is_current() => make(
             "Computing",
-            full.to_owned(),
+            if origin == Origin::Full { full } else { "reduced model at work" }.to_owned(),
             "The picture shown belongs to the sliders as they were a moment ago".to_owned(),
             Kind::Neutral,
         ),

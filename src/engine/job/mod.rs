@@ -14,7 +14,7 @@ use crate::solver::training::TrainingObserver;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU8, Ordering};
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -109,9 +109,15 @@ impl<M: Send + 'static> Job<M> {
     }
 
     /// Hands over what came since the last call; returns how the job ended once it has.
-    pub fn poll(&mut self, mut receive: impl FnMut(M)) -> Option<Ending> {
+    pub fn poll(&mut self, receive: impl FnMut(M)) -> Option<Ending> {
+        self.poll_within(Duration::ZERO, receive)
+    }
+
+    /// The same, waiting for the end for at most a while.
+    pub fn poll_within(&mut self, patience: Duration, mut receive: impl FnMut(M)) -> Option<Ending> {
+        let begin = Instant::now();
         loop {
-            match self.events.try_recv() {
+            match self.events.recv_timeout(patience.saturating_sub(begin.elapsed())) {
                 Ok(Event::Message(message)) => receive(message),
                 Ok(Event::Stage(progress)) => {
                     if progress.stage != self.stage.stage {
@@ -120,8 +126,8 @@ impl<M: Send + 'static> Job<M> {
                     self.stage = progress;
                 }
                 Ok(Event::Ended(ending)) => return Some(ending),
-                Err(TryRecvError::Empty) => return None,
-                Err(TryRecvError::Disconnected) => {
+                Err(RecvTimeoutError::Timeout) => return None,
+                Err(RecvTimeoutError::Disconnected) => {
                     return Some(Err("no thread could be had for this work".to_owned()));
                 }
             }

@@ -1,0 +1,233 @@
+//! Reduced solves for the picture: on a thread of their own, and waited for as long as no hand feels it.
+//!
+//! Most take a millisecond, and the picture follows within the frame. One that has to walk far takes a second; then the
+//! former picture stays, in grey, the window goes on, and the answer comes when it comes. A panic in there takes
+//! nothing down.
+
+use super::Ask;
+use super::jobs::wake_where;
+use crate::engine::Store;
+use crate::engine::job::{Ending, Job, Queue, Reporter};
+use crate::solver::full::Solution;
+use crate::solver::reduced::{Online, ReducedModel, ReducedSolution};
+use std::cell::RefCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// What a hand does not feel: a picture that is three frames late.
+pub const UNFELT: Duration = Duration::from_millis(50);
+
+/// A reduced solution with its fields.
+pub struct Solved {
+    /// The solution.
+    pub reduced: ReducedSolution,
+    /// Its fields.
+    pub fields: Solution,
+    /// Seconds that the solve alone took.
+    pub wall_s: f64,
+}
+
+/// What came of an ask, or a sentence why nothing did.
+type Answer = Result<Box<Solved>, String>;
+
+struct Running {
+    ask: Ask,
+    solved: Option<Box<Solved>>,
+    ending: Option<Ending>,
+    job: Job<Box<Solved>>,
+}
+
+impl Running {
+    fn receive_within(&mut self, patience: Duration) {
+        let Self { solved, ending, job, .. } = self;
+        if ending.is_none() {
+            *ending = job.poll_within(patience, |answer| *solved = Some(answer));
+        }
+    }
+
+    /// What came of it, once it has ended.
+    fn answer(&mut self) -> Option<Answer> {
+        self.receive_within(Duration::ZERO);
+        Some(match (self.ending.take()?, self.solved.take()) {
+            (Ok(()), Some(solved)) => Ok(solved),
+            (Ok(()), None) => Err("the reduced solve ended without a result".to_owned()),
+            (Err(why), _) => Err(why),
+        })
+    }
+}
+
+/// The reduced solves that wait or run.
+pub struct Live {
+    queue: Queue<(Ask, Arc<ReducedModel>), Box<Solved>>,
+    running: Vec<Running>,
+    patience: Duration,
+}
+
+impl Live {
+    /// Solves with the operators of a store.
+    pub fn new(store: &Store) -> Self {
+        let (store, last) = (store.clone(), RefCell::new(None));
+        let queue = Queue::new("live picture", 1, move |(ask, model), reporter| {
+            // Where it panics, what it was at is not used again.
+            let mut online = prepared(&store, last.take(), &ask, model);
+            let ending = solve(&mut online, &ask, reporter);
+            last.replace(Some(online));
+            ending
+        });
+        Self { queue, running: Vec::new(), patience: UNFELT }
+    }
+
+    /// Waits for so long until an answer is there, or leaves it to a later frame.
+    pub fn be_patient(&mut self, patience: Duration) {
+        self.patience = patience;
+    }
+
+    /// Hands an ask over, in the place of one that has not begun, and waits a moment for its answer.
+    pub fn submit(&mut self, ctx: &egui::Context, ask: Ask, model: Arc<ReducedModel>) {
+        let late = Arc::new(AtomicBool::new(false));
+        let wake = wake_where(ctx, Arc::clone(&late));
+        let job = self.queue.submit(0, "Reduced solve", wake, (ask, model));
+        self.running.retain(|running| running.job.begun());
+        let mut running = Running { ask, solved: None, ending: None, job };
+        running.receive_within(self.patience);
+        if running.ending.is_none() {
+            // From here on it calls; what came just before is taken with the next look, in this frame.
+            late.store(true, Ordering::SeqCst);
+        }
+        self.running.push(running);
+    }
+
+    /// What has come since the last call, with what it is for.
+    pub fn poll(&mut self) -> Vec<(Ask, Answer)> {
+        let mut answers = Vec::new();
+        self.running.retain_mut(|running| match running.answer() {
+            Some(answer) => {
+                answers.push((running.ask, answer));
+                false
+            }
+            None => true,
+        });
+        answers
+    }
+
+    /// Whether an answer is still to come.
+    pub fn busy(&self) -> bool {
+        !self.running.is_empty()
+    }
+
+    /// Asks for nothing any more: other models serve from here on.
+    pub fn forget(&mut self) {
+        self.running.clear();
+    }
+}
+
+/// A solver for an ask: the last one where it serves, with the solutions that it remembers.
+fn prepared(store: &Store, last: Option<Online>, ask: &Ask, model: Arc<ReducedModel>) -> Online {
+    let serves = |online: &Online| *online.options() == ask.options && Arc::ptr_eq(&online.model, &model);
+    match last {
+        Some(online) if serves(&online) => online,
+        other => {
+            if let Some(former) = other {
+                store.give_back(former);
+            }
+            store.online(&model, ask.options)
+        }
+    }
+}
+
+fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Solved>>) -> Ending {
+    let key = ask.key;
+    // Operators belong to the model and its truncation: the time shown is the solve's alone.
+    online.prepare(&key.point);
+    let begin = Instant::now();
+    let reduced = online.solve(&key.point, key.lubricant);
+    let wall_s = begin.elapsed().as_secs_f64();
+    let reduced = reduced.map_err(|error| error.to_string())?;
+    let fields = online.reconstruct(&reduced).map_err(|error| error.to_string())?;
+    reporter.send(Box::new(Solved { reduced, fields, wall_s }));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::document::Key;
+    use crate::engine::Embedded;
+    use crate::solver::physics::contact::OperatingPoint;
+    use crate::solver::physics::lubricant::Lubricant;
+    use crate::solver::reduced::ReducedOptions;
+
+    fn ask_at(share_of_speed: f64) -> Ask {
+        let speed_m_per_s = share_of_speed * OperatingPoint::TABLE_2_1.speed_m_per_s;
+        let point = OperatingPoint { speed_m_per_s, ..OperatingPoint::TABLE_2_1 };
+        let key = Key { point, lubricant: Lubricant::default() };
+        Ask { key, plane: None, options: ReducedOptions::default() }
+    }
+
+    fn patient() -> Live {
+        let mut live = Live::new(&Store::default());
+        live.be_patient(Duration::from_secs(60));
+        live
+    }
+
+    #[test]
+    fn who_waits_has_the_answer_at_once_and_who_does_not_is_called() {
+        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let mut live = patient();
+        live.submit(&ctx, ask_at(1.0), Arc::clone(&model));
+        let (ask, answer) = live.poll().pop().unwrap();
+        let at_once = answer.unwrap();
+        assert!(ask == ask_at(1.0) && !live.busy() && at_once.wall_s > 0.0);
+
+        let called = Arc::new(AtomicBool::new(false));
+        let note = Arc::clone(&called);
+        ctx.set_repaint_observer(move |_| note.store(true, Ordering::SeqCst));
+        live.forget();
+        live.be_patient(Duration::ZERO);
+        live.submit(&ctx, ask_at(1.0), model);
+        let begin = Instant::now();
+        let later = loop {
+            if let Some((_, answer)) = live.poll().pop() {
+                break answer.unwrap();
+            }
+            assert!(live.busy() && begin.elapsed() < Duration::from_secs(60));
+            std::thread::sleep(Duration::from_millis(1));
+        };
+        assert!((later.reduced.h_c / later.fields.scalars.h_c - 1.0).abs() < 1e-9);
+        assert!((later.reduced.h_c / at_once.reduced.h_c - 1.0).abs() < 1e-3);
+        while !called.load(Ordering::SeqCst) {
+            assert!(begin.elapsed() < Duration::from_secs(60), "nobody is called");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn of_asks_that_wait_the_newest_is_answered_and_of_models_no_longer_in_use_none() {
+        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let mut live = patient();
+        live.be_patient(Duration::ZERO);
+        for k in 0..50 {
+            live.submit(&ctx, ask_at(1.0 + 0.01 * f64::from(k)), Arc::clone(&model));
+        }
+        let (begin, mut answered) = (Instant::now(), Vec::new());
+        while live.busy() {
+            answered.extend(live.poll().into_iter().map(|(ask, answer)| (ask, answer.is_ok())));
+            assert!(begin.elapsed() < Duration::from_secs(60));
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert_eq!(answered.pop(), Some((ask_at(1.49), true)));
+        live.submit(&ctx, ask_at(1.0), model);
+        live.forget();
+        assert!(!live.busy() && live.poll().is_empty());
+    }
+
+    #[test]
+    fn a_contact_that_is_refused_comes_back_as_a_sentence() {
+        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let mut live = patient();
+        live.submit(&ctx, ask_at(f64::NAN), model);
+        let (_, answer) = live.poll().pop().unwrap();
+        assert!(answer.err().is_some_and(|why| why.len() > 10));
+    }
+}
