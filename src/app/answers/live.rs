@@ -1,4 +1,4 @@
-//! Reduced solves for the picture: on a thread of their own, and waited for as long as no hand feels it.
+//! Reduced solves for the picture: on a thread of their own, and waited for as long as a hand takes for at once.
 //!
 //! Most take a millisecond, and the picture follows within the frame. One that has to walk far takes a second; then the
 //! former picture stays, in grey, the window goes on, and the answer comes when it comes. A panic in there takes
@@ -15,8 +15,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// What a hand does not feel: a picture that is three frames late.
-pub const UNFELT: Duration = Duration::from_millis(50);
+/// What seems to be at once to a hand.
+pub const AT_ONCE: Duration = Duration::from_millis(100);
 
 /// A reduced solution with its fields.
 pub struct Solved {
@@ -75,7 +75,7 @@ impl Live {
             last.replace(Some(online));
             ending
         });
-        Self { queue, running: Vec::new(), patience: UNFELT }
+        Self { queue, running: Vec::new(), patience: AT_ONCE }
     }
 
     /// Waits for so long until an answer is there, or leaves it to a later frame.

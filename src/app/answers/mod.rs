@@ -230,7 +230,7 @@ impl Answers {
         self.live.busy() || self.jobs.busy(JobKind::Live)
     }
 
-    /// Lets a frame wait for the reduced model for so long, instead of as long as no hand feels it.
+    /// Lets a frame wait for the reduced model for so long, instead of a tenth of a second.
     pub fn be_patient(&mut self, patience: Duration) {
         self.live.be_patient(patience);
     }

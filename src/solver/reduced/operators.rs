@@ -12,7 +12,7 @@ pub(crate) use front::{cut_off, fronts, passed_rows};
 pub use heat::Warmth;
 pub(crate) use heat::{Stations, carried};
 pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
-pub use traction::Traction;
+pub use traction::RuleTraction;
 
 use self::front::Front;
 use self::heat::Heated;
@@ -240,7 +240,7 @@ impl Operators {
 
     /// Traction (3.41) of a state by the window's rule, with heat by the temperatures of the last turns; `None` where it has
     /// none.
-    pub fn traction(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64) -> Option<Traction> {
+    pub fn traction(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64) -> Option<RuleTraction> {
         let Case { problem, scale, curvature, .. } = *case;
         let rule = self.rule.as_mut()?;
         Some(rule.traction(problem, (scale, curvature), (coefficients, h_0), self.heated.as_deref()))

@@ -7,7 +7,7 @@ use crate::solver::full::Problem;
 use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
-use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, Stop, Traction, Warmth};
+use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Stop, Warmth};
 use crate::solver::reduced::start::{Guess, film_number};
 
 /// A converged online iteration.
@@ -17,7 +17,7 @@ pub(super) struct Found {
     pub h_c: f64,
     pub iterations: usize,
     pub residual: f64,
-    pub traction: Option<Traction>,
+    pub traction: Option<RuleTraction>,
     pub fronts: Vec<usize>,
     pub heat: Option<Warmth>,
 }

@@ -16,7 +16,7 @@ use faer::Mat;
 
 /// The traction of a reduced solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Traction {
+pub struct RuleTraction {
     /// Its coefficient.
     pub coefficient: f64,
     /// The share that the limiting stress takes of what it were without one, 0…1; none with heat, whose temperatures are
@@ -66,7 +66,7 @@ impl Rule {
         (scale, curvature): (f64, f64),
         (coefficients, h_0): (&[f64], f64),
         heated: Option<&Heated>,
-    ) -> Traction {
+    ) -> RuleTraction {
         let Self { weights, support, state, interpolation, fields, .. } = self;
         let count = support.len();
         state.spread(count, None, coefficients, fields);
@@ -99,6 +99,6 @@ impl Rule {
             }
         };
         let cut = |unlimited: f64| if unlimited == 0.0 { 0.0 } else { (1.0 - force / unlimited).clamp(0.0, 1.0) };
-        Traction { coefficient: scale * force * problem.point.area_per_load(), cut: unlimited.map(cut) }
+        RuleTraction { coefficient: scale * force * problem.point.area_per_load(), cut: unlimited.map(cut) }
     }
 }
