@@ -16,7 +16,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// What seems to be at once to a hand.
-pub const AT_ONCE: Duration = Duration::from_millis(100);
+const AT_ONCE: Duration = Duration::from_millis(100);
+/// A solve that ran longer than this is given up for a newer one. Were it given up at every movement of the hand, the
+/// picture would stand still.
+const LIVE_PATIENCE: Duration = Duration::from_millis(400);
 
 /// A reduced solution with its fields.
 pub struct Solved {
@@ -87,6 +90,7 @@ impl Live {
     pub fn submit(&mut self, ctx: &egui::Context, ask: Ask, model: Arc<ReducedModel>) {
         let late = Arc::new(AtomicBool::new(false));
         let wake = wake_where(ctx, Arc::clone(&late));
+        self.running.iter().for_each(|running| running.job.give_up_after(LIVE_PATIENCE));
         let job = self.queue.submit(0, "Reduced solve", wake, (ask, model));
         self.running.retain(|running| running.job.begun());
         let mut running = Running { ask, solved: None, ending: None, job };
@@ -98,15 +102,17 @@ impl Live {
         self.running.push(running);
     }
 
-    /// What has come since the last call, with what it is for.
+    /// What has come since the last call, with what it is for; of those that were given up for a newer one nothing has.
     pub fn poll(&mut self) -> Vec<(Ask, Answer)> {
         let mut answers = Vec::new();
-        self.running.retain_mut(|running| match running.answer() {
-            Some(answer) => {
+        let mut newer = self.running.len();
+        self.running.retain_mut(|running| {
+            newer -= 1;
+            let Some(answer) = running.answer() else { return true };
+            if answer.is_ok() || newer == 0 {
                 answers.push((running.ask, answer));
-                false
             }
-            None => true,
+            false
         });
         answers
     }
@@ -141,7 +147,7 @@ fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Solved>>) -> En
     // Operators belong to the model and its truncation: the time shown is the solve's alone.
     online.prepare(&key.point);
     let begin = Instant::now();
-    let reduced = online.solve(&key.point, key.lubricant);
+    let reduced = online.solve_watched(&key.point, key.lubricant, reporter);
     let wall_s = begin.elapsed().as_secs_f64();
     let reduced = reduced.map_err(|error| error.to_string())?;
     let fields = online.reconstruct(&reduced).map_err(|error| error.to_string())?;

@@ -15,9 +15,10 @@ use super::operators::{Operators, RowObserver, Warmth};
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
 use crate::solver::full::heat::ENDURED_K;
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
-use attempt::{Found, attempt, walk};
+use attempt::{Found, Watch, attempt, walk};
 use std::cell::OnceCell;
 use std::sync::Arc;
 
@@ -122,7 +123,27 @@ impl Online {
     /// # Errors
     /// When the point is refused or Newton does not converge.
     pub fn solve(&mut self, point: &OperatingPoint, lubricant: Lubricant) -> Result<ReducedSolution, ReducedError> {
-        self.solve_observed(point, lubricant, None)
+        self.solve_watched(point, lubricant, &())
+    }
+
+    /// [`Online::solve`] for someone who may no longer want it: asked before each attempt, which is a few milliseconds of
+    /// work. What was remembered is then forgotten.
+    ///
+    /// # Errors
+    /// As there, and when it was stopped.
+    pub fn solve_watched(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+        wish: &dyn Observer,
+    ) -> Result<ReducedSolution, ReducedError> {
+        let solved = self.solved(point, lubricant, Watch::of(wish));
+        if wish.cancelled() {
+            // A wish in between may have been heard at one window's attempts only.
+            self.forget();
+            return Err(ReducedError::Cancelled);
+        }
+        solved
     }
 
     /// [`Online::solve`] showing every iterate's sampled rows, for the training.
@@ -130,22 +151,32 @@ impl Online {
         &mut self,
         point: &OperatingPoint,
         lubricant: Lubricant,
-        observer: Option<RowObserver<'_>>,
+        rows: RowObserver<'_>,
+    ) -> Result<ReducedSolution, ReducedError> {
+        self.solved(point, lubricant, Watch { rows: Some(rows), wish: &() })
+    }
+
+    fn solved(
+        &mut self,
+        point: &OperatingPoint,
+        lubricant: Lubricant,
+        mut watch: Watch<'_>,
     ) -> Result<ReducedSolution, ReducedError> {
         let index = self.model.window_for(point);
-        let (mut solved, blended) = match self.iterated(index, point, lubricant, observer) {
+        let wish = watch.wish;
+        let (mut solved, blended) = match self.iterated(index, point, lubricant, &mut watch) {
             Ok(solved) => (solved, self.model.blended(point.moes())),
             // The next window knows contacts of this one near their border; what it is wrong by here was not measured.
             Err(why @ ReducedError::NotConverged { .. }) => {
                 let next = self.model.next_anchor(point.moes(), index).ok_or(why.clone())?;
-                let solved = self.iterated(next, point, lubricant, None).map_err(|_| why)?;
+                let solved = self.iterated(next, point, lubricant, &mut Watch::of(wish)).map_err(|_| why)?;
                 (ReducedSolution { error: None, stands_in: true, ..solved }, Vec::new())
             }
             Err(why) => return Err(why),
         };
         for (share, further) in blended {
             // Where the one beside has no solution, the own one serves alone.
-            if let Ok(other) = self.iterated(further, point, lubricant, None) {
+            if let Ok(other) = self.iterated(further, point, lubricant, &mut Watch::of(wish)) {
                 solved.beside.push((share, other));
             }
         }
@@ -176,7 +207,7 @@ impl Online {
         index: usize,
         point: &OperatingPoint,
         lubricant: Lubricant,
-        mut observer: Option<RowObserver<'_>>,
+        watch: &mut Watch<'_>,
     ) -> Result<ReducedSolution, ReducedError> {
         let model = self.model.contact();
         if point.kind != model {
@@ -206,7 +237,7 @@ impl Online {
         let Some(operators) = cell.get_mut() else { return Err(ReducedError::Empty) };
         if self.options.starts == Starts::Nearest {
             let guess = start::unchanged(window, point).ok_or(ReducedError::Empty)?;
-            let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, &mut observer)?;
+            let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, watch)?;
             return Ok(self.keep(&problem, index, found));
         }
         let thinning = self.model.slides();
@@ -215,24 +246,23 @@ impl Online {
         let former = former.into_iter().filter(|_| former_first).flatten();
         let interpolated = std::iter::once_with(|| start::interpolated(window, point, thinning));
         let nearest = std::iter::once_with(|| start::nearest(window, point));
-        let (at_once, at_last) = if observer.is_none() { model.shares_of_modes() } else { all_modes() };
+        let (at_once, at_last) = if watch.rows.is_none() { model.shares_of_modes() } else { all_modes() };
         let with = |shares: &'static [f64]| {
             kriged.iter().flat_map(move |guess| shares.iter().map(|share| guess.with_modes(*share)))
         };
         for guess in former.chain(with(at_once)).chain(interpolated.chain(nearest).flatten()) {
-            match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer) {
+            match attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, watch) {
                 Ok(found) => return Ok(self.keep(&problem, index, found)),
                 Err(error) => last = error,
             }
         }
         // The last resorts: do with fewer modes, and walk from the nearest snapshot's operating point to this one. With heat a
         // walk that leads nowhere takes seconds.
-        let fewer = with(at_last).find_map(|guess| {
-            attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, &mut observer).ok()
-        });
+        let fewer = with(at_last)
+            .find_map(|guess| attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, watch).ok());
         let found = fewer.or_else(|| {
             let (snapshot, _) = window.nearest(point)?;
-            walk(window, operators, &problem, snapshot, &self.options, &mut observer)
+            walk(window, operators, &problem, snapshot, &self.options, watch)
         });
         match found {
             Some(found) => Ok(self.keep(&problem, index, found)),
@@ -265,7 +295,15 @@ impl Online {
         self.prepare(&problem.point);
         let operators = self.windows.get_mut(index).and_then(OnceCell::get_mut).ok_or(ReducedError::Empty)?;
         let guess = start::carried(snapshot, point);
-        let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, &mut Some(observer))?;
+        let found = attempt(
+            window,
+            operators,
+            &problem,
+            &guess,
+            usize::MAX,
+            &self.options,
+            &mut Watch { rows: Some(observer), wish: &() },
+        )?;
         Ok(self.keep(&problem, index, found))
     }
 

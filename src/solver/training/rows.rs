@@ -51,7 +51,7 @@ impl<'a> Task<'a> {
         let Self { point, lubricant, from } = self;
         online.forget();
         match from {
-            None => online.solve_observed(point, *lubricant, Some(keep)).is_ok(),
+            None => online.solve_observed(point, *lubricant, keep).is_ok(),
             Some(snapshot) => online.solve_from(snapshot, point, *lubricant, keep).is_ok(),
         }
     }

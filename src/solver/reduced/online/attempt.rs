@@ -4,6 +4,7 @@ use super::{ReducedError, ReducedOptions, Starts};
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::heat::Profile;
 use crate::solver::full::Problem;
+use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
@@ -46,9 +47,22 @@ fn share_of_tolerance(problem: &Problem, h_c: f64, options: &ReducedOptions) -> 
     if newtonian && options.starts == Starts::Explorer { (h_c / THICK).clamp(LEAST_SHARE, 1.0) } else { 1.0 }
 }
 
-/// The observer for one iteration.
-fn watched<'a>(observer: &'a mut Option<RowObserver<'_>>) -> Option<RowObserver<'a>> {
-    observer.as_mut().map(|observer| &mut **observer as RowObserver<'_>)
+/// Who looks on: every iterate's sampled rows are shown to `rows`, and `wish` is asked before each attempt.
+pub(super) struct Watch<'a> {
+    pub rows: Option<RowObserver<'a>>,
+    pub wish: &'a dyn Observer,
+}
+
+impl<'a> Watch<'a> {
+    /// Nobody sees the iterates.
+    pub fn of(wish: &'a dyn Observer) -> Self {
+        Self { rows: None, wish }
+    }
+
+    /// The observer of rows for one iteration.
+    fn rows(&mut self) -> Option<RowObserver<'_>> {
+        self.rows.as_mut().map(|rows| &mut **rows as RowObserver<'_>)
+    }
 }
 
 /// Newton from a guess, within `limit` steps and the options' own limit.
@@ -59,8 +73,11 @@ pub(super) fn attempt(
     start: &Guess,
     limit: usize,
     options: &ReducedOptions,
-    observer: &mut Option<RowObserver<'_>>,
+    watch: &mut Watch<'_>,
 ) -> Result<Found, ReducedError> {
+    if watch.wish.cancelled() {
+        return Err(ReducedError::Cancelled);
+    }
     let scale = window.grid.scale(problem.moes);
     let zero = window.grid.at_zero(scale);
     let mut coefficients = vec![0.0; operators.modes];
@@ -84,9 +101,9 @@ pub(super) fn attempt(
     let outcome = if problem.heat.is_some() {
         // Starts are contacts with heat: temperatures come from their pressures, and no isothermal solution is in between.
         let stop = Stop { max_newton: TURNS_PER_STEP * stop.max_newton, ..stop };
-        operators.turns(&case, (&mut coefficients, &mut h_0), &start.theta, stop, watched(observer))
+        operators.turns(&case, (&mut coefficients, &mut h_0), &start.theta, stop, watch.rows())
     } else {
-        operators.newton(&case, &mut coefficients, &mut h_0, stop, watched(observer))
+        operators.newton(&case, &mut coefficients, &mut h_0, stop, watch.rows())
     };
     let h_c = h_0 + (operators.lifted(&lift, &coefficients) + offset);
     if outcome.converged && h_c > 0.0 {
@@ -107,7 +124,7 @@ pub(super) fn walk(
     target: &Problem,
     snapshot: &Snapshot,
     options: &ReducedOptions,
-    observer: &mut Option<RowObserver<'_>>,
+    watch: &mut Watch<'_>,
 ) -> Option<Found> {
     let (from, to) = (snapshot.point.quantities(), target.point.quantities());
     let at = |t: f64| {
@@ -130,7 +147,7 @@ pub(super) fn walk(
         let problem = if next >= 1.0 { *target } else { at(next)? };
         let h_c = guess.h_c * film_number(&problem.point) / film_number(&from_point);
         let start = Guess { h_c, ..guess.clone() };
-        match attempt(window, operators, &problem, &start, usize::MAX, options, observer) {
+        match attempt(window, operators, &problem, &start, usize::MAX, options, watch) {
             Ok(found) => {
                 iterations += found.iterations;
                 if next >= 1.0 {
@@ -141,6 +158,7 @@ pub(super) fn walk(
                 guess = Guess { coefficients: found.coefficients, h_c: found.h_c, fronts: found.fronts, theta };
                 from_point = problem.point;
             }
+            Err(ReducedError::Cancelled) => return None,
             Err(_) => stride *= 0.4,
         }
     }
@@ -149,7 +167,7 @@ pub(super) fn walk(
 
 #[cfg(test)]
 mod tests {
-    use super::super::operators_of;
+    use super::super::{Online, operators_of};
     use super::*;
     use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
@@ -157,6 +175,8 @@ mod tests {
     use crate::solver::reduced::start;
     use crate::solver::training::small::oils;
     use crate::solver::training::{random_points, train};
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     #[test]
     fn iterations_towards_thin_films_end_later() {
@@ -169,6 +189,36 @@ mod tests {
         assert_eq!([share(0.5), share(0.01), share(1e-9), share(-1.0)], [1.0, 1.0, 0.01, 0.01]);
         assert!((share(3e-4) - 0.03).abs() < 1e-15);
         assert_eq!(share_of_tolerance(&thin, 3e-4, &ReducedOptions::dissertation()), 1.0);
+    }
+
+    /// Wishes to stop when it has been asked so often.
+    struct AskedOften(AtomicUsize, usize);
+
+    impl Observer for AskedOften {
+        fn cancelled(&self) -> bool {
+            self.0.fetch_add(1, Ordering::Relaxed) >= self.1
+        }
+    }
+
+    #[test]
+    fn a_solve_that_is_stopped_at_any_attempt_says_so_and_the_next_one_knows_nothing_of_it() {
+        let spec = oils(Sampling::QDeim, 60);
+        let model = Arc::new(train(&spec, &()).unwrap());
+        let online = || Online::new(Arc::clone(&model), ReducedOptions::default());
+        // Far outside: no start leads there, nor does a walk.
+        let far = si_from_moes(&MoesRequest::new(ContactKind::Line, 900.0, 24.0)).unwrap();
+        let never = AskedOften(AtomicUsize::new(0), usize::MAX);
+        assert!(online().solve_watched(&far, spec.lubricant, &never).is_err());
+        let asked = never.0.into_inner();
+        assert!(asked > 4, "{asked}");
+        let near = random_points(&spec.range, spec.contact(), 1, 5)[0];
+        let fresh = online().solve(&near, spec.lubricant).unwrap();
+        let mut stopped = online();
+        for limit in 0..asked {
+            let solved = stopped.solve_watched(&far, spec.lubricant, &AskedOften(AtomicUsize::new(0), limit));
+            assert!(matches!(solved, Err(ReducedError::Cancelled)), "{limit} of {asked}: {solved:?}");
+        }
+        assert_eq!(stopped.solve(&near, spec.lubricant).unwrap().coefficients, fresh.coefficients);
     }
 
     #[test]
@@ -184,7 +234,8 @@ mod tests {
             let mut operators = operators_of(&model, window, &options);
             let mut film = |share: f64| {
                 let guess = guess.with_modes(share);
-                let found = attempt(window, &mut operators, &problem, &guess, 40, &options, &mut None).unwrap();
+                let found =
+                    attempt(window, &mut operators, &problem, &guess, 40, &options, &mut Watch::of(&())).unwrap();
                 let used = guess.coefficients.len();
                 assert!(found.coefficients.len() == window.pressure.count());
                 assert!(found.coefficients[used..].iter().all(|c| *c == 0.0));
@@ -194,7 +245,7 @@ mod tests {
             assert!(all.1 == again.1 && all.1 != fewer, "what one attempt leaves out the next one has");
             let options = with(modes);
             let mut operators = operators_of(&model, window, &options);
-            let small = attempt(window, &mut operators, &problem, &guess, 40, &options, &mut None).unwrap();
+            let small = attempt(window, &mut operators, &problem, &guess, 40, &options, &mut Watch::of(&())).unwrap();
             assert!((fewer / small.h_c - 1.0).abs() < 1e-8, "{fewer} {}", small.h_c);
         }
     }

@@ -1,6 +1,6 @@
 //! Whether the parts of a window belong together: at its own snapshots it must give what they hold.
 
-use super::attempt::attempt;
+use super::attempt::{Watch, attempt};
 use super::operators_of;
 use super::settings::ReducedOptions;
 use crate::solver::full::Problem;
@@ -38,7 +38,7 @@ impl ReducedModel {
         let given = from_both_ends.take(TRIED).filter(|snapshot| {
             let Ok(problem) = Problem::new(&snapshot.point, self.domain.lubricant) else { return false };
             let mut gives = |guess: Guess| {
-                attempt(served, &mut operators, &problem, &guess, usize::MAX, &options, &mut None)
+                attempt(served, &mut operators, &problem, &guess, usize::MAX, &options, &mut Watch::of(&()))
                     .is_ok_and(|found| (found.h_c - snapshot.h_c).abs() <= WITHIN * snapshot.h_c.abs())
             };
             gives(start::carried(snapshot, &problem.point))

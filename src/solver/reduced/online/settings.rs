@@ -51,6 +51,9 @@ pub enum ReducedError {
         /// Last relative step.
         step: f64,
     },
+    /// It was asked to stop.
+    #[error("the reduced solve was stopped")]
+    Cancelled,
     /// The contact is an ellipse of which the model knows nothing.
     #[error("the reduced model knows {}; use the full solver for a ratio of radii of {given}", known_shapes(*known))]
     Ellipse {
