@@ -43,12 +43,14 @@ pub struct BlockRow<'a> {
 }
 
 impl BlockTridiagonal {
-    /// Resizes to `blocks` × `blocks` blocks of `size` × `size` entries and clears them.
+    /// Resizes to `blocks` × `blocks` blocks of `size` × `size` entries; [`Self::rows_mut`] clears them. New ones are of
+    /// memory that the system clears when it is first touched, so that this takes no time that nobody can stop.
     pub fn reset(&mut self, size: usize, blocks: usize) {
         (self.size, self.blocks) = (size, blocks);
         for entries in [&mut self.diagonal, &mut self.lower, &mut self.upper] {
-            entries.clear();
-            entries.resize(size * size * blocks, 0.0);
+            if entries.len() != size * size * blocks {
+                *entries = vec![0.0; size * size * blocks];
+            }
         }
         for indices in [&mut self.permutation, &mut self.inverse] {
             indices.clear();
@@ -58,16 +60,17 @@ impl BlockTridiagonal {
         self.permuted.resize(2 * size, 0.0);
     }
 
-    /// All block rows, to be filled in.
+    /// All block rows, cleared, to be filled in.
     pub fn rows_mut(&mut self) -> impl rayon::iter::IndexedParallelIterator<Item = BlockRow<'_>> {
         use rayon::prelude::*;
         let square = (self.size * self.size).max(1);
         let couplings = self.lower.par_chunks_exact_mut(square).zip(self.upper.par_chunks_exact_mut(square));
-        self.diagonal
-            .par_chunks_exact_mut(square)
-            .zip(couplings)
-            .enumerate()
-            .map(|(index, (diagonal, (lower, upper)))| BlockRow { index, diagonal, lower, upper })
+        self.diagonal.par_chunks_exact_mut(square).zip(couplings).enumerate().map(
+            |(index, (diagonal, (lower, upper)))| {
+                [&mut *diagonal, &mut *lower, &mut *upper].into_iter().for_each(|block| block.fill(0.0));
+                BlockRow { index, diagonal, lower, upper }
+            },
+        )
     }
 
     /// Factorises in place. Every few milliseconds `go_on` is asked; `false` when it said no: then these are no
@@ -300,28 +303,31 @@ mod tests {
                 if (i / size).abs_diff(j / size) > 1 { 0.0 } else { value + boost }
             };
             let mut matrix = BlockTridiagonal::default();
-            matrix.reset(size, blocks);
-            matrix.rows_mut().for_each(|row| {
-                for c in 0..size {
-                    for r in 0..size {
-                        let i = row.index * size + r;
-                        row.diagonal[c * size + r] = entry(i, row.index * size + c) as f32;
-                        if row.index > 0 {
-                            row.lower[c * size + r] = entry(i, (row.index - 1) * size + c) as f32;
-                        }
-                        if row.index + 1 < blocks {
-                            row.upper[c * size + r] = entry(i, (row.index + 1) * size + c) as f32;
+            // The second time in what the first one has left.
+            for _ in 0..2 {
+                matrix.reset(size, blocks);
+                matrix.rows_mut().for_each(|row| {
+                    for c in 0..size {
+                        for r in 0..size {
+                            let i = row.index * size + r;
+                            row.diagonal[c * size + r] = entry(i, row.index * size + c) as f32;
+                            if row.index > 0 {
+                                row.lower[c * size + r] = entry(i, (row.index - 1) * size + c) as f32;
+                            }
+                            if row.index + 1 < blocks {
+                                row.upper[c * size + r] = entry(i, (row.index + 1) * size + c) as f32;
+                            }
                         }
                     }
+                });
+                let n = size * blocks;
+                let want: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
+                let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| entry(i, j) * want[j]).sum()).collect();
+                assert!(matrix.factorise(|| true));
+                matrix.solve(&mut b);
+                for (got, want) in b.iter().zip(&want) {
+                    assert!((got - want).abs() < 2e-3, "{blocks} blocks: {got} against {want}");
                 }
-            });
-            let n = size * blocks;
-            let want: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
-            let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| entry(i, j) * want[j]).sum()).collect();
-            assert!(matrix.factorise(|| true));
-            matrix.solve(&mut b);
-            for (got, want) in b.iter().zip(&want) {
-                assert!((got - want).abs() < 2e-3, "{blocks} blocks: {got} against {want}");
             }
         }
     }
