@@ -1,8 +1,8 @@
 //! What has been asked of the engine and what came of it: the picture, the truth about it, or why there is none.
 //!
 //! An [`Ask`] is read off the document in every frame. It is answered by the reduced model, as a rule within the frame,
-//! else by the full solver in the worker; when the sliders rest, a full solution checks the reduced one. Everything here belongs to an
-//! ask, and nobody but this module changes it.
+//! else by the full solver in the worker; when the sliders rest, a full solution checks the reduced one. Everything here
+//! belongs to an ask, and nobody but this module changes it.
 
 mod follow;
 pub mod grid_error;

@@ -127,7 +127,7 @@ impl Online {
     }
 
     /// [`Online::solve`] for someone who may no longer want it: asked before each attempt, which is a few milliseconds of
-    /// work. What was remembered is then forgotten.
+    /// work, with heat some ten. What was remembered is then forgotten.
     ///
     /// # Errors
     /// As there, and when it was stopped.
@@ -295,15 +295,8 @@ impl Online {
         self.prepare(&problem.point);
         let operators = self.windows.get_mut(index).and_then(OnceCell::get_mut).ok_or(ReducedError::Empty)?;
         let guess = start::carried(snapshot, point);
-        let found = attempt(
-            window,
-            operators,
-            &problem,
-            &guess,
-            usize::MAX,
-            &self.options,
-            &mut Watch { rows: Some(observer), wish: &() },
-        )?;
+        let watch = &mut Watch { rows: Some(observer), wish: &() };
+        let found = attempt(window, operators, &problem, &guess, usize::MAX, &self.options, watch)?;
         Ok(self.keep(&problem, index, found))
     }
 
