@@ -5,9 +5,8 @@
 //! nothing down.
 
 use super::Ask;
-use super::jobs::wake_where;
 use crate::engine::Store;
-use crate::engine::job::{Ending, Job, Queue, Reporter};
+use crate::engine::job::{Ending, Job, Queue, Reporter, Wake};
 use crate::solver::full::Solution;
 use crate::solver::reduced::{Online, ReducedModel, ReducedSolution};
 use std::cell::RefCell;
@@ -126,6 +125,16 @@ impl Live {
     pub fn forget(&mut self) {
         self.running.clear();
     }
+}
+
+/// Repaints when there is an answer, once no frame waits for it any more.
+fn wake_where(ctx: &egui::Context, late: Arc<AtomicBool>) -> Wake {
+    let ctx = ctx.clone();
+    Wake::new(move || {
+        if late.load(Ordering::SeqCst) {
+            ctx.request_repaint();
+        }
+    })
 }
 
 /// A solver for an ask: the last one where it serves, with the solutions that it remembers.

@@ -1,12 +1,12 @@
 //! What finished jobs bring: a picture, the truth about it, what its grid costs, or why there is none.
 
 use super::grid_error::GridError;
-use super::jobs::{FullSolve, GridChoice, JobKind, Outcome, Running};
+use super::jobs::{FullSolve, GridChoice, JobKind, Outcome, Running, wake};
 use super::picture::{Comparison, Origin, Picture};
 use super::{Answers, Failure};
 use crate::app::document::Key;
 use crate::engine::Embedded;
-use crate::engine::job::{Job, Wake, on_spare_cores};
+use crate::engine::job::{Job, on_spare_cores};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Report;
 use crate::solver::full::point::second_grid;
@@ -16,9 +16,8 @@ use std::sync::Arc;
 impl Answers {
     /// Begins to read a model of the program. Until it is there the full solver draws the pictures.
     pub(super) fn read(&mut self, ctx: &Context, which: Embedded) {
-        let (store, ctx) = (self.store.clone(), ctx.clone());
-        let wake = Wake::new(move || ctx.request_repaint());
-        self.reading = Some(Job::start("Reading a reduced model", wake, move |reporter| {
+        let store = self.store.clone();
+        self.reading = Some(Job::start("Reading a reduced model", wake(ctx), move |reporter| {
             reporter.send(on_spare_cores(|| store.embedded(which)).map_err(|error| error.to_string())?);
             Ok(())
         }));
@@ -185,6 +184,7 @@ mod tests {
     use super::*;
     use crate::app::model_source::Models;
     use crate::engine::Store;
+    use crate::engine::job::Wake;
     use std::sync::mpsc::channel;
 
     #[test]

@@ -10,24 +10,12 @@ use crate::engine::job::{Ending, Job, Queue, Reporter, Wake};
 use crate::solver::full::{Solution, Start};
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Repaints when a job has news.
 pub fn wake(ctx: &egui::Context) -> Wake {
     let ctx = ctx.clone();
     Wake::new(move || ctx.request_repaint())
-}
-
-/// The same, once its owner no longer waits for it within a frame.
-pub fn wake_where(ctx: &egui::Context, late: Arc<AtomicBool>) -> Wake {
-    let ctx = ctx.clone();
-    Wake::new(move || {
-        if late.load(Ordering::SeqCst) {
-            ctx.request_repaint();
-        }
-    })
 }
 
 /// News of a solve.
