@@ -2,9 +2,9 @@
 //! worker; and when the sliders rest, the truth about it.
 
 use super::jobs::{FullSolve, GridChoice, JobKind};
-use super::live::Solved;
+use super::live::{Solved, Unanswered};
 use super::picture::{Cuts, Origin, Picture};
-use super::{Answers, Ask, PassedOver, REST_S};
+use super::{Answers, Ask, Failure, PassedOver, REST_S};
 use crate::app::document::{Document, Key};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::{ReducedModel, Trust};
@@ -76,7 +76,11 @@ impl Answers {
                         self.look_when_rested(ctx);
                     }
                 }
-                Err(why) if present => {
+                Err(Unanswered::Stopped) if present => {
+                    let message = "The reduced solve was cancelled".to_owned();
+                    self.failure = Some(Failure { key: ask.key, message, report: None });
+                }
+                Err(Unanswered::Failed(why)) if present => {
                     self.passed_over = Some(PassedOver::Failed(why));
                     self.full_follows(ctx, document, ask);
                 }
@@ -211,4 +215,34 @@ fn drawn_of(key: Key, solved: Solved, cuts: Cuts) -> Picture {
 fn quick(chosen: PointGridSpec) -> PointGridSpec {
     let nodes = |spec: PointGridSpec| spec.nodes().map_or(usize::MAX, |(nx, ny)| nx * ny * ny);
     if nodes(chosen) <= nodes(PointGridSpec::QUICK) { chosen } else { PointGridSpec::QUICK }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::model_source::Models;
+    use crate::engine::{Embedded, Store};
+    use std::time::{Duration, Instant};
+
+    #[test]
+    fn a_reduced_solve_that_is_stopped_says_so_and_no_full_one_follows() {
+        let (ctx, document) = (Context::default(), Document::default());
+        let mut answers = Answers::new(Models::only(Embedded::Line.model().ok()), Store::default());
+        let ask = Ask::of(&document, &answers.models);
+        answers.asked = Some(ask);
+        answers.live.endless(ask);
+        answers.refresh(&ctx, &document);
+        assert!(answers.coming() && answers.failure.is_none());
+        assert_eq!(answers.standing().map(|standing| standing.stage).as_deref(), Some("Reduced solve"));
+
+        answers.cancel_all();
+        let begin = Instant::now();
+        while answers.coming() {
+            assert!(begin.elapsed() < Duration::from_secs(60));
+            answers.refresh(&ctx, &document);
+        }
+        let failure = answers.failure.as_ref().unwrap();
+        assert_eq!((failure.key, failure.message.as_str()), (ask.key, "The reduced solve was cancelled"));
+        assert!(answers.standing().is_none() && answers.jobs.running().is_empty() && answers.passed_over.is_none());
+    }
 }

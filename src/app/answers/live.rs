@@ -6,7 +6,7 @@
 
 use super::Ask;
 use crate::engine::Store;
-use crate::engine::job::{Ending, Job, Queue, Reporter, Wake};
+use crate::engine::job::{Ending, Job, Queue, Reporter, Standing, Wake};
 use crate::solver::full::Solution;
 use crate::solver::reduced::{Online, ReducedModel, ReducedSolution};
 use std::cell::RefCell;
@@ -30,8 +30,17 @@ pub struct Solved {
     pub wall_s: f64,
 }
 
-/// What came of an ask, or a sentence why nothing did.
-type Answer = Result<Box<Solved>, String>;
+/// Why nothing came of an ask.
+#[derive(Debug)]
+pub enum Unanswered {
+    /// It was to stop.
+    Stopped,
+    /// There is no solution; a sentence says why.
+    Failed(String),
+}
+
+/// What came of an ask.
+type Answer = Result<Box<Solved>, Unanswered>;
 
 struct Running {
     ask: Ask,
@@ -53,8 +62,9 @@ impl Running {
         self.receive_within(Duration::ZERO);
         Some(match (self.ending.take()?, self.solved.take()) {
             (Ok(()), Some(solved)) => Ok(solved),
-            (Ok(()), None) => Err("the reduced solve ended without a result".to_owned()),
-            (Err(why), _) => Err(why),
+            _ if self.job.stopping() => Err(Unanswered::Stopped),
+            (Ok(()), None) => Err(Unanswered::Failed("the reduced solve ended without a result".to_owned())),
+            (Err(why), _) => Err(Unanswered::Failed(why)),
         })
     }
 }
@@ -121,6 +131,16 @@ impl Live {
         !self.running.is_empty()
     }
 
+    /// How far the newest is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.running.last().map(|running| running.job.standing())
+    }
+
+    /// Stops what runs. It is heard before the next attempt.
+    pub fn stop(&self) {
+        self.running.iter().for_each(|running| running.job.stop());
+    }
+
     /// Asks for nothing any more: other models serve from here on.
     pub fn forget(&mut self) {
         self.running.clear();
@@ -162,6 +182,20 @@ fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Solved>>) -> En
     let fields = online.reconstruct(&reduced).map_err(|error| error.to_string())?;
     reporter.send(Box::new(Solved { reduced, fields, wall_s }));
     Ok(())
+}
+
+#[cfg(test)]
+impl Live {
+    /// A solve that ends when it is stopped.
+    pub fn endless(&mut self, ask: Ask) {
+        let job = Job::start("Reduced solve", Wake::default(), |reporter| {
+            while !reporter.cancelled() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Err("cancelled".to_owned())
+        });
+        self.running.push(Running { ask, solved: None, ending: None, job });
+    }
 }
 
 #[cfg(test)]
@@ -243,6 +277,6 @@ mod tests {
         let mut live = patient();
         live.submit(&ctx, ask_at(f64::NAN), model);
         let (_, answer) = live.poll().pop().unwrap();
-        assert!(answer.err().is_some_and(|why| why.len() > 10));
+        assert!(matches!(answer, Err(Unanswered::Failed(why)) if why.len() > 10));
     }
 }

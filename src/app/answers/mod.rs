@@ -16,7 +16,7 @@ use crate::app::document::{Document, Key};
 use crate::app::in_use::InUse;
 use crate::app::model_source::Models;
 use crate::engine::Store;
-use crate::engine::job::Job;
+use crate::engine::job::{Job, Standing};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::{Problem, Report, Solution};
 use crate::solver::reduced::{ReducedModel, ReducedOptions, Trust};
@@ -228,6 +228,17 @@ impl Answers {
     /// Whether a picture is on its way.
     pub fn coming(&self) -> bool {
         self.live.busy() || self.jobs.busy(JobKind::Live)
+    }
+
+    /// How far the reduced solve for the picture is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.live.standing()
+    }
+
+    /// Stops all solves.
+    pub fn cancel_all(&self) {
+        self.live.stop();
+        self.jobs.cancel_all();
     }
 
     /// Lets a frame wait for the reduced model for so long, instead of a tenth of a second.

@@ -182,6 +182,7 @@ impl Desk {
     pub fn works(&self) -> Vec<Standing> {
         let (views, transient) = (&self.views, &self.transient);
         let asked = [
+            self.answers.standing(),
             views.results.standing(),
             views.basis.standing(),
             transient.standing(),
@@ -211,7 +212,7 @@ impl Desk {
 
     /// Stops everything that runs; what has been found stays.
     pub fn stop_all(&mut self) {
-        self.answers.jobs.cancel_all();
+        self.answers.cancel_all();
         self.training.stop();
         self.views.accuracy.stop();
         self.views.results.stop();

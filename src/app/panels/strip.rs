@@ -18,9 +18,12 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
         let usual = desk.answers.full_times.median_s();
         let solves = desk.answers.jobs.running().iter().map(|job| (job.since.elapsed().as_secs_f64(), job));
         let solves = solves.filter(|(since_s, _)| *since_s > NEWS_S).map(|(_, job)| solve(job, usual));
-        let works = desk.works().into_iter().filter(|standing| standing.since_s > NEWS_S);
+        let (works, young): (Vec<_>, Vec<_>) = desk.works().into_iter().partition(|work| work.since_s > NEWS_S);
+        if let Some(work) = young.first() {
+            ui.ctx().request_repaint_after_secs((NEWS_S - work.since_s) as f32);
+        }
         let all: Vec<[String; 2]> =
-            solves.chain(works.map(|work| [sentence(&work.stage), numbers::standing(&work)])).collect();
+            solves.chain(works.iter().map(|work| [sentence(&work.stage), numbers::standing(work)])).collect();
         // At a place of its own, whatever stands beside it.
         let cancel = ui.add_enabled(!all.is_empty(), Button::new("Cancel").small());
         let cancel = cancel.on_hover_text("Stops everything that runs (Esc)").on_disabled_hover_text("Nothing runs");
