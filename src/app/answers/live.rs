@@ -105,8 +105,12 @@ impl Live {
         let mut running = Running { ask, solved: None, ending: None, job };
         running.receive_within(self.patience);
         if running.ending.is_none() {
-            // From here on it calls; what came just before is taken with the next look, in this frame.
+            // From here on it calls; what ended just before has called nobody.
             late.store(true, Ordering::SeqCst);
+            running.receive_within(Duration::ZERO);
+            if running.ending.is_some() {
+                ctx.request_repaint();
+            }
         }
         self.running.push(running);
     }
