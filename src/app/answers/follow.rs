@@ -78,7 +78,7 @@ impl Answers {
                 }
                 Err(Unanswered::Stopped) if present => {
                     let message = "The reduced solve was cancelled".to_owned();
-                    self.failure = Some(Failure { key: ask.key, message, report: None });
+                    self.failure = Some(Failure { key: ask.key, message, report: None, stopped: true });
                 }
                 Err(Unanswered::Failed(why)) if present => {
                     self.passed_over = Some(PassedOver::Failed(why));
@@ -220,7 +220,9 @@ fn quick(chosen: PointGridSpec) -> PointGridSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::display::Thresholds;
     use crate::app::model_source::Models;
+    use crate::app::tabs::badge::verdict;
     use crate::engine::{Embedded, Store};
     use std::time::{Duration, Instant};
 
@@ -243,6 +245,7 @@ mod tests {
         }
         let failure = answers.failure.as_ref().unwrap();
         assert_eq!((failure.key, failure.message.as_str()), (ask.key, "The reduced solve was cancelled"));
+        assert_eq!(verdict(&answers, Thresholds::default()).title, "Cancelled");
         assert!(answers.standing().is_none() && answers.jobs.running().is_empty() && answers.passed_over.is_none());
     }
 }

@@ -50,6 +50,8 @@ pub struct Failure {
     pub message: String,
     /// How far the solve got.
     pub report: Option<Report>,
+    /// Whether it was to stop: then it says nothing of the contact.
+    pub stopped: bool,
 }
 
 /// Why the full solver draws the picture.

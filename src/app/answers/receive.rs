@@ -8,8 +8,8 @@ use crate::app::document::Key;
 use crate::engine::Embedded;
 use crate::engine::job::{Job, on_spare_cores};
 use crate::solver::discrete::grid::GridSpec;
-use crate::solver::full::Report;
 use crate::solver::full::point::second_grid;
+use crate::solver::full::{Report, Termination};
 use egui::Context;
 use std::sync::Arc;
 
@@ -169,12 +169,13 @@ impl Answers {
 
 fn failure_of(key: Key, outcome: Outcome, last_report: &mut Option<(Key, Report)>) -> Failure {
     match outcome {
-        Outcome::Failed(message) => Failure { key, message, report: None },
+        Outcome::Failed(message) => Failure { key, message, report: None, stopped: false },
         Outcome::Solved(solution, _) => {
             let report = solution.report.clone();
             *last_report = Some((key, report.clone()));
             let message = format!("The full solve {}", report.termination.describe());
-            Failure { key, message, report: Some(report) }
+            let stopped = report.termination == Termination::Cancelled;
+            Failure { key, message, report: Some(report), stopped }
         }
     }
 }

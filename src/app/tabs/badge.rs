@@ -43,12 +43,9 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         let got = failure.report.as_ref().map_or_else(String::new, |r| {
             format!("{} Newton steps, residual {}", r.newton_iterations, numbers::digits(r.residual_norm, 2))
         });
-        return make(
-            "No solution here",
-            got,
-            format!("{}. The last valid picture stays, in grey", failure.message),
-            Kind::Wrong,
-        );
+        let (title, kind) =
+            if failure.stopped { ("Cancelled", Kind::Neutral) } else { ("No solution here", Kind::Wrong) };
+        return make(title, got, format!("{}. The last valid picture stays, in grey", failure.message), kind);
     }
     let Some(picture) = &answers.picture else {
         return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);

@@ -76,6 +76,16 @@ pub struct System<S: NewtonSpace> {
     pub(super) update: Vec<f64>,
 }
 
+/// Residual norms of solutions are 1e-10 on lines and 1e-4 on planes at most, those of states that are none 1e3 and more.
+const AT_REST: f64 = 1.0;
+
+/// Whether a residual norm behind a step that changed nothing is a solution's. Where an oil thins by Eyring's law some rows of
+/// a state far from any solution outweigh all others by thirty orders of magnitude: a step that solves these to a hundredth
+/// of the right-hand side is then none, and the state stays as wrong as it is.
+pub(super) fn is_at_rest(residual_norm: f64) -> bool {
+    residual_norm < AT_REST
+}
+
 impl<S: NewtonSpace> System<S> {
     /// A system on a space, with all work space; the state is zero until it is set.
     pub fn new(space: S) -> Self {
@@ -221,6 +231,9 @@ impl<S: NewtonSpace> System<S> {
     ) {
         self.begin(problem, options);
         self.go_on(problem, options, &mut S::Memory::default(), observer, report);
+        if report.termination == Termination::Converged && !is_at_rest(report.residual_norm) {
+            report.termination = Termination::Diverged;
+        }
     }
 
     /// Prepares Newton's method from the current state.

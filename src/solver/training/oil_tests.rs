@@ -6,7 +6,9 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::physics::contact::{MoesRequest, OperatingPoint, moes_film, si_from_moes};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ViscosityLaw, roelands_exponent};
-use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust, Window, expected_film};
+use crate::solver::reduced::{
+    Online, ReducedModel, ReducedOptions, SampledRows, Sampling, TestSpace, Trust, Window, all_rows, expected_film,
+};
 use std::sync::Arc;
 
 fn trained(spec: &TrainingSpec) -> (Arc<ReducedModel>, Online) {
@@ -49,6 +51,34 @@ fn models_of_oils_are_near_full_solutions_of_every_oil() {
             steps += solved.iterations / (1 + solved.beside.len());
         }
         assert!(steps <= 40 * 4, "{sampling:?}, {cavitation:?}: {steps} steps from kriged starts");
+    }
+}
+
+#[test]
+fn rows_that_are_too_few_are_made_more_until_they_tell_what_all_rows_tell() {
+    let asked = TrainingSpec { rows_per_mode: 1.1, ..oils(Sampling::QDeim, 60) };
+    let model = train(&asked, &()).unwrap();
+    let points = random_points(&asked.range, asked.contact(), 200, 77);
+    for window in &model.windows {
+        let with = |rows: Option<SampledRows>| {
+            let mut alone = ReducedModel { windows: vec![window.clone()], ..model.clone() };
+            rows.into_iter().for_each(|rows| alone.windows[0].set_rows(Sampling::All, rows));
+            Online::new(Arc::new(alone), ReducedOptions::default())
+        };
+        let all = all_rows(&TestSpace::new(window.pressure.basis(), &window.grid));
+        let (mut sampled, mut exact) = (with(None), with(Some(all)));
+        let mut off = Vec::new();
+        for point in points.iter().filter(|point| model.window_at(point).anchor == window.anchor) {
+            let [own, exact] = [&mut sampled, &mut exact].map(|online| {
+                online.forget();
+                online.solve(point, asked.lubricant).unwrap().h_c
+            });
+            off.push((own / exact - 1.0).abs());
+        }
+        off.sort_by(f64::total_cmp);
+        let (rows, modes) = (window.sampled_rows.len(), window.pressure.count());
+        assert!(rows > modes * 11 / 10 + 1, "{rows} rows of {modes} modes");
+        assert!(off.len() > 20 && off[off.len() * 9 / 10] < 1e-3, "{rows} rows of {modes} modes: {off:?}");
     }
 }
 

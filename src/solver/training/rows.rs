@@ -26,6 +26,14 @@ const ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES: usize = 60;
 const STEP_FLOOR: f64 = 0.03;
 /// Random functionals of Δp̃ per iterate, beside the one of ΔH_c, on a grid of few and of many rows.
 const RANDOM_FUNCTIONALS: [usize; 2] = [6, 2];
+/// By how much sampled rows may miss nine films in ten that all rows give: a fifth of what a model of lines may be off by.
+/// From one number of rows to the next this falls by orders of magnitude; where they are too few by a tenth, iterations
+/// end at films that are off by a third.
+const MISSED_BY_ROWS: f64 = 2e-4;
+/// So many times the rows that were asked for are tried, until they miss less.
+const MORE_ROWS: [f64; 4] = [1.1, 1.2, 1.35, 1.5];
+/// Contacts by which that is told.
+const CONTACTS_OF_TRIAL: usize = 100;
 /// Candidate rows that are many.
 const MANY_ROWS: usize = 3000;
 
@@ -63,8 +71,9 @@ enum Evidence {
     Goals(GoalEquations),
 }
 
-/// Runs `exact` (the window alone, with all rows) at random parameters, collects every iterate, and samples. `None`
-/// when the linear algebra gives up.
+/// Runs `exact` (the window alone, with all rows) at random parameters, collects every iterate, and samples; around an
+/// anchor more rows than are asked for where these do not tell its contacts apart as all rows do. `None` when the linear
+/// algebra gives up.
 ///
 /// # Errors
 /// When the observer cancels.
@@ -75,9 +84,80 @@ pub(super) fn sample_rows(
     rng: &mut Rng,
     observer: &dyn TrainingObserver,
 ) -> Result<Option<SampledRows>, TrainingError> {
-    let per_mode = [spec.rows_per_mode];
-    let mut sampled = sample(spec, exact, served, &per_mode, rng, observer)?;
-    Ok(sampled.pop().flatten())
+    let Some(shown) = Shown::by(spec, exact, served, rng, observer)? else { return Ok(None) };
+    let shown = Arc::new(shown);
+    let rows = |share: f64| {
+        let (shown, per_mode) = (Arc::clone(&shown), share * spec.rows_per_mode);
+        on_one_thread(observer, move || shown.rows(&[per_mode]).pop().flatten())
+    };
+    let mut sampled = rows(1.0)?;
+    let anchored = exact.windows.first().is_some_and(|window| window.anchor.is_some());
+    if !anchored || spec.sampling != Sampling::QDeim || spec.scheme != Scheme::Galerkin {
+        return Ok(sampled);
+    }
+    let trial = Trial::of_rows(spec, exact, served.random_points(CONTACTS_OF_TRIAL, rng), observer)?;
+    for more in MORE_ROWS {
+        let Some(fewer) = &sampled else { break };
+        if trial.missed_by(spec, exact, fewer, observer)? <= MISSED_BY_ROWS {
+            break;
+        }
+        let Some(further) = rows(more)? else { break };
+        sampled = Some(further);
+    }
+    Ok(sampled)
+}
+
+/// Contacts that no row was chosen by, with their films by all rows.
+struct Trial(Vec<(OperatingPoint, f64)>);
+
+impl Trial {
+    /// Of a window alone with all its rows; what these do not solve is left out.
+    fn of_rows(
+        spec: &TrainingSpec,
+        exact: &Arc<ReducedModel>,
+        points: Vec<OperatingPoint>,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Self, TrainingError> {
+        let films = films(spec, exact, &points, observer)?;
+        Ok(Self(points.into_iter().zip(films).filter_map(|(point, film)| Some((point, film?))).collect()))
+    }
+
+    /// By how much so many rows miss the films of nine contacts in ten at most, relative to them; what they do not solve
+    /// they miss altogether.
+    fn missed_by(
+        &self,
+        spec: &TrainingSpec,
+        exact: &Arc<ReducedModel>,
+        rows: &SampledRows,
+        observer: &dyn TrainingObserver,
+    ) -> Result<f64, TrainingError> {
+        let mut sampled = ReducedModel::clone(exact);
+        sampled.windows.iter_mut().for_each(|window| window.set_rows(spec.sampling, rows.clone()));
+        let points: Vec<OperatingPoint> = self.0.iter().map(|(point, _)| *point).collect();
+        let films = films(spec, &Arc::new(sampled), &points, observer)?;
+        let off =
+            |(film, (_, exact)): (Option<f64>, &(_, f64))| film.map_or(f64::INFINITY, |h_c| (h_c / exact - 1.0).abs());
+        let mut missed: Vec<f64> = films.into_iter().zip(&self.0).map(off).collect();
+        missed.sort_by(f64::total_cmp);
+        Ok(missed.get(missed.len() * 9 / 10).copied().unwrap_or(0.0))
+    }
+}
+
+/// H_c of contacts by the model of a window alone, each from the start that the online phase takes; none where it finds no
+/// solution.
+fn films(
+    spec: &TrainingSpec,
+    model: &Arc<ReducedModel>,
+    points: &[OperatingPoint],
+    observer: &dyn TrainingObserver,
+) -> Result<Vec<Option<f64>>, TrainingError> {
+    let m = model.windows.first().map_or((0.0, 0.0), |window| window.m);
+    let stage = format!("Trying rows, M {}…{}", m.0, m.1);
+    let online = || Online::new(Arc::clone(model), ReducedOptions::default());
+    in_parallel(observer, &stage, points, online, |online, _, point| {
+        online.forget();
+        online.solve(point, spec.lubricant).ok().map(|solved| solved.h_c)
+    })
 }
 
 /// Models that differ from one in the rows of one of its windows, which are sampled anew, so many per mode each; `None`
@@ -100,7 +180,9 @@ pub fn with_rows(
     let (radius_ratio, cell) = (own.served_ratios(), Cell::of_model(model, window));
     let m = if cell.is_some() { (0.0, f64::INFINITY) } else { own.m };
     let served = Within { radius_ratio, cell, ..spec.within(m) };
-    let sampled = sample(spec, &exact, &served, rows_per_mode, &mut rng, observer)?;
+    let Some(shown) = Shown::by(spec, &exact, &served, &mut rng, observer)? else { return Ok(Vec::new()) };
+    let rows_per_mode = rows_per_mode.to_vec();
+    let sampled = on_one_thread(observer, move || shown.rows(&rows_per_mode))?;
     let with = |rows: SampledRows| {
         let mut other = model.clone();
         if let Some(place) = other.windows.get_mut(window) {
@@ -112,72 +194,82 @@ pub fn with_rows(
     Ok(sampled.into_iter().map(|rows| rows.map(with)).collect())
 }
 
-/// Rows for each number of them per mode, by what reduced solves show.
-fn sample(
-    spec: &TrainingSpec,
-    exact: &Arc<ReducedModel>,
-    served: &Within,
-    rows_per_mode: &[f64],
-    rng: &mut Rng,
-    observer: &dyn TrainingObserver,
-) -> Result<Vec<Option<SampledRows>>, TrainingError> {
-    let Some(window) = exact.windows.first() else { return Ok(Vec::new()) };
-    let (solves, trainings) = match spec.warms_a_plane() {
-        true => (ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES, ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES),
-        false => (ROW_SNAPSHOT_SOLVES, usize::MAX),
-    };
-    let points = served.random_points(solves, rng);
-    // Every second line with heat has thermal constants of the range, as what a model is asked for has.
-    let mut constants = Rng::with_seed(spec.seed);
-    let at = |(k, point): (usize, OperatingPoint)| {
-        let other = spec.warms_a_line() && k % 2 == 1;
-        let lubricant = if other { spec.range.warmed(spec.lubricant, &mut constants) } else { spec.lubricant };
-        Task { point, lubricant, from: None }
-    };
-    let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(at).collect();
-    // Windows around anchors are asked up to their ends, where few random contacts lie.
-    if spec.sampling == Sampling::Cubature || window.anchor.is_some() {
-        let every = window.snapshots.len().div_ceil(trainings).max(1);
-        let beside = |k| Task::beside(window, k, spec.lubricant);
-        tasks.extend((0..window.snapshots.len()).step_by(every).filter_map(beside));
-    }
-    let test = Arc::new(TestSpace::new(window.pressure.basis(), &window.grid));
-    let none = GoalEquations::over(&test);
-    let stage = format!("Row snapshots, M {}…{}", window.m.0, window.m.1);
-    let online = || Online::new(Arc::clone(exact), ReducedOptions::default());
-    let collected = in_parallel(observer, &stage, &tasks, online, |online, index, task| match spec.sampling {
-        Sampling::Cubature => {
-            let mut rng = Rng::with_seed(spec.seed.wrapping_add(index as u64));
-            Evidence::Goals(goals(online, &test, none.clone(), task, &mut rng))
-        }
-        _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
-    })?;
-    observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
-    let (of, rows_per_mode) = ((spec.scheme, spec.sampling), rows_per_mode.to_vec());
-    on_one_thread(observer, move || choose(&test, of, &rows_per_mode, collected, none))
+/// What reduced solves with all rows show of a window.
+struct Shown {
+    test: Arc<TestSpace>,
+    of: (Scheme, Sampling),
+    rows: RowSnapshots,
+    equations: GoalEquations,
 }
 
-/// The rows that all evidence together speaks for, for each number of them per mode.
-fn choose(
-    test: &TestSpace,
-    (scheme, sampling): (Scheme, Sampling),
-    rows_per_mode: &[f64],
-    collected: Vec<Evidence>,
-    mut equations: GoalEquations,
-) -> Vec<Option<SampledRows>> {
-    let mut rows = RowSnapshots::default();
-    for part in collected {
-        match part {
-            Evidence::Snapshots(part) => {
-                rows.residual.extend(part.residual);
-                rows.jacobian.extend(part.jacobian);
-            }
-            Evidence::Goals(part) => equations.merge(&part),
+impl Shown {
+    /// Runs `exact` at random parameters and, for a cubature and around anchors, at its trainings. `None` of a model without
+    /// a window.
+    fn by(
+        spec: &TrainingSpec,
+        exact: &Arc<ReducedModel>,
+        served: &Within,
+        rng: &mut Rng,
+        observer: &dyn TrainingObserver,
+    ) -> Result<Option<Self>, TrainingError> {
+        let Some(window) = exact.windows.first() else { return Ok(None) };
+        let (solves, trainings) = match spec.warms_a_plane() {
+            true => (ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES, ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES),
+            false => (ROW_SNAPSHOT_SOLVES, usize::MAX),
+        };
+        let points = served.random_points(solves, rng);
+        // Every second line with heat has thermal constants of the range, as what a model is asked for has.
+        let mut constants = Rng::with_seed(spec.seed);
+        let at = |(k, point): (usize, OperatingPoint)| {
+            let other = spec.warms_a_line() && k % 2 == 1;
+            let lubricant = if other { spec.range.warmed(spec.lubricant, &mut constants) } else { spec.lubricant };
+            Task { point, lubricant, from: None }
+        };
+        let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(at).collect();
+        // Windows around anchors are asked up to their ends, where few random contacts lie.
+        if spec.sampling == Sampling::Cubature || window.anchor.is_some() {
+            let every = window.snapshots.len().div_ceil(trainings).max(1);
+            let beside = |k| Task::beside(window, k, spec.lubricant);
+            tasks.extend((0..window.snapshots.len()).step_by(every).filter_map(beside));
         }
+        let test = Arc::new(TestSpace::new(window.pressure.basis(), &window.grid));
+        let none = GoalEquations::over(&test);
+        let stage = format!("Row snapshots, M {}…{}", window.m.0, window.m.1);
+        let online = || Online::new(Arc::clone(exact), ReducedOptions::default());
+        let collected = in_parallel(observer, &stage, &tasks, online, |online, index, task| match spec.sampling {
+            Sampling::Cubature => {
+                let mut rng = Rng::with_seed(spec.seed.wrapping_add(index as u64));
+                Evidence::Goals(goals(online, &test, none.clone(), task, &mut rng))
+            }
+            _ => Evidence::Snapshots(snapshots(spec, online, &test, task)),
+        })?;
+        observer.progress(Progress { stage: "Row sampling".to_owned(), done: 0, total: 1 });
+        let of = (spec.scheme, spec.sampling);
+        let all = Self { test, of, rows: RowSnapshots::default(), equations: none };
+        Ok(Some(on_one_thread(observer, move || all.with(collected))?))
     }
-    let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
-    let counts: Vec<usize> = rows_per_mode.iter().map(count).collect();
-    rows_by(test, (scheme, sampling), (&rows, &equations), &counts)
+
+    /// With further evidence.
+    fn with(mut self, collected: Vec<Evidence>) -> Self {
+        for part in collected {
+            match part {
+                Evidence::Snapshots(part) => {
+                    self.rows.residual.extend(part.residual);
+                    self.rows.jacobian.extend(part.jacobian);
+                }
+                Evidence::Goals(part) => self.equations.merge(&part),
+            }
+        }
+        self
+    }
+
+    /// The rows that all of it speaks for, for each number of them per mode; `None` where the linear algebra gives up.
+    fn rows(&self, rows_per_mode: &[f64]) -> Vec<Option<SampledRows>> {
+        let Self { test, of, rows, equations } = self;
+        let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
+        let counts: Vec<usize> = rows_per_mode.iter().map(count).collect();
+        rows_by(test, *of, (rows, equations), &counts)
+    }
 }
 
 /// The rows that a scheme takes by what snapshots or, for a cubature, goal equations speak for: of each count, `None`

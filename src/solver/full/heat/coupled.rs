@@ -7,7 +7,7 @@ use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::discrete::space::Grid;
 use crate::solver::full::newton_space::NewtonSpace;
 use crate::solver::full::solution::{Problem, Report, Termination};
-use crate::solver::full::system::{SolveOptions, System};
+use crate::solver::full::system::{SolveOptions, System, is_at_rest};
 use crate::solver::observer::Observer;
 use crate::solver::physics::lubricant::Cavitation;
 use std::sync::Arc;
@@ -157,7 +157,8 @@ impl Coupled {
                 let options = SolveOptions { control, ..options };
                 system.go_on(problem, &options, &mut memory, observer, report);
                 if !matches!(report.termination, Termination::Cancelled | Termination::Diverged) {
-                    report.termination = Termination::Converged;
+                    let at_rest = is_at_rest(report.residual_norm);
+                    report.termination = if at_rest { Termination::Converged } else { Termination::Diverged };
                 }
                 return;
             }
