@@ -160,6 +160,11 @@ fn the_reduced_model_of_ellipses_is_read_when_it_is_needed_and_the_slider_answer
         assert!(harness.state().central_film().is_some(), "the picture follows in the frame");
     }
     set(&mut harness, Role::Slider, RATIO, 20.0);
-    wait(&mut harness, "a full solution", |app| app.badge() == "Outside the reduced model");
+    // What follows the hand there is as coarse as elsewhere, and the badge says so.
+    wait(&mut harness, "a full solution", |app| app.central_film().is_some());
+    let told = |app: &Explorer| (app.badge(), app.badge_detail().contains("on a quick grid"));
+    assert_eq!(told(harness.state()), ("Outside the reduced model".to_owned(), true));
     assert!(harness.state().badge_detail().contains("ratio of radii"), "{}", harness.state().badge_detail());
+    wait(&mut harness, "the chosen grid", |app| !app.busy());
+    assert_eq!(told(harness.state()), ("Outside the reduced model".to_owned(), false));
 }

@@ -51,18 +51,23 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);
     };
     let waits = answers.jobs.busy(JobKind::Live);
-    let full = if waits && !answers.picture_is_current() { "full solver at work" } else { "full solution" };
+    let full = match () {
+        () if waits && !answers.picture_is_current() => "full solver at work",
+        () if answers.is_quick() => "full solution on a quick grid",
+        () => "full solution",
+    };
+    let of_grid = picture.unresolved.as_ref().map_or_else(String::new, |why| format!("{}. ", sentence(why)));
     match (picture.origin, &answers.passed_over) {
         (_, Some(PassedOver::Outside(why))) => make(
             "Outside the reduced model",
             format!("{full}: {why}"),
-            "The picture is a converged full solution; a reduced model never extrapolates here".to_owned(),
+            format!("{of_grid}The picture is a converged full solution; a reduced model never extrapolates here"),
             Kind::Warning,
         ),
         (_, Some(PassedOver::Failed(why))) => make(
             "Reduced model failed",
             full.to_owned(),
-            format!("{}. The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
+            format!("{}. {of_grid}The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
             Kind::Warning,
         ),
         (_, Some(PassedOver::Reading)) => make(
@@ -102,7 +107,6 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                 numbers::small(residual_estimate)
             );
             let grid_cost = picture.solution.grid_cost.map(GridCost::total).filter(|cost| cost.is_finite());
-            let of_grid = picture.unresolved.as_ref().map_or_else(String::new, |why| format!("{}. ", sentence(why)));
             match &answers.comparison {
                 Some(c) if answers.full_is_current() => {
                     let (title, kind) = match judged(c, thresholds) {

@@ -362,8 +362,6 @@ impl Operators {
             }
             before = changed;
         }
-        // A converged iteration with an absurd residual has found garbage.
-        outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
-        outcome
+        outcome.unless_absurd()
     }
 }

@@ -60,6 +60,14 @@ pub(crate) struct OnlineOutcome {
     pub residual: f64,
 }
 
+impl OnlineOutcome {
+    /// It, where an iteration that came to rest at an absurd residual has not converged: it has found garbage.
+    pub(super) fn unless_absurd(mut self) -> Self {
+        self.converged &= self.residual.is_finite() && self.residual < 1e3;
+        self
+    }
+}
+
 /// One contact as the reduced operators see it.
 #[derive(Clone, Copy)]
 pub(crate) struct Case<'a> {
@@ -151,9 +159,7 @@ impl Operators {
             }
         }
         outcome.residual = self.evaluate(case, coefficients, *h_0, Wanted::Rest);
-        // A converged iteration with an absurd residual has found garbage.
-        outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
-        outcome
+        outcome.unless_absurd()
     }
 
     /// Shows an iterate and the step that was solved for there.
