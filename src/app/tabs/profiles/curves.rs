@@ -187,7 +187,18 @@ pub fn curve(name: String, points: PlotPoints<'_>, color: Color32, width: f32) -
 
 /// A dot with its name; the name stands clear of the curve by a leading space or line.
 pub fn mark(plot: &mut Canvas<'_, '_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
-    let dot = Points::new("", vec![[at.0, at.1]]).id(name).shape(MarkerShape::Circle).radius(3.5).color(color);
+    mark_lifted(plot, (at, 0.0), name, color, anchor);
+}
+
+/// The same, with its name so much higher than its dot, as the axis counts.
+pub fn mark_lifted(
+    plot: &mut Canvas<'_, '_>,
+    ((x, y), lift): ((f64, f64), f64),
+    name: &'static str,
+    color: Color32,
+    anchor: Align2,
+) {
+    let dot = Points::new("", vec![[x, y]]).id(name).shape(MarkerShape::Circle).radius(3.5).color(color);
     plot.points(dot.allow_hover(false));
     let text = match anchor {
         Align2::CENTER_TOP => format!("\n{name}"),
@@ -196,7 +207,7 @@ pub fn mark(plot: &mut Canvas<'_, '_>, at: (f64, f64), name: &'static str, color
         _ => format!("  {name}"),
     };
     let ink = Palette::of_screen(plot.ctx()).ink(color);
-    let label = Text::new("", PlotPoint::new(at.0, at.1), rich(&text, 13.0, ink));
+    let label = Text::new("", PlotPoint::new(x, y + lift), rich(&text, 13.0, ink));
     plot.text(label.anchor(anchor).id((name, "label")).allow_hover(false));
 }
 

@@ -1,6 +1,6 @@
 //! The plots: pressure, film, and what reduced and full differ by.
 
-use super::curves::{Scene, cavitated, curve, hover, mark, rupture, stacked};
+use super::curves::{Scene, cavitated, curve, hover, mark, mark_lifted, rupture, stacked};
 use crate::app::answers::picture::Comparison;
 use crate::app::numbers;
 use crate::app::tabs::axes;
@@ -103,14 +103,15 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
                 cut.draw(plot, palette.accent);
             }
             let Some(at) = direction.minimum(picture, scene.cuts) else { return };
-            // Below the curve, or below its outlet, unless the axis would cut the name off.
+            // Below the curve, or below its outlet, unless the axis would cut the name off: then above the flat film.
             let point = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min));
-            let anchor = match plot.response().rect.bottom() - point.y {
-                room if room > 34.0 => Align2::CENTER_TOP,
-                room if room > 20.0 => Align2::LEFT_TOP,
-                _ => Align2::RIGHT_BOTTOM,
+            let above = (scalars.h_c - scalars.h_min).max(0.0) + 3.0 * plot.transform().dvalue_dpos()[1].abs();
+            let (anchor, lift) = match plot.response().rect.bottom() - point.y {
+                room if room > 34.0 => (Align2::CENTER_TOP, 0.0),
+                room if room > 20.0 => (Align2::LEFT_TOP, 0.0),
+                _ => (Align2::RIGHT_BOTTOM, above),
             };
-            mark(plot, (at, scalars.h_min), "{H_min}", live, anchor);
+            mark_lifted(plot, ((at, scalars.h_min), lift), "{H_min}", live, anchor);
         },
     );
     cut?.moved(ui, &shown.response, &shown.transform)
