@@ -1,5 +1,9 @@
 //! Random points (3.17): failures, speed, and errors against full solutions.
 
+mod rows;
+
+pub use rows::{Film, Row, Test, Tested, add, errors, tests};
+
 use super::question::{
     Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
@@ -9,13 +13,12 @@ use crate::scene::method::Method;
 use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::percentile;
-use crate::solver::full::heat::Rises;
-use crate::solver::full::{GridCost, Scalars, Solution, grid_doubts};
+use crate::solver::full::{GridCost, Solution, grid_doubts};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::reduced::ErrorEstimate;
 use crate::solver::training::Range;
 use fastrand::Rng;
+use rows::COMPARED;
 use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, PoisonError};
 
@@ -45,110 +48,11 @@ fn is_none(count: &usize) -> bool {
     *count == 0
 }
 
-/// What comes of a random test.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(clippy::large_enum_variant, reason = "most rows are tests")]
-pub enum Row {
-    /// A test; they come in the order they were drawn in.
-    Test(Test),
-    /// What the test with an index is compared with; none where the full solver failed. In any order, after all tests.
-    Truth(usize, Option<Film>),
-}
-
-/// One test.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Test {
-    /// Where.
-    pub point: OperatingPoint,
-    /// What the method found; none where it failed.
-    pub film: Option<Film>,
-    /// Newton steps.
-    pub newton_iterations: usize,
-    /// Seconds of the solve alone.
-    pub wall_s: f64,
-    /// Whether it was a model's answer that was not trained for the point.
-    pub untrained: bool,
-    /// Calibrated bounds on the errors, where the model has them.
-    pub estimate: Option<ErrorEstimate>,
-}
-
-/// What tests are judged by.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Film {
-    /// Central film.
-    pub h_c: f64,
-    /// Smallest film.
-    pub h_min: f64,
-    /// Traction coefficient; not a number where it has no meaning.
-    pub traction: f64,
-    /// Rises of temperature at X = 0; none without heat.
-    pub rises: Option<Rises>,
-    /// What its grid costs H_c; none of a reduced one.
-    pub grid_cost: Option<GridCost>,
-}
-
 /// What makes seeds of points of the seed of a test.
 const SCRAMBLE: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// What a film is compared by.
-const COMPARED: [&str; 4] = ["H_c", "H_min", "traction", "mid_film_rise"];
-
 /// Solves without telling the observer, every so many.
 const REPORT_EVERY: usize = 32;
-
-/// One column of the table, of a test and its truth.
-type Compared = (&'static str, fn(&Test, &Film) -> f64);
-
-const COLUMNS: [Compared; 21] = [
-    ("M", |test, _| test.point.moes().m),
-    ("L", |test, _| test.point.moes().l),
-    ("alpha", |test, _| test.point.alpha_per_pa),
-    ("p_h_pa", |test, _| test.point.hertz().pressure_pa),
-    ("converged", |test, _| f64::from(u8::from(test.film.is_some()))),
-    ("H_c", |test, _| test.film.unwrap_or(Film::NONE).h_c),
-    ("newton_iterations", |test, _| test.newton_iterations as f64),
-    ("wall_s", |test, _| test.wall_s),
-    ("H_c_full", |_, full| full.h_c),
-    ("H_min", |test, _| test.film.unwrap_or(Film::NONE).h_min),
-    ("H_min_full", |_, full| full.h_min),
-    ("srr", |test, _| test.point.sliding.slide_to_roll_ratio),
-    ("npr", |test, _| test.point.sliding.newtonian_plateau_ratio.unwrap_or(1.0)),
-    ("traction", |test, _| test.film.unwrap_or(Film::NONE).traction),
-    ("traction_full", |_, full| full.traction),
-    ("mid_film_rise_k", |test, _| test.film.unwrap_or(Film::NONE).mid_film_rise_k()),
-    ("mid_film_rise_k_full", |_, full| full.mid_film_rise_k()),
-    ("H_c_bound", |test, _| test.bounds()[0].unwrap_or(f64::NAN)),
-    ("H_min_bound", |test, _| test.bounds()[1].unwrap_or(f64::NAN)),
-    ("traction_bound", |test, _| test.bounds()[2].unwrap_or(f64::NAN)),
-    ("mid_film_rise_bound", |test, _| test.bounds()[3].unwrap_or(f64::NAN)),
-];
-
-impl Film {
-    const NONE: Self = Self { h_c: f64::NAN, h_min: f64::NAN, traction: f64::NAN, rises: None, grid_cost: None };
-
-    fn of_full(full: &Solution) -> Self {
-        // Without a meaning there is nothing to compare: no law was measured above what lubricants endure.
-        if full.heat.as_ref().is_some_and(|heat| heat.too_hot().is_some()) {
-            return Self::NONE;
-        }
-        let traction = if full.traction_warning().is_none() { full.traction_coefficient() } else { f64::NAN };
-        let Solution { scalars: Scalars { h_c, h_min, .. }, grid_cost, .. } = *full;
-        Self { h_c, h_min, traction, rises: full.heat.as_ref().map(|heat| heat.central), grid_cost }
-    }
-
-    fn mid_film_rise_k(&self) -> f64 {
-        self.rises.map_or(f64::NAN, |rises| rises.mid_film_k)
-    }
-
-    /// Relative errors of H_c, H_min, traction and, of contacts with heat, the rise at mid-film against a full solution;
-    /// none where they are not known. Of a rise of less than a kelvin it is the error in kelvin.
-    pub fn errors(&self, full: &Self) -> [Option<f64>; 4] {
-        let [h_c, h_min, traction] = [(self.h_c, full.h_c), (self.h_min, full.h_min), (self.traction, full.traction)]
-            .map(|(own, full)| Some((own / full - 1.0).abs()).filter(|error| error.is_finite()));
-        let rise = self.rises.zip(full.rises).map(|(own, full)| own.difference(&full));
-        [h_c, h_min, traction, rise]
-    }
-}
 
 impl RandomTest {
     /// The points, in the order they are drawn in.
@@ -275,41 +179,6 @@ impl Divisible for RandomTest {
     }
 }
 
-impl Test {
-    /// Calibrated bounds on the errors of H_c, H_min, traction and the rise at mid-film.
-    pub fn bounds(&self) -> [Option<f64>; 4] {
-        let bounds = |e: ErrorEstimate| [Some(e.h_c), Some(e.h_min), e.traction, e.rise].map(|e| e.map(|e| e.bound));
-        self.estimate.map_or([None; 4], bounds)
-    }
-}
-
-/// A test with what is known of its truth: nothing yet, or a full solution that failed or not.
-pub type Tested = (Test, Option<Option<Film>>);
-
-/// Errors of H_c, H_min, traction and the rise at mid-film, where a truth is known.
-pub fn errors((test, truth): &Tested) -> [Option<f64>; 4] {
-    test.film.zip(truth.flatten()).map_or([None; 4], |(film, full)| film.errors(&full))
-}
-
-/// Adds a row to the tests that came before it.
-pub fn add(tests: &mut Vec<Tested>, row: Row) {
-    match row {
-        Row::Test(test) => tests.push((test, None)),
-        Row::Truth(index, film) => {
-            if let Some((_, truth)) = tests.get_mut(index) {
-                *truth = Some(film);
-            }
-        }
-    }
-}
-
-/// All tests so far.
-pub fn tests<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<Tested> {
-    let mut tests = Vec::new();
-    rows.into_iter().for_each(|row| add(&mut tests, *row));
-    tests
-}
-
 fn own(rows: &[&Row]) -> Vec<Tested> {
     tests(rows.iter().copied())
 }
@@ -407,13 +276,7 @@ impl Question for RandomTest {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let mut table = Table::new("random", &COLUMNS.map(|(name, _)| name));
-        let row = |(test, truth): Tested| {
-            let full = truth.flatten().unwrap_or(Film::NONE);
-            COLUMNS.iter().map(|(_, get)| get(&test, &full)).collect()
-        };
-        table.rows.extend(own(rows).into_iter().map(row));
-        vec![table]
+        vec![rows::table(&own(rows))]
     }
 
     /// Where the method fails, and its errors beside what it promised.
@@ -442,35 +305,11 @@ impl Question for RandomTest {
 }
 
 #[cfg(test)]
-mod tests_of_rows {
+mod tests_of_doubts {
     use super::*;
     use crate::scene::{ModelSource, Scene};
-    use crate::solver::discrete::grid::GridSpec;
-    use crate::solver::full::{FullSolver, Start};
-    use crate::solver::physics::contact::Sliding;
-    use crate::solver::physics::lubricant::Heat;
-    use crate::solver::reduced::Estimated;
+    use crate::solver::reduced::{ErrorEstimate, Estimated};
     use crate::solver::training::QuantityBox;
-
-    #[test]
-    fn a_truth_finds_its_test_whenever_it_comes() {
-        let test = Test {
-            point: OperatingPoint::TABLE_2_1,
-            film: Some(Film { h_c: 1.1, h_min: 0.9, traction: f64::NAN, rises: None, grid_cost: None }),
-            newton_iterations: 3,
-            wall_s: 0.0,
-            untrained: false,
-            estimate: None,
-        };
-        let full = Film { h_c: 1.0, h_min: 1.0, traction: 0.05, rises: None, grid_cost: None };
-        let rows =
-            [Row::Test(test), Row::Test(test), Row::Truth(1, Some(full)), Row::Truth(0, None), Row::Truth(7, None)];
-        let seen = tests(&rows);
-        assert_eq!((seen.len(), seen[0].1, seen[1].1), (2, Some(None), Some(Some(full))));
-        let [h_c, h_min, traction, rise] = test.film.unwrap().errors(&full);
-        assert!((h_c.unwrap() - 0.1).abs() < 1e-12 && (h_min.unwrap() - 0.1).abs() < 1e-12);
-        assert!(traction.is_none() && rise.is_none());
-    }
 
     #[test]
     fn most_doubtful_are_failures_then_answers_without_a_bound_then_large_bounds() {
@@ -503,22 +342,5 @@ mod tests_of_rows {
         study.findings(&scene.experiment(), &rows.iter().collect::<Vec<_>>(), &mut found);
         let value = |name: &str| found.values.iter().find(|value| value.name == name).map(|value| value.value);
         assert_eq!((value("failures"), value("without_bound")), (Some(1.0), Some(1.0)));
-    }
-
-    #[test]
-    fn films_hotter_than_lubricants_endure_are_compared_with_nothing() {
-        let sliding = Sliding { slide_to_roll_ratio: 0.2, newtonian_plateau_ratio: None };
-        let point = OperatingPoint { sliding, ..OperatingPoint::TABLE_2_1 };
-        let grid = GridSpec::Graded { nodes: 200, domain: (-6.0, 2.5), registered: false };
-        let solved = |inlet_temperature: f64| {
-            let lubricant =
-                Lubricant { heat: Some(Heat { inlet_temperature, ..Heat::default() }), ..Lubricant::default() };
-            let solution = FullSolver::new(grid).unwrap().solve(&point, lubricant, Start::Cold, &()).unwrap();
-            let rise = solution.heat.as_ref().unwrap().largest.mid_film_k;
-            (Film::of_full(&solution), inlet_temperature + rise)
-        };
-        let ((warm, below), (hot, above)) = (solved(313.0), solved(500.0));
-        assert!(below < 573.0 && warm.errors(&warm).iter().all(Option::is_some), "{below}");
-        assert!(above > 573.0 && warm.errors(&hot).iter().all(Option::is_none), "{above}");
     }
 }
