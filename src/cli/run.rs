@@ -4,7 +4,7 @@ use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use crate::engine::table::Number;
-use crate::engine::{EngineError, SceneOutcome, Store, Workbench, run_scene};
+use crate::engine::{EngineError, SceneOutcome, Store, Workbench, model_file, run_scene};
 use crate::scene::atomic_file::WriteError;
 use crate::scene::{Method, Scene};
 use clap::Args;
@@ -29,7 +29,7 @@ pub struct RunArgs {
     /// Take over what an earlier run left in --out of scenes that have not changed since
     #[arg(long, requires = "all", requires = "out")]
     pub(super) resume: bool,
-    /// Write every scene's outcome (JSON) and tables (CSV) into this folder
+    /// Write every scene's outcome (JSON), tables (CSV) and the model that it trains (.rom) into this folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Print one JSON object per scene
@@ -59,7 +59,9 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
             verdict = Verdict::FellShort;
         }
         if let Some(folder) = &args.out {
-            outcome.write(folder, &stem(path, &args.scenes))?;
+            let name = stem(path, &args.scenes);
+            outcome.write(folder, &name)?;
+            keep_model(scene, &store, folder, &name)?;
         }
         tell(&outcome, args.json)?;
     }
@@ -83,6 +85,13 @@ pub(super) fn outcome_of(path: &Path, scene: &Scene, store: &Store) -> Result<Sc
     let outcome = run_scene(scene, &mut Workbench::on(store, base(path)), &progress);
     progress.finish();
     outcome
+}
+
+/// Writes the model that a scene has just trained beside the rest of its outcome.
+pub(super) fn keep_model(scene: &Scene, store: &Store, folder: &Path, name: &str) -> Result<(), EngineError> {
+    let Some(model) = scene.training().and_then(|spec| store.already_trained(&spec)) else { return Ok(()) };
+    let path = folder.join(format!("{name}.rom"));
+    model_file::write(&model, &path).map_err(|reason| EngineError::Model { path, reason: reason.into() })
 }
 
 /// Prints an outcome.

@@ -3,7 +3,7 @@
 use super::Verdict;
 use super::failure::Failure;
 use super::output;
-use super::run::{RunArgs, make_out, outcome_of, stem, tell};
+use super::run::{RunArgs, keep_model, make_out, outcome_of, stem, tell};
 use crate::engine::results::{Entry, PAGE, SceneFile, page, scenes_below, summary};
 use crate::engine::{Store, job::guarded};
 use crate::scene::atomic_file;
@@ -63,7 +63,12 @@ fn entry_of(file: &SceneFile, args: &RunArgs, store: &Store, all: &[PathBuf]) ->
     match &outcome {
         Ok(outcome) => {
             if let Some(out) = &args.out {
-                outcome.write(out, &stem(&file.path, all))?;
+                let name = stem(&file.path, all);
+                outcome.write(out, &name)?;
+                // A model that no file can hold does not end the others.
+                if let Err(refused) = keep_model(&file.scene, store, out, &name) {
+                    output::complain(&refused.to_string());
+                }
             }
             tell(outcome, args.json)?;
         }

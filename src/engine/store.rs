@@ -156,6 +156,12 @@ impl Store {
         let origin = Origin::Training(Box::new(spec.clone()));
         Ok(made_once(&self.0.models, origin, || train(spec, observer).map(Arc::new))?)
     }
+
+    /// The same where it has been trained already and is still kept.
+    pub fn already_trained(&self, spec: &TrainingSpec) -> Option<Arc<ReducedModel>> {
+        let of_it = |origin: &Origin| matches!(origin, Origin::Training(kept) if **kept == *spec);
+        lock(&self.0.models).iter().find(|(origin, _)| of_it(origin)).map(|(_, model)| Arc::clone(model))
+    }
 }
 
 impl Origin {

@@ -2,7 +2,7 @@
 
 use crate::commands::{assert_refused, json, program};
 use crate::common::scratch::Scratch;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 #[test]
@@ -83,11 +83,31 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     assert!(!kept.exists(), "nothing is left beside a finished model");
 }
 
+#[test]
+fn a_scene_that_trains_leaves_the_model_that_train_writes() {
+    let folder = Scratch::new("left");
+    let (scenes, out) = (folder.join("scenes"), folder.join("out"));
+    std::fs::create_dir(&scenes).unwrap();
+    let scene = scenes.join("small.ron");
+    std::fs::write(&scene, SMALL_TRAINING).unwrap();
+    let model = folder.join("small.rom");
+    let names = [&scene, &scenes, &out, &model].map(|path| path.to_string_lossy().into_owned());
+    let [scene, scenes, out, model] = names.each_ref().map(String::as_str);
+    assert_eq!(program(&["train", scene, "--out", model]).status.code(), Some(0));
+    let wanted = std::fs::read(model).unwrap();
+    let left = Path::new(out).join("small.rom");
+    for run in [&["run", scene, "--out", out][..], &["run", "--all", "--scenes", scenes, "--out", out]] {
+        assert_eq!(program(run).status.code(), Some(0));
+        assert!(std::fs::read(&left).unwrap() == wanted, "the files differ");
+        std::fs::remove_file(&left).unwrap();
+    }
+}
+
 /// Matrix products once reserved twice the last-level cache for every thread, which is a gigabyte on some servers.
 #[cfg(target_os = "linux")]
 #[test]
 fn scenes_run_in_two_gigabytes_of_address_space() {
-    let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     for scene in ["point/table_2_3.ron", "reduced/fig_3_7_trajectory.ron"] {
         let script = "ulimit -v 2000000 && exec \"$0\" run \"$1\"";
         let mut limited = Command::new("sh");
