@@ -159,8 +159,7 @@ impl Store {
 
     /// The same where it has been trained already and is still kept.
     pub fn already_trained(&self, spec: &TrainingSpec) -> Option<Arc<ReducedModel>> {
-        let of_it = |origin: &Origin| matches!(origin, Origin::Training(kept) if **kept == *spec);
-        lock(&self.0.models).iter().find(|(origin, _)| of_it(origin)).map(|(_, model)| Arc::clone(model))
+        kept(&self.0.models, &Origin::Training(Box::new(spec.clone())))
     }
 }
 
@@ -180,18 +179,22 @@ fn unreadable(path: &Path, reason: ModelFileError) -> EngineError {
     }
 }
 
+/// The model of an origin, where it is on its shelf.
+fn kept<M>(shelf: &Mutex<Vec<(Origin, Arc<M>)>>, origin: &Origin) -> Option<Arc<M>> {
+    lock(shelf).iter().find(|(kept, _)| kept == origin).map(|(_, model)| Arc::clone(model))
+}
+
 /// The model of an origin from its shelf, made where it is not there.
 fn made_once<M, E>(
     shelf: &Mutex<Vec<(Origin, Arc<M>)>>,
     origin: Origin,
     make: impl FnOnce() -> Result<Arc<M>, E>,
 ) -> Result<Arc<M>, E> {
-    let kept = || lock(shelf).iter().find(|(kept, _)| *kept == origin).map(|(_, model)| Arc::clone(model));
-    if let Some(model) = kept() {
+    if let Some(model) = kept(shelf, &origin) {
         return Ok(model);
     }
     let made = make()?;
-    if let Some(first) = kept() {
+    if let Some(first) = kept(shelf, &origin) {
         // Another thread has made it meanwhile: everybody gets the first.
         return Ok(first);
     }

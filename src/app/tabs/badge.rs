@@ -56,7 +56,9 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         () if answers.is_quick() => "full solution on a quick grid",
         () => "full solution",
     };
-    let of_grid = picture.unresolved.as_ref().map_or_else(String::new, |why| format!("{}. ", sentence(why)));
+    // Of a picture that is still another contact's nothing is said here.
+    let unresolved = answers.current_picture().and_then(|picture| picture.unresolved.as_ref());
+    let of_grid = unresolved.map_or_else(String::new, |why| format!("{} ", sentence(why)));
     match (picture.origin, &answers.passed_over) {
         (_, Some(PassedOver::Outside(why))) => make(
             "Outside the reduced model",
