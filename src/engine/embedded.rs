@@ -134,6 +134,11 @@ impl Embedded {
     }
 }
 
+/// Whether a model's file would be, byte for byte, one of these.
+pub(super) fn is_embedded(model: &ReducedModel) -> bool {
+    model_file::to_bytes(model).is_ok_and(|bytes| Embedded::ALL.iter().any(|of| of.bytes() == bytes))
+}
+
 /// The content of the file of the model in time.
 const LINE_IN_TIME: &[u8] = include_bytes!("../../assets/line_in_time.rom");
 
@@ -164,6 +169,14 @@ mod tests {
             let read = model_file::from_bytes(embedded.bytes()).unwrap_or_else(|why| panic!("{embedded:?}: {why}"));
             assert!(!read.windows.is_empty() && read.contact() == embedded.model().unwrap().contact());
         }
+    }
+
+    #[test]
+    fn a_model_of_the_program_is_known_by_its_bytes_and_another_is_not() {
+        let mut model = ReducedModel::clone(&Embedded::LightCircle.model().unwrap());
+        assert!(is_embedded(&model));
+        model.title.push('.');
+        assert!(!is_embedded(&model));
     }
 
     #[test]
