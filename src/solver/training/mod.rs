@@ -26,6 +26,7 @@ mod one_thread;
 mod plan;
 #[cfg(test)]
 mod point_tests;
+mod quantity_box;
 mod range;
 #[cfg(test)]
 mod resume_tests;
@@ -35,6 +36,7 @@ mod rupture_tests;
 mod sliding_oil_range;
 #[cfg(test)]
 mod sliding_oil_tests;
+mod sliding_range;
 #[cfg(test)]
 pub(crate) mod small;
 mod split;
@@ -57,9 +59,11 @@ pub use local_bases::LocalBases;
 pub use oil_range::OilRange;
 pub use one_thread::on_one_thread;
 pub use plan::{random_points, random_points_while};
-pub use range::{QuantityBox, Range, SlidingRange};
+pub use quantity_box::QuantityBox;
+pub use range::Range;
 pub use rows::with_rows;
 pub use sliding_oil_range::SlidingOilRange;
+pub use sliding_range::SlidingRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 

@@ -2,12 +2,13 @@
 
 use super::heated_range::{HeatedOilRange, HeatedRange};
 use super::oil_range::OilRange;
+use super::quantity_box::QuantityBox;
 use super::sliding_oil_range::SlidingOilRange;
+use super::sliding_range::SlidingRange;
 use crate::solver::limits::{Refused, interval, number};
-use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
 use crate::solver::reduced::{CIRCLES, Domain, EyringDomain, HeatDomain};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 
 /// A set of contacts.
 ///
@@ -121,154 +122,6 @@ impl From<&Domain> for Range {
             max_hertz_pressure: domain.max_hertz_pressure_pa,
             viscosity: domain.viscosity_pa_s,
         }
-    }
-}
-
-/// Intervals of R, u_m, w and α at fixed E′ and η₀, as Table 3.1 gives them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct QuantityBox {
-    /// Radius \[m\].
-    pub radius: (f64, f64),
-    /// Speed \[m/s\].
-    pub speed: (f64, f64),
-    /// Load \[N/m\] (line) or \[N\] (point).
-    pub load: (f64, f64),
-    /// Pressure–viscosity coefficient \[1/Pa\].
-    pub alpha: (f64, f64),
-    /// Reduced modulus \[Pa\].
-    pub modulus: f64,
-    /// Viscosity at ambient pressure \[Pa·s\].
-    pub viscosity: f64,
-}
-
-impl QuantityBox {
-    /// Table 3.1 of the dissertation.
-    pub const TABLE_3_1: Self = Self {
-        radius: (2e-3, 4e-3),
-        speed: (1.0, 10.0),
-        load: (1e5, 5e5),
-        alpha: (5e-9, 20e-9),
-        modulus: 231e9,
-        viscosity: 0.01,
-    };
-
-    /// The dissertation's box for a kind of contact.
-    pub fn of_tables(kind: ContactKind) -> Self {
-        match kind {
-            ContactKind::Line => Self::TABLE_3_1,
-            ContactKind::Point => Self::TABLE_3_4,
-        }
-    }
-
-    /// The dissertation's Table 3.4, whose printed radii and loads contradict its M and L: with these they hold.
-    pub const TABLE_3_4: Self = Self { radius: (10e-3, 20e-3), load: (20.0, 100.0), ..Self::TABLE_3_1 };
-
-    /// Refuses what is empty, inverted or beyond any sense.
-    ///
-    /// # Errors
-    /// Naming the interval.
-    pub fn check(&self) -> Result<(), Refused> {
-        between(Quantity::Radius, self.radius)?;
-        between(Quantity::Speed, self.speed)?;
-        between(Quantity::Load, self.load)?;
-        between(Quantity::Alpha, self.alpha)?;
-        single(Quantity::Modulus, self.modulus)?;
-        single(Quantity::Viscosity, self.viscosity)
-    }
-
-    /// The point of a kind at fractions (0…1) of radius, speed, load and alpha.
-    pub fn at(&self, kind: ContactKind, [radius, speed, load, alpha]: [f64; 4]) -> OperatingPoint {
-        OperatingPoint {
-            kind,
-            radius_m: linear(self.radius, radius),
-            speed_m_per_s: linear(self.speed, speed),
-            load: linear(self.load, load),
-            modulus_pa: self.modulus,
-            viscosity_pa_s: self.viscosity,
-            alpha_per_pa: linear(self.alpha, alpha),
-            sliding: Sliding::NONE,
-            radius_y_m: None,
-        }
-    }
-
-    /// The point of the test trajectory (3.21) at the running parameter c.
-    pub fn trajectory(&self, kind: ContactKind, c: f64) -> OperatingPoint {
-        self.at(kind, Self::trajectory_place(c))
-    }
-
-    /// Its coordinates in the unit cube.
-    pub fn trajectory_place(c: f64) -> [f64; 4] {
-        [3.0, 4.0, 5.0, 2.0].map(|halves: f64| 0.5 + 0.5 * (halves * PI * c).sin())
-    }
-}
-
-/// All contacts of a shear-thinning lubricant with M, L, SRR and NPR in these intervals and p_H up to a limit. M and L
-/// do not say all about them: E′ fixes the stress.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SlidingRange {
-    /// Load number.
-    pub m: (f64, f64),
-    /// Lubricant number.
-    pub l: (f64, f64),
-    /// Slide-to-roll ratio; films are even in it.
-    pub srr: (f64, f64),
-    /// Newtonian plateau ratio.
-    pub npr: (f64, f64),
-    /// R \[m\].
-    pub radius: f64,
-    /// E′ \[Pa\].
-    pub modulus: f64,
-    /// η₀ \[Pa·s\].
-    pub viscosity: f64,
-    /// α \[1/Pa\]: the lubricant's own, where its viscosity law determines it.
-    pub alpha: f64,
-    /// Largest p_H \[Pa\], where M and L alone do not limit it: traction means little where α* p_H exceeds 12.
-    #[serde(default)]
-    pub max_hertz_pressure: Option<f64>,
-}
-
-impl SlidingRange {
-    /// Refuses what is empty, inverted or beyond any sense.
-    ///
-    /// # Errors
-    /// Naming the interval.
-    pub fn check(&self) -> Result<(), Refused> {
-        between(Quantity::M, self.m)?;
-        between(Quantity::L, self.l)?;
-        between(Quantity::SlideToRollRatio, self.srr)?;
-        between(Quantity::NewtonianPlateauRatio, self.npr)?;
-        single(Quantity::Radius, self.radius)?;
-        single(Quantity::Modulus, self.modulus)?;
-        single(Quantity::Viscosity, self.viscosity)?;
-        single(Quantity::Alpha, self.alpha)?;
-        self.max_hertz_pressure.map_or(Ok(()), hertz_pressure)
-    }
-
-    /// The operating point of a kind at coordinates in the unit cube, by ln M, L, SRR and NPR; `None` where the range
-    /// excludes it.
-    pub(super) fn at(&self, kind: ContactKind, unit: Unit) -> Option<OperatingPoint> {
-        let request = MoesRequest {
-            radius_m: Some(self.radius),
-            modulus_pa: Some(self.modulus),
-            viscosity_pa_s: Some(self.viscosity),
-            alpha_per_pa: Some(self.alpha),
-            ..MoesRequest::new(kind, self.m.0, self.l.0)
-        };
-        let sliding = Sliding {
-            slide_to_roll_ratio: linear(self.srr, unit[2]),
-            newtonian_plateau_ratio: Some(linear(self.npr, unit[3])),
-        };
-        let point = up_to(self.max_hertz_pressure.unwrap_or(f64::INFINITY), (self.m, self.l), unit, request)?;
-        Some(OperatingPoint { sliding, ..point })
-    }
-
-    /// The largest Hertzian pressure \[Pa\] of a kind of contact in it; 0 where M and L make no contact.
-    pub fn highest_pressure(&self, kind: ContactKind) -> f64 {
-        let unlimited = Self { max_hertz_pressure: None, ..*self };
-        let heaviest = unlimited.at(kind, [1.0; 8]).map_or(0.0, |point| point.hertz().pressure_pa);
-        heaviest.min(self.max_hertz_pressure.unwrap_or(f64::INFINITY))
     }
 }
 
@@ -442,62 +295,5 @@ mod tests {
             let range = Range::Box(QuantityBox { load, ..QuantityBox::TABLE_3_1 });
             assert!(range.check().unwrap_err().to_string().contains("load"));
         }
-    }
-
-    #[test]
-    fn the_trajectory_starts_in_the_middle_and_stays_in_the_box() {
-        let range = QuantityBox::TABLE_3_1;
-        let middle = [3e-3, 5.5, 3e5, 231e9, 0.01, 12.5e-9];
-        assert!(
-            range
-                .trajectory(ContactKind::Line, 0.0)
-                .quantities()
-                .iter()
-                .zip(middle)
-                .all(|(q, m)| (q / m - 1.0).abs() < 1e-14)
-        );
-        for i in 0..=1000 {
-            let point = range.trajectory(ContactKind::Line, i as f64 / 500.0);
-            assert!((2e-3..=4e-3).contains(&point.radius_m) && (1e5..=5e5).contains(&point.load));
-        }
-    }
-
-    const SLIDING: SlidingRange = SlidingRange {
-        m: (10.0, 200.0),
-        l: (4.0, 11.0),
-        srr: (0.0, 1.0),
-        npr: (0.2, 1.0),
-        radius: 12.7e-3,
-        modulus: 123.9e9,
-        viscosity: 0.07,
-        alpha: 1.9e-8,
-        max_hertz_pressure: Some(660e6),
-    };
-
-    #[test]
-    fn contacts_beyond_the_pressure_are_left_out_and_the_others_lie_inside() {
-        let mut inside = 0;
-        for i in 0..=10 {
-            for j in 0..=10 {
-                let unit = in_the_middle_but([f64::from(i) / 10.0, f64::from(j) / 10.0, 0.5, 0.25]);
-                let Some(point) = SLIDING.at(ContactKind::Point, unit) else { continue };
-                let moes = point.moes();
-                assert!(point.hertz().pressure_pa <= 660e6);
-                assert!((9.999..200.01).contains(&moes.m) && (3.999..11.001).contains(&moes.l));
-                assert_eq!(point.sliding.slide_to_roll_ratio, 0.5);
-                assert!((point.sliding.newtonian_plateau_ratio.unwrap() - 0.4).abs() < 1e-12);
-                inside += 1;
-            }
-        }
-        assert!((20..121).contains(&inside), "{inside} of 121");
-    }
-
-    #[test]
-    fn the_highest_pressure_is_the_limit_or_that_of_the_heaviest_corner() {
-        assert_eq!(SLIDING.highest_pressure(ContactKind::Point), 660e6);
-        let light = SlidingRange { m: (10.0, 12.0), ..SLIDING };
-        // α p_H = L (3M/2π³)^⅓ of a point contact.
-        let expected = 11.0 * (3.0 * 12.0 / (2.0 * std::f64::consts::PI.powi(3))).cbrt() / 1.9e-8;
-        assert!((light.highest_pressure(ContactKind::Point) / expected - 1.0).abs() < 1e-9);
     }
 }
