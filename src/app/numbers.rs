@@ -11,6 +11,17 @@ pub fn significant(value: f64) -> String {
     digits(value, 4)
 }
 
+/// Whether a number is whole and small enough to be written out: a count, as a rule.
+pub fn is_whole(value: f64) -> bool {
+    value.fract() == 0.0 && value.abs() < 1e6
+}
+
+/// Whole ones written out, so that counts look like counts; others as [`significant`].
+pub fn counted(value: f64) -> String {
+    // Adding nothing takes the sign from −0.
+    if is_whole(value) { format!("{:.0}", value + 0.0).replace('-', "−") } else { significant(value) }
+}
+
 /// A number of significant digits.
 pub fn digits(value: f64, count: usize) -> String {
     if !value.is_finite() {
@@ -178,6 +189,11 @@ mod tests {
             (f64::NAN, "–"),
         ] {
             assert_eq!(significant(value), text);
+        }
+        for (value, text) in
+            [(10.0, "10"), (-0.0, "0"), (-3.0, "−3"), (10.5, "10.50"), (2e6, "2.000e6"), (f64::NAN, "–")]
+        {
+            assert_eq!(counted(value), text);
         }
         assert_eq!([rounded(0.123_45, 3), rounded(-98_765.0, 2), rounded(0.0, 3)], [0.123, -99_000.0, 0.0]);
         assert_eq!(pressure(1.1469e9), "1.147\u{2009}GPa");

@@ -317,7 +317,7 @@ fn verdicts_ui(ui: &mut Ui, look: &Look) {
             Grid::new("values").num_columns(2).striped(true).spacing([8.0, 3.0]).show(ui, |ui| {
                 for value in &outcome.found.values {
                     ui.label(of_method(&value.name, value.method.as_ref()));
-                    ui.label(numbers::significant(value.value));
+                    ui.label(numbers::counted(value.value));
                     ui.end_row();
                 }
             });
@@ -335,7 +335,7 @@ fn verdict_ui(ui: &mut Ui, verdict: &Verdict, complete: bool, palette: &Palette)
     let expected = &verdict.expected;
     let tip = format!("Wanted {}; {}", expected.wanted(), expected.from);
     ui.label(of_method(&expected.name, expected.method.as_ref())).on_hover_text(&tip);
-    let value = verdict.value.map_or_else(|| "–".to_owned(), numbers::significant);
+    let value = verdict.value.map_or_else(|| "–".to_owned(), numbers::counted);
     ui.label(value).on_hover_text(tip);
     ui.end_row();
 }

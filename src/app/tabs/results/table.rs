@@ -20,6 +20,8 @@ pub fn ui(ui: &mut Ui, table: &Table) {
         let last = (first + (viewport.height() / height) as usize + 2).min(table.rows.len());
         let top = ui.max_rect().top() + first as f32 * height;
         let area = ui.max_rect().with_min_y(top);
+        let seen = table.rows.get(first..last).unwrap_or_default();
+        let counts: Vec<bool> = (0..table.columns.len()).map(|column| counts(seen, column)).collect();
         ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
             let grid = Grid::new(("rows", &table.name)).striped(true).min_col_width(COLUMN).min_row_height(row_height);
             grid.start_row(first).show(ui, |ui| {
@@ -33,13 +35,17 @@ pub fn ui(ui: &mut Ui, table: &Table) {
                     ui.label(rich("remark", 12.0, quiet));
                 }
                 ui.end_row();
-                for (k, row) in table.rows.iter().enumerate().take(last).skip(first) {
+                for (k, row) in (first..).zip(seen) {
                     if let Some(label) = table.labels.get(k) {
                         ui.label(label);
                     }
-                    for value in row {
+                    for (&value, &counts) in row.iter().zip(&counts) {
                         // What does not apply is left empty, as in the file.
-                        ui.label(if value.is_finite() { numbers::significant(*value) } else { String::new() });
+                        ui.label(match value.is_finite() {
+                            true if counts => numbers::counted(value),
+                            true => numbers::significant(value),
+                            false => String::new(),
+                        });
                     }
                     if let Some(remark) = table.remarks.get(k) {
                         ui.label(remark);
@@ -49,4 +55,12 @@ pub fn ui(ui: &mut Ui, table: &Table) {
             });
         });
     });
+}
+
+/// Whether all that is seen of a column is whole: lines, steps and other counts.
+fn counts(seen: &[Vec<f64>], column: usize) -> bool {
+    seen.iter()
+        .filter_map(|row| row.get(column))
+        .filter(|value| value.is_finite())
+        .all(|&value| numbers::is_whole(value))
 }
