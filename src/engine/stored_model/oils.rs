@@ -45,9 +45,10 @@ pub(super) struct StoredAnchor {
 impl StoredOils {
     /// What only a model of many oils has.
     pub fn of(model: &ReducedModel) -> Option<Self> {
+        let heat = model.domain.heat.is_some();
         let stored = |window: &Window| {
             let Moes { m, l } = window.anchor?;
-            Some(StoredAnchor { moes: (m, l), coefficients: stored_coefficients(window) })
+            Some(StoredAnchor { moes: (m, l), coefficients: stored_coefficients(window, heat) })
         };
         let oils = model.domain.oils?;
         let windows = model.windows.iter().map(stored).collect::<Option<_>>()?;

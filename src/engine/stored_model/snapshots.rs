@@ -8,7 +8,7 @@ use crate::solver::full::GridCost;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::{
-    ALL_DIGITS, FILM_DIGITS, ReducedModel, START_ACCURACY, Snapshot, Window, kept_digits, kept_starts,
+    ALL_DIGITS, FILM_DIGITS, Keeping, ReducedModel, Snapshot, Window, kept_digits, kept_starts,
 };
 use pco::ChunkConfig;
 use serde::{Deserialize, Serialize};
@@ -94,15 +94,18 @@ impl StoredSnapshots {
         let columns = columns.collect();
         let counts = model.windows.iter().map(|window| window.snapshots.len()).collect();
         let apart = model.domain.oils.is_some() && model.windows.iter().all(|window| window.anchor.is_some());
-        let coefficients = model.windows.iter().filter(|_| !apart).map(stored_coefficients).collect();
+        let coefficients = model.windows.iter().filter(|_| !apart);
+        let heat = model.domain.heat.is_some();
+        let coefficients = coefficients.map(|window| stored_coefficients(window, heat)).collect();
         Self { kind: model.contact(), counts, columns, fronts: fronts(model), coefficients }
     }
 }
 
-/// The coefficients of a window's snapshots.
-pub(super) fn stored_coefficients(window: &Window) -> StoredMatrix {
-    let (scales, kept) = kept_starts(&window.snapshots, window.pressure.count());
-    StoredMatrix::stepped(&kept, 1, &scales, [START_ACCURACY, 0.0])
+/// The coefficients of a window's snapshots, of a model that knows heat or does not.
+pub(super) fn stored_coefficients(window: &Window, heat: bool) -> StoredMatrix {
+    let accuracy = Keeping::of(window, heat).starts();
+    let (scales, kept) = kept_starts(&window.snapshots, window.pressure.count(), accuracy);
+    StoredMatrix::stepped(&kept, 1, &scales, [accuracy, 0.0])
 }
 
 /// Gives the snapshots of a window their coefficients; `None` where they do not fit.

@@ -26,8 +26,6 @@ pub const RULE_ACCURACY: f64 = 1e-4;
 pub const ALL_DIGITS: u32 = 23;
 /// Those that are kept of films of snapshots, a relative step of 1.5e-5: starts are a hundred times as far off.
 pub const FILM_DIGITS: u32 = 16;
-/// Accuracy of the coefficients of the first mode in snapshots, relative to their size.
-pub const START_ACCURACY: f64 = 1e-3;
 /// Accuracy of the share of each mode of a shared basis in the pressures of a window, relative to that share.
 const FACTOR_ACCURACY: f64 = 1e-6;
 /// The share, relative to the largest, below which digits are those of that.
@@ -81,6 +79,17 @@ impl Keeping {
             ContactKind::Point if self.shapes => 8e-7,
             // 1e-4 and 2e-4.
             ContactKind::Point => 1e-7,
+        }
+    }
+
+    /// Accuracy of the coefficients of the first mode in snapshots, relative to their size.
+    pub fn starts(self) -> f64 {
+        match self.kind {
+            // A line's iteration starts at them as they are and has all modes of a whole range, with α p_H up to 45: at 1e-3
+            // 47 of 10,000 iterations led nowhere, beside a snapshot of their own (Table 3.3's plan of 120 by hand). At 1e-4
+            // all led to one, but some took six steps where at 1e-6 two are enough.
+            ContactKind::Line if !self.anchored => 1e-6,
+            ContactKind::Line | ContactKind::Point => 1e-3,
         }
     }
 }
@@ -177,15 +186,15 @@ pub fn kept_digits(number: f64, digits: u32) -> f32 {
 
 /// Coefficients of a window's snapshots in so many modes, snapshots × modes, as they are kept, and the scales of their
 /// columns: no more than starts are made of them.
-pub fn kept_starts(snapshots: &[Snapshot], modes: usize) -> (Vec<f64>, Mat<f64>) {
+pub fn kept_starts(snapshots: &[Snapshot], modes: usize, accuracy: f64) -> (Vec<f64>, Mat<f64>) {
     let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
-    kept_coefficients(Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default()))
+    kept_coefficients(Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default()), accuracy)
 }
 
-fn kept_coefficients(mut coefficients: Mat<f64>) -> (Vec<f64>, Mat<f64>) {
+fn kept_coefficients(mut coefficients: Mat<f64>, accuracy: f64) -> (Vec<f64>, Mat<f64>) {
     // Steps go with sizes, which rounding may change: what is kept stays as it is when it is kept again.
     for _ in 0..ROUNDS {
-        let (_, kept) = Multiples::keep(coefficients.clone(), &start_scales(&coefficients), START_ACCURACY, 0.0);
+        let (_, kept) = Multiples::keep(coefficients.clone(), &start_scales(&coefficients), accuracy, 0.0);
         if kept == coefficients {
             break;
         }
@@ -202,8 +211,8 @@ fn start_scales(coefficients: &Mat<f64>) -> Vec<f64> {
 }
 
 /// Snapshots of a window, in so many modes, with their films and coefficients as they are kept.
-pub fn keep_snapshots(snapshots: &mut [Snapshot], modes: usize) {
-    let (_, kept) = kept_starts(snapshots, modes);
+pub fn keep_snapshots(snapshots: &mut [Snapshot], modes: usize, keeping: Keeping) {
+    let (_, kept) = kept_starts(snapshots, modes, keeping.starts());
     for (snapshot, kept) in snapshots.iter_mut().zip(kept.row_iter()) {
         snapshot.coefficients = kept.iter().copied().collect();
         for film in [&mut snapshot.h_0, &mut snapshot.h_c] {
@@ -266,8 +275,8 @@ mod tests {
     fn starts_stay_as_they_are_when_they_are_kept_again_and_rare_modes_have_fewer_digits() {
         let size = |k: usize| [1.3, 2e-2, 1e-5][k];
         let coefficients = Mat::from_fn(40, 3, |i, k| size(k) * (1.0 + (i * (k + 2)) as f64 * 0.7).sin());
-        let (scales, kept) = kept_coefficients(coefficients.clone());
-        assert!(kept_coefficients(kept.clone()) == (scales, kept.clone()));
+        let (scales, kept) = kept_coefficients(coefficients.clone(), 1e-3);
+        assert!(kept_coefficients(kept.clone(), 1e-3) == (scales, kept.clone()));
         for (k, least) in [(0, 1e-5), (1, 1e-4), (2, 1e-3)] {
             let off = (0..40).map(|i| (kept[(i, k)] - coefficients[(i, k)]).abs()).fold(0.0, f64::max) / size(k);
             assert!(off > least && off < 2e-2, "{k}: {off:e}");

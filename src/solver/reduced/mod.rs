@@ -45,8 +45,8 @@ pub use domain::{
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use kept::{
-    ALL_DIGITS, FILM_DIGITS, Keeping, Multiples, RULE_ACCURACY, START_ACCURACY, factor_accuracy, factor_scales,
-    keep_snapshots, kept_digits, kept_rule, kept_starts,
+    ALL_DIGITS, FILM_DIGITS, Keeping, Multiples, RULE_ACCURACY, factor_accuracy, factor_scales, keep_snapshots,
+    kept_digits, kept_rule, kept_starts,
 };
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;

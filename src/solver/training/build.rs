@@ -254,7 +254,7 @@ impl<'a> WindowTraining<'a> {
                 asked.push(modes_missing_of_any(&solutions, &grid, missing[1])?);
             }
             let most = asked.into_iter().max().map_or(most, |asked| most.min(asked));
-            let limits = (losses, most, keeping.accuracy());
+            let limits = (losses, most, keeping);
             let (pressure, deformation, mut snapshots) = bases(limits, positive, &grid, (&solutions, &own), shared)?;
             if cavitation == Cavitation::Complementarity {
                 for (snapshot, solution) in snapshots.iter_mut().zip(&solutions) {
@@ -320,7 +320,7 @@ fn without_solution(point: &OperatingPoint) -> String {
 /// information and a number of modes, as they are kept, unless they are `in_common` with other windows; and the snapshots in
 /// the pressure basis, of those solutions that are of the model's `own` lubricant.
 fn bases(
-    ([pressure_loss, deformation_loss], most, accuracy): ([f64; 2], usize, f64),
+    ([pressure_loss, deformation_loss], most, keeping): ([f64; 2], usize, Keeping),
     positive: bool,
     grid: &ContactGrid,
     (solutions, own): (&[Solved], &[bool]),
@@ -336,7 +336,7 @@ fn bases(
         Some(shared) => Combined::of(&shared, &pressures, weights, (pressure_loss, most))?,
         None => {
             let basis = PodBasis::new(pressures.as_ref(), weights, pressure_loss)?.cut(most);
-            PressureModes::own(basis.kept(accuracy), grid)
+            PressureModes::own(basis.kept(keeping.accuracy()), grid)
         }
     };
     let deformation = match deformation {
@@ -358,7 +358,7 @@ fn bases(
             grid_cost: s.grid_cost,
         })
         .collect();
-    keep_snapshots(&mut snapshots, pressure.count());
+    keep_snapshots(&mut snapshots, pressure.count(), keeping);
     Some((pressure, deformation, snapshots))
 }
 

@@ -172,9 +172,11 @@ mod tests {
     use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
     use crate::solver::reduced::Sampling;
+    use crate::solver::reduced::kept::kept_starts;
+    use crate::solver::reduced::model::ReducedModel;
     use crate::solver::reduced::start;
-    use crate::solver::training::small::oils;
-    use crate::solver::training::{random_points, train};
+    use crate::solver::training::small::{line_grid, oils};
+    use crate::solver::training::{Plan, QuantityBox, Range, TrainingSpec, random_points, train};
     use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -248,5 +250,36 @@ mod tests {
             let small = attempt(window, &mut operators, &problem, &guess, 40, &options, &mut Watch::of(&())).unwrap();
             assert!((fewer / small.h_c - 1.0).abs() < 1e-8, "{fewer} {}", small.h_c);
         }
+    }
+
+    #[test]
+    fn iterations_of_heavy_lines_begin_near_the_solutions_that_are_kept() {
+        // The heaviest corner of Table 3.1, α p_H up to 44.
+        let corner = QuantityBox {
+            radius: (3e-3, 4e-3),
+            speed: (6.0, 10.0),
+            load: (3e5, 5e5),
+            alpha: (1.4e-8, 2e-8),
+            ..QuantityBox::TABLE_3_1
+        };
+        let plan = Plan::Grid { nodes: [2, 3, 3, 3] };
+        let spec = TrainingSpec::new(Range::Box(corner), (1.0, 500.0), line_grid(400), plan);
+        let spec = TrainingSpec { pressure_loss: 1e-8, sampling: Sampling::All, evidence: 0, ..spec };
+        let kept = train(&spec, &()).unwrap();
+        let mut coarse = kept.clone();
+        for window in &mut coarse.windows {
+            let (_, starts) = kept_starts(&window.snapshots, window.pressure.count(), 1e-3);
+            for (snapshot, start) in window.snapshots.iter_mut().zip(starts.row_iter()) {
+                snapshot.coefficients = start.iter().copied().collect();
+            }
+        }
+        let steps = |model: &ReducedModel| -> Vec<Option<usize>> {
+            let mut online = Online::new(Arc::new(model.clone()), ReducedOptions::dissertation());
+            let contacts = kept.windows.iter().flat_map(|window| &window.snapshots);
+            contacts.map(|known| Some(online.solve(&known.point, spec.lubricant).ok()?.iterations)).collect()
+        };
+        let (fine, rough) = (steps(&kept), steps(&coarse));
+        assert!(fine.iter().all(|steps| steps.is_some_and(|steps| steps <= 3)), "{fine:?}");
+        assert!(rough.iter().any(|steps| steps.is_none_or(|steps| steps > 6)), "{rough:?}");
     }
 }
