@@ -1,6 +1,7 @@
 //! Numbers as people read them: four significant digits, a thin space before the unit, and typed numbers back again.
 
 use crate::engine::job::Standing;
+use crate::scene::table::is_whole;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 
 /// Thin space between a number and its unit.
@@ -9,11 +10,6 @@ pub const THIN: char = '\u{2009}';
 /// Four significant digits; powers of ten only where plain digits would hide the number.
 pub fn significant(value: f64) -> String {
     digits(value, 4)
-}
-
-/// Whether a number is whole and small enough to be written out: a count, as a rule.
-pub fn is_whole(value: f64) -> bool {
-    value.fract() == 0.0 && value.abs() < 1e6
 }
 
 /// Whole ones written out, so that counts look like counts; others as [`significant`].

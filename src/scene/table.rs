@@ -79,10 +79,15 @@ impl Table {
     }
 }
 
+/// Whether a number is whole and small enough to be written out: a count, as a rule.
+pub fn is_whole(value: f64) -> bool {
+    value.fract() == 0.0 && value.abs() < 1e6
+}
+
 /// A number with so many significant digits; whole ones below a million are written out.
 pub fn significant(value: f64, digits: i32) -> String {
     let size = value.abs();
-    if value == 0.0 || (value.fract() == 0.0 && size < 1e6) {
+    if is_whole(value) {
         format!("{value}")
     } else if (1e-3..1e5).contains(&size) {
         let decimals = (digits - 1 - size.log10().floor() as i32).max(0) as usize;

@@ -94,9 +94,9 @@ impl StoredSnapshots {
         let columns = columns.collect();
         let counts = model.windows.iter().map(|window| window.snapshots.len()).collect();
         let apart = model.domain.oils.is_some() && model.windows.iter().all(|window| window.anchor.is_some());
-        let coefficients = model.windows.iter().filter(|_| !apart);
         let heat = model.domain.heat.is_some();
-        let coefficients = coefficients.map(|window| stored_coefficients(window, heat)).collect();
+        let here = model.windows.iter().filter(|_| !apart);
+        let coefficients = here.map(|window| stored_coefficients(window, heat)).collect();
         Self { kind: model.contact(), counts, columns, fronts: fronts(model), coefficients }
     }
 }

@@ -24,7 +24,8 @@ pub const RULE_ACCURACY: f64 = 1e-4;
 
 /// Bits of the significand of an f32, the leading one not counted.
 pub const ALL_DIGITS: u32 = 23;
-/// Those that are kept of films of snapshots, a relative step of 1.5e-5: starts are a hundred times as far off.
+/// Those that are kept of films of snapshots, a relative step of 1.5e-5: starts in windows around anchors are a
+/// hundred times as far off.
 pub const FILM_DIGITS: u32 = 16;
 /// Accuracy of the share of each mode of a shared basis in the pressures of a window, relative to that share.
 const FACTOR_ACCURACY: f64 = 1e-6;

@@ -3,6 +3,7 @@
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
 use crate::scene::Table;
+use crate::scene::table::is_whole;
 use egui::{Grid, ScrollArea, Ui};
 
 /// Narrowest column.
@@ -21,7 +22,7 @@ pub fn ui(ui: &mut Ui, table: &Table) {
         let top = ui.max_rect().top() + first as f32 * height;
         let area = ui.max_rect().with_min_y(top);
         let seen = table.rows.get(first..last).unwrap_or_default();
-        let counts: Vec<bool> = (0..table.columns.len()).map(|column| counts(seen, column)).collect();
+        let counts: Vec<bool> = (0..table.columns.len()).map(|column| is_counted(seen, column)).collect();
         ui.scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
             let grid = Grid::new(("rows", &table.name)).striped(true).min_col_width(COLUMN).min_row_height(row_height);
             grid.start_row(first).show(ui, |ui| {
@@ -58,9 +59,6 @@ pub fn ui(ui: &mut Ui, table: &Table) {
 }
 
 /// Whether all that is seen of a column is whole: lines, steps and other counts.
-fn counts(seen: &[Vec<f64>], column: usize) -> bool {
-    seen.iter()
-        .filter_map(|row| row.get(column))
-        .filter(|value| value.is_finite())
-        .all(|&value| numbers::is_whole(value))
+fn is_counted(seen: &[Vec<f64>], column: usize) -> bool {
+    seen.iter().filter_map(|row| row.get(column)).filter(|value| value.is_finite()).all(|&value| is_whole(value))
 }
