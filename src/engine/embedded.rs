@@ -180,10 +180,17 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_of_the_model_in_time_belong_together_and_its_file_is_small() {
+    fn the_parts_of_the_model_in_time_belong_together_and_it_survives_a_round_trip() {
         let read = trajectory_file::from_bytes(LINE_IN_TIME).unwrap();
         assert_eq!(read.domain, line_in_time().unwrap().domain);
-        assert!(LINE_IN_TIME.len() <= 600_000, "{} bytes", LINE_IN_TIME.len());
+        assert!(trajectory_file::to_bytes(&read).unwrap() == LINE_IN_TIME);
+    }
+
+    #[test]
+    fn all_files_together_are_small() {
+        let sizes = Embedded::ALL.map(|which| which.bytes().len());
+        let all = sizes.iter().sum::<usize>() + LINE_IN_TIME.len();
+        assert!(all < 25_000_000, "{all} bytes: {sizes:?} and {}", LINE_IN_TIME.len());
     }
 
     #[test]

@@ -1,5 +1,10 @@
-//! Whole numbers packed by how often each of them comes, so that what is read takes no more memory than its bytes may ask for.
+//! Whole numbers packed by how often each of them comes, and bytes by what comes again, so that what is read takes no more
+//! memory than its bytes may ask for.
 
+use miniz_oxide::deflate::compress_to_vec;
+use miniz_oxide::inflate::TINFLStatus;
+use miniz_oxide::inflate::core::inflate_flags::TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
+use miniz_oxide::inflate::core::{DecompressorOxide, decompress};
 use pco::ChunkConfig;
 use pco::data_types::Number;
 use pco::standalone::{simple_compress, simple_decompress_into};
@@ -41,4 +46,50 @@ pub(super) fn unpacked<T: Number + Default>(count: usize, packed: &[u8], most: u
     let mut numbers = vec![T::default(); count];
     let read = simple_decompress_into(packed, &mut numbers).ok()?;
     (read.finished && read.n_processed == count).then_some(numbers)
+}
+
+/// How hard repetitions are looked for, of at most ten.
+const EFFORT: u8 = 10;
+
+/// These bytes with what comes again written once, after how many they are; none where these are so alike that more than
+/// `most` of them would take a byte.
+pub(super) fn deflated(bytes: &[u8], most: usize) -> Option<Vec<u8>> {
+    let stream = compress_to_vec(bytes, EFFORT);
+    let length = u32::try_from(bytes.len()).ok().filter(|_| bytes.len() <= most.saturating_mul(stream.len()))?;
+    Some([&length.to_le_bytes(), stream.as_slice()].concat())
+}
+
+/// What was deflated; `None` where it is not that, or more than `most` bytes take one.
+pub(super) fn inflated(deflated: &[u8], most: usize) -> Option<Vec<u8>> {
+    let (length, stream) = deflated.split_first_chunk()?;
+    let length = u32::from_le_bytes(*length) as usize;
+    if length > most.saturating_mul(stream.len()) {
+        return None;
+    }
+    let mut bytes = vec![0; length];
+    let mut state = Box::<DecompressorOxide>::default();
+    let read = decompress(&mut state, stream, &mut bytes, 0, TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF);
+    (read == (TINFLStatus::Done, stream.len(), length)).then_some(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_comes_again_is_written_once_and_nothing_else_is_read_as_that() {
+        let bytes: Vec<u8> = (0..5000u32).map(|k| (k % 37 * (k / 500)) as u8).collect();
+        let short = deflated(&bytes, 64).unwrap();
+        assert!(short.len() < bytes.len() / 2);
+        assert_eq!(inflated(&short, 64).as_ref(), Some(&bytes));
+        // Fewer or more bytes, another length, or more memory than the reader is ready to give.
+        assert_eq!(inflated(&short[..short.len() - 1], 64), None);
+        assert_eq!(inflated(&[short.as_slice(), &[0]].concat(), 64), None);
+        for length in [4999u32, 5001, u32::MAX] {
+            assert_eq!(inflated(&[&length.to_le_bytes(), &short[4..]].concat(), 64), None);
+        }
+        assert_eq!(inflated(&short, 1), None);
+        assert_eq!((inflated(&[], 64), inflated(&[1, 0, 0], 64)), (None, None));
+        assert_eq!(deflated(&[0; 100_000], 64), None);
+    }
 }

@@ -1,8 +1,9 @@
 //! Files of reduced models in time (`.rom`): the header of [`super::model_file`] with versions of their own, then what
 //! `stored_trajectories` makes of a model.
 
-use super::checked_file::{Flaw, Format, Unreadable};
+use super::checked_file::{Flaw, Format, Unreadable, version};
 use super::model_file::{MAGIC, MAX_PAYLOAD, ModelFileError};
+use super::packed::{deflated, inflated};
 use super::stored_trajectories;
 use crate::scene::atomic_file;
 use crate::solver::reduced::transient::TrajectoryModel;
@@ -11,7 +12,11 @@ use std::sync::Arc;
 
 /// What the versions of models in time count on from: programs that know none of them say that the file is newer.
 const KIND: u32 = 1 << 16;
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
+/// From it on what comes again is written once: where trainings of one contact begin.
+const DEFLATED: u32 = 4;
+/// Bytes of a model that one byte of its file gives, at most.
+const MOST: usize = 64;
 const FORMAT: Format =
     Format { magic: MAGIC, version: KIND + VERSION, oldest: KIND + 1, whole_hash: 0, max_payload: MAX_PAYLOAD };
 
@@ -60,8 +65,8 @@ pub fn write(model: &Arc<TrajectoryModel>, path: &Path) -> Result<(), ModelFileE
 /// # Errors
 /// When the model cannot be encoded.
 pub fn to_bytes(model: &TrajectoryModel) -> Result<Vec<u8>, ModelFileError> {
-    let payload = stored_trajectories::encode(model).ok_or(ModelFileError::Damaged { what: "encoding" })?;
-    Ok(FORMAT.seal(&payload))
+    let payload = stored_trajectories::encode(model).and_then(|content| deflated(&content, MOST));
+    Ok(FORMAT.seal(&payload.ok_or(ModelFileError::Damaged { what: "encoding" })?))
 }
 
 /// A model from the content of a file.
@@ -76,7 +81,12 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileError> 
 
 /// The same of a file that was proved before: that of the program.
 pub(super) fn from_own_bytes(bytes: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileError> {
-    stored_trajectories::decode(FORMAT.open(bytes).map_err(refused)?)
+    let payload = FORMAT.open(bytes).map_err(refused)?;
+    if version(bytes) < KIND + DEFLATED {
+        return stored_trajectories::decode(payload);
+    }
+    let content = inflated(payload, MOST).ok_or(ModelFileError::Damaged { what: "its content cannot be inflated" })?;
+    stored_trajectories::decode(&content)
 }
 
 #[cfg(test)]
@@ -151,12 +161,14 @@ mod tests {
     }
 
     #[test]
-    fn files_of_the_first_version_are_read() {
+    fn files_of_former_versions_are_read() {
         let model = small();
-        let first = Format { version: KIND + 1, ..FORMAT };
-        let read = from_bytes(&first.seal(&stored_trajectories::encode(&model).unwrap())).unwrap();
-        let transient = training(Frame::Fixed, Cavitation::Penalty);
-        assert!(read.locals.is_empty() && marched(&read, &transient).finished());
+        for former in [1, DEFLATED - 1] {
+            let former = Format { version: KIND + former, ..FORMAT };
+            let read = from_bytes(&former.seal(&stored_trajectories::encode(&model).unwrap())).unwrap();
+            let transient = training(Frame::Fixed, Cavitation::Penalty);
+            assert!(read.locals.is_empty() && marched(&read, &transient).finished());
+        }
     }
 
     #[test]
@@ -173,8 +185,9 @@ mod tests {
             let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
             assert!(matches!(refused, Some(ModelFileError::Damaged { .. })), "lie {k}: {refused:?}");
         }
-        let whole = to_bytes(&model).unwrap();
-        assert!(from_bytes(&FORMAT.seal(&stored_trajectories::encode(&model).unwrap()[..whole.len() - 100])).is_err());
+        let content = stored_trajectories::encode(&model).unwrap();
+        let cut = deflated(&content[..content.len() - 100], MOST).unwrap();
+        assert!(matches!(from_bytes(&FORMAT.seal(&cut)), Err(ModelFileError::Damaged { .. })));
     }
 
     #[test]
