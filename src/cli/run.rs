@@ -3,6 +3,7 @@
 use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
+use crate::engine::results::day_of;
 use crate::engine::table::Number;
 use crate::engine::{EngineError, SceneOutcome, Store, Workbench, model_file, run_scene};
 use crate::scene::atomic_file::WriteError;
@@ -10,6 +11,7 @@ use crate::scene::{Method, Scene};
 use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use time::Date;
 
 /// Options of `run`.
 #[derive(Debug, Args)]
@@ -17,7 +19,7 @@ pub struct RunArgs {
     /// The scenes
     #[arg(value_name = "SCENE.ron", required_unless_present = "all", conflicts_with = "all")]
     pub(super) scenes: Vec<PathBuf>,
-    /// Run every scene below a folder and write RESULTS.md there; takes hours
+    /// Run every scene below a folder and keep RESULTS.md there, the page of what came of them; takes hours
     #[arg(long)]
     pub(super) all: bool,
     /// Of all scenes run those marked `quick: true` only, in a few minutes, and leave RESULTS.md as it is
@@ -26,9 +28,15 @@ pub struct RunArgs {
     /// The folder of all scenes
     #[arg(long = "scenes", value_name = "DIR", default_value = "scenes", requires = "all")]
     pub(super) folder: PathBuf,
-    /// Take over what an earlier run left in --out of scenes that have not changed since
-    #[arg(long, requires = "all", requires = "out")]
+    /// Of all scenes run those below these places only, such as line or time/fig_4_14.ron; RESULTS.md keeps the others
+    #[arg(long, value_name = "PLACE", requires = "all", num_args = 1..)]
+    pub(super) only: Vec<String>,
+    /// Take over what RESULTS.md says of scenes that have not changed since, where nothing fell short
+    #[arg(long, requires = "all")]
     pub(super) resume: bool,
+    /// With --resume: only where the scene ran on this day (UTC) or later, such as 2026-11-29
+    #[arg(long, value_name = "DAY", requires = "resume", value_parser = day)]
+    pub(super) since: Option<Date>,
     /// Write every scene's outcome (JSON), tables (CSV) and the model that it trains (.rom) into this folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
@@ -66,6 +74,10 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
         tell(&outcome, args.json)?;
     }
     Ok(verdict)
+}
+
+fn day(text: &str) -> Result<Date, String> {
+    day_of(text).ok_or_else(|| "a day is written as year, month and day: 2026-11-29".to_owned())
 }
 
 /// Makes the folder of outcomes where one is wanted.

@@ -4,36 +4,40 @@ use super::Verdict;
 use super::failure::Failure;
 use super::output;
 use super::run::{RunArgs, keep_model, make_out, outcome_of, stem, tell};
-use crate::engine::results::{Entry, PAGE, SceneFile, page, scenes_below, summary};
+use crate::engine::results::{Entry, PAGE, SceneFile, entries_of, page, scenes_below, summary};
 use crate::engine::{Store, job::guarded};
 use crate::scene::atomic_file;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Runs them, each whatever became of the others. All are read and checked before the first runs.
+/// Runs them, each whatever became of the others. All are read and checked before the first runs, and what came of each
+/// is on the page before the next one begins.
 pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     let folder = &args.folder;
-    let mut files = scenes_below(folder)?;
-    let there = files.len();
-    if args.quick {
-        files.retain(|file| file.scene.quick);
-    }
-    if files.is_empty() {
-        let what = if there == 0 { "no scene (.ron) lies below" } else { "no scene is marked `quick: true` below" };
+    let all = scenes_below(folder)?;
+    let chosen: Vec<&SceneFile> = all.iter().filter(|file| wanted(file, args)).collect();
+    if chosen.is_empty() {
+        let what = match (all.is_empty(), args.only.is_empty()) {
+            (true, _) => "no scene (.ron) lies below",
+            (_, true) => "no scene is marked `quick: true` below",
+            _ => "no place of a scene begins with what --only says below",
+        };
         return Err(Failure::Request(format!("{what} {}; --scenes names their folder", folder.display())));
     }
     make_out(args)?;
-    let store = Store::default();
-    let paths: Vec<PathBuf> = files.iter().map(|file| file.path.clone()).collect();
-    let mut entries = Vec::with_capacity(files.len());
-    for file in &files {
-        let kept = args.out.as_ref().map(|out| out.join(format!("{}.entry", stem(&file.path, &paths))));
-        let known = kept.as_deref().filter(|_| args.resume).and_then(|kept| known(file, kept));
+    let (store, target) = (Store::default(), folder.join(PAGE));
+    let paths: Vec<PathBuf> = all.iter().map(|file| file.path.clone()).collect();
+    let mut entries = Vec::with_capacity(chosen.len());
+    for file in &chosen {
+        let known = recorded(&target).remove(&file.place).filter(|entry| serves(entry, file, args));
         let entry = match known {
             Some(entry) => entry,
             None => {
                 let entry = entry_of(file, args, &store, &paths)?;
-                if let Some(kept) = &kept {
-                    atomic_file::replace(kept, entry.to_text().as_bytes())?;
+                if !args.quick {
+                    let mut record = recorded(&target);
+                    record.insert(file.place.clone(), entry.clone());
+                    atomic_file::replace(&target, page(&all, &record).as_bytes())?;
                 }
                 entry
             }
@@ -42,19 +46,31 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     }
     let mut sentence = summary(&entries);
     if args.quick {
-        sentence = format!("{sentence}; of {there} scenes only those marked `quick: true`, so {PAGE} is left as it is");
+        sentence =
+            format!("{sentence}; of {} scenes only those marked `quick: true`, so {PAGE} is left as it is", all.len());
     } else {
-        let target = folder.join(PAGE);
-        atomic_file::replace(&target, page(&entries).as_bytes())?;
+        // Scenes may have gone or come where nothing had to run.
+        atomic_file::replace(&target, page(&all, &recorded(&target)).as_bytes())?;
         sentence = format!("{sentence}; see {}", target.display());
     }
     output::complain(&sentence);
     Ok(if entries.iter().all(Entry::passed) { Verdict::Done } else { Verdict::FellShort })
 }
 
-/// What an earlier run kept of a scene.
-fn known(file: &SceneFile, kept: &Path) -> Option<Entry> {
-    Entry::kept(file, &std::fs::read_to_string(kept).ok()?)
+/// Whether a scene is to be run at all.
+fn wanted(file: &SceneFile, args: &RunArgs) -> bool {
+    let named = args.only.is_empty() || args.only.iter().any(|place| file.place.starts_with(place.as_str()));
+    named && (file.scene.quick || !args.quick)
+}
+
+/// What the page says, if there is one. It is read anew each time: others may run scenes of the same folder.
+fn recorded(page: &Path) -> BTreeMap<String, Entry> {
+    std::fs::read_to_string(page).map(|text| entries_of(&text)).unwrap_or_default()
+}
+
+/// Whether what the page says of a scene can be taken over.
+fn serves(entry: &Entry, file: &SceneFile, args: &RunArgs) -> bool {
+    args.resume && entry.belongs(file) && entry.passed() && args.since.is_none_or(|day| entry.ran_since(day))
 }
 
 fn entry_of(file: &SceneFile, args: &RunArgs, store: &Store, all: &[PathBuf]) -> Result<Entry, Failure> {
@@ -80,6 +96,7 @@ fn entry_of(file: &SceneFile, args: &RunArgs, store: &Store, all: &[PathBuf]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+    use time::{Duration, OffsetDateTime};
 
     /// A scene of one contact at M = 10, L = 5, which expects a film above `least`.
     fn scene(quick: bool, method: &str, least: f64) -> String {
@@ -90,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn every_scene_is_run_whatever_became_of_the_others_and_only_a_full_run_writes_the_page() {
+    fn every_scene_is_run_whatever_became_of_the_others_and_a_quick_run_leaves_the_page() {
         let folder = tempfile::tempdir().unwrap();
         let (scenes, out) = (folder.path().join("scenes"), folder.path().join("out"));
         std::fs::create_dir_all(scenes.join("line")).unwrap();
@@ -103,7 +120,9 @@ mod tests {
             all: true,
             quick,
             folder: scenes.clone(),
+            only: Vec::new(),
             resume,
+            since: None,
             out: Some(out.clone()),
             json: false,
         };
@@ -113,10 +132,31 @@ mod tests {
         let page = std::fs::read_to_string(scenes.join(PAGE)).unwrap();
         assert!(page.contains("3 scenes with 3 expectations: 2 fall short"), "{page}");
         assert!(page.contains("](line/no_model.ron)") && page.contains("none.rom"), "{page}");
-        // What was kept is taken over, and gives the same page.
-        std::fs::remove_file(scenes.join(PAGE)).unwrap();
+        // What was kept is taken over, unless it is older than wanted; what fell short is tried again.
+        let film = "| 0.1256 | ok |";
+        assert!(page.contains(film), "{page}");
+        std::fs::write(scenes.join(PAGE), page.replace(film, "| kept | ok |")).unwrap();
         assert_eq!(run(&args(false, true)).unwrap(), Verdict::FellShort);
-        assert_eq!(std::fs::read_to_string(scenes.join(PAGE)).unwrap(), page);
+        let page = std::fs::read_to_string(scenes.join(PAGE)).unwrap();
+        assert!(
+            page.contains("3 scenes with 3 expectations: 2 fall short") && page.contains("| kept | ok |"),
+            "{page}"
+        );
+        let since = OffsetDateTime::now_utc().date().saturating_add(Duration::days(2));
+        run(&RunArgs { since: Some(since), ..args(false, true) }).unwrap();
+        assert!(std::fs::read_to_string(scenes.join(PAGE)).unwrap().contains(film));
+        // Of a scene that is another now nothing is, unless it runs; what is not asked for stays as it is.
+        write("line/good.ron", scene(true, "Reduced()", 1e9));
+        write("short.ron", scene(false, "Reduced()", 1e-9));
+        let only = |place: &str| RunArgs { only: vec![place.to_owned()], ..args(false, true) };
+        assert_eq!(run(&only("sh")).unwrap(), Verdict::Done);
+        let page = std::fs::read_to_string(scenes.join(PAGE)).unwrap();
+        assert!(
+            page.contains("2 scenes with 2 expectations: 1 falls short. 1 scene has not run as it is now."),
+            "{page}"
+        );
+        assert_eq!(run(&only("line/good")).unwrap(), Verdict::FellShort);
+        assert!(run(&only("nowhere")).is_err());
         write("line/wrong.ron", "Scene(".to_owned());
         assert!(run(&args(false, false)).is_err(), "all scenes are read before the first is run");
     }

@@ -1,11 +1,15 @@
 //! All scenes of a folder: finding them, and the page of what came of them.
+//!
+//! The page is the record as well: it says of every scene when it ran, so that a run of hours can go on where it was
+//! left, on another machine too.
 
 use super::SceneOutcome;
 use super::table::significant;
 use crate::scene::{Scene, SceneFileError, Verdict};
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use time::format_description::well_known::Iso8601;
+use time::{Date, OffsetDateTime};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// Name of the page in the folder of the scenes.
@@ -55,12 +59,13 @@ fn find(folder: &Path, paths: &mut Vec<PathBuf>) -> Result<(), SceneFileError> {
     Ok(())
 }
 
-/// What the page says of one scene.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// What the page says of one scene that ran.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     place: String,
-    /// Of the scene that it was made from.
+    /// Of the scene that ran.
     hash: u64,
+    day: Date,
     expectations: usize,
     short: usize,
     /// Lines of the table.
@@ -68,9 +73,10 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// What is to be said of a scene that ran, or of one that could not, with the reason.
+    /// What is to be said of a scene that ran today, or of one that could not, with the reason.
     pub fn new(file: &SceneFile, outcome: &Result<SceneOutcome, String>) -> Self {
-        let mut entry = Self { place: file.place.clone(), hash: hash(&file.scene), ..Self::default() };
+        let (place, hash, day) = (file.place.clone(), hash(&file.scene), OffsetDateTime::now_utc().date());
+        let mut entry = Self { place, hash, day, expectations: 0, short: 0, rows: String::new() };
         match outcome {
             Ok(outcome) => {
                 for Verdict { expected, value, holds } in &outcome.verdicts {
@@ -93,16 +99,11 @@ impl Entry {
         entry
     }
 
-    /// Adds a line, with the scene and its source in the first one only.
+    /// Adds a line, with the scene, its source and the run in the first one only.
     fn push(&mut self, file: &SceneFile, wanted: &str, value: &str, holds: bool) {
-        let (title, source) = if self.rows.is_empty() {
-            (format!("[{}]({})", cell(&file.scene.title), file.place), cell(&file.scene.source))
-        } else {
-            Default::default()
-        };
-        let verdict = if holds { "ok" } else { "**short**" };
-        // Writing to a string cannot fail.
-        let _ = writeln!(self.rows, "| {title} | {source} | {} | {} | {verdict} |", cell(wanted), cell(value));
+        let verdict = if holds { "ok" } else { SHORT };
+        let run = format!("{} <!-- {:016x} -->", self.day, self.hash);
+        self.rows += &row(file, self.rows.is_empty().then_some(&*run), wanted, value, verdict);
         self.expectations += 1;
         self.short += usize::from(!holds);
     }
@@ -112,19 +113,65 @@ impl Entry {
         self.short == 0
     }
 
-    /// As text that [`Entry::kept`] reads back.
-    pub fn to_text(&self) -> String {
-        format!("{:016x} {} {}\n{}", self.hash, self.expectations, self.short, self.rows)
+    /// Whether it belongs to the scene as it is now.
+    pub fn belongs(&self, file: &SceneFile) -> bool {
+        self.place == file.place && self.hash == hash(&file.scene)
     }
 
-    /// An entry that was kept, where it belongs to the scene as it is now.
-    pub fn kept(file: &SceneFile, text: &str) -> Option<Self> {
-        let (head, rows) = text.split_once('\n')?;
-        let [kept, expectations, short] = head.split(' ').collect::<Vec<_>>().try_into().ok()?;
-        let (expectations, short) = (expectations.parse().ok()?, short.parse().ok()?);
-        let kept = u64::from_str_radix(kept, 16).ok().filter(|kept| *kept == hash(&file.scene))?;
-        Some(Self { place: file.place.clone(), hash: kept, expectations, short, rows: rows.to_owned() })
+    /// Whether the scene ran on this day or later.
+    pub fn ran_since(&self, day: Date) -> bool {
+        self.day >= day
     }
+
+    /// Reads the first line of an entry; `None` where it is of a scene that has not run, or of no scene at all.
+    fn begin(line: &str) -> Option<Self> {
+        let cells: Vec<_> = line.strip_prefix("| ")?.strip_suffix(" |")?.split(" | ").collect();
+        let place = cells.first()?.rsplit_once("](")?.1.strip_suffix(')')?.to_owned();
+        let (day, hash) = cells.last()?.strip_suffix(" -->")?.split_once(" <!-- ")?;
+        let (day, hash) = (day_of(day)?, u64::from_str_radix(hash, 16).ok()?);
+        Some(Self { place, hash, day, expectations: 0, short: 0, rows: String::new() })
+    }
+}
+
+/// What stands for a verdict that is none too good.
+const SHORT: &str = "**short**";
+
+/// A line of a page's table; what a scene's first line alone says is there where the run is.
+fn row(file: &SceneFile, run: Option<&str>, wanted: &str, value: &str, verdict: &str) -> String {
+    let (title, source) = match run {
+        Some(_) => (format!("[{}]({})", cell(&file.scene.title), file.place), cell(&file.scene.source)),
+        None => Default::default(),
+    };
+    let run = run.unwrap_or_default();
+    format!("| {title} | {source} | {} | {} | {verdict} | {run} |\n", cell(wanted), cell(value))
+}
+
+/// A day as `2026-11-29`.
+pub fn day_of(text: &str) -> Option<Date> {
+    Date::parse(text, &Iso8601::DATE).ok()
+}
+
+/// What a page says of the scenes that ran, by their places.
+pub fn entries_of(page: &str) -> BTreeMap<String, Entry> {
+    let mut entries: BTreeMap<String, Entry> = BTreeMap::new();
+    let mut at = None;
+    for line in page.lines() {
+        if line.starts_with("| [") {
+            at = Entry::begin(line).map(|entry| {
+                let place = entry.place.clone();
+                entries.insert(place.clone(), entry);
+                place
+            });
+        } else if !line.starts_with("|  |") {
+            at = None;
+        }
+        if let Some(entry) = at.as_ref().and_then(|place| entries.get_mut(place)) {
+            entry.rows.extend([line, "\n"]);
+            entry.expectations += 1;
+            entry.short += usize::from(line.contains(&format!(" | {SHORT} | ")));
+        }
+    }
+    entries
 }
 
 fn hash(scene: &Scene) -> u64 {
@@ -137,35 +184,51 @@ fn cell(text: &str) -> String {
 }
 
 /// How many scenes and expectations there are, and how many of these fall short.
-pub fn summary(entries: &[Entry]) -> String {
-    let count = |of: fn(&Entry) -> usize| entries.iter().map(of).sum::<usize>();
-    let short = match count(|entry| entry.short) {
+pub fn summary<'a>(entries: impl IntoIterator<Item = &'a Entry>) -> String {
+    let (mut scenes, mut expectations, mut short) = (0, 0, 0);
+    for entry in entries {
+        (scenes, expectations, short) = (scenes + 1, expectations + entry.expectations, short + entry.short);
+    }
+    let short = match short {
         0 => "all hold".to_owned(),
         1 => "1 falls short".to_owned(),
         n => format!("{n} fall short"),
     };
-    format!("{} scenes with {} expectations: {short}", entries.len(), count(|entry| entry.expectations))
+    let plural = |count: usize| if count == 1 { "" } else { "s" };
+    format!("{scenes} scene{} with {expectations} expectation{}: {short}", plural(scenes), plural(expectations))
 }
 
-/// The page: a table for each folder. It changes only when results do.
-pub fn page(entries: &[Entry]) -> String {
+/// The page: a table for each folder, with every scene; those that have not run as they are now are named.
+pub fn page(files: &[SceneFile], entries: &BTreeMap<String, Entry>) -> String {
     let version = env!("CARGO_PKG_VERSION");
+    let entry = |file: &SceneFile| entries.get(&file.place).filter(|entry| entry.belongs(file));
+    let known: Vec<_> = files.iter().filter_map(entry).collect();
     let mut text = format!(
         "# Results\n\nWhat the scenes of this folder gave, and what is expected of them. Generated by `ehl-explorer run --all`, \
-         version {version}; do not edit.\n\n{}.\n",
-        summary(entries)
+         version {version}; do not edit.\n\n{}.",
+        summary(known.iter().copied())
     );
-    let mut folders: BTreeMap<&str, Vec<&Entry>> = BTreeMap::new();
-    for entry in entries {
-        let folder = entry.place.rsplit_once('/').map_or(".", |(folder, _)| folder);
-        folders.entry(folder).or_default().push(entry);
+    match files.len() - known.len() {
+        0 => {}
+        1 => text += " 1 scene has not run as it is now.",
+        n => text += &format!(" {n} scenes have not run as they are now."),
     }
-    for (folder, entries) in folders {
-        let _ = writeln!(
-            text,
-            "\n## {folder}\n\n| Scene | Source | Expected | Value | Verdict |\n| --- | --- | --- | --- | --- |"
+    text.push('\n');
+    let mut folders: BTreeMap<&str, Vec<&SceneFile>> = BTreeMap::new();
+    for file in files {
+        let folder = file.place.rsplit_once('/').map_or(".", |(folder, _)| folder);
+        folders.entry(folder).or_default().push(file);
+    }
+    for (folder, files) in folders {
+        text += &format!(
+            "\n## {folder}\n\n| Scene | Source | Expected | Value | Verdict | Run |\n| --- | --- | --- | --- | --- | --- |\n"
         );
-        text.extend(entries.iter().map(|entry| entry.rows.as_str()));
+        for file in files {
+            match entry(file) {
+                Some(entry) => text += &entry.rows,
+                None => text += &row(file, Some(""), "it runs", "not yet", ""),
+            }
+        }
     }
     text
 }
@@ -191,31 +254,73 @@ mod tests {
         SceneOutcome { verdicts, ..SceneOutcome::default() }
     }
 
+    fn record(entries: impl IntoIterator<Item = Entry>) -> BTreeMap<String, Entry> {
+        entries.into_iter().map(|entry| (entry.place.clone(), entry)).collect()
+    }
+
     #[test]
-    fn a_page_has_a_table_for_each_folder_and_says_what_falls_short() {
+    fn a_page_has_a_table_for_each_folder_and_says_what_falls_short_or_has_not_run() {
         let refused: Result<SceneOutcome, String> = Err("no such model".to_owned());
-        let entries = [
-            Entry::new(&file("time/a.ron"), &Ok(outcome(false))),
-            Entry::new(&file("line/b.ron"), &Ok(outcome(true))),
-            Entry::new(&file("line/c.ron"), &refused),
-        ];
-        let page = page(&entries);
-        assert!(page.contains("3 scenes with 3 expectations: 2 fall short."), "{page}");
+        let files = ["line/b.ron", "line/c.ron", "time/a.ron", "time/later.ron"].map(file);
+        let entries = record([
+            Entry::new(&files[2], &Ok(outcome(false))),
+            Entry::new(&files[0], &Ok(outcome(true))),
+            Entry::new(&files[1], &refused),
+        ]);
+        let page = page(&files, &entries);
         assert!(
-            page.contains("](line/b.ron) |  | `H_c` (full): 0.04 ± 1e-3; Table 2.1 \\| given | 0.03997 | ok |\n"),
+            page.contains("3 scenes with 3 expectations: 2 fall short. 1 scene has not run as it is now.\n"),
+            "{page}"
+        );
+        let day = entries["line/b.ron"].day;
+        assert!(
+            page.contains(&format!(
+                "](line/b.ron) |  | `H_c` (full): 0.04 ± 1e-3; Table 2.1 \\| given | 0.03997 | ok | {day} <!-- "
+            )),
             "{page}"
         );
         assert!(page.contains("| it runs | no such model | **short** |") && page.contains("| 0.03997 | **short** |"));
+        assert!(page.contains("](time/later.ron) |  | it runs | not yet |  |  |\n"), "{page}");
         assert!(page.find("## line").unwrap() < page.find("## time").unwrap());
     }
 
     #[test]
-    fn an_entry_is_kept_for_its_own_scene_only() {
-        let file = file("line/b.ron");
-        let entry = Entry::new(&file, &Ok(outcome(true)));
-        assert_eq!(Entry::kept(&file, &entry.to_text()), Some(entry.clone()));
-        let other = SceneFile { scene: Scene::at_moes(41.0, 10.0), ..file.clone() };
-        assert_eq!(Entry::kept(&other, &entry.to_text()), None);
-        assert_eq!(Entry::kept(&file, "nonsense\n"), None);
+    fn a_page_gives_its_entries_back_and_each_belongs_to_its_own_scene_only() {
+        let mut several = outcome(true);
+        several.verdicts.extend(outcome(false).verdicts);
+        let (mut titled, refused) = (file("line/b.ron"), Err("a | b".to_owned()));
+        titled.scene.title = "a | b ](c) [d".to_owned();
+        let files = [titled, file("line/c.ron"), file("time/a.ron"), file("time/later.ron")];
+        let entries = record([
+            Entry::new(&files[0], &Ok(several)),
+            Entry::new(&files[1], &refused),
+            Entry::new(&files[2], &Ok(outcome(true))),
+        ]);
+        let first = page(&files, &entries);
+        let read = entries_of(&first);
+        assert_eq!(read, entries);
+        assert_eq!(page(&files, &read), first);
+        assert!(read.get("line/b.ron").is_some_and(|entry| (entry.expectations, entry.short) == (2, 1)));
+
+        let entry = &read["time/a.ron"];
+        let other = SceneFile { scene: Scene::at_moes(41.0, 10.0), ..files[2].clone() };
+        assert!(entry.belongs(&files[2]) && !entry.belongs(&other) && !entry.belongs(&files[3]));
+        assert!(page(&[other], &read).contains("1 scene has not run as it is now"));
+        assert!(entry.ran_since(entry.day) && !entry.ran_since(entry.day.next_day().unwrap()));
+    }
+
+    #[test]
+    fn of_pages_of_others_nothing_is_taken_over() {
+        for text in [
+            "",
+            "# Results\n",
+            "| [t](a.ron) |  | it runs | yes | ok |\n",
+            "| [\n|  |\n",
+            "| [t](a.ron) | 2026-13-01 <!-- 0 --> |",
+        ] {
+            assert_eq!(entries_of(text), BTreeMap::new(), "{text}");
+        }
+        assert_eq!(day_of("2026-11-29").map(|day| day.to_string()).as_deref(), Some("2026-11-29"));
+        assert_eq!((day_of("29.11.2026"), day_of("2026-02-30"), day_of("today")), (None, None, None));
     }
 }

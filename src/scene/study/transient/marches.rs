@@ -7,8 +7,8 @@ use crate::solver::physics::lubricant::Lubricant;
 
 /// States of a training trajectory that are kept, about.
 const TRAINING_STATES: f64 = 700.0;
-/// The same where a linearised model is trained, which chooses among them.
-const LINEARISED_STATES: f64 = 3000.0;
+/// The same where a linearised model is trained, which chooses among them, or local bases, which share them out.
+const MANY_TRAINING_STATES: f64 = 3000.0;
 
 /// The contact of Moes numbers (M, L) with the radius, the materials and the oil of another one.
 ///
@@ -91,18 +91,22 @@ impl TransientStudy {
         contacts.iter().flat_map(|&point| drives.iter().map(move |drive| march(point, drive))).collect()
     }
 
-    /// Which states a training keeps. Linearised models choose among them, so that they want more than bases do.
+    /// Which states a training keeps. Linearised models choose among them and local bases share them out, so that these
+    /// want more than one basis does.
     fn training_states(&self, duration: f64) -> Keep {
         let (TimeStep::Fixed(longest) | TimeStep::Adaptive { longest, .. }) = self.time_step;
-        let most = if self.linearised.is_some() { LINEARISED_STATES } else { TRAINING_STATES };
+        let local = self.reduced.as_ref().is_some_and(|reduced| reduced.local.is_some());
+        let most = if self.linearised.is_some() || local { MANY_TRAINING_STATES } else { TRAINING_STATES };
         Keep::Every(((duration / longest / most) as usize).max(1))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::data::ReducedTransient;
     use super::*;
     use crate::scene::{Scene, Study};
+    use crate::solver::training::LocalBases;
 
     fn study(text: &str) -> (OperatingPoint, TransientStudy) {
         let scene = Scene::from_ron(&format!("Scene(version: 1, title: \"t\", study: Transient({text}))")).unwrap();
@@ -118,6 +122,14 @@ mod tests {
         let march = |study: &TransientStudy| study.own_march(point, Lubricant::default(), Frame::Fixed);
         assert!(own.trains_on_itself() && own.training_marches(&march(&own)).is_empty());
         assert_eq!(march(&own).keep, Keep::Every(2), "6500 steps, of which about 3000 states are kept");
+
+        let (_, plain) = study(load);
+        let keep = |local: Option<LocalBases>| {
+            let reduced = Some(ReducedTransient { local, ..ReducedTransient::default() });
+            march(&TransientStudy { reduced, ..plain.clone() }).keep
+        };
+        assert_eq!(keep(Some(LocalBases { clusters: 12, modes: 70 })), Keep::Every(2), "each learns from its share");
+        assert_eq!(keep(None), Keep::Every(9));
 
         let (_, loads) = study(&format!("{load}, {linearised}, training_loads: [2e5, 3e5]"));
         let trained = loads.training_marches(&march(&loads));
