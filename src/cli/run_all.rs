@@ -17,10 +17,11 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     let all = scenes_below(folder)?;
     let chosen: Vec<&SceneFile> = all.iter().filter(|file| wanted(file, args)).collect();
     if chosen.is_empty() {
-        let what = match (all.is_empty(), args.only.is_empty()) {
-            (true, _) => "no scene (.ron) lies below",
-            (_, true) => "no scene is marked `quick: true` below",
-            _ => "no place of a scene begins with what --only says below",
+        let what = match (all.is_empty(), args.only.is_empty(), args.quick) {
+            (true, _, _) => "no scene (.ron) lies below",
+            (_, true, _) => "no scene is marked `quick: true` below",
+            (_, _, false) => "no place of a scene begins with what --only says below",
+            (_, _, true) => "no scene that --only names is marked `quick: true` below",
         };
         return Err(Failure::Request(format!("{what} {}; --scenes names their folder", folder.display())));
     }
@@ -156,7 +157,10 @@ mod tests {
             "{page}"
         );
         assert_eq!(run(&only("line/good")).unwrap(), Verdict::FellShort);
-        assert!(run(&only("nowhere")).is_err());
+        let refused = |args: &RunArgs| format!("{:?}", run(args).unwrap_err());
+        assert!(refused(&only("nowhere")).contains("--only says"));
+        let slow = RunArgs { quick: true, ..only("short") };
+        assert!(refused(&slow).contains("no scene that --only names is marked `quick: true`"));
         write("line/wrong.ron", "Scene(".to_owned());
         assert!(run(&args(false, false)).is_err(), "all scenes are read before the first is run");
     }
