@@ -1,6 +1,7 @@
 //! Where the explorer's reduced models come from: one for each kind of contact and each fluid, or none.
 
 use crate::engine::{Embedded, Store};
+use crate::host::pool::on_all_cores;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
@@ -33,7 +34,8 @@ impl Models {
     pub fn embedded(store: &Store) -> Self {
         let (late, first): (Vec<_>, Vec<_>) = Embedded::ALL.into_iter().partition(|which| LATE.contains(which));
         // Operators are computed as a model is read: all of them at once, for the window waits.
-        Self { models: first.par_iter().filter_map(|&which| store.embedded(which).ok()).collect(), late }
+        let read = |which: &Embedded| store.embedded(*which).ok();
+        Self { models: on_all_cores(|| first.par_iter().filter_map(read).collect()), late }
     }
 
     /// The model that has to be read before a contact can be served; only once.

@@ -97,7 +97,7 @@ fn entry_of(file: &SceneFile, args: &RunArgs, store: &Store, all: &[PathBuf]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use time::{Duration, OffsetDateTime};
+    use time::Duration;
 
     /// A scene of one contact at M = 10, L = 5, which expects a film above `least`.
     fn scene(quick: bool, method: &str, least: f64) -> String {
@@ -143,7 +143,7 @@ mod tests {
             page.contains("3 scenes with 3 expectations: 2 fall short") && page.contains("| kept | ok |"),
             "{page}"
         );
-        let since = OffsetDateTime::now_utc().date().saturating_add(Duration::days(2));
+        let since = crate::host::clock::today().saturating_add(Duration::days(2));
         run(&RunArgs { since: Some(since), ..args(false, true) }).unwrap();
         assert!(std::fs::read_to_string(scenes.join(PAGE)).unwrap().contains(film));
         // Of a scene that is another now nothing is, unless it runs; what is not asked for stays as it is.

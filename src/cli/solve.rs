@@ -4,6 +4,7 @@ use super::failure::Failure;
 use super::options::PointOptions;
 use super::{Verdict, output};
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
+use crate::host::clock::Stopwatch;
 use crate::scene::{Method, Sheet, Solved, answer_or_full, atomic_file};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::Rises;
@@ -15,7 +16,6 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
 
 /// Values with nine decimals: what they are called here, and in a result.
 const DIMENSIONLESS: [(&str, &str); 8] = [
@@ -84,7 +84,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
         return Err(Failure::Request(sentence));
     }
     let mut workbench = Workbench::new("");
-    let progress = Progress { begin: Instant::now(), next: AtomicUsize::new(2) };
+    let progress = Progress { begin: Stopwatch::start(), next: AtomicUsize::new(2) };
     let answer = answer_or_full(&mut workbench, &request, &method, &progress)?;
     type Fields = fn(&Solution) -> Table;
     let files: [(&Option<PathBuf>, Fields); 2] = [
@@ -117,7 +117,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
 
 /// Says on standard error how a solve goes on, from the second second on.
 struct Progress {
-    begin: Instant,
+    begin: Stopwatch,
     /// The second in which it speaks next.
     next: AtomicUsize,
 }
@@ -125,7 +125,7 @@ struct Progress {
 impl Observer for Progress {
     fn newton_step(&self, step: &NewtonStep) {
         let NewtonStep { iteration, step, .. } = step;
-        let seconds = self.begin.elapsed().as_secs_f64();
+        let seconds = self.begin.seconds();
         if seconds >= self.next.load(Ordering::Relaxed) as f64 {
             self.next.store((1.3 * seconds) as usize + 2, Ordering::Relaxed);
             output::complain(&format!("{seconds:.0} s: Newton step {iteration}, the last of size {step:.1e}"));

@@ -9,6 +9,7 @@ pub use heat::HEAT_BASELINE;
 use super::model_file::ModelFileError;
 use super::store::Store;
 use super::{Embedded, EngineError, median, percentile};
+use crate::host::clock::Stopwatch;
 use crate::scene::study::transient::{Timed, timed_march};
 use crate::scene::{QuantityBox, named_lubricant};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
@@ -23,7 +24,7 @@ use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, distance, tra
 use crate::solver::training::{LocalBases, Range, TrajectoryTraining, random_points, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the
 /// dissertation has it.
@@ -370,14 +371,14 @@ fn timed<T>(
     items: impl IntoIterator<Item = T>,
     mut solve: impl FnMut(T) -> Result<bool, EngineError>,
 ) -> Result<Timing, EngineError> {
-    let (begun, mut timing) = (Instant::now(), Timing::new(name));
+    let (begun, mut timing) = (Stopwatch::start(), Timing::new(name));
     for item in items {
         if begun.elapsed() > budget && timing.seconds.len() >= least {
             break;
         }
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let converged = solve(item)?;
-        timing.seconds.push(clock.elapsed().as_secs_f64());
+        timing.seconds.push(clock.seconds());
         timing.failures += usize::from(!converged);
     }
     Ok(timing)

@@ -5,11 +5,12 @@
 
 use super::SceneOutcome;
 use super::table::significant;
+use crate::host::clock::today;
 use crate::scene::{Scene, SceneFileError, Verdict};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use time::Date;
 use time::format_description::well_known::Iso8601;
-use time::{Date, OffsetDateTime};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// Name of the page in the folder of the scenes.
@@ -75,7 +76,7 @@ pub struct Entry {
 impl Entry {
     /// What is to be said of a scene that ran today, or of one that could not, with the reason.
     pub fn new(file: &SceneFile, outcome: &Result<SceneOutcome, String>) -> Self {
-        let (place, hash, day) = (file.place.clone(), hash(&file.scene), OffsetDateTime::now_utc().date());
+        let (place, hash, day) = (file.place.clone(), hash(&file.scene), today());
         let mut entry = Self { place, hash, day, expectations: 0, short: 0, rows: String::new() };
         match outcome {
             Ok(outcome) => {

@@ -3,6 +3,7 @@
 
 use super::model_file::{self, ModelFileError};
 use super::{Embedded, EngineError, trajectory_file};
+use crate::host::clock::FileTime;
 use crate::scene::Scene;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::full::ContactSolver;
@@ -13,7 +14,6 @@ use crate::solver::reduced::{Online, ReducedModel, ReducedOptions};
 use crate::solver::training::{TrainingObserver, TrainingSpec, train};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::SystemTime;
 
 /// Grids and idle full solvers of line contacts kept at a time; the least recently used goes first.
 const KEPT_LINES: usize = 6;
@@ -44,7 +44,7 @@ enum Origin {
     /// It is part of the program.
     Embedded(Embedded),
     /// A file as it was at a time, and its size.
-    File(PathBuf, Option<SystemTime>, u64),
+    File(PathBuf, Option<FileTime>, u64),
     /// Trained.
     Training(Box<TrainingSpec>),
     /// Trained in time.
@@ -224,12 +224,11 @@ fn take<T>(shelf: &Mutex<Vec<T>>, wanted: impl Fn(&T) -> bool) -> Option<T> {
 /// Puts a thing on its shelf, where the oldest of the same sort gives way.
 fn keep<T>(shelf: &Mutex<Vec<T>>, thing: T, same_sort: impl Fn(&T) -> bool, most: usize) {
     let mut shelf = lock(shelf);
-    if shelf.iter().filter(|other| same_sort(other)).count() >= most
-        && let Some(oldest) = shelf.iter().position(same_sort)
-    {
-        shelf.remove(oldest);
-    }
+    let full = shelf.iter().filter(|other| same_sort(other)).count() >= most;
+    let oldest = shelf.iter().position(same_sort).filter(|_| full).map(|place| shelf.remove(place));
     shelf.push(thing);
+    // To free it takes long: others may use the shelf meanwhile, and a forked process finds it open.
+    drop((shelf, oldest));
 }
 
 #[cfg(test)]

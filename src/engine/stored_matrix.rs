@@ -8,6 +8,7 @@ mod curves;
 mod former;
 mod sorted;
 
+use crate::host::pool::on_all_cores;
 use crate::solver::reduced::{Multiples, PodBasis};
 use curves::{Curves, Lattice, runs};
 use faer::Mat;
@@ -103,7 +104,7 @@ impl StoredMatrix {
             let column: Vec<f64> = matrix.col(k).iter().copied().collect();
             lattice.shortest(&column, *exponent)
         });
-        let (orders, misses): (Vec<_>, Vec<_>) = kept.collect::<Vec<_>>().into_iter().unzip();
+        let (orders, misses): (Vec<_>, Vec<_>) = on_all_cores(|| kept.collect::<Vec<_>>()).into_iter().unzip();
         let (runs, misses) = (runs(&used), misses.concat());
         let curves = Curves { across, runs, row_exponents, column_exponents, orders, misses };
         Self { rows, columns, values: curves.packed(&used) }

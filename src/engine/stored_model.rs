@@ -17,6 +17,7 @@ pub(super) use sound::{entries, sound_domain};
 pub(super) use window::StoredRows;
 
 use super::model_file::ModelFileError;
+use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{Domain, HeatDomain, ReducedModel, Window};
@@ -51,7 +52,7 @@ pub(super) fn prove(model: &ReducedModel, observer: &dyn Observer) -> Result<(),
         wanted(observer)?;
         if model.reproduces_snapshots(k) { Ok(()) } else { Err(ModelFileError::Unproven { m: window.m }) }
     });
-    proved.collect::<Vec<_>>().into_iter().collect()
+    on_all_cores(|| proved.collect::<Vec<_>>()).into_iter().collect()
 }
 
 /// # Errors
@@ -137,12 +138,11 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
     let mut schemes = schemes.unwrap_or_default();
     schemes.resize_with(windows.len(), Default::default);
     let parts = windows.into_par_iter().zip(grids).zip(deformations).zip(schemes.into_par_iter().zip(combined));
-    let windows: Vec<Window> = parts
-        .map(|(((w, grid), deformation), further)| {
-            wanted(observer)?;
-            w.into_window(grid, &domain, deformation, further)
-        })
-        .collect::<Result<_, _>>()?;
+    let parts = parts.map(|(((w, grid), deformation), further)| {
+        wanted(observer)?;
+        w.into_window(grid, &domain, deformation, further)
+    });
+    let windows: Vec<Window> = on_all_cores(|| parts.collect::<Result<_, _>>())?;
     let Some(kind) = windows.first().map(|window| window.grid.kind()) else {
         return Err(damaged("no windows"));
     };

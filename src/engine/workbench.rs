@@ -3,6 +3,7 @@
 use super::model_file::ModelFileError;
 use super::store::Store;
 use super::{Answer, Embedded, EngineError, ReducedFacts, Request, embedded, line_in_time};
+use crate::host::clock::Stopwatch;
 use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::heat::Temperatures;
@@ -15,7 +16,6 @@ use crate::solver::reduced::{Online, ReducedError, ReducedModel, STANDS_IN, Trus
 use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
 
 /// What an answer says whose rupture front cycled.
 const CAUTIOUS: &str = "the rupture front went to and fro between two sets of nodes; from then on it was moved node by \
@@ -79,9 +79,9 @@ impl Workbench {
         let start = start.map_or(Start::Cold, Start::From);
         let grid = self.grid(request, observer)?;
         let (solution, wall_s) = self.store.with_full_solver(&grid, |solver| {
-            let clock = Instant::now();
+            let clock = Stopwatch::start();
             let solution = solver.solve(&request.point, request.lubricant, start, observer);
-            let wall_s = clock.elapsed().as_secs_f64();
+            let wall_s = clock.seconds();
             (solution.map(|solution| solver.judged(solution)), wall_s)
         });
         let solution = solution?;
@@ -143,9 +143,9 @@ impl Workbench {
         let online = self.online.push_mut(online);
         // Operators belong to the model: wall_s is the solve alone.
         online.prepare(&problem.point);
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let solved = online.solve(&problem.point, request.lubricant);
-        let wall_s = clock.elapsed().as_secs_f64();
+        let wall_s = clock.seconds();
         let window = window_of(&model, &problem.point)?;
         let (nodes, nodes_across) = window.grid.nodes();
         let trust = model.trust(problem);

@@ -5,6 +5,8 @@ use crate::tables::structured;
 use crate::work::{long, refused};
 use ehl_explorer::cli::{Failure, PointOptions};
 use ehl_explorer::engine::{CONTACT_COLUMNS, ContactResult, Workbench, result_columns};
+use ehl_explorer::host::clock::Stopwatch;
+use ehl_explorer::host::pool::on_all_cores;
 use ehl_explorer::scene::Bench;
 use ehl_explorer::solver::observer::{Observer, Progress};
 use numpy::PyReadonlyArray1;
@@ -12,7 +14,6 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::ScopedJoinHandle;
-use std::time::Instant;
 
 /// Contacts for which a reduced solver is taken at a time; its operators cost as much as a few solves.
 const CHUNK: usize = 128;
@@ -61,7 +62,7 @@ pub fn solve_many<'py>(
     let numbers = long(py, progress, |watch| {
         let mut numbers = vec![f64::NAN; width * total];
         let done = AtomicUsize::new(0);
-        numbers.par_chunks_mut(width * CHUNK).enumerate().try_for_each(|(chunk, rows)| {
+        let solve = |(chunk, rows): (usize, &mut [f64])| {
             let mut bench = bench_with(model.as_ref());
             for (i, row) in rows.chunks_exact_mut(width).enumerate() {
                 let k = chunk * CHUNK + i;
@@ -77,7 +78,8 @@ pub fn solve_many<'py>(
             let done = done.fetch_add(rows.len() / width, Ordering::Relaxed) + rows.len() / width;
             watch.progress(Progress { stage: "contacts".to_owned(), done, total });
             if watch.cancelled() { Err(Failure::Stopped) } else { Ok(()) }
-        })?;
+        };
+        on_all_cores(|| numbers.par_chunks_mut(width * CHUNK).enumerate().try_for_each(solve))?;
         Ok(numbers)
     })?;
     let titles: Vec<&str> = names.iter().map(|name| name.strip_prefix("reduced.").unwrap_or(name)).collect();
@@ -106,7 +108,7 @@ pub fn measure(
         Ok::<_, String>(())
     };
     let seconds = py.detach(|| {
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let work = || solve(&mut asked.bench(), runs.div_ceil(threads.max(1)));
         // One thread is the caller's: that of a call from Python, on the same core and with the same cache.
         let done = if threads <= 1 {
@@ -118,7 +120,7 @@ pub fn measure(
                 ends.try_for_each(|end| end.unwrap_or_else(|_| Err("a solve broke".to_owned())))
             })
         };
-        done.map(|()| clock.elapsed().as_secs_f64())
+        done.map(|()| clock.seconds())
     });
     seconds.map_err(refused)
 }

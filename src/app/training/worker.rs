@@ -2,9 +2,10 @@
 
 use super::chart::Chart;
 use crate::app::answers::jobs::wake;
-use crate::engine::job::{Ending, Job, Reporter, guarded, on_spare_cores};
+use crate::engine::job::{Ending, Job, Reporter, guarded};
 use crate::engine::model_file;
 use crate::engine::training_file::{self, TrainingKeeper};
+use crate::host::pool::on_spare_cores;
 use crate::scene::atomic_file;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{

@@ -5,12 +5,13 @@ use super::program::{PROGRAM, hash_of, own_hash, read};
 use super::round::{Pieces, Round};
 use super::{CampaignError, VERSION, merge, shard, slurm};
 use crate::engine::{EngineError, Store, Workbench};
+use crate::host::clock::Stopwatch;
 use crate::scene::atomic_file::{self, WriteError};
 use crate::scene::{CaseTable, ModelSource, Scene, SceneFileError, Study};
 use crate::solver::observer::{Observer, Progress};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Shortest shards that may be asked for \[s\]: what a scheduler adds to each is to be next to nothing.
 const SHORTEST_S: f64 = 10.0;
@@ -97,7 +98,7 @@ impl Campaign {
 }
 
 /// Stops once it has taken long enough.
-struct Patience(Instant);
+struct Patience(Stopwatch);
 
 impl Observer for Patience {
     fn cancelled(&self) -> bool {
@@ -208,14 +209,14 @@ fn self_contained(scene: &mut Scene, base: &Path) -> Result<Vec<(String, Vec<u8>
 /// Seconds that a piece takes here, by some that lie apart; the first one, which makes grids and reads models, counts
 /// only where it is alone.
 fn tried(scene: &Scene, pieces: &Pieces, bench: &mut Workbench) -> Result<f64, CampaignError> {
-    let (count, patience) = (pieces.len(), Patience(Instant::now()));
+    let (count, patience) = (pieces.len(), Patience(Stopwatch::start()));
     let mut seconds = Vec::new();
     for k in 0..TRIED.min(count) {
         let one = Round { first: 0, per_shard: 1, pieces: pieces.clone() }.part(k * count / TRIED.min(count));
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         match shard::work(scene, 0, &one, bench, &patience) {
             Err(stopped) if !matches!(&stopped, CampaignError::Run(error) if error.cancelled()) => return Err(stopped),
-            _ => seconds.push(clock.elapsed().as_secs_f64()),
+            _ => seconds.push(clock.seconds()),
         }
         if patience.cancelled() {
             break;

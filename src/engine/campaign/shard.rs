@@ -8,6 +8,8 @@ use super::round::Part;
 use super::{CampaignError, VERSION};
 use crate::engine::checked_file::{Flaw, Format, Unreadable};
 use crate::engine::{EngineError, Store, Workbench};
+use crate::host::clock::Stopwatch;
+use crate::host::pool::{map_with, on_threads};
 use crate::scene::atomic_file;
 use crate::scene::study::PieceRow;
 use crate::scene::{Scene, StudyObserver, StudyRow};
@@ -17,12 +19,10 @@ use crate::solver::observer::{NewtonStep, Observer, Progress};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::training::{Solved, TrainingError, TrainingObserver, TrainingSpec};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
 
 /// Full solutions of the finest grids, as many as a day gives.
 const FORMAT: Format =
@@ -205,7 +205,7 @@ fn solve_all(
     observer: &dyn Observer,
 ) -> Result<Vec<(usize, OperatingPoint, Option<Solved>)>, EngineError> {
     let grid = grid.build().map_err(SolveError::from)?;
-    let solve = |solver: &mut ContactSolver, (place, point): &(usize, OperatingPoint)| {
+    let solve = |solver: &mut ContactSolver, _, (place, point): &(usize, OperatingPoint)| {
         let solution = solver.solve(point, lubricant(point), Start::Cold, observer)?;
         if observer.cancelled() {
             return Err(EngineError::from(TrainingError::Cancelled));
@@ -214,7 +214,7 @@ fn solve_all(
         let solved = if solution.converged() { Some(Solved::new(*place, solution)) } else { None };
         Ok((*place, *point, solved))
     };
-    points.par_iter().map_init(|| ContactSolver::on(&grid), solve).collect()
+    map_with(points, || ContactSolver::on(&grid), solve)
 }
 
 /// Computes a shard on so many threads, unless it is there already. Where another process computes it, waits for that.
@@ -240,15 +240,9 @@ pub fn compute(
         return Ok(Done::There);
     }
     let computed = || -> Result<(), CampaignError> {
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let mut bench = Workbench::on(&Store::default(), &folder.path);
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let mut go = || work(&folder.scene, round, &part, &mut bench, observer);
-        let mut content = match pool {
-            Ok(pool) => pool.install(go)?,
-            // Without threads of its own it takes those that there are.
-            Err(_) => go()?,
-        };
+        let mut content = on_threads(threads, || work(&folder.scene, round, &part, &mut bench, observer))?;
         let times = content.take_seconds();
         let shard = Shard {
             program: folder.plan.program_hash.clone(),
@@ -258,7 +252,7 @@ pub fn compute(
             pieces: part.len(),
             content,
             times,
-            seconds: clock.elapsed().as_secs_f64(),
+            seconds: clock.seconds(),
             processor: processor(),
         };
         let path = folder.shard_path(number);

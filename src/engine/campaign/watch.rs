@@ -3,6 +3,7 @@
 use super::folder::{Folder, Status};
 use super::{CampaignError, shard};
 use crate::engine::job::{Job, Wake};
+use crate::host::worker::pause;
 use crate::scene::StudyRow;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -58,7 +59,7 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
                 if reporter.cancelled() {
                     return Ok(());
                 }
-                std::thread::sleep(HEARD_WITHIN);
+                pause(HEARD_WITHIN);
                 waited += HEARD_WITHIN;
             }
             if merged {

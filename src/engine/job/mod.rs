@@ -9,6 +9,8 @@ mod study;
 
 pub use queue::Queue;
 
+use crate::host::clock::Stopwatch;
+use crate::host::worker;
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
 use std::any::Any;
@@ -16,7 +18,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Shortest time between two calls of the owner on behalf of one job.
 const WAKE_EVERY: Duration = Duration::from_millis(50);
@@ -68,7 +70,7 @@ enum Event<M> {
 struct Wish {
     /// How often it was asked to stop.
     stops: AtomicU8,
-    begun: OnceLock<Instant>,
+    begun: OnceLock<Stopwatch>,
     /// How long it may work, once something newer waits.
     patience: OnceLock<Duration>,
 }
@@ -84,9 +86,9 @@ impl Wish {
 pub struct Job<M> {
     events: Receiver<Event<M>>,
     wish: Arc<Wish>,
-    since: Instant,
+    since: Stopwatch,
     stage: Progress,
-    stage_since: Instant,
+    stage_since: Stopwatch,
 }
 
 impl<M: Send + 'static> Job<M> {
@@ -94,15 +96,14 @@ impl<M: Send + 'static> Job<M> {
     pub fn start(name: &str, wake: Wake, work: impl FnOnce(&Reporter<M>) -> Ending + Send + 'static) -> Self {
         let (job, reporter) = Self::waiting(name, wake);
         // Where no thread can be had, the reporter is gone and the next poll says so.
-        let thread = std::thread::Builder::new().name(name.replace('\0', " "));
-        let _handle = thread.spawn(move || reporter.run(work));
+        let _handle = worker::spawn(name, move || reporter.run(work));
         job
     }
 
     /// A job that has not begun, and what its work will tell it by.
     fn waiting(name: &str, wake: Wake) -> (Self, Reporter<M>) {
         let (sender, events) = channel();
-        let (wish, since) = (Arc::new(Wish::default()), Instant::now());
+        let (wish, since) = (Arc::new(Wish::default()), Stopwatch::start());
         let stage = Progress { stage: name.to_owned(), done: 0, total: 0 };
         let reporter = Reporter { events: sender, wish: Arc::clone(&wish), wake, woken: Mutex::new(since) };
         (Self { events, wish, since, stage, stage_since: since }, reporter)
@@ -115,13 +116,13 @@ impl<M: Send + 'static> Job<M> {
 
     /// The same, waiting for the end for at most a while.
     pub fn poll_within(&mut self, patience: Duration, mut receive: impl FnMut(M)) -> Option<Ending> {
-        let begin = Instant::now();
+        let begin = Stopwatch::start();
         loop {
             match self.events.recv_timeout(patience.saturating_sub(begin.elapsed())) {
                 Ok(Event::Message(message)) => receive(message),
                 Ok(Event::Stage(progress)) => {
                     if progress.stage != self.stage.stage {
-                        self.stage_since = Instant::now();
+                        self.stage_since = Stopwatch::start();
                     }
                     self.stage = progress;
                 }
@@ -137,9 +138,9 @@ impl<M: Send + 'static> Job<M> {
     /// How far it is.
     pub fn standing(&self) -> Standing {
         let Progress { stage, done, total } = self.stage.clone();
-        let spent = self.stage_since.elapsed().as_secs_f64();
+        let spent = self.stage_since.seconds();
         let left_s = (done > 0 && total >= done).then(|| spent * (total - done) as f64 / done as f64);
-        Standing { stage, done, total, left_s, since_s: self.since.elapsed().as_secs_f64() }
+        Standing { stage, done, total, left_s, since_s: self.since.seconds() }
     }
 }
 
@@ -166,7 +167,7 @@ impl<M> Job<M> {
     }
 
     /// When it was asked for.
-    pub fn since(&self) -> Instant {
+    pub fn since(&self) -> Stopwatch {
         self.since
     }
 }
@@ -182,7 +183,7 @@ pub struct Reporter<M> {
     events: Sender<Event<M>>,
     wish: Arc<Wish>,
     wake: Wake,
-    woken: Mutex<Instant>,
+    woken: Mutex<Stopwatch>,
 }
 
 impl<M: Send> Reporter<M> {
@@ -211,7 +212,7 @@ impl<M: Send> Reporter<M> {
         if self.events.send(event).is_ok() {
             let mut woken = self.woken.lock().unwrap_or_else(PoisonError::into_inner);
             if woken.elapsed() > WAKE_EVERY {
-                *woken = Instant::now();
+                *woken = Stopwatch::start();
                 (self.wake.0)();
             }
         }
@@ -219,7 +220,7 @@ impl<M: Send> Reporter<M> {
 
     fn begin(&self) {
         // The first time counts.
-        let _ = self.wish.begun.set(Instant::now());
+        let _ = self.wish.begun.set(Stopwatch::start());
     }
 
     /// Does the work and says how it ended.
@@ -269,15 +270,6 @@ pub fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, String> {
 fn panic_text(payload: &(dyn Any + Send)) -> &str {
     let text = payload.downcast_ref::<&str>().copied();
     text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given")
-}
-
-/// Does work that is spread over threads on all cores but one, which is the window's and the live picture's.
-pub fn on_spare_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
-    match rayon::ThreadPoolBuilder::new().num_threads(cores).build() {
-        Ok(pool) => pool.install(work),
-        Err(_) => work(),
-    }
 }
 
 /// A job that can be started ever anew, and why the last one ended early.
@@ -342,22 +334,23 @@ impl<M> Background<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::host::worker::pause;
     use std::sync::atomic::AtomicUsize;
 
     fn ended<M: Send + 'static>(job: &mut Job<M>, mut receive: impl FnMut(M)) -> Ending {
-        let begin = Instant::now();
+        let begin = Stopwatch::start();
         loop {
             if let Some(ending) = job.poll(&mut receive) {
                 return ending;
             }
             assert!(begin.elapsed() < Duration::from_secs(300));
-            std::thread::sleep(Duration::from_millis(2));
+            pause(Duration::from_millis(2));
         }
     }
 
     fn endless(reporter: &Reporter<()>) -> Ending {
         while !reporter.cancelled() {
-            std::thread::sleep(Duration::from_millis(1));
+            pause(Duration::from_millis(1));
         }
         Ok(())
     }
@@ -386,12 +379,12 @@ mod tests {
         let mut job = Job::start("endless", Wake::default(), move |reporter: &Reporter<()>| {
             while !reporter.cancelled() {
                 asking.fetch_add(1, Ordering::Relaxed);
-                std::thread::sleep(Duration::from_millis(1));
+                pause(Duration::from_millis(1));
             }
             Ok(())
         });
         while asked.load(Ordering::Relaxed) == 0 {
-            std::thread::sleep(Duration::from_millis(1));
+            pause(Duration::from_millis(1));
         }
         job.stop();
         let before = asked.load(Ordering::Relaxed);
@@ -408,7 +401,7 @@ mod tests {
         let mut job = Job::start("called", Wake::new(move || calls.send(()).unwrap()), |reporter| {
             endless(reporter)?;
             while !reporter.abandoned().cancelled() {
-                std::thread::sleep(Duration::from_millis(1));
+                pause(Duration::from_millis(1));
             }
             Ok(())
         });

@@ -1,7 +1,8 @@
 //! The question of a scene as a job, whose messages are the rows of its study.
 
-use super::{Job, Reporter, Wake, on_spare_cores};
+use super::{Job, Reporter, Wake};
 use crate::engine::{EngineError, Workbench};
+use crate::host::pool::on_spare_cores;
 use crate::scene::study::transient::Model;
 use crate::scene::{Scene, Study, StudyObserver, StudyRow};
 
@@ -51,8 +52,10 @@ impl Scene {
 mod tests {
     use super::*;
     use crate::engine::Store;
+    use crate::host::clock::Stopwatch;
+    use crate::host::worker::pause;
     use crate::scene::{SceneOutcome, run_scene};
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
 
     /// One scene of each kind whose numbers the explorer also draws on tabs of their own.
     const SCENES: [&str; 4] = [
@@ -87,13 +90,13 @@ mod tests {
             // Twice, so that the second one works with what the first has left in the store.
             for _ in 0..2 {
                 let mut job = scene.clone().ask(Workbench::on(&store, ""), Wake::default());
-                let (begun, mut rows) = (Instant::now(), Vec::new());
+                let (begun, mut rows) = (Stopwatch::start(), Vec::new());
                 let ending = loop {
                     if let Some(ending) = job.poll(|row| rows.push(row)) {
                         break ending;
                     }
                     assert!(begun.elapsed() < Duration::from_secs(300), "{study}");
-                    std::thread::sleep(Duration::from_millis(5));
+                    pause(Duration::from_millis(5));
                 };
                 assert_eq!(ending, Ok(()), "{study}");
                 assert_eq!(values(scene.outcome(&rows, 0.0)), headless, "{study}");

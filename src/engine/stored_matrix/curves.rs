@@ -4,6 +4,7 @@
 use super::Values;
 use super::sorted::{Neighbours, Sorted};
 use crate::engine::packed::{packed, unpacked};
+use crate::host::pool::on_all_cores;
 use pco::{ChunkConfig, DeltaSpec, ModeSpec};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -93,7 +94,7 @@ impl Curves {
             });
             Some(values)
         };
-        Some((0..columns).into_par_iter().map(column).collect::<Option<Vec<_>>>()?.concat())
+        Some(on_all_cores(|| (0..columns).into_par_iter().map(column).collect::<Option<Vec<_>>>())?.concat())
     }
 }
 

@@ -4,6 +4,7 @@ use super::snapshots::{give_each, stored_coefficients};
 use super::sound::sound_interval;
 use super::window::StoredWindow;
 use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
+use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::GridCost;
 use crate::solver::physics::contact::Moes;
@@ -132,7 +133,7 @@ pub(super) fn deformations(
         let basis = stored.into_basis(grid.len()).filter(|basis| basis.modes.ncols() > 0)?;
         Some(Some(Arc::new(basis)))
     });
-    let own: Vec<Option<Arc<PodBasis>>> = own.collect::<Option<_>>()?;
+    let own: Vec<Option<Arc<PodBasis>>> = on_all_cores(|| own.collect::<Option<_>>())?;
     let first = own.first().cloned().flatten();
     own.into_iter().map(|own| own.or_else(|| first.clone())).collect()
 }

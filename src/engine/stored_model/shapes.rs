@@ -1,5 +1,6 @@
 //! What a model of ellipses has in a file beside what every model has.
 
+use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::contact::Ellipse;
 use crate::solver::physics::lubricant::Cavitation;
@@ -35,7 +36,7 @@ pub(super) fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windo
     }
     model.domain.radius_ratio = radius_ratio;
     let windows: Vec<_> = model.windows.iter_mut().zip(windows).collect();
-    windows.into_par_iter().try_for_each(|(window, (ratios, radii))| {
+    let give = |(window, (ratios, radii)): (&mut Window, ((f64, f64), Vec<f64>))| {
         let ContactGrid::Point(grid) = &window.grid else { return None };
         if !sound(ratios) || radii.len() != window.snapshots.len() || window.cavitation != Cavitation::Penalty {
             return None;
@@ -46,5 +47,6 @@ pub(super) fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windo
             snapshot.point.check().ok()?;
         }
         Some(())
-    })
+    };
+    on_all_cores(|| windows.into_par_iter().try_for_each(give))
 }

@@ -3,6 +3,7 @@
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::host::clock::Stopwatch;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count, number};
 use crate::scene::parallel::{film_errors, full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
@@ -14,7 +15,6 @@ use crate::solver::training::{QuantityBox, Range, TrainingSpec, TrainingState, W
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Ways of sampling rows, on the same full solutions and basis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -105,9 +105,9 @@ fn one_by_one(
     let timed = |point: &OperatingPoint| {
         online.prepare(point);
         online.forget();
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let _ = online.solve(point, lubricant);
-        clock.elapsed().as_secs_f64()
+        clock.seconds()
     };
     points.iter().take(TIMED).map(timed).collect()
 }

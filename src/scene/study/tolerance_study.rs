@@ -8,6 +8,7 @@ use super::path::trajectory_points;
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::host::clock::Stopwatch;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
@@ -18,7 +19,6 @@ use crate::solver::training::{Plan, QuantityBox, Range, TrainingState, Windows, 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -146,9 +146,9 @@ impl Question for ToleranceStudy {
             }
             for (point, full) in along.iter().zip(&truth) {
                 online.forget();
-                let clock = Instant::now();
+                let clock = Stopwatch::start();
                 let solved = online.solve(point, experiment.lubricant);
-                measured.seconds.push(clock.elapsed().as_secs_f64());
+                measured.seconds.push(clock.seconds());
                 if let (Ok(solved), Some(full)) = (solved, full) {
                     let fields = online.reconstruct(&solved)?;
                     measured.residuals.push(measures.residuals(&solved.coefficients, &fields).sampled_rows);

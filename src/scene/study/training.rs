@@ -3,12 +3,12 @@
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::host::clock::Stopwatch;
 use crate::scene::check::refuse;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ReducedModel, Window};
 use crate::solver::training::TrainingSpec;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// The model.
 #[derive(Clone, Debug)]
@@ -55,10 +55,10 @@ impl Question for TrainingSpec {
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let spec = of_scene(self, setting.experiment);
         let model = setting.bench.trained(&spec, setting.observer)?;
-        let wall_s = clock.elapsed().as_secs_f64();
+        let wall_s = clock.seconds();
         tell(Row { embedded: setting.bench.is_embedded(&model), model, wall_s });
         Ok(())
     }

@@ -1,11 +1,11 @@
 //! Shear across the film, and the traction (3.41) it adds up to.
 
 use super::solution::{Problem, Scalars, Solution};
+use crate::host::pool;
 use crate::solver::discrete::heat::interpolated_across;
 use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::physics::lubricant::{LimitingStress, ScaledShear};
-use rayon::prelude::*;
 use std::fmt::{Display, Formatter};
 
 /// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every
@@ -158,7 +158,7 @@ impl Solution {
         let gradient = self.gradient();
         let ny = self.y.len();
         let mut stress = vec![0.0; self.pressure.len()];
-        stress.par_iter_mut().enumerate().with_min_len(256).for_each(|(k, stress)| {
+        pool::each(&mut stress, 256, |k, stress| {
             *stress = mid_film_stress(&self.problem, self.state(&gradient, k / ny, k % ny));
         });
         stress

@@ -9,6 +9,7 @@ use super::{
     HeatedOilRange, HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingOilRange, SlidingRange, TrainingError,
     TrainingObserver, TrainingSpec, WindowSpec, Windows,
 };
+use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
 use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
@@ -200,29 +201,24 @@ impl<'a> WindowTraining<'a> {
         let (spec, observer) = (self.spec, self.observer);
         let stage = format!("Full solutions, M {}…{}", self.window.m.0, self.window.m.1);
         let done = AtomicUsize::new(before);
-        points
-            .par_iter()
-            .map_init(
-                || ContactSolver::on(&self.grid),
-                |solver, (place, point)| {
-                    if observer.cancelled() {
-                        return Err(TrainingError::Cancelled);
-                    }
-                    let solution = solver.solve(point, spec.lubricant_of(point), Start::Cold, observer)?;
-                    let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                    observer.progress(Progress { stage: stage.clone(), done, total });
-                    if solution.converged() {
-                        let solution = if spec.tells_grid_costs() { solver.judged(solution) } else { solution };
-                        Ok(Solved::new(*place, solution))
-                    } else if observer.cancelled() {
-                        Err(TrainingError::Cancelled)
-                    } else {
-                        let moes = point.moes();
-                        Err(TrainingError::NotConverged { m: moes.m, l: moes.l })
-                    }
-                },
-            )
-            .collect()
+        let solve = |solver: &mut ContactSolver, (place, point): &(usize, OperatingPoint)| {
+            if observer.cancelled() {
+                return Err(TrainingError::Cancelled);
+            }
+            let solution = solver.solve(point, spec.lubricant_of(point), Start::Cold, observer)?;
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            observer.progress(Progress { stage: stage.clone(), done, total });
+            if solution.converged() {
+                let solution = if spec.tells_grid_costs() { solver.judged(solution) } else { solution };
+                Ok(Solved::new(*place, solution))
+            } else if observer.cancelled() {
+                Err(TrainingError::Cancelled)
+            } else {
+                let moes = point.moes();
+                Err(TrainingError::NotConverged { m: moes.m, l: moes.l })
+            }
+        };
+        on_all_cores(|| points.par_iter().map_init(|| ContactSolver::on(&self.grid), solve).collect())
     }
 
     /// Bases of given solutions, with all rows; `None` when they need more modes than the window may have.

@@ -7,6 +7,7 @@ pub use request::{FullSolve, GridChoice, JobKind, Outcome};
 use crate::app::document::Key;
 use crate::engine::Store;
 use crate::engine::job::{Ending, Job, Queue, Reporter, Wake};
+use crate::host::clock::Stopwatch;
 use crate::solver::full::{Solution, Start};
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
@@ -36,7 +37,7 @@ pub struct Running {
     /// Krylov iterations of the present Newton step, where they are counted.
     pub krylov: usize,
     /// When it was handed over.
-    pub since: Instant,
+    pub since: Stopwatch,
     solved: Option<(Box<Solution>, f64)>,
     job: Job<News>,
 }
