@@ -87,7 +87,7 @@ impl Sheets {
             match solve() {
                 Ok(purpose) => reporter.send(purpose),
                 Err(error) if error.cancelled() || reporter.cancelled() => {}
-                Err(error) => return Err(error.to_string()),
+                Err(error) => return Err(error.to_string().into()),
             }
             Ok(())
         }));

@@ -29,6 +29,7 @@ pub use sweep::{Sweep, Swept, Varied};
 use crate::engine::campaign::Folder;
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand};
+use std::fmt::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -86,12 +87,9 @@ struct InfoArgs {
     arrays: Option<PathBuf>,
 }
 
-/// Opens the explorer on a scene, where there is one; it returns when its window is closed, with a sentence where none
-/// can be had.
-pub type Explorer = fn(Option<PathBuf>) -> Result<(), String>;
-
-/// The program: parses the command line, runs the command, returns its exit code.
-pub fn main(explorer: Explorer) -> ExitCode {
+/// The program: parses the command line, runs the command, returns its exit code. `explorer` opens the window on a scene,
+/// or on the last session, and returns when the window is closed.
+pub fn main<E: Display>(explorer: impl FnOnce(Option<PathBuf>) -> Result<(), E>) -> ExitCode {
     if let Some(failure) = negative_infinity() {
         return finish(Err(failure));
     }
@@ -128,7 +126,10 @@ fn finish(result: Result<Verdict, Failure>) -> ExitCode {
 }
 
 /// Opens the explorer; a scene is read here first, so that a wrong one is refused before a window opens.
-fn explore(scene: Option<PathBuf>, explorer: Explorer) -> Result<Verdict, Failure> {
+fn explore<E: Display>(
+    scene: Option<PathBuf>,
+    explorer: impl FnOnce(Option<PathBuf>) -> Result<(), E>,
+) -> Result<Verdict, Failure> {
     if let Some(folder) = scene.as_deref().and_then(Folder::meant) {
         Folder::open(&folder)?;
     } else if let Some(path) = &scene {
@@ -142,7 +143,7 @@ fn explore(scene: Option<PathBuf>, explorer: Explorer) -> Result<Verdict, Failur
             Failure::Request(format!("{error}{hint}"))
         })?;
     }
-    explorer(scene).map(|()| Verdict::Done).map_err(Failure::Request)
+    explorer(scene).map(|()| Verdict::Done).map_err(|why| Failure::Request(why.to_string()))
 }
 
 /// A number that looks like an option: it is refused by its own name.

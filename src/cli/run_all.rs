@@ -5,7 +5,10 @@ use super::failure::Failure;
 use super::output;
 use super::run::{RunArgs, keep_model, make_out, outcome_of, stem, tell};
 use crate::engine::results::{Entry, PAGE, SceneFile, entries_of, page, scenes_below, summary};
-use crate::engine::{Store, job::guarded};
+use crate::engine::{
+    Store,
+    job::{JobError, guarded},
+};
 use crate::scene::atomic_file;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -76,7 +79,7 @@ fn serves(entry: &Entry, file: &SceneFile, args: &RunArgs) -> bool {
 
 fn entry_of(file: &SceneFile, args: &RunArgs, store: &Store, all: &[PathBuf]) -> Result<Entry, Failure> {
     let ran = guarded(|| outcome_of(&file.path, &file.scene, store));
-    let outcome = ran.and_then(|outcome| outcome.map_err(|refused| refused.to_string()));
+    let outcome = ran.map_err(JobError::from).and_then(|outcome| outcome.map_err(JobError::failed));
     match &outcome {
         Ok(outcome) => {
             if let Some(out) = &args.out {

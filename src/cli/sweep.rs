@@ -40,40 +40,44 @@ pub struct Varied {
 }
 
 impl std::str::FromStr for Varied {
-    type Err = String;
+    type Err = Failure;
 
     /// Reads `NAME=FROM:TO:N[:log|:graded:HALF]`.
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, Failure> {
         varied(text)
     }
 }
 
-fn varied(text: &str) -> Result<Varied, String> {
+fn refuse<T>(sentence: String) -> Result<T, Failure> {
+    Err(Failure::Request(sentence))
+}
+
+fn varied(text: &str) -> Result<Varied, Failure> {
     let shape = "write NAME=FROM:TO:N, as in moes-m=10:100:19, with :log for a constant ratio or :graded:HALF for half \
                  of the values up to HALF";
-    let (name, range) = text.split_once('=').ok_or(shape)?;
+    let (name, range) = text.split_once('=').ok_or_else(|| Failure::Request(shape.to_owned()))?;
     let parts: Vec<&str> = range.split(':').collect();
     let (ends, log, half) = match parts.as_slice() {
         [from, to, n] => ((*from, *to, *n), false, None),
         [from, to, n, "log"] => ((*from, *to, *n), true, None),
         [from, to, n, "graded", half] => ((*from, *to, *n), false, Some(*half)),
-        _ => return Err(shape.to_owned()),
+        _ => return refuse(shape.to_owned()),
     };
-    let number = |text: &str| text.parse::<f64>().map_err(|_| format!("`{text}` is no number; {shape}"));
+    let number = |text: &str| text.parse::<f64>().or_else(|_| refuse(format!("`{text}` is no number; {shape}")));
     let (from, to) = (number(ends.0)?, number(ends.1)?);
-    let n: usize = ends.2.parse().map_err(|_| format!("`{}` is no count; {shape}", ends.2))?;
+    let n: usize = ends.2.parse().or_else(|_| refuse(format!("`{}` is no count; {shape}", ends.2)))?;
     if !(from.is_finite() && to.is_finite()) {
-        return Err(format!("{from} to {to} is no finite range; {shape}"));
+        return refuse(format!("{from} to {to} is no finite range; {shape}"));
     }
     if !(1..=MAX_POINTS).contains(&n) {
-        return Err(format!("{n} values are asked for; between 1 and {MAX_POINTS} are accepted"));
+        return refuse(format!("{n} values are asked for; between 1 and {MAX_POINTS} are accepted"));
     }
     if log && !(from > 0.0 && to > 0.0) {
-        return Err("a constant ratio needs positive ends; leave out :log".to_owned());
+        return refuse("a constant ratio needs positive ends; leave out :log".to_owned());
     }
     let steps = match half.map(number).transpose()? {
         Some(half) => {
-            Steps::check_grading(from, half, to)?;
+            Steps::check_grading(from, half, to).or_else(|why| refuse(why.to_string()))?;
             Steps::Graded { from, half, to, n }
         }
         None if log => Steps::Log { from, to, n },

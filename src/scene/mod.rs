@@ -40,7 +40,7 @@ pub mod table;
 mod view;
 
 pub use at::At;
-pub use axis::{Axis, Steps};
+pub use axis::{Axis, GradingError, Steps};
 pub use bench::{Answer, Bench, ReducedFacts, Request, answer_or_full};
 pub use chart::{Band, Chart, ChartAxis, ColorScale, Map, Marks, Note, Series};
 pub use chart_page::{Page, drawn};

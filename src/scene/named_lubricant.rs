@@ -175,14 +175,17 @@ pub fn of_laws(laws: &Lubricant) -> Option<&'static NamedLubricant> {
     NAMED.iter().find(same).or_else(|| NAMED.iter().find(film))
 }
 
+/// There is no lubricant of a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no lubricant of that name; accepted are {}", NAMED.map(|lubricant| lubricant.name).join(", "))]
+pub struct UnknownLubricant;
+
 /// The lubricant of a name.
 ///
 /// # Errors
-/// With a sentence that lists the accepted names.
-pub fn by_name(name: &str) -> Result<NamedLubricant, String> {
-    let accepted = || NAMED.map(|lubricant| lubricant.name).join(", ");
-    let found = NAMED.iter().find(|lubricant| lubricant.name == name).copied();
-    found.ok_or_else(|| format!("there is no lubricant of that name; accepted are {}", accepted()))
+/// When there is none; the sentence lists the accepted names.
+pub fn by_name(name: &str) -> Result<NamedLubricant, UnknownLubricant> {
+    NAMED.iter().find(|lubricant| lubricant.name == name).copied().ok_or(UnknownLubricant)
 }
 
 #[cfg(test)]

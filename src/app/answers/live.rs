@@ -64,7 +64,7 @@ impl Running {
             (Ok(()), Some(solved)) => Ok(solved),
             _ if self.job.stopping() => Err(Unanswered::Stopped),
             (Ok(()), None) => Err(Unanswered::Failed("the reduced solve ended without a result".to_owned())),
-            (Err(why), _) => Err(Unanswered::Failed(why)),
+            (Err(why), _) => Err(Unanswered::Failed(why.to_string())),
         })
     }
 }
@@ -196,7 +196,7 @@ impl Live {
             while !reporter.cancelled() {
                 std::thread::sleep(Duration::from_millis(1));
             }
-            Err("cancelled".to_owned())
+            Err("cancelled".to_owned().into())
         });
         self.running.push(Running { ask, solved: None, ending: None, job });
     }

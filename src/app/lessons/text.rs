@@ -133,7 +133,7 @@ fn start_of(words: &str) -> Result<(OperatingPoint, &'static NamedLubricant), St
     let rest: Vec<&str> = parts.collect();
     let (point, name) = match *rest {
         ["published", name] => {
-            let known = by_name(name)?;
+            let known = by_name(name).map_err(|error| error.to_string())?;
             let point = known.studied_contact(kind);
             (point.ok_or_else(|| format!("{name} has no published contact; {like}"))?, known.name)
         }
@@ -143,7 +143,10 @@ fn start_of(words: &str) -> Result<(OperatingPoint, &'static NamedLubricant), St
                 value.ok_or_else(|| format!("{name} is missing; {like}"))
             };
             let request = MoesRequest::new(kind, number(m, "M")?, number(l, "L")?);
-            (si_from_moes(&request).map_err(|error| error.to_string())?, by_name(name)?.name)
+            (
+                si_from_moes(&request).map_err(|error| error.to_string())?,
+                by_name(name).map_err(|error| error.to_string())?.name,
+            )
         }
         _ => return Err(like.to_owned()),
     };

@@ -99,7 +99,7 @@ impl LiveCurve {
             // It was given up.
             Ok(()) if contacts < CURVE => None,
             Ok(()) => Some(curve),
-            Err(why) => Some(Curve { samples: Vec::new(), left_out: Err(why), ..curve }),
+            Err(why) => Some(Curve { samples: Vec::new(), left_out: Err(why.to_string()), ..curve }),
         }
     }
 }

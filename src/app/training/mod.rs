@@ -324,7 +324,7 @@ impl Training {
         let Some((ending, trained)) = running.receive() else { return };
         let seconds = running.job.since().elapsed().as_secs_f64();
         self.job = None;
-        self.notices.extend(ending.err().map(Notice::Wrong));
+        self.notices.extend(ending.err().map(|why| Notice::Wrong(why.to_string())));
         if let Some(trained) = trained {
             self.take(trained, seconds);
         }

@@ -228,7 +228,7 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
         Ok(Err(TrainingError::Cancelled)) => (Ended::Stopped, rest(&state, watch.reporter)),
         Ok(Err(error)) => (Ended::Failed(error.to_string()), rest(&state, watch.reporter)),
         // Whatever broke there would break here too.
-        Err(message) => (Ended::Failed(message.clone()), Err(message)),
+        Err(broken) => (Ended::Failed(broken.to_string()), Err(broken.to_string())),
     };
     let kept = match (keeper, &ended) {
         (Some(keeper), Ended::Complete) => keeper.discard(),
@@ -249,11 +249,11 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
 
 /// The model of what there is, unless that is not wanted either.
 fn rest(state: &TrainingState, reporter: &Reporter<Trained>) -> Result<Made, String> {
-    guarded(|| state.model(&reporter.abandoned())).and_then(|result| match result {
+    match guarded(|| state.model(&reporter.abandoned())).map_err(|broken| broken.to_string())? {
         Ok(model) => file_of(model),
         Err(TrainingError::Cancelled) => Err("no model was made of them".to_owned()),
         Err(error) => Err(error.to_string()),
-    })
+    }
 }
 
 fn file_of(model: ReducedModel) -> Result<Made, String> {

@@ -2,7 +2,7 @@
 
 use super::folder::{Folder, Status};
 use super::{CampaignError, shard};
-use crate::engine::job::{Job, Wake};
+use crate::engine::job::{Job, JobError, Wake};
 use crate::host::worker::pause;
 use crate::scene::StudyRow;
 use std::collections::BTreeSet;
@@ -29,7 +29,7 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
         let (mut read, mut told): (BTreeSet<usize>, Option<Status>) = Default::default();
         let mut there = None;
         loop {
-            let folder = Folder::open(&path).map_err(|reason| reason.to_string())?;
+            let folder = Folder::open(&path).map_err(JobError::failed)?;
             let status = folder.status();
             let new: Vec<usize> = folder.done().into_iter().filter(|shard| !read.contains(shard)).collect();
             for shard in new {
@@ -41,7 +41,7 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
                         Ok(found) => reporter.send(News::Rows(shard, found.rows())),
                         // One that cannot be read now may be replaced.
                         Err(CampaignError::Read { .. }) => continue,
-                        Err(refused) => return Err(refused.to_string()),
+                        Err(refused) => return Err(JobError::failed(refused)),
                     }
                 }
                 read.insert(shard);

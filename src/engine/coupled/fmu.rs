@@ -3,7 +3,7 @@
 //! The archive holds `modelDescription.xml`, the model, and a library that knows neither: what it is to be it learns from
 //! the identity that the description repeats to it.
 
-use super::{Coupled, InTime, Inputs, Outputs, Pressed};
+use super::{Coupled, CoupledError, InTime, Inputs, Outputs, Pressed};
 use crate::engine::SavedModel;
 use crate::engine::archive::zip;
 use crate::solver::physics::contact::ContactKind;
@@ -158,12 +158,12 @@ impl Real {
     ///
     /// # Errors
     /// With a sentence where it is no number, or nothing to be given.
-    pub fn set(&self, role: Role, inputs: &mut Inputs, value: f64) -> Result<(), String> {
+    pub fn set(&self, role: Role, inputs: &mut Inputs, value: f64) -> Result<(), CoupledError> {
         let (Some(input), true) = (self.input, role != Role::Output) else {
-            return Err(format!("`{}` follows from the inputs and cannot be set", self.name));
+            return Err(CoupledError::Output(self.name));
         };
         if !value.is_finite() {
-            return Err(format!("`{}` is {value}, but must be a finite number", self.name));
+            return Err(CoupledError::NoNumber { name: self.name, value });
         }
         *input(inputs) = value;
         Ok(())
@@ -203,7 +203,12 @@ pub fn library_file() -> String {
 ///
 /// # Errors
 /// With a sentence where the model has no contact to begin with, or cannot be driven so.
-pub fn archive(model: &SavedModel, content: Vec<u8>, pressed: Pressed, library: Vec<u8>) -> Result<Vec<u8>, String> {
+pub fn archive(
+    model: &SavedModel,
+    content: Vec<u8>,
+    pressed: Pressed,
+    library: Vec<u8>,
+) -> Result<Vec<u8>, CoupledError> {
     let description = description(model, &content, pressed)?;
     let files = [
         ("modelDescription.xml".to_owned(), description.into_bytes()),
@@ -221,22 +226,20 @@ fn escaped(text: &str) -> String {
 ///
 /// # Errors
 /// With a sentence where the model has no contact to begin with, or cannot be driven so.
-pub fn first_inputs(model: &SavedModel, pressed: Pressed) -> Result<Inputs, String> {
-    let none = || format!("the reduced model `{}` solves none of its own training points", model.title());
+pub fn first_inputs(model: &SavedModel, pressed: Pressed) -> Result<Inputs, CoupledError> {
+    let none = || CoupledError::NoStart(model.title().to_owned());
     match model {
         SavedModel::Stationary(model) => {
             Coupled::new(Arc::clone(model), pressed)?;
             Coupled::first_inputs(model).ok_or_else(none)
         }
-        SavedModel::InTime(_) if pressed == Pressed::Approach => {
-            Err("a model in time is driven by its load; leave out --approach".to_owned())
-        }
+        SavedModel::InTime(_) if pressed == Pressed::Approach => Err(CoupledError::ApproachInTime),
         SavedModel::InTime(model) => InTime::first_inputs(model).ok_or_else(none),
     }
 }
 
 /// `modelDescription.xml` of a model and the content of its file.
-fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<String, String> {
+fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<String, CoupledError> {
     let inputs = first_inputs(model, pressed)?;
     let mut text = String::new();
     let (title, version) = (escaped(model.title()), env!("CARGO_PKG_VERSION"));
@@ -385,9 +388,9 @@ mod tests {
             assert!((found.load > inputs.load) == (share > 1.0 + 1e-9) || share == 1.0);
         }
         let refused = by_approach.solve(&Inputs { approach_m: -1e-6, ..inputs }).unwrap_err();
-        assert!(refused.contains("above zero"), "{refused}");
+        assert!(refused.to_string().contains("above zero"), "{refused}");
         let line = Embedded::Line.model().unwrap();
-        assert!(Coupled::new(line, Pressed::Approach).is_err_and(|why| why.contains("load instead")));
+        assert!(Coupled::new(line, Pressed::Approach).is_err_and(|why| why.to_string().contains("load instead")));
     }
 
     #[test]
@@ -404,7 +407,7 @@ mod tests {
         let beyond = coupled.solve(&Inputs { load: 30.0 * inputs.load, ..inputs }).unwrap();
         assert!(!beyond.trained && !beyond.warnings.is_empty(), "{beyond:?}");
         let mut inputs = inputs;
-        assert!(REALS[0].set(Role::Input, &mut inputs, f64::NAN).is_err_and(|why| why.contains("radius")));
+        assert!(REALS[0].set(Role::Input, &mut inputs, f64::NAN).is_err_and(|why| why.to_string().contains("radius")));
         let follows = REALS.iter().find(|real| real.name == "film_central").unwrap();
         assert!(follows.set(Role::Output, &mut inputs, 1.0).is_err());
     }

@@ -4,14 +4,16 @@
 //! answers is what `solve --method reduced` answers, to the last bit; each contact is solved afresh, so that an answer
 //! hangs on its inputs only. [`InTime`] is the same for models in time, whose state advances. [`fmu`] is what the Functional Mock-up Interface calls such a part.
 
+mod error;
 pub mod fmu;
 mod in_time;
 
+pub use error::CoupledError;
 pub use in_time::{InTime, InTimeState};
 
+use self::error::{check, check_sliding};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
-use crate::solver::limits::Number;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 use crate::solver::reduced::{ErrorEstimate, Online, ReducedModel, ReducedOptions, Trust};
@@ -98,14 +100,12 @@ impl Coupled {
     ///
     /// # Errors
     /// With a sentence where the model has no window, or an approach is wanted of a line contact.
-    pub fn new(model: Arc<ReducedModel>, pressed: Pressed) -> Result<Self, String> {
+    pub fn new(model: Arc<ReducedModel>, pressed: Pressed) -> Result<Self, CoupledError> {
         if model.windows.is_empty() {
-            return Err(format!("the reduced model `{}` holds no window", model.title));
+            return Err(CoupledError::NoWindow(model.title.clone()));
         }
         if pressed == Pressed::Approach && model.contact() == ContactKind::Line {
-            return Err(
-                "the approach of a line contact hangs on the size of its bodies; give its load instead".to_owned()
-            );
+            return Err(CoupledError::LineApproach);
         }
         let online = Online::new(Arc::clone(&model), ReducedOptions::default());
         let lubricant = model.domain.lubricant;
@@ -148,7 +148,7 @@ impl Coupled {
     ///
     /// # Errors
     /// With a sentence where an input makes no sense, or neither the model nor the full solver has a solution.
-    pub fn solve(&mut self, inputs: &Inputs) -> Result<Outputs, String> {
+    pub fn solve(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         match self.pressed {
             Pressed::Load => self.under(inputs, inputs.load),
             Pressed::Approach => self.approached(inputs),
@@ -156,21 +156,21 @@ impl Coupled {
     }
 
     /// The outputs under a load.
-    fn under(&mut self, inputs: &Inputs, load: f64) -> Result<Outputs, String> {
+    fn under(&mut self, inputs: &Inputs, load: f64) -> Result<Outputs, CoupledError> {
         let point = self.point(inputs, load)?;
-        let problem = Problem::new(&point, self.lubricant).map_err(|error| error.to_string())?;
+        let problem = Problem::new(&point, self.lubricant)?;
         self.online.forget();
         let mut warnings = Vec::new();
         let reduced = match self.online.solve(&point, self.lubricant) {
             Ok(solved) => {
-                let fields = self.online.reconstruct(&solved).map_err(|error| error.to_string())?;
+                let fields = self.online.reconstruct(&solved)?;
                 Some((fields.of_problem(problem), solved))
             }
             Err(why) if why.without_solution().is_some() => {
                 warnings.extend([why.to_string(), "the full solver took over".to_owned()]);
                 None
             }
-            Err(refused) => return Err(refused.to_string()),
+            Err(refused) => return Err(refused.into()),
         };
         let full = reduced.is_none();
         let mut bounds = [f64::NAN; 3];
@@ -219,7 +219,7 @@ impl Coupled {
     }
 
     /// The contact that inputs describe under a load.
-    fn point(&self, inputs: &Inputs, load: f64) -> Result<OperatingPoint, String> {
+    fn point(&self, inputs: &Inputs, load: f64) -> Result<OperatingPoint, CoupledError> {
         let kind = self.model.contact();
         let quantities = [
             inputs.radius_m,
@@ -234,46 +234,35 @@ impl Coupled {
         if kind == ContactKind::Point && inputs.radius_ratio != 1.0 {
             point.radius_y_m = Some(inputs.radius_m * inputs.radius_ratio);
         }
-        let srr = inputs.slide_to_roll_ratio;
-        if !(srr.is_finite() && srr.abs() <= 10.0) {
-            return Err(format!(
-                "the slide-to-roll ratio is {}, but must be a finite number between -10 and 10",
-                Number(srr)
-            ));
-        }
-        point.check().map_err(|error| error.to_string())?;
+        check_sliding(inputs.slide_to_roll_ratio)?;
+        point.check()?;
         Ok(point)
     }
 
     /// The full solution on the model's grid.
-    fn in_full(&mut self, point: &OperatingPoint) -> Result<Solution, String> {
+    fn in_full(&mut self, point: &OperatingPoint) -> Result<Solution, CoupledError> {
         let grid = &self.model.window_at(point).grid;
         let solver = match self.full.take() {
             Some(solver) if solver.grid_spec() == grid.spec() => solver,
             _ => ContactSolver::on(grid),
         };
         let solver = self.full.insert(solver);
-        let solution = solver.solve(point, self.lubricant, Start::Cold, &()).map_err(|error| error.to_string())?;
+        let solution = solver.solve(point, self.lubricant, Start::Cold, &())?;
         if solution.converged() {
             return Ok(solution);
         }
-        Err(format!(
-            "neither the reduced model nor the full solver has a solution here: the full solver {}",
-            solution.report.termination.describe()
-        ))
+        Err(CoupledError::NoSolution(solution.report.termination))
     }
 
     /// The outputs at the wanted approach: the load is sought between two that give a smaller and a larger one.
-    fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, String> {
+    fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         let wanted = inputs.approach_m;
-        if !(wanted.is_finite() && wanted > 0.0) {
-            return Err(format!("the approach is {} m, but must be a finite number above zero", Number(wanted)));
-        }
+        check("approach", wanted, " m", (" above zero", |wanted| wanted > 0.0))?;
         let mut solves = 0;
         let mut miss = |own: &mut Self, load: f64| {
             solves += 1;
             if solves > MOST_SOLVES {
-                return Err(format!("no load was found that gives an approach of {} m", Number(wanted)));
+                return Err(CoupledError::NoLoad(wanted));
             }
             let outputs = own.under(inputs, load)?;
             Ok((load.ln(), outputs.approach_m / wanted - 1.0, outputs))

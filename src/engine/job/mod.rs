@@ -4,17 +4,17 @@
 //! A [`Job`] is what its owner holds, a [`Reporter`] what the work tells it by. Dropping the job stops the work. A
 //! [`Queue`] gives jobs to one thread that keeps only the newest request of each urgency: the live picture.
 
+mod error;
 mod queue;
 mod study;
 
+pub use error::{JobError, Panicked, guarded};
 pub use queue::Queue;
 
 use crate::host::clock::Stopwatch;
 use crate::host::worker;
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -23,8 +23,8 @@ use std::time::Duration;
 /// Shortest time between two calls of the owner on behalf of one job.
 const WAKE_EVERY: Duration = Duration::from_millis(50);
 
-/// How a job ended: with everything, stopped with what there is, or not at all for a reason given as a sentence.
-pub type Ending = Result<(), String>;
+/// How a job ended: with everything, stopped with what there is, or not at all.
+pub type Ending = Result<(), JobError>;
 
 /// Calls whoever waits for news of a job; called from the job's thread.
 #[derive(Clone)]
@@ -128,9 +128,7 @@ impl<M: Send + 'static> Job<M> {
                 }
                 Ok(Event::Ended(ending)) => return Some(ending),
                 Err(RecvTimeoutError::Timeout) => return None,
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Some(Err("no thread could be had for this work".to_owned()));
-                }
+                Err(RecvTimeoutError::Disconnected) => return Some(Err(JobError::NoThread)),
             }
         }
     }
@@ -226,7 +224,7 @@ impl<M: Send> Reporter<M> {
     /// Does the work and says how it ended.
     fn run(self, work: impl FnOnce(&Self) -> Ending) {
         self.begin();
-        let ending = guarded(|| work(&self)).and_then(|ending| ending);
+        let ending = guarded(|| work(&self)).unwrap_or_else(|panicked| Err(panicked.into()));
         // Nobody listens any more where the job was dropped.
         let _gone = self.events.send(Event::Ended(ending));
         (self.wake.0)();
@@ -256,22 +254,6 @@ impl Observer for Abandoned<'_> {
 
 impl TrainingObserver for Abandoned<'_> {}
 
-/// Runs something that may panic and turns the panic into a sentence.
-///
-/// # Errors
-/// The sentence.
-pub fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
-        let reason = panic_text(&*payload);
-        format!("the solver stopped unexpectedly ({reason}); the window and your work are not affected")
-    })
-}
-
-fn panic_text(payload: &(dyn Any + Send)) -> &str {
-    let text = payload.downcast_ref::<&str>().copied();
-    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given")
-}
-
 /// A job that can be started ever anew, and why the last one ended early.
 pub struct Background<M> {
     /// Why there is nothing, or no more.
@@ -293,10 +275,10 @@ impl<M: Send + 'static> Background<M> {
     }
 
     /// The same where there may be a sentence why there is no job.
-    pub fn start(&mut self, job: Result<Job<M>, String>) {
+    pub fn start(&mut self, job: Result<Job<M>, impl ToString>) {
         match job {
             Ok(job) => self.run(job),
-            Err(why) => *self = Self { message: Some(why), job: None },
+            Err(why) => *self = Self { message: Some(why.to_string()), job: None },
         }
     }
 
@@ -305,7 +287,7 @@ impl<M: Send + 'static> Background<M> {
         let Some(job) = &mut self.job else { return };
         if let Some(ending) = job.poll(receive) {
             if let Err(why) = ending {
-                self.message = Some(why);
+                self.message = Some(why.to_string());
             }
             self.job = None;
         }
@@ -365,7 +347,7 @@ mod tests {
             Ok(())
         });
         let mut seen = Vec::new();
-        assert_eq!(ended(&mut job, |k: usize| seen.push(k)), Ok(()));
+        ended(&mut job, |k: usize| seen.push(k)).unwrap();
         assert_eq!(seen, [0, 1, 2, 3, 4]);
         let standing = job.standing();
         assert_eq!((standing.stage.as_str(), standing.done, standing.total), ("counting", 5, 5));
@@ -388,11 +370,11 @@ mod tests {
         }
         job.stop();
         let before = asked.load(Ordering::Relaxed);
-        assert_eq!(ended(&mut job, |()| ()), Ok(()));
+        ended(&mut job, |()| ()).unwrap();
         let after = asked.load(Ordering::Relaxed);
         assert!(after <= before + 1, "{before} questions before the wish, {after} in all");
         let mut broken = Job::<()>::start("broken", Wake::default(), |_| panic!("index 7"));
-        assert!(ended(&mut broken, |()| ()).unwrap_err().contains("index 7"));
+        assert!(ended(&mut broken, |()| ()).unwrap_err().to_string().contains("index 7"));
     }
 
     #[test]
@@ -409,6 +391,6 @@ mod tests {
         assert!(job.stopping() && job.poll(|()| ()).is_none());
         job.stop();
         called.recv_timeout(Duration::from_secs(300)).unwrap();
-        assert_eq!(job.poll(|()| ()), Some(Ok(())));
+        assert!(matches!(job.poll(|()| ()), Some(Ok(()))));
     }
 }

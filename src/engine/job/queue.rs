@@ -82,6 +82,7 @@ impl<R, M> Drop for Queue<R, M> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::job::JobError;
     use crate::host::clock::Stopwatch;
     use crate::host::worker::pause;
     use std::sync::mpsc::channel;
@@ -91,7 +92,7 @@ mod tests {
     fn the_newest_request_replaces_the_one_that_waits_and_the_most_urgent_comes_first() {
         let (release, gate) = channel();
         let queue = Queue::new("test", 2, move |request: u32, reporter: &Reporter<u32>| {
-            gate.recv().map_err(|gone| gone.to_string())?;
+            gate.recv().map_err(JobError::failed)?;
             reporter.send(request);
             if request == 9 { panic!("nine") } else { Ok(()) }
         });
@@ -113,7 +114,7 @@ mod tests {
         }
         assert_eq!(answers, [1, 3, 9]);
         assert!(
-            matches!(&endings, [Some(Ok(())), Some(Err(_)), Some(Ok(())), Some(Err(nine))] if nine.contains("nine"))
+            matches!(&endings, [Some(Ok(())), Some(Err(_)), Some(Ok(())), Some(Err(nine))] if nine.to_string().contains("nine"))
         );
     }
 

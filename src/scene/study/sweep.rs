@@ -199,7 +199,7 @@ fn check_axis(axis: &Axis) -> Checked {
         Steps::Graded { from, half, to, .. } => {
             limit(*from)?;
             limit(*to)?;
-            Steps::check_grading(*from, *half, *to).map_err(|why| refuse(&field, why))
+            Steps::check_grading(*from, *half, *to).map_err(|why| refuse(&field, why.to_string()))
         }
         Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
     }

@@ -57,7 +57,7 @@ impl Running {
         Some(match (ending, solved.take()) {
             (Ok(()), Some((solution, wall_s))) => Outcome::Solved(solution, wall_s),
             (Ok(()), None) => Outcome::Failed("the solve ended without a result".to_owned()),
-            (Err(why), _) => Outcome::Failed(why),
+            (Err(why), _) => Outcome::Failed(why.to_string()),
         })
     }
 }
