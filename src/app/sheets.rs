@@ -68,7 +68,7 @@ impl Sheets {
             methods.push(in_use.method());
             bench = bench.using(&in_use.model);
         }
-        let (title, bodies) = (document.title.clone(), document.view.bodies.filter(|_| document.bodies_count()));
+        let (title, bodies) = (document.title.clone(), document.bodies_in_force());
         self.work.run(Job::start("Results sheet", wake(ctx), move |reporter| {
             let mut solve = || -> Result<Purpose, EngineError> {
                 let mut answers = Vec::new();

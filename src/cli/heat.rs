@@ -1,8 +1,8 @@
 //! The options of heat, shared by `solve` and `sweep`.
 
 use super::failure::Failure;
-use crate::solver::physics::engineering::MATERIALS;
-use crate::solver::physics::lubricant::{BodyHeat, Heat, OilHeat};
+use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
+use crate::solver::physics::lubricant::{Heat, OilHeat};
 use clap::Args;
 
 /// Heat in the film. SI units throughout.
@@ -26,11 +26,11 @@ pub struct HeatOptions {
     #[arg(long, value_name = "BETA_RHO", allow_hyphen_values = true)]
     density_temperature: Option<f64>,
     /// Thermal conductivity in W/(m K), heat capacity in J/(kg K) and density in kg/m³ of body 1, which moves with
-    /// u_m (1 + SRR/2), or a material: steel, silicon-nitride, bronze, cast-iron, glass, tungsten-carbide
+    /// u_m (1 - SRR/2), or a material: steel, silicon-nitride, bronze, cast-iron, glass, tungsten-carbide
     /// (default: steel, 47,460,7850)
     #[arg(long, value_name = "K,C,RHO|MATERIAL", allow_hyphen_values = true, value_parser = body)]
     body1: Option<BodyHeat>,
-    /// The same of body 2, which moves with u_m (1 - SRR/2)
+    /// The same of body 2, which moves with u_m (1 + SRR/2)
     #[arg(long, value_name = "K,C,RHO|MATERIAL", allow_hyphen_values = true, value_parser = body)]
     body2: Option<BodyHeat>,
 }
@@ -42,11 +42,10 @@ fn three(text: &str) -> Result<[f64; 3], String> {
 }
 
 fn body(text: &str) -> Result<BodyHeat, String> {
-    let word = |name: &str| name.to_lowercase().replace(' ', "-");
-    if let Some(material) = MATERIALS.into_iter().find(|material| word(material.name) == word(text)) {
+    if let Some(material) = Material::named(text) {
         return Ok(material.heat);
     }
-    let names = || MATERIALS.map(|material| word(material.name)).join(", ");
+    let names = || MATERIALS.map(|material| material.word()).join(", ");
     let [conductivity, heat_capacity, density] =
         three(text).map_err(|_| format!("accepted are three numbers, as in 47,460,7850, or one of {}", names()))?;
     Ok(BodyHeat { conductivity, heat_capacity, density })

@@ -1,6 +1,7 @@
 //! Thermal constants in postcard's encoding, which leaves nothing out as scenes do.
 
-use crate::solver::physics::lubricant::{BodyHeat, FreeVolumeHeat, Heat, OilHeat};
+use crate::solver::physics::bodies::BodyHeat;
+use crate::solver::physics::lubricant::{FreeVolumeHeat, Heat, OilHeat};
 use serde::{Deserialize, Serialize};
 
 /// What a film that warms itself needs to be computed.
@@ -62,11 +63,12 @@ impl From<StoredHeat> for Heat {
 mod tests {
     use super::*;
     use crate::scene::named_lubricant::NAMED;
+    use crate::solver::physics::bodies::Material;
 
     #[test]
     fn every_constant_survives() {
         for named in &NAMED {
-            let bodies = [BodyHeat::STEEL, BodyHeat { conductivity: 1.1, heat_capacity: 840.0, density: 2500.0 }];
+            let bodies = [Material::STEEL.heat, Material::GLASS.heat];
             let heat = Heat { oil: named.heat, bodies, inlet_temperature: 353.15 };
             let bytes = postcard::to_allocvec(&StoredHeat::from(heat)).unwrap();
             assert_eq!(Heat::from(postcard::from_bytes::<StoredHeat>(&bytes).unwrap()), heat, "{}", named.name);

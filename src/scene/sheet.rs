@@ -8,8 +8,9 @@ use super::drawing::escaped;
 use super::regimes::{self, Regime};
 use super::table::{quoted, significant};
 use crate::solver::full::Solution;
+use crate::solver::physics::bodies::{Bodies, film_regime};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, FilmShape};
-use crate::solver::physics::engineering::{Bodies, film_regime, largest_shear};
+use crate::solver::physics::engineering::largest_shear;
 use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -99,7 +100,7 @@ impl Sheet {
         let mut parts = Vec::new();
         let mut figures = Vec::new();
         if let Some(first) = solved.first() {
-            parts.push(inputs(first));
+            parts.push(inputs(first, bodies));
             parts.push(results(first, bodies));
             parts.extend(solved.iter().map(verification));
             parts.extend(difference(solved));
@@ -216,7 +217,7 @@ impl Value {
     }
 }
 
-fn inputs(solved: &Solved<'_>) -> Part {
+fn inputs(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     let point = &solved.result.point;
     let mut part = Part::new("Contact");
     let (kind, load) = match point.kind {
@@ -229,6 +230,10 @@ fn inputs(solved: &Solved<'_>) -> Part {
     part.number("Load w", point.load, load);
     part.number("Entrainment speed u_m", point.speed_m_per_s, "m/s");
     part.number("Slide-to-roll ratio SRR", point.sliding.slide_to_roll_ratio, "");
+    for (number, body) in (1..).zip(bodies.iter().flat_map(|bodies| bodies.0)) {
+        let material = body.material().map_or("", |material| material.name);
+        part.said(&format!("Speed of body {number}"), body.speed_m_per_s, "m/s", material);
+    }
     part.number("Viscosity at ambient pressure η₀", point.viscosity_pa_s, "Pa·s");
     part.number("Pressure–viscosity coefficient α", point.alpha_per_pa, "1/Pa");
     if let Some(solution) = solved.solution {
@@ -272,7 +277,11 @@ fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     {
         part.said("Film ratio λ", ratio, "", film_regime(ratio));
     }
-    let shear = largest_shear(point, bodies.map_or(0.3, |bodies| bodies.0.poisson));
+    for (name, key) in [("mid-film", "mid_film"), ("body 1", "surface_1"), ("body 2", "surface_2")] {
+        let rise = value(&format!("heat.{key}_rise_k"));
+        part.said(&format!("Temperature rise of {name}"), rise, "K", "at X = 0, above the inlet");
+    }
+    let shear = largest_shear(point, bodies.map_or(0.3, |bodies| bodies.0[0].poisson));
     let depth = shear.depth_over_half_width * hertz.half_width_m;
     part.said(
         "Largest shear under the surface",

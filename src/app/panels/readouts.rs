@@ -6,8 +6,8 @@ use crate::app::controls::sentence;
 use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
+use crate::solver::physics::bodies::film_regime;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::film_regime;
 use egui::{RichText, Ui, text::LayoutJob};
 use std::sync::Arc;
 

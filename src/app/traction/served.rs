@@ -26,8 +26,8 @@ pub struct Served {
 pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, String>)> {
     let varied = choices.against.varied();
     let key = document.key();
-    let mut point = key.point;
-    point.sliding.slide_to_roll_ratio = point.sliding.slide_to_roll_ratio.abs();
+    let key = if key.point.sliding.slide_to_roll_ratio < 0.0 { key.exchanged() } else { key };
+    let point = key.point;
     if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian || !choices.against.is_of(point.kind) {
         return None;
     }

@@ -298,13 +298,12 @@ impl Sweep {
         let mut point = self.varied.at(&self.base.point, self.varied.of(other));
         // A plateau that is the lubricant's own, and the sense of sliding, make no other sweep.
         let theirs = other.point.sliding;
-        if point.sliding.slide_to_roll_ratio == theirs.slide_to_roll_ratio.abs() {
-            point.sliding.slide_to_roll_ratio = theirs.slide_to_roll_ratio;
-        }
         if self.varied == Varied::Plateau {
             point.sliding.newtonian_plateau_ratio = theirs.newtonian_plateau_ratio;
         }
-        Key { point, lubricant: self.base.lubricant }
+        let key = Key { point, lubricant: self.base.lubricant };
+        let srr = theirs.slide_to_roll_ratio;
+        if srr < 0.0 && point.sliding.slide_to_roll_ratio == -srr { key.exchanged() } else { key }
     }
 
     /// What its contacts are compared with: with heat those without; without heat those of a lubricant that keeps its

@@ -77,7 +77,7 @@ pub struct Shear {
     pub rate_per_s: f64,
 }
 
-/// The shear stress of a film: linear across it, from the lower surface Z = 0 to the upper one Z = 1.
+/// The shear stress of a film: linear across it, from body 1 at Z = 0 to body 2 at Z = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct FilmStress {
     /// (τ_zx, τ_zy) at mid-film \[Pa\].
@@ -91,7 +91,7 @@ struct FilmStress {
 }
 
 impl Solution {
-    /// The same with heat: heights are those above body 1, and shear is positive where that is the faster one.
+    /// [`Self::shear_field`] with heat.
     fn warm_shear_field(&self, heights: &[f64]) -> Option<Vec<Shear>> {
         let (heat, laws) = (self.heat.as_ref()?, self.problem.warm_laws()?);
         let gradient = self.gradient();
@@ -105,7 +105,7 @@ impl Solution {
                     heat.shear_stress[k] + laws.heat.gradient * state.film * state.gradient[0] * (height - 0.5);
                 let theta = interpolated_across(rise_k, height) / heat.inlet_k;
                 let fluidity = laws.fluidity(state.pressure, theta, stress);
-                let (felt, rate) = (-stress * scale, -stress * fluidity * scale / self.problem.point.viscosity_pa_s);
+                let (felt, rate) = (stress * scale, stress * fluidity * scale / self.problem.point.viscosity_pa_s);
                 let limit = self.problem.lubricant.limiting_stress;
                 let pressure_pa = state.pressure * self.problem.point.hertz().pressure_pa;
                 let carried = limit.map_or(f64::INFINITY, |limit| limit.carried(felt.abs(), pressure_pa));
@@ -115,8 +115,8 @@ impl Solution {
         Some(field)
     }
 
-    /// Shear along the axis Y = 0 at heights z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of
-    /// [`Solution::profile`], the heights of a node one after the other. A limiting stress, where the lubricant has one,
+    /// Shear along the axis Y = 0 at heights z = Z h above body 1, 0 ≤ Z ≤ 1, in the order of [`Solution::profile`], the
+    /// heights of a node one after the other; positive where body 2 is the faster one. A limiting stress, where the lubricant has one,
     /// cuts the stress; the rate is the one of the film without it.
     pub fn shear_field(&self, heights: &[f64]) -> Vec<Shear> {
         if let Some(field) = self.warm_shear_field(heights) {

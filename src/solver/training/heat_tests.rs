@@ -3,8 +3,9 @@
 use super::small::{heated, heated_balls, heated_ellipses, heated_oils};
 use super::{HeatedOilRange, HeatedRange, OilRange, QuantityBox, Range, TrainingSpec, Windows, random_points, train};
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
+use crate::solver::physics::bodies::BodyHeat;
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
-use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, Lubricant};
+use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
 use crate::solver::reduced::{
     Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Sampling, ThermalDomain, TractionRule, Trust,
     traction_curve,
@@ -371,7 +372,7 @@ fn trainings_with_heat_are_of_ranges_with_heat() {
     let with = |range: HeatedRange| TrainingSpec { range: Range::Heated(range), ..good.clone() };
     assert!(refused(with(HeatedRange { srr: (0.0, 2.0), ..range })).contains("srr"));
     assert!(refused(with(HeatedRange { radius: -1.0, ..range })).to_lowercase().contains("radius"));
-    let cold = BodyHeat { conductivity: 0.0, ..BodyHeat::STEEL };
+    let cold = BodyHeat { conductivity: 0.0, ..BodyHeat::default() };
     let heat = Heat { bodies: [cold; 2], ..Heat::default() };
     assert!(refused(good.clone().heated(Some(heat))).contains("conductivity"));
     // What a model declares gives the range back.

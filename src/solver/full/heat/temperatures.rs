@@ -36,11 +36,10 @@ pub struct Temperatures {
     pub rise_k: Vec<Profile>,
     /// H there.
     pub thickness: Vec<f64>,
-    /// τ̄_m, the stress at mid-film over η₀u_mR/a², at the nodes of the solution, as it is without a limit; positive where
-    /// the film moves faster the farther it is from body 1.
+    /// τ̄_m, the stress at mid-film over η₀u_mR/a², at the nodes of the solution, without a limit; positive where body 2
+    /// is the faster one.
     pub shear_stress: Vec<f64>,
-    /// Shear stress at mid-film \[Pa\] at the nodes of the solution, positive where body 1 pulls; zero where the film is
-    /// ruptured.
+    /// The same in Pa, cut where the lubricant has a limit; zero where no pressure is.
     pub mid_stress_pa: Vec<f64>,
     /// At X = 0.
     pub central: Rises,
@@ -55,13 +54,13 @@ pub struct Temperatures {
     pub(super) source: Arc<MovingSource>,
 }
 
-/// Shear stress at mid-film \[Pa\] of a film whose τ̄_m is given, positive where body 1 pulls, cut where the lubricant has a
-/// limit; zero where no pressure is.
+/// Shear stress at mid-film \[Pa\] of a film whose τ̄_m is given, cut where the lubricant has a limit; zero where no
+/// pressure is.
 pub(in crate::solver) fn mid_stress_pa(problem: &Problem, heat: &ScaledHeat, stress: f64, pressure: f64) -> f64 {
     if pressure <= 0.0 {
         return 0.0;
     }
-    let felt = -stress * heat.stress_scale_pa;
+    let felt = stress * heat.stress_scale_pa;
     let carried = |limit: LimitingStress| limit.carried(felt.abs(), pressure * problem.fluid.hertz_pressure_pa());
     let carried = problem.lubricant.limiting_stress.map_or(f64::INFINITY, carried);
     carried.min(felt.abs()).copysign(felt)

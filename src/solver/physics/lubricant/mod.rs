@@ -18,7 +18,7 @@ mod words;
 pub use super::contact::Sliding;
 pub use cavitation::Cavitation;
 pub use free_volume::{Doolittle, Tait};
-pub use heat::{BodyHeat, FreeVolumeHeat, Heat, LARGEST_HEATED_SRR, OilHeat, ScaledHeat};
+pub use heat::{FreeVolumeHeat, Heat, LARGEST_HEATED_SRR, OilHeat, ScaledHeat};
 pub use heat_reduction::HeatReduction;
 pub use pressure_coefficient::GAUSS_6;
 pub use shear_thinning::{Fluidity, LimitingStress, ScaledShear, ShearLaw};

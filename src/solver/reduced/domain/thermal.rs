@@ -5,7 +5,8 @@
 
 use super::Bounded;
 use crate::solver::limits::{Refused, interval};
-use crate::solver::physics::lubricant::{BodyHeat, Heat, LimitingStress, Lubricant, OilHeat};
+use crate::solver::physics::bodies::BodyHeat;
+use crate::solver::physics::lubricant::{Heat, LimitingStress, Lubricant, OilHeat};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 
@@ -31,11 +32,6 @@ pub struct ThermalDomain {
     pub limit_slope: (f64, f64),
     /// Its τ_E \[Pa\].
     pub limit_eyring: (f64, f64),
-}
-
-/// √(kρc) of a body \[J/(m² K √s)\]: how its surface warms under a moving source hangs on that alone.
-fn effusivity(body: &BodyHeat) -> f64 {
-    (body.conductivity * body.density * body.heat_capacity).sqrt()
 }
 
 impl ThermalDomain {
@@ -72,7 +68,7 @@ impl ThermalDomain {
         }
         let bounded = |name, value, range, (scale, unit)| Bounded { name, value, range, scale, unit };
         let plain = |unit| (1.0, unit);
-        let [body_1, body_2] = bodies.map(|body| effusivity(&body));
+        let [body_1, body_2] = bodies.map(|body| body.effusivity());
         [
             bounded("the inlet’s temperature", inlet_temperature, self.inlet_temperature, plain(" K")),
             bounded("β", oil.viscosity_temperature, self.viscosity_temperature, plain("/K")),
@@ -109,11 +105,11 @@ impl ThermalDomain {
         let (low, high) = self.effusivity;
         let mut body = || {
             let wanted = low * (high / low).powf(between((0.0, 1.0)));
-            let steel = BodyHeat::STEEL;
-            BodyHeat { conductivity: steel.conductivity * (wanted / effusivity(&steel)).powi(2), ..steel }
+            let steel = BodyHeat::default();
+            BodyHeat { conductivity: steel.conductivity * (wanted / steel.effusivity()).powi(2), ..steel }
         };
-        let first = body();
-        let bodies = [first, if alike { first } else { body() }];
+        let faster = body();
+        let bodies = [if alike { faster } else { body() }, faster];
         let heat = Heat { inlet_temperature, oil, bodies };
         Lubricant { heat: Some(heat), limiting_stress: Some(limit), ..own }
     }
@@ -149,7 +145,7 @@ mod tests {
         let alike = heats().filter(|heat| heat.bodies[0] == heat.bodies[1]).count();
         assert!((150..250).contains(&alike), "{alike}");
         let coldest = heats().map(|heat| heat.inlet_temperature).fold(f64::INFINITY, f64::min);
-        let slowest = heats().map(|heat| effusivity(&heat.bodies[1])).fold(f64::INFINITY, f64::min);
+        let slowest = heats().map(|heat| heat.bodies[0].effusivity()).fold(f64::INFINITY, f64::min);
         assert!(coldest < 284.0 && slowest < 2700.0, "{coldest} {slowest}");
         assert!(RANGE.check().is_ok() && RANGE.outside(&own()).is_none());
     }

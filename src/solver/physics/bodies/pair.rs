@@ -1,40 +1,12 @@
-//! The two bodies: materials, radii, surface speeds and roughness, and what they amount to together.
+//! Both bodies together: reduced radii and modulus, entrainment and sliding, film ratio.
+//!
+//! SRR = (u₂ − u₁)/u_m (3.25): body 1 moves with u_m (1 − SRR/2), body 2 with u_m (1 + SRR/2).
 
-use crate::solver::physics::contact::{ContactError, reduced_modulus};
-use crate::solver::physics::lubricant::BodyHeat;
+use super::body::{Body, Transverse};
+use super::material::{BodyHeat, Material};
+use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint, Sliding, reduced_modulus};
 use serde::{Deserialize, Serialize};
 use std::fmt;
-
-/// A material.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
-    /// Its name for people.
-    pub name: &'static str,
-    /// Young's modulus E \[Pa\].
-    pub modulus_pa: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-    /// Its thermal constants.
-    pub heat: BodyHeat,
-}
-
-const STEEL: Material = Material { name: "Steel", modulus_pa: 210e9, poisson: 0.3, heat: BodyHeat::STEEL };
-
-/// Materials by name, with usual values of handbooks. Two bodies of this steel have E′ = 230.8 GPa, the program's
-/// default.
-pub const MATERIALS: [Material; 6] = [
-    STEEL,
-    Material { name: "Silicon nitride", modulus_pa: 310e9, poisson: 0.27, heat: heat(25.0, 700.0, 3230.0) },
-    Material { name: "Bronze", modulus_pa: 110e9, poisson: 0.34, heat: heat(60.0, 377.0, 8800.0) },
-    Material { name: "Cast iron", modulus_pa: 120e9, poisson: 0.26, heat: heat(50.0, 500.0, 7200.0) },
-    Material { name: "Glass", modulus_pa: 81e9, poisson: 0.21, heat: heat(1.1, 840.0, 2500.0) },
-    Material { name: "Tungsten carbide", modulus_pa: 630e9, poisson: 0.22, heat: heat(85.0, 210.0, 14900.0) },
-];
-
-/// Thermal conductivity \[W/(m K)\], heat capacity \[J/(kg K)\] and density \[kg/m³\].
-const fn heat(conductivity: f64, heat_capacity: f64, density: f64) -> BodyHeat {
-    BodyHeat { conductivity, heat_capacity, density }
-}
 
 /// Why two bodies make no contact.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -83,73 +55,10 @@ fn accepted_across(first: f64, second: f64) -> String {
     }
 }
 
-/// The radius of a body across the rolling direction.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
-pub enum Transverse {
-    /// The same as along it: a ball, or a plane.
-    #[default]
-    AsAlong,
-    /// None: a cylinder.
-    Plane,
-    /// A radius \[m\], negative for a groove.
-    Radius(f64),
-}
-
-/// One of the two bodies.
+/// Body 1 and body 2.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Body {
-    /// Young's modulus E \[Pa\].
-    pub modulus_pa: f64,
-    /// Poisson's ratio ν.
-    pub poisson: f64,
-    /// Radius along the rolling direction \[m\], negative for a concave surface; none for a plane.
-    #[serde(default)]
-    pub radius_m: Option<f64>,
-    /// Radius across the rolling direction, which only point contacts have.
-    #[serde(default)]
-    pub transverse: Transverse,
-    /// Speed of its surface \[m/s\].
-    pub speed_m_per_s: f64,
-    /// Root-mean-square roughness Rq \[m\].
-    #[serde(default)]
-    pub roughness_m: f64,
-}
-
-/// Both bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Bodies(pub Body, pub Body);
-
-impl Body {
-    /// The named material with its elastic constants.
-    pub fn material(&self) -> Option<Material> {
-        MATERIALS.into_iter().find(|m| m.modulus_pa == self.modulus_pa && m.poisson == self.poisson)
-    }
-
-    /// The same body of another material.
-    pub fn of(self, Material { modulus_pa, poisson, .. }: Material) -> Self {
-        Self { modulus_pa, poisson, ..self }
-    }
-
-    /// Its radius across the rolling direction \[m\]; none for a plane.
-    pub fn transverse_radius_m(&self) -> Option<f64> {
-        match self.transverse {
-            Transverse::AsAlong => self.radius_m,
-            Transverse::Plane => None,
-            Transverse::Radius(radius) => Some(radius),
-        }
-    }
-
-    /// The same body with a radius across the rolling direction \[m\]; none for a plane.
-    pub fn with_transverse_radius_m(self, radius_m: Option<f64>) -> Self {
-        let transverse = match radius_m {
-            radius if radius == self.radius_m => Transverse::AsAlong,
-            None => Transverse::Plane,
-            Some(radius) => Transverse::Radius(radius),
-        };
-        Self { transverse, ..self }
-    }
-}
+#[serde(transparent)]
+pub struct Bodies(pub [Body; 2]);
 
 /// Sum of the curvatures of two surfaces by their radii \[m\] \[1/m\].
 fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
@@ -165,11 +74,18 @@ impl Bodies {
     /// \[m\], mean speed \[m/s\] and slide-to-roll ratio, both as smooth as good bearings.
     pub fn on_plane(radius_m: f64, mean_m_per_s: f64, slide_to_roll: f64) -> Self {
         let [first, second] = surface_speeds(mean_m_per_s, slide_to_roll);
-        let body = |radius_m, speed_m_per_s| {
-            let Material { modulus_pa, poisson, .. } = STEEL;
-            Body { modulus_pa, poisson, radius_m, transverse: Transverse::AsAlong, speed_m_per_s, roughness_m: 5e-8 }
+        let Material { modulus_pa, poisson, heat, .. } = Material::STEEL;
+        let transverse = Transverse::AsAlong;
+        let body = |radius_m, speed_m_per_s| Body {
+            modulus_pa,
+            poisson,
+            heat,
+            radius_m,
+            transverse,
+            speed_m_per_s,
+            roughness_m: 5e-8,
         };
-        Self(body(Some(radius_m), first), body(None, second))
+        Self([body(Some(radius_m), first), body(None, second)])
     }
 
     /// Reduced radius R along the rolling direction \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
@@ -177,7 +93,7 @@ impl Bodies {
     /// # Errors
     /// A radius of zero, or a concave surface that is not flatter than the convex one in it.
     pub fn reduced_radius_m(&self) -> Result<f64, BodyError> {
-        let radius = 1.0 / curvatures([self.0.radius_m, self.1.radius_m])?;
+        let radius = 1.0 / curvatures(self.0.map(|body| body.radius_m))?;
         if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
     }
 
@@ -186,7 +102,7 @@ impl Bodies {
     /// # Errors
     /// A radius of zero, or a groove that is not flatter than what runs in it.
     pub fn reduced_transverse_radius_m(&self) -> Result<f64, BodyError> {
-        let radii = [self.0.transverse_radius_m(), self.1.transverse_radius_m()];
+        let radii = self.0.map(|body| body.transverse_radius_m());
         let radius = 1.0 / curvatures(radii)?;
         if radius > 0.0 && radius.is_finite() {
             return Ok(radius);
@@ -200,8 +116,13 @@ impl Bodies {
     /// # Errors
     /// Constants that no solid has.
     pub fn reduced_modulus_pa(&self) -> Result<f64, BodyError> {
-        let Self(first, second) = self;
+        let Self([first, second]) = self;
         Ok(reduced_modulus(first.modulus_pa, first.poisson, second.modulus_pa, second.poisson)?)
+    }
+
+    /// Thermal constants of body 1 and of body 2.
+    pub fn heat(&self) -> [BodyHeat; 2] {
+        self.0.map(|body| body.heat)
     }
 
     /// Mean entrainment speed u_m \[m/s\] (2.1) and slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25).
@@ -209,10 +130,27 @@ impl Bodies {
     /// # Errors
     /// Speeds whose mean is not above zero.
     pub fn entrainment(&self) -> Result<(f64, f64), BodyError> {
-        let (first, second) = (self.0.speed_m_per_s, self.1.speed_m_per_s);
+        let [first, second] = self.0.map(|body| body.speed_m_per_s);
         let mean = 0.5 * (first + second);
         let inside = mean > 0.0 && mean.is_finite();
         if inside { Ok((mean, (second - first) / mean)) } else { Err(BodyError::Entrainment(first, second)) }
+    }
+
+    /// The contact with these bodies' R, R_y, E′, u_m and SRR, and the rest of another one. A point contact between
+    /// bodies that are not as round across as along is elliptical; an ellipse stays one where its radii are equal.
+    ///
+    /// # Errors
+    /// Bodies that make no contact.
+    pub fn contact(&self, point: OperatingPoint) -> Result<OperatingPoint, BodyError> {
+        let (speed_m_per_s, slide_to_roll_ratio) = self.entrainment()?;
+        let (radius_m, modulus_pa) = (self.reduced_radius_m()?, self.reduced_modulus_pa()?);
+        let radius_y_m = match point.kind {
+            ContactKind::Line => None,
+            ContactKind::Point => Some(self.reduced_transverse_radius_m()?)
+                .filter(|radius_y| *radius_y != radius_m || point.radius_y_m.is_some()),
+        };
+        let sliding = Sliding { slide_to_roll_ratio, ..point.sliding };
+        Ok(OperatingPoint { radius_m, radius_y_m, modulus_pa, speed_m_per_s, sliding, ..point })
     }
 
     /// Film ratio λ = h_min/√(Rq₁² + Rq₂²) of the smallest film \[m\].
@@ -220,7 +158,7 @@ impl Bodies {
     /// # Errors
     /// A roughness below zero, or none at all.
     pub fn film_ratio(&self, smallest_film_m: f64) -> Result<f64, BodyError> {
-        let (first, second) = (self.0.roughness_m, self.1.roughness_m);
+        let [first, second] = self.0.map(|body| body.roughness_m);
         let composite = first.hypot(second);
         if first >= 0.0 && second >= 0.0 && composite > 0.0 && composite.is_finite() {
             Ok(smallest_film_m / composite)
@@ -230,7 +168,7 @@ impl Bodies {
     }
 }
 
-/// The two surface speeds \[m/s\] of a mean speed \[m/s\] and a slide-to-roll ratio.
+/// Speeds of body 1 and of body 2 \[m/s\] at a mean speed \[m/s\] and a slide-to-roll ratio (3.25).
 pub fn surface_speeds(mean_m_per_s: f64, slide_to_roll: f64) -> [f64; 2] {
     [mean_m_per_s * (1.0 - 0.5 * slide_to_roll), mean_m_per_s * (1.0 + 0.5 * slide_to_roll)]
 }
@@ -249,12 +187,12 @@ mod tests {
     use super::*;
 
     fn bodies(radii_m: [f64; 2], speeds: [f64; 2]) -> Bodies {
-        let Bodies(first, second) = Bodies::on_plane(0.01, 1.0, 0.0);
+        let Bodies([first, second]) = Bodies::on_plane(0.01, 1.0, 0.0);
         let radius = |radius: f64| Some(radius).filter(|radius| radius.is_finite());
-        Bodies(
+        Bodies([
             Body { radius_m: radius(radii_m[0]), speed_m_per_s: speeds[0], ..first },
             Body { radius_m: radius(radii_m[1]), speed_m_per_s: speeds[1], ..second },
-        )
+        ])
     }
 
     #[test]
@@ -273,9 +211,9 @@ mod tests {
     #[test]
     fn a_ball_in_a_groove_is_an_ellipse_across_the_rolling_direction() {
         // A ball of a 6206 bearing on its inner race: 9.525 mm in a groove of 4.953 mm (52 %).
-        let Bodies(ball, race) = bodies([4.7625e-3, 18.2e-3], [1.0; 2]);
+        let Bodies([ball, race]) = bodies([4.7625e-3, 18.2e-3], [1.0; 2]);
         let race = race.with_transverse_radius_m(Some(-4.953e-3));
-        let pair = Bodies(ball, race);
+        let pair = Bodies([ball, race]);
         assert!((pair.reduced_radius_m().unwrap() - 3.7747e-3).abs() < 1e-6);
         assert!((pair.reduced_transverse_radius_m().unwrap() - 123.83e-3).abs() < 1e-5);
         // Without a radius of its own a body is as round across as along.
@@ -283,7 +221,7 @@ mod tests {
         assert_eq!(round.reduced_radius_m(), round.reduced_transverse_radius_m());
         assert_eq!(race.with_transverse_radius_m(race.radius_m).transverse, Transverse::AsAlong);
         let across = |first, second| {
-            Bodies(ball.with_transverse_radius_m(first), race.with_transverse_radius_m(second))
+            Bodies([ball.with_transverse_radius_m(first), race.with_transverse_radius_m(second)])
                 .reduced_transverse_radius_m()
                 .unwrap_err()
                 .to_string()
@@ -303,13 +241,15 @@ mod tests {
 
     #[test]
     fn steel_on_steel_is_the_default_modulus_and_a_rigid_partner_doubles_it() {
-        let Bodies(first, second) = bodies([0.01; 2], [1.0; 2]);
-        let both = Bodies(first, second).reduced_modulus_pa().unwrap();
+        let Bodies([first, second]) = bodies([0.01; 2], [1.0; 2]);
+        let both = Bodies([first, second]).reduced_modulus_pa().unwrap();
         assert!((both - 230.77e9).abs() < 0.01e9, "{both}");
-        let one = Bodies(first, Body { modulus_pa: 1e14, ..second }).reduced_modulus_pa().unwrap();
+        let one = Bodies([first, Body { modulus_pa: 1e14, ..second }]).reduced_modulus_pa().unwrap();
         assert!((one / both - 2.0).abs() < 5e-3, "{one}");
-        assert_eq!(first.material(), Some(MATERIALS[0]));
-        assert_eq!(first.of(MATERIALS[4]).material().map(|m| m.name), Some("Glass"));
+        assert_eq!(first.material(), Some(Material::STEEL));
+        let glass = first.of(Material::GLASS);
+        assert_eq!((glass.material(), glass.heat.material()), (Some(Material::GLASS), Some(Material::GLASS)));
+        assert_eq!(Body { heat: first.heat, ..glass }.material(), None, "glass that conducts like steel");
     }
 
     #[test]
@@ -322,12 +262,12 @@ mod tests {
     #[test]
     fn what_is_no_contact_is_refused() {
         let rough = |first: f64, second: f64| {
-            let Bodies(a, b) = Bodies::on_plane(0.01, 1.0, 0.0);
-            Bodies(Body { roughness_m: first, ..a }, Body { roughness_m: second, ..b }).film_ratio(1e-7)
+            let Bodies([a, b]) = Bodies::on_plane(0.01, 1.0, 0.0);
+            Bodies([Body { roughness_m: first, ..a }, Body { roughness_m: second, ..b }]).film_ratio(1e-7)
         };
         let of = |modulus_pa, poisson| {
-            let Bodies(a, b) = Bodies::on_plane(0.01, 1.0, 0.0);
-            Bodies(Body { modulus_pa, poisson, ..a }, b).reduced_modulus_pa()
+            let Bodies([a, b]) = Bodies::on_plane(0.01, 1.0, 0.0);
+            Bodies([Body { modulus_pa, poisson, ..a }, b]).reduced_modulus_pa()
         };
         for (bad, said) in [
             (bodies([0.0, 1.0], [1.0; 2]).reduced_radius_m(), "other than 0"),
@@ -347,8 +287,8 @@ mod tests {
 
     #[test]
     fn the_film_ratio_is_named() {
-        let Bodies(a, b) = Bodies::on_plane(0.01, 1.0, 0.0);
-        let pair = Bodies(Body { roughness_m: 0.3e-6, ..a }, Body { roughness_m: 0.4e-6, ..b });
+        let Bodies([a, b]) = Bodies::on_plane(0.01, 1.0, 0.0);
+        let pair = Bodies([Body { roughness_m: 0.3e-6, ..a }, Body { roughness_m: 0.4e-6, ..b }]);
         assert!((pair.film_ratio(0.5e-6).unwrap() - 1.0).abs() < 1e-12);
         assert!(film_regime(0.5).starts_with("boundary") && film_regime(2.0).starts_with("mixed"));
         assert!(film_regime(3.5).starts_with("full film"));
