@@ -1,5 +1,6 @@
 //! What a result belongs to.
 
+use crate::scene::{Grid, Method, ModelSource, Request};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 
@@ -13,6 +14,12 @@ pub struct Key {
 }
 
 impl Key {
+    /// A request for the contact on a grid.
+    pub fn request(&self, grid: Grid, method: Method) -> Request {
+        let Self { point, lubricant } = *self;
+        Request { point, lubricant, grid, grid_model: ModelSource::Embedded, method }
+    }
+
     /// Whether pressure and film are the same: without heat a limiting stress cuts traction only, and a film that does not
     /// thin under shear does not feel the sliding.
     pub fn has_film_of(&self, other: &Self) -> bool {
