@@ -4,10 +4,10 @@ use super::Verdict;
 use super::failure::Failure;
 use super::options::MethodName;
 use super::output::{self, ProgressLine};
-use crate::engine::{ContactResult, Workbench};
+use crate::engine::Workbench;
 use crate::scene::study::load_cases::{LoadCases, Row};
 use crate::scene::{
-    CaseTable, Grid, Method, ModelSource, Scene, Study, StudyObserver, StudyRow, atomic_file, run_scene,
+    CaseTable, Grid, Method, ModelSource, ResultJson, Scene, Study, StudyObserver, StudyRow, atomic_file, run_scene,
 };
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
@@ -83,7 +83,7 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<&'a str>,
     #[serde(flatten)]
-    result: Option<&'a ContactResult>,
+    result: Option<ResultJson<'a>>,
 }
 
 fn print(row: &Row) -> Result<(), Failure> {
@@ -91,7 +91,9 @@ fn print(row: &Row) -> Result<(), Failure> {
     let line = Line { line: *line, name, refused: None, result: None };
     match results {
         Err(why) => output::print_json(&Line { refused: Some(why), ..line }),
-        Ok(results) => results.iter().try_for_each(|result| output::print_json(&Line { result: Some(result), ..line })),
+        Ok(results) => {
+            results.iter().try_for_each(|result| output::print_json(&Line { result: Some(result.json()), ..line }))
+        }
     }
 }
 

@@ -269,11 +269,11 @@ impl PointOptions {
         Ok(())
     }
 
-    /// The request and the method that the options describe.
+    /// The request that the options describe.
     ///
     /// # Errors
     /// When they contradict each other or a value is outside any sense.
-    pub fn request(&self) -> Result<(Request, Method), Failure> {
+    pub fn request(&self) -> Result<Request, Failure> {
         let srr = self.srr.unwrap_or(0.0);
         if !(srr.is_finite() && srr.abs() <= 10.0) {
             return refuse(format!("--srr is {}, but must be a finite number between -10 and 10", Number(srr)));
@@ -309,7 +309,7 @@ impl PointOptions {
         let point = OperatingPoint { sliding, ..self.point(&lubricant)? };
         let grid = self.grid(&method, &point)?;
         let grid_model = self.model_source();
-        Ok((Request { point, lubricant, grid, grid_model }, method))
+        Ok(Request { point, lubricant, grid, grid_model, method })
     }
 
     fn model_source(&self) -> ModelSource {

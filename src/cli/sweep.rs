@@ -4,10 +4,9 @@ use super::Verdict;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output::{self, ProgressLine};
-use crate::engine::{CONTACT_COLUMNS, ContactResult, Request, Table, Workbench, result_columns};
+use crate::engine::{CONTACT_COLUMNS, ContactResult, Request, Table, Warning, Workbench, result_columns};
 use crate::scene::check::MAX_POINTS;
-use crate::scene::{Bench, Method, Steps, atomic_file};
-use crate::solver::full::Solution;
+use crate::scene::{Bench, Steps, atomic_file};
 use crate::solver::observer::Progress;
 use crate::solver::training::TrainingObserver;
 use clap::Args;
@@ -90,17 +89,15 @@ fn varied(text: &str) -> Result<Varied, Failure> {
 pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
     let sweep = Sweep::new(&args.varied, &args.point)?;
     let (progress, total) = (ProgressLine::new(false), sweep.points.len());
-    let tell = |result: &ContactResult| if args.json { output::print_json(result) } else { Ok(()) };
-    let Swept { table, failures, doubtful, worst } = sweep.solve(&mut Workbench::new(""), &progress, tell)?;
+    let tell = |result: &ContactResult| if args.json { output::print_json(&result.json()) } else { Ok(()) };
+    let Swept { table, failures, warnings } = sweep.solve(&mut Workbench::new(""), &progress, tell)?;
     progress.finish();
     match &args.csv {
         Some(path) => atomic_file::replace(path, table.to_csv().as_bytes())?,
         None if !args.json => output::print(&table.to_csv())?,
         None => {}
     }
-    if doubtful > 0 {
-        output::complain(&format!("the grid does not do for {doubtful} of {total} points; the last of them: {worst}"));
-    }
+    warnings.iter().for_each(|warning| output::complain(warning));
     if failures > 0 {
         output::complain(&format!("{failures} of {total} points did not converge; their scalars are left empty"));
         return Ok(Verdict::FellShort);
@@ -115,18 +112,16 @@ pub struct Sweep {
 }
 
 /// The varied values of a contact, and the contact.
-type Point = (Vec<f64>, Request, Method);
+type Point = (Vec<f64>, Request);
 
 /// What a sweep gave.
 pub struct Swept {
-    /// A row for each contact: varied values, the contact, its result; NaN where it did not converge.
+    /// A row for each contact: varied values, the contact, its result (NaN if it did not converge), its warnings.
     pub table: Table,
     /// How many did not converge.
     pub failures: usize,
-    /// For how many the grid does not do.
-    pub doubtful: usize,
-    /// What is to be said of the last of them.
-    pub worst: String,
+    /// How many carry each kind of warning.
+    pub warnings: Vec<String>,
 }
 
 impl Sweep {
@@ -144,8 +139,7 @@ impl Sweep {
             for (axis, &value) in varied.iter().zip(&values) {
                 options.set(&axis.name, value)?;
             }
-            let (request, method) = options.request()?;
-            Ok((values, request, method))
+            Ok((values, options.request()?))
         };
         let tuples = Steps::combinations(varied.iter().map(|axis| &axis.steps));
         let points = tuples.into_iter().map(point).collect::<Result<_, Failure>>()?;
@@ -162,28 +156,23 @@ impl Sweep {
         observer: &dyn TrainingObserver,
         mut tell: impl FnMut(&ContactResult) -> Result<(), Failure>,
     ) -> Result<Swept, Failure> {
-        let heat = self.points.iter().any(|(_, request, _)| request.lubricant.heat.is_some());
+        let heat = self.points.iter().any(|(_, request)| request.lubricant.heat.is_some());
         let columns = [&CONTACT_COLUMNS[..], &result_columns(heat)].concat();
         let titles: Vec<&str> = self.names.iter().map(String::as_str).chain(columns.iter().copied()).collect();
-        let table = Table::new("sweep", &titles);
-        let mut swept = Swept { table, failures: 0, doubtful: 0, worst: String::new() };
-        let (mut former, total) = (None, self.points.len());
-        for (i, (values, request, method)) in self.points.into_iter().enumerate() {
+        let mut table = Table { remarks_title: "warning", ..Table::new("sweep", &titles) };
+        let (mut former, mut results, total) = (None, Vec::new(), self.points.len());
+        for (i, (values, request)) in self.points.into_iter().enumerate() {
             observer.progress(Progress { stage: "sweep".to_owned(), done: i, total });
-            let answer = bench.answer(&request, &method, former.as_ref(), observer)?;
-            let result = ContactResult::from(&answer);
+            let answer = bench.answer(&request, former.as_ref(), observer)?;
+            let result = answer.result.clone();
             tell(&result)?;
-            swept.table.rows.push(values.into_iter().chain(result.row(&columns)).collect());
-            if answer.converged {
-                if let Some(warning) = answer.solution.as_ref().and_then(Solution::grid_warning) {
-                    swept.doubtful += 1;
-                    swept.worst = warning;
-                }
-                former = answer.solution;
-            } else {
-                swept.failures += 1;
-            }
+            table.rows.push(values.into_iter().chain(result.row(&columns)).collect());
+            table.remarks.push(result.warning());
+            results.push(result);
+            former = answer.into_fields().or(former);
         }
-        Ok(swept)
+        let failures = results.iter().filter(|result| !result.converged).count();
+        let warnings = Warning::summary(results.iter().map(|result| &result.warnings[..]));
+        Ok(Swept { table, failures, warnings })
     }
 }

@@ -1,6 +1,6 @@
 //! The bench: what is expensive and shared, jobs, files, and headless experiments.
 //!
-//! * [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves: it is the bench of studies.
+//! * [`answer()`] turns a request into an answer; [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves: it is the bench of studies.
 //! * [`run_scene`] answers a scene's question.
 //! * [`mod@bench`] is the speed table, [`model_file`] and [`trajectory_file`] the `.rom` format,
 //!   [`training_file`] keeps unfinished trainings.
@@ -8,6 +8,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
+mod answer;
 mod archive;
 pub mod arrays;
 pub mod bench;
@@ -31,6 +32,7 @@ pub mod training_file;
 pub mod trajectory_file;
 mod workbench;
 
+pub use answer::{Solver, answer};
 pub use embedded::{Embedded, line_in_time};
 pub use grid_accuracy::GridAccuracy;
 pub use saved_model::SavedModel;
@@ -43,3 +45,4 @@ pub use crate::scene::{
     Table, Verdict, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns, run_scene,
     table,
 };
+pub use crate::solver::warning::Warning;

@@ -7,6 +7,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
+mod answer;
 pub mod at;
 pub mod atomic_file;
 mod axis;
@@ -21,6 +22,7 @@ mod error;
 pub mod examples;
 mod expectation;
 mod experiment;
+mod field_tables;
 mod grid;
 mod load_cases;
 mod method;
@@ -34,28 +36,29 @@ pub mod sampled;
 mod scene_check;
 mod sheet;
 mod statistics;
-mod stored_result;
 pub mod study;
 pub mod table;
 mod view;
 
+pub use answer::{Answer, Request};
 pub use at::At;
 pub use axis::{Axis, GradingError, Steps};
-pub use bench::{Answer, Bench, ReducedFacts, Request, answer_or_full};
+pub use bench::{Bench, answer_or_full};
 pub use chart::{Band, Chart, ChartAxis, ColorScale, Map, Marks, Note, Series};
 pub use chart_page::{Page, drawn};
 pub use contact_result::{
-    CONTACT_COLUMNS, ContactResult, HeatFacts, RESULT_COLUMNS, film_shear_table, profile_table, result_columns,
+    CONTACT_COLUMNS, ContactResult, Effort, HeatFacts, RESULT_COLUMNS, ReducedFacts, ResultJson, result_columns,
 };
 pub use error::{Reason, RunError, SceneError, SceneFileError, VERSION};
 pub use expectation::{Expectation, Within};
 pub use experiment::Experiment;
+pub use field_tables::{film_shear_table, profile_table};
 pub use grid::Grid;
 pub use load_cases::{CaseTable, CasesError, LoadCase};
 pub use method::{Method, ModelSource};
 pub use outcome::{Findings, NamedValue, SceneOutcome, Verdict};
 pub use run::run_scene;
-pub use sheet::{Sheet, Solved};
+pub use sheet::Sheet;
 pub use statistics::{median, percentile, rank_correlation};
 pub use study::transient::{Drive, LinearisedTransient, PublishedMarch, ReducedTransient, TransientStudy};
 pub use study::{ComparedPlan, ComparedSampling, Contacts, OnlineScheme, Study, StudyObserver, StudyRow};

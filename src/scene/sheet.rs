@@ -1,13 +1,13 @@
 //! A sheet of one contact for the file: inputs with units, results, how they were checked, published formulas beside
 //! them, and what wrote it. As Markdown, HTML with figures, and CSV.
 
+use super::answer::Answer;
 use super::chart::{Chart, ChartAxis, Marks};
 use super::chart_page::Page;
 use super::contact_result::ContactResult;
 use super::drawing::escaped;
 use super::regimes::{self, Regime};
 use super::table::{quoted, significant};
-use crate::solver::full::Solution;
 use crate::solver::physics::bodies::{Bodies, film_regime};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, FilmShape};
 use crate::solver::physics::engineering::largest_shear;
@@ -17,15 +17,6 @@ use std::path::{Path, PathBuf};
 
 /// Digits of the sheet's numbers for people; its CSV has all.
 const DIGITS: i32 = 5;
-
-/// A contact with its solution, by one method.
-#[derive(Clone, Copy, Debug)]
-pub struct Solved<'a> {
-    /// Scalars and how they were obtained.
-    pub result: &'a ContactResult,
-    /// Fields; none without convergence.
-    pub solution: Option<&'a Solution>,
-}
 
 /// A sheet.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,7 +87,7 @@ impl Part {
 impl Sheet {
     /// The sheet of one contact by one or more methods, the one that counts first. Of bodies, where they are known, the
     /// roughness says how the film compares with it.
-    pub fn new(title: &str, solved: &[Solved<'_>], bodies: Option<&Bodies>) -> Self {
+    pub fn new(title: &str, solved: &[Answer], bodies: Option<&Bodies>) -> Self {
         let mut parts = Vec::new();
         let mut figures = Vec::new();
         if let Some(first) = solved.first() {
@@ -104,7 +95,7 @@ impl Sheet {
             parts.push(results(first, bodies));
             parts.extend(solved.iter().map(verification));
             parts.extend(difference(solved));
-            parts.extend(formulas(first.result));
+            parts.extend(formulas(&first.result));
             figures = pictures(solved);
         }
         parts.push(program());
@@ -217,7 +208,7 @@ impl Value {
     }
 }
 
-fn inputs(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
+fn inputs(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     let point = &solved.result.point;
     let mut part = Part::new("Contact");
     let (kind, load) = match point.kind {
@@ -236,7 +227,7 @@ fn inputs(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     }
     part.number("Viscosity at ambient pressure η₀", point.viscosity_pa_s, "Pa·s");
     part.number("Pressure–viscosity coefficient α", point.alpha_per_pa, "1/Pa");
-    if let Some(solution) = solved.solution {
+    if let Some(solution) = solved.fields() {
         part.words("Laws of the lubricant", solution.problem.lubricant.describe());
     }
     part.number("Load number M", point.moes().m, "");
@@ -246,8 +237,8 @@ fn inputs(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     part
 }
 
-fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
-    let result = solved.result;
+fn results(solved: &Answer, bodies: Option<&Bodies>) -> Part {
+    let result = &solved.result;
     let (point, hertz) = (&result.point, result.point.hertz());
     let value = |name: &str| result.value(name);
     let mut part = Part::new("Results");
@@ -295,8 +286,8 @@ fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     part
 }
 
-fn verification(solved: &Solved<'_>) -> Part {
-    let result = solved.result;
+fn verification(solved: &Answer) -> Part {
+    let result = &solved.result;
     let mut part = Part::new(&format!("How it was solved: {}", result.method));
     part.words("Converged", if result.converged { "yes" } else { "no" });
     let nodes = match result.nodes {
@@ -322,13 +313,13 @@ fn verification(solved: &Solved<'_>) -> Part {
         }
     }
     for warning in &result.warnings {
-        part.words("Warning", warning);
+        part.words("Warning", warning.to_string());
     }
     part
 }
 
 /// How far the other methods lie from the first one.
-fn difference(solved: &[Solved<'_>]) -> Option<Part> {
+fn difference(solved: &[Answer]) -> Option<Part> {
     let (first, others) = solved.split_first()?;
     let mut part = Part::new("Methods compared");
     for other in others {
@@ -361,12 +352,12 @@ fn formulas(result: &ContactResult) -> Option<Part> {
 }
 
 /// Pressure and film in the plane Y = 0, in SI units, and the chart of regimes.
-fn pictures(solved: &[Solved<'_>]) -> Vec<Chart> {
+fn pictures(solved: &[Answer]) -> Vec<Chart> {
     let x = || ChartAxis::linear("x [mm]");
     let mut pressure = Chart::new("Pressure", x(), ChartAxis::linear("p [GPa]"));
     let mut film = Chart::new("Film", x(), ChartAxis::linear("h [µm]"));
-    for Solved { result, solution } in solved {
-        let Some(solution) = solution else { continue };
+    for (answer, solution) in solved.iter().filter_map(|answer| Some((answer, answer.fields()?))) {
+        let result = &answer.result;
         let (hertz, scale) = (result.point.hertz(), result.point.film_scale_m());
         let near = || solution.profile().filter(|(x, ..)| (-2.0..=1.5).contains(x));
         let mm = 1e3 * hertz.half_width_m;

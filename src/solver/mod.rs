@@ -9,3 +9,4 @@ pub mod observer;
 pub mod physics;
 pub mod reduced;
 pub mod training;
+pub mod warning;

@@ -261,7 +261,7 @@ fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() 
     assert!(detail.starts_with("{H_c} within") && why.starts_with("Calibrated bounds"), "{detail}; {why}");
     let (detail, why) = promised(beyond.unwrap());
     assert!(detail.starts_with("no error bound: a window beside its own answers"), "{detail}");
-    assert!(why.starts_with("The window of the reduced model that this contact belongs to"), "{why}");
+    assert!(why.starts_with("The local model that this contact belongs to"), "{why}");
     assert!(!why.contains(".."), "{why}");
     wait(&mut harness, "verification", |app| ["Verified", "Roughly right", "Far off"].contains(&app.badge().as_str()));
 }

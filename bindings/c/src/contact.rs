@@ -191,7 +191,7 @@ pub unsafe extern "C" fn ehl_contact_solve(
             // SAFETY: it is not null, and writable by the caller's promise; so is the message.
             unsafe {
                 outputs.write((&solved).into());
-                write_message(message, length, &solved.warnings.join("; "));
+                write_message(message, length, &solved.warning());
             }
             if solved.warnings.is_empty() { EHL_OK } else { EHL_WARNING }
         }

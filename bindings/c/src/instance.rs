@@ -162,7 +162,7 @@ impl Instance {
     fn take(&mut self, outputs: Outputs) {
         let now = (outputs.trained, outputs.full, outputs.warnings.len());
         let news = now != self.told && !outputs.warnings.is_empty();
-        let sentence = format!("at time {}: {}", self.state.time, outputs.warnings.join("; "));
+        let sentence = format!("at time {}: {}", self.state.time, outputs.warning());
         self.told = now;
         self.state.outputs = Some(outputs);
         if news {

@@ -57,7 +57,7 @@ impl Contact {
     fn of_words(words: Vec<String>) -> PyResult<Self> {
         let shown = words.iter().map(|word| word.trim_start_matches('-')).collect::<Vec<_>>().join(", ");
         let options = PointOptions::from_words(words).map_err(refused)?;
-        let (request, _) = options.request().map_err(refused)?;
+        let request = options.request().map_err(refused)?;
         Ok(Self { options, request, words: shown })
     }
 

@@ -4,7 +4,7 @@ use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
 use crate::work::{long, refused};
 use ehl_explorer::cli::{Failure, PointOptions};
-use ehl_explorer::engine::{CONTACT_COLUMNS, ContactResult, Workbench, result_columns};
+use ehl_explorer::engine::{CONTACT_COLUMNS, Workbench, result_columns};
 use ehl_explorer::host::clock::Stopwatch;
 use ehl_explorer::host::pool::on_all_cores;
 use ehl_explorer::scene::Bench;
@@ -34,9 +34,9 @@ fn varied(
 /// Solves a contact with some of its options varied, a contact for each element of the arrays (float64, shape (n,)),
 /// on all cores. Each is solved afresh, so that neither order nor cores matter.
 ///
-/// A structured array of shape (n,): the contact and its result by the names of ``sweep``'s tables, numbers only; NaN
-/// where a solve did not converge, and ``trained`` where a reduced model was trained for the contact. A contact that
-/// makes no sense refuses all of them by its number.
+/// A structured array of shape (n,): the contact and its result by the names of ``sweep``'s tables, NaN where a solve did
+/// not converge; ``reduced.trained`` is 1 or 0, ``warning`` a text. A contact that makes no sense refuses all of them by
+/// its number.
 #[pyfunction]
 #[pyo3(signature = (contact, columns, method=None, model=None, progress=None))]
 pub fn solve_many<'py>(
@@ -55,35 +55,35 @@ pub fn solve_many<'py>(
         return Err(refused(format!("`{name}` has {} values, but another option has {total}", values.len())));
     }
     let first = varied(&asked.options, &columns, 0).map_err(refused)?;
-    let heat = total > 0 && first.request().map_err(refused)?.0.lubricant.heat.is_some();
-    let names = [&CONTACT_COLUMNS[..], &result_columns(heat), &["reduced.trained"]].concat();
+    let heat = total > 0 && first.request().map_err(refused)?.lubricant.heat.is_some();
+    let names = [&CONTACT_COLUMNS[..], &result_columns(heat)].concat();
     let Asked { options, model } = asked;
     let width = names.len();
-    let numbers = long(py, progress, |watch| {
-        let mut numbers = vec![f64::NAN; width * total];
+    let (numbers, warnings) = long(py, progress, |watch| {
+        let (mut numbers, mut warnings) = (vec![f64::NAN; width * total], vec![String::new(); total]);
         let done = AtomicUsize::new(0);
-        let solve = |(chunk, rows): (usize, &mut [f64])| {
+        let chunks = numbers.par_chunks_mut(width * CHUNK).zip(warnings.par_chunks_mut(CHUNK)).enumerate();
+        let solve = |(chunk, (rows, warnings)): (usize, (&mut [f64], &mut [String]))| {
             let mut bench = bench_with(model.as_ref());
-            for (i, row) in rows.chunks_exact_mut(width).enumerate() {
+            for (i, (row, warning)) in rows.chunks_exact_mut(width).zip(&mut *warnings).enumerate() {
                 let k = chunk * CHUNK + i;
                 let at = |error: &dyn std::fmt::Display| Failure::Request(format!("contact {k}: {error}"));
-                let (request, method) =
+                let request =
                     varied(&options, &columns, k).and_then(|options| options.request()).map_err(|error| at(&error))?;
                 bench.forget();
-                let answer = bench.answer(&request, &method, None, watch);
-                let answer = answer.map_err(|e| if e.cancelled() { Failure::Stopped } else { at(&e) })?;
-                let result = ContactResult::from(&answer);
+                let answer = bench.answer(&request, None, watch);
+                let result = answer.map_err(|e| if e.cancelled() { Failure::Stopped } else { at(&e) })?.result;
+                *warning = result.warning();
                 row.iter_mut().zip(result.row(&names)).for_each(|(place, value)| *place = value);
             }
-            let done = done.fetch_add(rows.len() / width, Ordering::Relaxed) + rows.len() / width;
+            let done = done.fetch_add(warnings.len(), Ordering::Relaxed) + warnings.len();
             watch.progress(Progress { stage: "contacts".to_owned(), done, total });
             if watch.cancelled() { Err(Failure::Stopped) } else { Ok(()) }
         };
-        on_all_cores(|| numbers.par_chunks_mut(width * CHUNK).enumerate().try_for_each(solve))?;
-        Ok(numbers)
+        on_all_cores(|| chunks.try_for_each(solve))?;
+        Ok((numbers, warnings))
     })?;
-    let titles: Vec<&str> = names.iter().map(|name| name.strip_prefix("reduced.").unwrap_or(name)).collect();
-    structured(py, &titles, numbers)
+    structured(py, &names, numbers, Some(("warning", &warnings)))
 }
 
 /// Seconds of `runs` solves of a contact without Python between them, each afresh, on the caller's thread; where more
@@ -99,11 +99,11 @@ pub fn measure(
     threads: usize,
 ) -> PyResult<f64> {
     let asked = contact.asked(method, model)?;
-    let (request, method) = asked.options.request().map_err(refused)?;
+    let request = asked.options.request().map_err(refused)?;
     let solve = |bench: &mut Workbench, runs: usize| {
         for _ in 0..runs {
             bench.forget();
-            bench.answer(&request, &method, None, &()).map_err(|error| error.to_string())?;
+            bench.answer(&request, None, &()).map_err(|error| error.to_string())?;
         }
         Ok::<_, String>(())
     };

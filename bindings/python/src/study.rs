@@ -191,8 +191,8 @@ pub fn run<'py>(
     let mut outcome = outcome(py, &scene, bench, progress)?;
     let tables = PyDict::new(py);
     for table in std::mem::take(&mut outcome.tables) {
-        let (name, labels, remarks) = (table.name.clone(), table.labels.clone(), table.remarks.clone());
-        tables.set_item(name, (array_of(py, table)?, labels, remarks))?;
+        let (name, labels) = (table.name.clone(), table.labels.clone());
+        tables.set_item(name, (array_of(py, table)?, labels))?;
     }
     let text = outcome.to_json().to_string();
     Ok((py.import("json")?.call_method1("loads", (text,))?, tables))

@@ -2,7 +2,7 @@
 //! worker; and when the sliders rest, the truth about it.
 
 use super::jobs::{FullSolve, GridChoice, JobKind};
-use super::live::{Solved, Unanswered};
+use super::live::Unanswered;
 use super::picture::{Cuts, Origin, Picture};
 use super::{Answers, Ask, Failure, PassedOver, REST_S};
 use crate::app::document::{Document, Key};
@@ -65,9 +65,9 @@ impl Answers {
             let present = self.asked == Some(ask);
             match answer {
                 Ok(solved) => {
-                    self.reduced_times.add(solved.wall_s);
+                    self.reduced_times.add(solved.result.wall_s);
                     if present || !self.picture_is_current() {
-                        self.picture = Some(drawn_of(ask.key, *solved, self.cuts));
+                        self.picture = Picture::of(ask.key, *solved, self.cuts);
                         self.drop_full_of_another_grid(&ask.key);
                         self.compare();
                     }
@@ -196,19 +196,6 @@ impl Answers {
         self.verify_failure = None;
         self.submit(ctx, document, JobKind::Verify);
     }
-}
-
-/// The picture of a reduced solution.
-fn drawn_of(key: Key, solved: Solved, cuts: Cuts) -> Picture {
-    let Solved { reduced, fields, .. } = solved;
-    let origin = Origin::Reduced {
-        residual_estimate: reduced.residual_estimate,
-        error: reduced.error,
-        iterations: reduced.iterations,
-        window: reduced.window,
-        stands_in: reduced.stands_in,
-    };
-    Picture::new(key, origin, Arc::new(fields), cuts, reduced.traction)
 }
 
 /// The grid of pictures that follow the hand: the quick one, unless the chosen one is as quick.

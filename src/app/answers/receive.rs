@@ -5,8 +5,8 @@ use super::jobs::{FullSolve, GridChoice, JobKind, Outcome, Running, wake};
 use super::picture::{Comparison, Origin, Picture};
 use super::{Answers, Failure};
 use crate::app::document::Key;
-use crate::engine::Embedded;
 use crate::engine::job::Job;
+use crate::engine::{Answer, Embedded};
 use crate::host::pool::on_spare_cores;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::point::second_grid;
@@ -61,9 +61,9 @@ impl Answers {
 
     fn receive_live(&mut self, job: &Running, outcome: Outcome) {
         match outcome {
-            Outcome::Solved(solution, wall_s) if solution.converged() => {
-                self.full_times.add(wall_s);
-                self.last_report = Some((job.key, solution.report.clone()));
+            Outcome::Solved(answer) if answer.result.converged => {
+                self.full_times.add(answer.result.wall_s);
+                self.last_report = report_of(job.key, &answer);
                 if Some(job.key) == self.key() {
                     self.failure = None;
                 } else if self.picture_is_current() {
@@ -79,9 +79,8 @@ impl Answers {
                     // The chosen grid has answered before the quick one.
                     return;
                 }
-                let picture = Picture::new(job.key, Origin::Full, Arc::from(solution), self.cuts, None);
-                self.full = Some(picture.clone());
-                self.picture = Some(picture);
+                self.full = Picture::of(job.key, *answer, self.cuts);
+                self.picture.clone_from(&self.full);
                 self.comparison = None;
             }
             other => {
@@ -94,19 +93,19 @@ impl Answers {
 
     fn receive_verification(&mut self, job: &Running, outcome: Outcome) {
         match outcome {
-            Outcome::Solved(solution, wall_s) if solution.converged() => {
-                self.full_times.add(wall_s);
-                self.last_report = Some((job.key, solution.report.clone()));
+            Outcome::Solved(answer) if answer.result.converged => {
+                self.full_times.add(answer.result.wall_s);
+                self.last_report = report_of(job.key, &answer);
                 let reduced = self.is_reduced(&job.key);
-                if self.is_of_another_grid(&job.key, &solution) {
+                let Some(full) = Picture::of(job.key, *answer, self.cuts) else { return };
+                if self.is_of_another_grid(&job.key, &full.solution) {
                     // The model has been read meanwhile; its truth follows.
                     return;
                 }
-                if !reduced && self.plane().is_some_and(|plane| solution.mesh.plane() != Some(plane)) {
+                if !reduced && self.plane().is_some_and(|plane| full.solution.mesh.plane() != Some(plane)) {
                     // Another grid has been chosen meanwhile, and answers later.
                     return;
                 }
-                let full = Picture::new(job.key, Origin::Full, Arc::from(solution), self.cuts, None);
                 if Some(job.key) == self.key() && self.plane().is_some() && !reduced {
                     self.failure = None;
                     self.picture = Some(full.clone());
@@ -129,10 +128,10 @@ impl Answers {
             return;
         }
         let result = match outcome {
-            Outcome::Solved(solution, _) if solution.converged() => self
+            Outcome::Solved(answer) if answer.result.converged => self
                 .full
                 .as_ref()
-                .and_then(|full| GridError::of(full, &solution))
+                .and_then(|full| GridError::of(full, answer.fields()?))
                 .ok_or_else(|| "the contact or its grid has changed meanwhile".to_owned()),
             other => Err(failure_of(job.key, other, &mut self.last_report).message),
         };
@@ -171,14 +170,19 @@ impl Answers {
 fn failure_of(key: Key, outcome: Outcome, last_report: &mut Option<(Key, Report)>) -> Failure {
     match outcome {
         Outcome::Failed(message) => Failure { key, message, report: None, stopped: false },
-        Outcome::Solved(solution, _) => {
-            let report = solution.report.clone();
-            *last_report = Some((key, report.clone()));
-            let message = format!("The full solve {}", report.termination.describe());
-            let stopped = report.termination == Termination::Cancelled;
-            Failure { key, message, report: Some(report), stopped }
+        Outcome::Solved(answer) => {
+            *last_report = report_of(key, &answer);
+            let report = last_report.as_ref().map(|(_, report)| report.clone());
+            let termination = report.as_ref().map_or(Termination::Diverged, |report| report.termination);
+            let message = format!("The full solve {}", termination.describe());
+            Failure { key, message, report, stopped: termination == Termination::Cancelled }
         }
     }
+}
+
+/// How a full solve went, with the contact that it was for.
+fn report_of(key: Key, answer: &Answer) -> Option<(Key, Report)> {
+    Some((key, answer.solution.as_ref()?.report.clone()))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What a result belongs to.
 
+use crate::scene::{Grid, Method, ModelSource, Request};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 
@@ -18,6 +19,12 @@ impl Key {
         self.point.sliding.slide_to_roll_ratio *= -1.0;
         self.lubricant.heat.iter_mut().for_each(|heat| heat.bodies.reverse());
         self
+    }
+
+    /// A request for the contact on a grid.
+    pub fn request(&self, grid: Grid, method: Method) -> Request {
+        let Self { point, lubricant } = *self;
+        Request { point, lubricant, grid, grid_model: ModelSource::Embedded, method }
     }
 
     /// Whether pressure and film are the same: without heat a limiting stress cuts traction only, and a film that does not

@@ -8,9 +8,10 @@ use crate::app::controls::{
 use crate::app::document::{Document, Edit, Shape};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
-use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA, Quantity};
+use crate::engine::Warning;
+use crate::solver::physics::contact::{ContactKind, Quantity};
 use crate::solver::physics::engineering::{self, Dimension};
-use egui::{Grid, RichText, Ui};
+use egui::{Grid, RichText, TextWrapMode, Ui};
 
 /// What there is to choose from, and what it is.
 const SHAPES: [(Shape, &str); 3] = [
@@ -213,8 +214,10 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
         }
     });
     reserved(ui, 1, |ui| {
-        if hertz.pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
-            warning_ui(ui, "Beyond 3.2 GPa steel yields: no real contact");
+        if let Some(warning) = Warning::of_hertz_pressure(hertz.pressure_pa) {
+            // The rest of the sentence is read under the pointer.
+            ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
+            warning_ui(ui, &warning.to_string());
         }
     });
 }

@@ -1,6 +1,7 @@
 //! Why a contact cannot be a part of another program's simulation, each as one sentence.
 
-use crate::solver::full::{SolveError, Termination};
+use crate::scene::RunError;
+use crate::solver::full::SolveError;
 use crate::solver::limits::Number;
 use crate::solver::physics::contact::ContactError;
 use crate::solver::reduced::ReducedError;
@@ -51,8 +52,11 @@ pub enum CoupledError {
     #[error("no load was found that gives an approach of {} m", Number(*.0))]
     NoLoad(f64),
     /// Nothing converges.
-    #[error("neither the reduced model nor the full solver has a solution here: the full solver {}", .0.describe())]
-    NoSolution(Termination),
+    #[error("neither the reduced model nor the full solver has a solution here: {0}")]
+    NoSolution(String),
+    /// The request is refused.
+    #[error(transparent)]
+    Run(#[from] Box<RunError>),
     /// It is asked for outputs before it has begun.
     #[error("the contact in time has not begun")]
     NotBegun,
@@ -74,6 +78,12 @@ pub enum CoupledError {
     /// The march does not go on.
     #[error(transparent)]
     March(#[from] MarchError),
+}
+
+impl From<RunError> for CoupledError {
+    fn from(error: RunError) -> Self {
+        Self::Run(Box::new(error))
+    }
 }
 
 /// Refuses a value outside its range.

@@ -341,8 +341,8 @@ fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{ContactResult, Embedded, Request, Workbench};
-    use crate::scene::{Bench, Grid, Method, ModelSource};
+    use crate::engine::{Embedded, Workbench};
+    use crate::scene::Bench;
     use crate::solver::physics::contact::{OperatingPoint, Quantity};
 
     fn first(which: Embedded) -> (Coupled, Inputs) {
@@ -357,11 +357,8 @@ mod tests {
             let (mut coupled, inputs) = first(which);
             let inputs = Inputs { slide_to_roll_ratio: 0.1, ..inputs };
             let own = coupled.solve(&inputs).unwrap();
-            let point = coupled.point(&inputs, inputs.load).unwrap();
-            let lubricant = coupled.lubricant;
-            let request = Request { point, lubricant, grid: Grid::Model, grid_model: ModelSource::Embedded };
-            let answer = Workbench::new("").answer(&request, &Method::EMBEDDED, None, &()).unwrap();
-            let result = ContactResult::from(&answer);
+            let request = coupled.request(&inputs, inputs.load).unwrap();
+            let result = Workbench::new("").answer(&request, None, &()).unwrap().result;
             let named = [
                 ("h_c_m", own.h_c_m),
                 ("h_min_m", own.h_min_m),
@@ -429,7 +426,8 @@ mod tests {
     #[test]
     fn an_ellipse_keeps_its_ratio_of_radii() {
         let (coupled, inputs) = first(Embedded::Ellipse);
-        let point: OperatingPoint = coupled.point(&Inputs { radius_ratio: 2.0, ..inputs }, inputs.load).unwrap();
+        let request = coupled.request(&Inputs { radius_ratio: 2.0, ..inputs }, inputs.load).unwrap();
+        let point: OperatingPoint = request.point;
         assert!((Quantity::RadiusRatio.of(&point).unwrap() - 2.0).abs() < 1e-12);
     }
 }

@@ -5,12 +5,13 @@
 
 use super::error::{check, check_sliding};
 use super::{CoupledError, Inputs, Outputs};
+use crate::engine::answer::outside;
 use crate::solver::full::transient::{Frame, Input, point_at};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination};
-use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Sliding;
-use crate::solver::reduced::Trust;
 use crate::solver::reduced::transient::{CoupledError as MarchError, CoupledMarch, MarchState, TrajectoryModel};
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -134,18 +135,13 @@ impl InTime {
         let march = self.march.as_ref().ok_or(CoupledError::NotBegun)?;
         let (moment, domain) = (march.moment(), &self.model.domain);
         let reference = march.reference();
-        let mut warnings = Vec::new();
-        if let Trust::Outside(why) = domain.reference.trust(reference) {
-            warnings.push(why);
-        }
-        warnings.extend(domain.outside(moment.time, moment.input, self.rate));
+        let mut warnings: Vec<Warning> = outside(domain.reference.trust(reference)).into_iter().collect();
+        let of_march = domain.outside(moment.time, moment.input, self.rate).into_iter();
+        warnings.extend(of_march.map(|reason| Warning::OutsideTrainedRange { reason }));
         let trained = warnings.is_empty();
         let point = point_at(&reference.point, moment.input);
         let hertz_pressure_pa = point.hertz().pressure_pa;
-        if hertz_pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
-            let pressure = hertz_pressure_pa / 1e9;
-            warnings.push(format!("the Hertzian pressure of {pressure:.3} GPa exceeds 3.2 GPa: no real contact"));
-        }
+        warnings.extend(Warning::of_hertz_pressure(hertz_pressure_pa));
         let friction_coefficient = self.friction(march, inputs.slide_to_roll_ratio, &mut warnings)?;
         let scale = reference.point.film_scale_m();
         Ok(Outputs {
@@ -203,7 +199,7 @@ impl InTime {
     }
 
     /// Friction over load at a slide-to-roll ratio, and what must be said of it.
-    fn friction(&self, march: &CoupledMarch, sliding: f64, warnings: &mut Vec<String>) -> Result<f64, CoupledError> {
+    fn friction(&self, march: &CoupledMarch, sliding: f64, warnings: &mut Vec<Warning>) -> Result<f64, CoupledError> {
         let (at, moment, reference) = (march.conditions(), march.moment(), march.reference());
         // The surfaces slide by this over the speed of the reference contact; it may roll the other way.
         let slide_to_roll_ratio = sliding * at.input.speed;
@@ -242,7 +238,7 @@ impl InTime {
         };
         // Over the load of the moment, not of the contact that lends its scales.
         let coefficient = solution.traction_coefficient() * own.load / (reference.point.load * at.input.load);
-        warnings.extend(problem.doubts_traction(coefficient, &scalars).map(|doubt| doubt.to_string()));
+        warnings.extend(problem.doubts_traction(coefficient, &scalars).map(Warning::from));
         Ok(coefficient)
     }
 }
@@ -389,12 +385,13 @@ mod tests {
         }
         assert!(own.advance(1e9, &first).unwrap_err().to_string().contains("steps"));
         let fast = own.advance(step, &Inputs { load: 1.05 * first.load, ..first }).unwrap();
-        assert!(!fast.trained && fast.warnings.iter().any(|said| said.contains("faster")), "{:?}", fast.warnings);
+        assert!(!fast.trained && fast.warning().contains("faster"), "{:?}", fast.warnings);
         let rested = own.advance(step, &Inputs { load: 1.05 * first.load, ..first }).unwrap();
         assert!(rested.trained && rested.warnings.is_empty(), "{:?}", rested.warnings);
         let quick =
             own.advance(step, &Inputs { load: 1.05 * first.load, speed_m_per_s: 1.1 * first.speed_m_per_s, ..first });
-        assert!(quick.unwrap().warnings.iter().any(|said| said.contains("speed") && said.contains("rested")));
+        let quick = quick.unwrap().warning();
+        assert!(quick.contains("speed") && quick.contains("rested"), "{quick}");
     }
 
     #[test]

@@ -12,11 +12,13 @@ pub use error::CoupledError;
 pub use in_time::{InTime, InTimeState};
 
 use self::error::{check, check_sliding};
-use crate::solver::full::point::resolution_warning;
-use crate::solver::full::{ContactSolver, Problem, Solution, Start};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use super::answer::{Solver, answer};
+use crate::scene::{Answer, ContactResult, Grid, Method, ModelSource, Request};
+use crate::solver::full::{ContactSolver, Problem, Start};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
-use crate::solver::reduced::{ErrorEstimate, Online, ReducedModel, ReducedOptions, Trust};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
+use crate::solver::warning::Warning;
 use std::sync::Arc;
 
 /// How close the load's logarithm is sought when an approach is given.
@@ -82,8 +84,36 @@ pub struct Outputs {
     pub trained: bool,
     /// Whether the full solver took over, where the model has no solution.
     pub full: bool,
-    /// What a reader must know, one sentence each.
-    pub warnings: Vec<String>,
+    /// What a reader must know.
+    pub warnings: Vec<Warning>,
+}
+
+impl Outputs {
+    /// What a simulation reads off a result; `None` without a solution.
+    fn of(result: ContactResult) -> Option<Self> {
+        let ContactResult { point, scalars, traction, reduced, warnings, .. } = result;
+        let (scalars, friction_coefficient, scale) = (scalars?, traction?, point.film_scale_m());
+        let error = reduced.as_ref().and_then(|facts| facts.error);
+        let bounds = error.map_or([None; 3], |error| [Some(error.h_c), Some(error.h_min), error.traction]);
+        Some(Self {
+            load: point.load,
+            approach_m: if point.kind == ContactKind::Line { f64::NAN } else { -scalars.h_0 * scale },
+            h_c_m: scalars.h_c * scale,
+            h_min_m: scalars.h_min * scale,
+            friction_coefficient,
+            friction_force: friction_coefficient * point.load,
+            hertz_pressure_pa: point.hertz().pressure_pa,
+            error_bounds: bounds.map(|error| error.map_or(f64::NAN, |error| error.bound)),
+            trained: reduced.as_ref().is_some_and(|facts| facts.trained),
+            full: reduced.is_none(),
+            warnings,
+        })
+    }
+
+    /// The warnings as one sentence.
+    pub fn warning(&self) -> String {
+        Warning::joined(&self.warnings)
+    }
 }
 
 /// A model with all work space; one for each thread.
@@ -157,69 +187,16 @@ impl Coupled {
 
     /// The outputs under a load.
     fn under(&mut self, inputs: &Inputs, load: f64) -> Result<Outputs, CoupledError> {
-        let point = self.point(inputs, load)?;
-        let problem = Problem::new(&point, self.lubricant)?;
+        let request = self.request(inputs, load)?;
         self.online.forget();
-        let mut warnings = Vec::new();
-        let reduced = match self.online.solve(&point, self.lubricant) {
-            Ok(solved) => {
-                let fields = self.online.reconstruct(&solved)?;
-                Some((fields.of_problem(problem), solved))
-            }
-            Err(why) if why.without_solution().is_some() => {
-                warnings.extend([why.to_string(), "the full solver took over".to_owned()]);
-                None
-            }
-            Err(refused) => return Err(refused.into()),
-        };
-        let full = reduced.is_none();
-        let mut bounds = [f64::NAN; 3];
-        let trust = self.model.trust(&problem);
-        let trained = !full && trust == Trust::Trained;
-        let (solution, friction_coefficient) = match reduced {
-            Some((solution, solved)) => {
-                if let Trust::Outside(why) = trust {
-                    warnings.push(why);
-                }
-                if let Some(ErrorEstimate { h_c, h_min, traction, .. }) = solved.error {
-                    bounds =
-                        [Some(h_c), Some(h_min), traction].map(|error| error.map_or(f64::NAN, |error| error.bound));
-                }
-                let traction = solved.traction.unwrap_or_else(|| solution.traction_coefficient());
-                (solution, traction)
-            }
-            None => {
-                let solution = self.in_full(&point)?;
-                let traction = solution.traction_coefficient();
-                (solution, traction)
-            }
-        };
-        let (scalars, scale) = (solution.scalars, point.film_scale_m());
-        warnings.extend(resolution_warning(&solution));
-        let hertz_pressure_pa = point.hertz().pressure_pa;
-        if hertz_pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
-            let pressure = hertz_pressure_pa / 1e9;
-            warnings.push(format!("the Hertzian pressure of {pressure:.3} GPa exceeds 3.2 GPa: no real contact"));
-        }
-        warnings.extend(problem.doubts_traction(friction_coefficient, &scalars).map(|doubt| doubt.to_string()));
-        let line = point.kind == ContactKind::Line;
-        Ok(Outputs {
-            load,
-            approach_m: if line { f64::NAN } else { -scalars.h_0 * scale },
-            h_c_m: scalars.h_c * scale,
-            h_min_m: scalars.h_min * scale,
-            friction_coefficient,
-            friction_force: friction_coefficient * load,
-            hertz_pressure_pa,
-            error_bounds: bounds,
-            trained,
-            full,
-            warnings,
-        })
+        let reduced = answer(&request, Solver::Reduced(&mut self.online), &())?;
+        let answered = if reduced.result.converged { reduced } else { self.in_full(request)?.in_place_of(reduced) };
+        let why = answered.result.warning();
+        Outputs::of(answered.result).ok_or(CoupledError::NoSolution(why))
     }
 
-    /// The contact that inputs describe under a load.
-    fn point(&self, inputs: &Inputs, load: f64) -> Result<OperatingPoint, CoupledError> {
+    /// The request that inputs describe under a load.
+    fn request(&self, inputs: &Inputs, load: f64) -> Result<Request, CoupledError> {
         let kind = self.model.contact();
         let quantities = [
             inputs.radius_m,
@@ -236,22 +213,24 @@ impl Coupled {
         }
         check_sliding(inputs.slide_to_roll_ratio)?;
         point.check()?;
-        Ok(point)
+        let (grid, grid_model, method) = (Grid::Model, ModelSource::Embedded, Method::EMBEDDED);
+        Ok(Request { point, lubricant: self.lubricant, grid, grid_model, method })
     }
 
     /// The full solution on the model's grid.
-    fn in_full(&mut self, point: &OperatingPoint) -> Result<Solution, CoupledError> {
-        let grid = &self.model.window_at(point).grid;
+    fn in_full(&mut self, request: Request) -> Result<Answer, CoupledError> {
+        let grid = &self.model.window_at(&request.point).grid;
         let solver = match self.full.take() {
             Some(solver) if solver.grid_spec() == grid.spec() => solver,
             _ => ContactSolver::on(grid),
         };
-        let solver = self.full.insert(solver);
-        let solution = solver.solve(point, self.lubricant, Start::Cold, &())?;
-        if solution.converged() {
-            return Ok(solution);
+        let solver = Solver::Full(self.full.insert(solver), Start::Cold);
+        let request = Request { method: Method::Full, ..request };
+        let full = answer(&request, solver, &())?;
+        if full.result.converged {
+            return Ok(full);
         }
-        Err(CoupledError::NoSolution(solution.report.termination))
+        Err(CoupledError::NoSolution(full.result.warning()))
     }
 
     /// The outputs at the wanted approach: the load is sought between two that give a smaller and a larger one.

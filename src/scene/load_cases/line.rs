@@ -2,7 +2,7 @@
 
 use super::columns::Column;
 use crate::scene::At;
-use crate::scene::bench::Request;
+use crate::scene::answer::Request;
 use crate::scene::experiment::Experiment;
 use crate::scene::grid;
 use crate::scene::named_lubricant::by_name;

@@ -11,7 +11,7 @@ mod line;
 
 use self::columns::{Column, accepted, titles};
 use self::line::request;
-use super::bench::Request;
+use super::answer::Request;
 use super::check::MAX_POINTS;
 use super::examples;
 use super::experiment::Experiment;

@@ -7,7 +7,7 @@ pub use rows::{Film, Row, Test, Tested, add, errors, tests};
 use super::question::{
     Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::bench::Request;
+use crate::scene::answer::Request;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::method::Method;
 use crate::scene::parallel::full_solutions_told;
@@ -86,21 +86,22 @@ impl RandomTest {
             // Its numbers are those of the same contact alone, whichever were tested before it.
             setting.bench.forget();
             let lubricant = self.lubricant(k, experiment.lubricant);
-            let request = Request { lubricant, ..experiment.request_at(*point) };
-            let answer = setting.bench.answer(&request, &self.method, None, observer)?;
+            let request = Request { lubricant, method: self.method.clone(), ..experiment.request_at(*point) };
+            let answer = setting.bench.answer(&request, None, observer)?;
+            let result = &answer.result;
             tell(Row::Test(Test {
                 point: *point,
-                film: answer.result().map(|solution| Film {
+                film: answer.fields().map(|solution| Film {
                     h_c: solution.scalars.h_c,
                     h_min: solution.scalars.h_min,
-                    traction: answer.traction().unwrap_or(f64::NAN),
+                    traction: result.traction.unwrap_or(f64::NAN),
                     rises: solution.heat.as_ref().map(|heat| heat.central),
                     grid_cost: solution.grid_cost,
                 }),
-                newton_iterations: answer.newton_iterations,
-                wall_s: answer.wall_s,
-                untrained: answer.reduced.as_ref().is_some_and(|facts| !facts.trained),
-                estimate: answer.reduced.as_ref().and_then(|facts| facts.error),
+                newton_iterations: result.newton_iterations,
+                wall_s: result.wall_s,
+                untrained: result.untrained(),
+                estimate: result.reduced.as_ref().and_then(|facts| facts.error),
             }));
         }
         Ok(())

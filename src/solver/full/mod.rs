@@ -29,5 +29,7 @@ pub use solution::{Mesh, Problem, Report, Scalars, Solution, SolveError, Termina
 pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start, most_newton};
 pub use system::{SolveOptions, System};
 pub(crate) use traction::mid_film_stresses;
-pub use traction::{PLAUSIBLE_EXPONENT, PLAUSIBLE_TRACTION, Shear, TractionDoubt};
+pub use traction::{Shear, TractionDoubt};
 pub use trust::{GridCost, grid_doubts};
+
+pub use crate::solver::warning::PLAUSIBLE_TRACTION;

@@ -9,7 +9,7 @@ use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::discrete::space::Grid;
 use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::{
-    Lubricant, LubricantError, ScaledFluid, ScaledHeat, ScaledShear, ShearLaw, Sliding,
+    Lubricant, LubricantError, ScaledFluid, ScaledHeat, ScaledShear, ShearLaw, Sliding, whole,
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -37,8 +37,10 @@ pub enum SolveError {
     },
 }
 
-/// One dimensionless problem: what the solver needs of an operating point and a lubricant.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// One dimensionless problem: what the solver needs of an operating point and a lubricant. Those two are what is
+/// serialised of a steady one; the rest follows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Stated", try_from = "Stated")]
 pub struct Problem {
     /// The operating point it was made from.
     pub point: OperatingPoint,
@@ -58,6 +60,28 @@ pub struct Problem {
     pub load: f64,
     /// Flow that the surfaces bring to the inlet, the supplied film in units of a²/R; none where it is flooded.
     pub supply: Option<f64>,
+}
+
+/// What a steady problem follows from.
+#[derive(Serialize, Deserialize)]
+struct Stated {
+    point: OperatingPoint,
+    #[serde(with = "whole")]
+    lubricant: Lubricant,
+}
+
+impl From<Problem> for Stated {
+    fn from(Problem { point, lubricant, .. }: Problem) -> Self {
+        Self { point, lubricant }
+    }
+}
+
+impl TryFrom<Stated> for Problem {
+    type Error = SolveError;
+
+    fn try_from(Stated { point, lubricant }: Stated) -> Result<Self, SolveError> {
+        Self::new(&point, lubricant)
+    }
 }
 
 impl Problem {
@@ -259,7 +283,7 @@ pub struct Traction {
 }
 
 /// The grid that a solution lives on. Node arrays of a line contact have one extra leading node outside the inlet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// What it was built from; of a line contact its reference grid.
     pub spec: GridSpec,
@@ -281,7 +305,7 @@ impl Mesh {
 ///
 /// Node arrays run over X and, fastest, over Y: node (i, j) has the index i·n_y + j, and the last j lies on the axis Y
 /// = 0. A line contact is the case n_y = 1.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solution {
     /// What was solved.
     pub problem: Problem,

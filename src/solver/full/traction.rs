@@ -6,14 +6,9 @@ use crate::solver::discrete::heat::interpolated_across;
 use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::physics::lubricant::{LimitingStress, ScaledShear};
+use crate::solver::warning::{PLAUSIBLE_EXPONENT, PLAUSIBLE_TRACTION, Warning};
+use rayon::prelude::*;
 use std::fmt::{Display, Formatter};
-
-/// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every
-/// stress a lubricant can carry.
-pub const PLAUSIBLE_EXPONENT: f64 = 12.0;
-
-/// A traction coefficient beyond which no lubricant was ever measured: it would have thinned under shear or yielded.
-pub const PLAUSIBLE_TRACTION: f64 = 0.15;
 
 /// A shear stress \[Pa\] that every lubricant carries; under pressure it carries more.
 const CARRIED_PA: f64 = 5e6;
@@ -44,27 +39,19 @@ impl TractionDoubt {
     }
 }
 
+impl From<TractionDoubt> for Warning {
+    fn from(doubt: TractionDoubt) -> Self {
+        match doubt {
+            TractionDoubt::Exponent(exponent) => Self::UnphysicalExponent { exponent },
+            TractionDoubt::Coefficient(traction) => Self::UnphysicalTraction { traction },
+            TractionDoubt::Stress { stress_pa, pressure_pa } => Self::ShearStressAboveLimit { stress_pa, pressure_pa },
+        }
+    }
+}
+
 impl Display for TractionDoubt {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Exponent(exponent) => write!(
-                f,
-                "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear \
-                 stress is unphysical"
-            ),
-            Self::Coefficient(traction) => write!(
-                f,
-                "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant thins \
-                 under shear or yields"
-            ),
-            Self::Stress { stress_pa, pressure_pa } => write!(
-                f,
-                "the shear stress of {:.3} GPa under {:.3} GPa is above the limit: beyond {PLAUSIBLE_TRACTION} of the \
-                 pressure a lubricant yields, and this one has no limiting stress",
-                1e-9 * stress_pa,
-                1e-9 * pressure_pa
-            ),
-        }
+        Warning::from(*self).fmt(f)
     }
 }
 

@@ -53,7 +53,7 @@ pub(crate) use minimisation::minimised_rows;
 pub use model::{ModelSize, ReducedModel, SHAPE_WEIGHT, Snapshot, Window, deformation_weights, distance, separation};
 pub use oils::expected_film;
 pub(crate) use oils::{BEYOND_CELLS, OilPlace, apart, from_anchor, oil_place};
-pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, STANDS_IN, Starts};
+pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, Starts};
 pub use operators::Warmth;
 pub(crate) use operators::{Iterate, fronts};
 pub use pod::PodBasis;

@@ -14,10 +14,10 @@ use super::model::{ReducedModel, Snapshot, Window};
 use super::operators::{Operators, RowObserver, Warmth};
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
-use crate::solver::full::heat::ENDURED_K;
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::warning::ENDURED_K;
 use attempt::{Found, Watch, attempt, walk};
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -31,10 +31,6 @@ const FIRST_ATTEMPTS: usize = 12;
 /// most; from other starts films were off by up to 5e-2. Circles that thin under shear or have heat find their solutions from
 /// other starts, all but five of 20,000 and two of 5,000, which are tried with fewer modes at last. Of lines all modes count.
 static SHARES: [f64; 5] = [1.0, 0.875, 0.75, 0.625, 0.5];
-
-/// What is said of a solution by another window than the contact's own.
-pub const STANDS_IN: &str = "the window of the reduced model that this contact belongs to found no solution; the one beside \
-    it answers, whose errors were not measured here";
 
 /// What the online phase returns: small numbers only; fields are reconstructed on request.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@ mod temperatures;
 mod tests;
 
 pub(in crate::solver) use mixing::Mixing;
-pub(in crate::solver) use temperatures::{ENDURED_K, NodeArrays, mid_stress_pa};
+pub(in crate::solver) use temperatures::{NodeArrays, mid_stress_pa};
 pub use temperatures::{Rises, Temperatures};
 
 use super::newton_space::NewtonSpace;

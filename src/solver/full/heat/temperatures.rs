@@ -7,6 +7,7 @@ use crate::solver::full::newton_space::NewtonSpace;
 use crate::solver::full::solution::Problem;
 use crate::solver::full::system::System;
 use crate::solver::physics::lubricant::{LimitingStress, ScaledHeat};
+use crate::solver::warning::{ENDURED_K, Warning};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -19,14 +20,11 @@ pub struct Rises {
     pub surfaces_k: [f64; 2],
 }
 
-/// Temperature \[K\] above which lubricants decompose: 300 °C.
-pub(in crate::solver) const ENDURED_K: f64 = 573.0;
-
 /// Heat that is lost without a word, relative: on a line, and in a plane, whose cells are larger.
 const LARGEST_RESIDUAL: [f64; 2] = [3e-3, 1e-2];
 
 /// The temperatures of a contact with heat. Arrays run as those of the solution, over X and, fastest, over Y.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Temperatures {
     /// Abscissae X, those of the nodes of the solution.
     pub x: Vec<f64>,
@@ -50,7 +48,9 @@ pub struct Temperatures {
     /// Temperature at the inlet \[K\].
     pub inlet_k: f64,
     /// Abscissae of the stations of the march, and how surfaces warm there, for whoever goes on from here.
+    #[serde(skip)]
     pub(super) stations: Vec<f64>,
+    #[serde(skip)]
     pub(super) source: Arc<MovingSource>,
 }
 
@@ -138,27 +138,17 @@ impl Temperatures {
         self.rise_k.iter().map(Rises::of)
     }
 
-    /// A sentence where the film is hotter than oils endure.
-    pub fn too_hot(&self) -> Option<String> {
+    /// A warning if the film is hotter than oils endure.
+    pub fn too_hot(&self) -> Option<Warning> {
         let hottest = self.inlet_k + self.rise_k.iter().flatten().fold(0.0f64, |hottest, rise| hottest.max(*rise));
-        (hottest > ENDURED_K).then(|| {
-            format!(
-                "the film reaches {hottest:.0} K: oils decompose above {ENDURED_K} K, and no law was measured there"
-            )
-        })
+        (hottest > ENDURED_K).then_some(Warning::TooHot { temperature_k: hottest })
     }
 
-    /// That sentence, and one where heat is lost between the stations.
-    pub fn warnings(&self) -> impl Iterator<Item = String> {
-        let residual = self.balance.residual().abs();
+    /// A warning if heat is lost between the stations.
+    pub fn heat_lost(&self) -> Option<Warning> {
+        let share = self.balance.residual().abs();
         let most = LARGEST_RESIDUAL[usize::from(self.y.len() > 1)];
-        let lossy = (residual > most).then(|| {
-            format!(
-                "{:.1} % of the heat that is made goes nowhere: the grid is too coarse for this film's temperatures",
-                100.0 * residual
-            )
-        });
-        self.too_hot().into_iter().chain(lossy)
+        (share > most).then_some(Warning::HeatLost { share })
     }
 
     /// Those of a state.

@@ -167,7 +167,7 @@ fn two_grids_estimate_the_error_and_a_coarse_one_warns() {
     assert!((3.0..5.5).contains(&(first.h_c.error / second.h_c.error)), "{first:?} {second:?}");
     assert!(Accuracy::of(&fine, &coarse).is_none());
     assert!(Accuracy::of(&coarse, &solve(spec(0.04), &at(210.0, 10.0))).is_none());
-    assert!(resolution_warning(&coarse).is_some_and(|sentence| sentence.contains("H_min")));
+    assert!(resolution_warning(&coarse).is_some_and(|warning| warning.to_string().contains("H_min")));
     let light = solve(PointGridSpec { dx: 0.08, dy: 0.05, ..COARSE }, &at(20.0, 5.0));
     assert_eq!(resolution_warning(&light), None);
 }

@@ -10,6 +10,7 @@ mod moes;
 mod quantity;
 mod rolling;
 
+pub use crate::solver::warning::PLAUSIBLE_HERTZ_PRESSURE_PA;
 pub use ellipse::Ellipse;
 pub use film_asymptotes::{FilmAsymptotes, FilmShape, ellipse_film, moes_film};
 pub use film_formulas::{FilmFormula, FilmPrediction};
@@ -19,9 +20,6 @@ pub use quantity::Quantity;
 use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
-
-/// Highest Hertzian pressure \[Pa\] that is still called a real contact; beyond it results carry a warning.
-pub const PLAUSIBLE_HERTZ_PRESSURE_PA: f64 = 3.2e9;
 
 /// The shape of the contact: an infinitely long line or a circular point contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]

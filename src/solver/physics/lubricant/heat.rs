@@ -5,6 +5,7 @@ use super::{LubricantError, ScaledFluid, ViscosityLaw, check_constant};
 use crate::solver::limits::Number;
 use crate::solver::physics::bodies::{BodyHeat, surface_speeds};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::warning::{SMALLEST_PECLET, Warning};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -78,9 +79,6 @@ impl Default for Heat {
 /// Largest |SRR| of a contact that is computed with heat: beyond it one surface stands all but still, and heat leaves
 /// the contact through it by ways that no moving source describes.
 pub const LARGEST_HEATED_SRR: f64 = 1.95;
-
-/// Péclet number u_i a/(2κ_s) of a surface under which heat flows upstream within the body, which is left out.
-pub const SMALLEST_PECLET: f64 = 5.0;
 
 impl Heat {
     /// Refuses constants that no oil or body has, naming them.
@@ -181,22 +179,16 @@ impl ScaledHeat {
         }
     }
 
-    /// A sentence where a surface moves so slowly that heat flows upstream within its body.
-    pub fn warning(&self, point: &OperatingPoint) -> Option<String> {
+    /// A warning if a surface moves so slowly that heat flows upstream within its body, which is left out.
+    pub fn warning(&self, point: &OperatingPoint) -> Option<Warning> {
         let half_width = point.hertz().half_width_m;
         let peclet = |body: &BodyHeat, speed: f64| {
             let diffusivity = body.conductivity / (body.density * body.heat_capacity);
             point.speed_m_per_s * speed * half_width / (2.0 * diffusivity)
         };
         let [first, second] = [0, 1].map(|i| peclet(&self.heat.bodies[i], self.speeds[i]));
-        let smallest = first.min(second);
-        (smallest < SMALLEST_PECLET).then(|| {
-            format!(
-                "the Péclet number of body {} is {smallest:.2}: below {SMALLEST_PECLET} heat flows upstream within it, \
-                 and its surface is colder than the theory of moving sources says",
-                if first <= second { 1 } else { 2 }
-            )
-        })
+        let (body, peclet) = if first <= second { (1, first) } else { (2, second) };
+        (peclet < SMALLEST_PECLET).then_some(Warning::SmallPeclet { body, peclet })
     }
 }
 

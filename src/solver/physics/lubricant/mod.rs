@@ -13,6 +13,7 @@ mod heat_reduction;
 mod pressure_coefficient;
 mod shear_thinning;
 mod warm;
+pub(crate) mod whole;
 mod words;
 
 pub use super::contact::Sliding;
