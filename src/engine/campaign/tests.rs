@@ -1,10 +1,10 @@
 //! Campaigns against one run, piece by piece and file by file.
 
 use super::CampaignError;
+use super::compute::{Done, compute};
 use super::folder::{Folder, RESULT, SHARDS};
 use super::merge::{Merged, merge};
 use super::plan::plan;
-use super::shard::{Done, compute};
 use crate::engine::{Workbench, model_file, run_scene};
 use crate::scene::study::PieceRow;
 use crate::scene::{Scene, StudyObserver, StudyRow};

@@ -1,7 +1,7 @@
 //! Watching a campaign: its rows as its shards come, whoever computes them.
 
+use super::error::CampaignError;
 use super::folder::{Folder, Status};
-use super::{CampaignError, shard};
 use crate::engine::job::{Job, JobError, Wake};
 use crate::host::worker::pause;
 use crate::scene::StudyRow;
@@ -36,7 +36,7 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
                 if reporter.cancelled() {
                     return Ok(());
                 }
-                if shard::holds_rows(&folder) {
+                if folder.holds_rows() {
                     match folder.shard(shard) {
                         Ok(found) => reporter.send(News::Rows(shard, found.rows())),
                         // One that cannot be read now may be replaced.

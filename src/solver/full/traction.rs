@@ -1,6 +1,7 @@
 //! Shear across the film, and the traction (3.41) it adds up to.
 
-use super::solution::{Problem, Scalars, Solution};
+use super::problem::Problem;
+use super::solution::{Scalars, Solution};
 use crate::host::pool;
 use crate::solver::discrete::heat::interpolated_across;
 use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};

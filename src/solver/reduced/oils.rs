@@ -8,7 +8,7 @@
 
 use super::calibration::{ErrorEstimate, Estimated};
 use super::model::{ReducedModel, Window};
-use super::online::ReducedSolution;
+use super::reduced_solution::ReducedSolution;
 use crate::solver::full::GridCost;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, moes_film};
 use crate::solver::physics::lubricant::roelands_exponent;

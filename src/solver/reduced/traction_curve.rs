@@ -1,6 +1,7 @@
 //! Traction and film along a curve: contacts that differ in one quantity, each solved from its neighbours.
 
-use super::online::{Online, ReducedError, ReducedSolution};
+use super::online::{Online, ReducedError};
+use super::reduced_solution::ReducedSolution;
 use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Lubricant;
 

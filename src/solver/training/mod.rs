@@ -14,6 +14,8 @@ pub mod distance;
 #[cfg(test)]
 mod ellipse_tests;
 #[cfg(test)]
+mod error_split_tests;
+#[cfg(test)]
 mod heat_tests;
 mod heated_range;
 mod indicator;

@@ -54,5 +54,8 @@ pub(super) fn traction_rule(
     })?;
     let stresses: Vec<Vec<f64>> = stresses.into_iter().flatten().collect();
     let model = Arc::clone(model);
-    on_one_thread(observer, move || TractionRule::fit(model.windows.first()?, &stresses))
+    on_one_thread(observer, move || {
+        let window = model.windows.first()?;
+        TractionRule::fit(&window.grid, &window.sampled_rows, &stresses)
+    })
 }

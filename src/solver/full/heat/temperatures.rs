@@ -1,11 +1,7 @@
 //! The temperatures of a solved contact.
 
-use super::coupled::Coupled;
 use crate::solver::discrete::heat::{HeatBalance, Lines, MovingSource, POINTS, Profile, Spread, WarmFilm};
-use crate::solver::discrete::space::Grid;
-use crate::solver::full::newton_space::NewtonSpace;
-use crate::solver::full::solution::Problem;
-use crate::solver::full::system::System;
+use crate::solver::full::problem::Problem;
 use crate::solver::physics::lubricant::{LimitingStress, ScaledHeat};
 use crate::solver::warning::{ENDURED_K, Warning};
 use serde::{Deserialize, Serialize};
@@ -149,28 +145,6 @@ impl Temperatures {
         let share = self.balance.residual().abs();
         let most = LARGEST_RESIDUAL[usize::from(self.y.len() > 1)];
         (share > most).then_some(Warning::HeatLost { share })
-    }
-
-    /// Those of a state.
-    pub(super) fn of<S: NewtonSpace>(
-        coupled: &Coupled,
-        system: &System<S>,
-        problem: &Problem,
-        heat: &ScaledHeat,
-    ) -> Self {
-        let grid = system.space.grid();
-        let fields = NodeArrays {
-            x: grid.abscissae().0,
-            y: grid.across(),
-            first: S::FIRST_COLUMN,
-            pressure: &system.pressure,
-            film: &system.film,
-            stress: system.warm.as_ref().map_or(&[][..], |warm| &warm.stress),
-        };
-        let places = fields.x[fields.first..].iter().flat_map(|x| fields.y.iter().map(|y| (*x, *y)));
-        let spread = Spread::new(coupled.lines.x(), &coupled.lines.y, places);
-        let theta: Vec<Profile> = spread.profiles(&coupled.lines).collect();
-        Self::marched(&coupled.lines, &theta, &fields, (problem, heat))
     }
 
     /// Those of lines that were marched through given states at their stations, and of the nodes of a contact between

@@ -1,14 +1,16 @@
 //! Behaviour of full point solves: derivatives, limits, starts, grids, cancellation, what the estimates say.
 
-use super::*;
+use super::{Accuracy, resolution_warning};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::discrete::reynolds::{Node, RowGeometry, row};
+use crate::solver::discrete::reynolds::{Node, PENALTY, RowGeometry, row};
+use crate::solver::discrete::space::PlaneSpace;
 use crate::solver::full::tests::assert_derivatives;
-use crate::solver::full::{PointSolver, Solution, SolveError, Start, Termination};
+use crate::solver::full::{PointSolver, Problem, Solution, SolveError, Start, System, Termination};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{
     DensityLaw, Fluidity, Lubricant, ScaledFluid, ShearLaw, Sliding, ViscosityLaw,
 };
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 const COARSE: PointGridSpec = PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0));

@@ -4,7 +4,7 @@
 //! ½X² + ½g_y Y² where a³ = 3 w R_x J_x/(π E′), κ solves J_x/J_y = R_y/R_x, and J_x = ⅔ R_D(0, κ², 1),
 //! J_y = ⅔ R_D(0, 1, κ²): Johnson, Contact Mechanics, section 4.2, in the integrals of DLMF 19.16.
 
-use super::{ContactError, accept};
+use super::error::{ContactError, accept};
 use ellip::elliprd;
 use std::f64::consts::PI;
 

@@ -1,7 +1,9 @@
 //! Heat: the thermal constants of a lubricant and of both bodies, their ranges, and what they amount to in one contact.
 
+use super::error::{LubricantError, check_constant};
+use super::laws::ViscosityLaw;
+use super::scaled::ScaledFluid;
 use super::warm::WarmFluid;
-use super::{LubricantError, ScaledFluid, ViscosityLaw, check_constant};
 use crate::solver::limits::Number;
 use crate::solver::physics::bodies::{BodyHeat, surface_speeds};
 use crate::solver::physics::contact::OperatingPoint;

@@ -8,8 +8,9 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
-use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Stop, Warmth};
+use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Stop};
 use crate::solver::reduced::start::{Guess, film_number};
+use crate::solver::reduced::warmth::Warmth;
 
 /// A converged online iteration.
 pub(super) struct Found {

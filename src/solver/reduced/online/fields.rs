@@ -1,6 +1,6 @@
 //! From a reduced solution back to fields: the only large-scale work online, on request.
 
-use super::{Online, ReducedError, ReducedSolution, operators_of};
+use super::{Online, ReducedError, operators_of};
 use crate::host::pool;
 use crate::solver::discrete::grid::{ContactGrid, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, Spread, apply};
@@ -9,6 +9,7 @@ use crate::solver::discrete::reynolds::generalized::{FilmTreatment, NodeState, P
 use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::ReducedSolution;
 use crate::solver::reduced::dense;
 use crate::solver::reduced::operators::{Stations, carried, cut_off};
 use std::sync::Arc;

@@ -1,28 +1,12 @@
 //! The reduced operators of one window for a chosen truncation. Nothing in them is of large scale.
 
-mod front;
-mod heat;
-mod least_squares;
-mod newton;
-mod shaped;
-mod support;
-mod traction;
-
-pub(crate) use front::{cut_off, fronts, passed_rows};
-pub use heat::Warmth;
-pub(crate) use heat::{Stations, carried};
-pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
-pub use traction::RuleTraction;
-
-use self::front::Front;
-use self::heat::Heated;
-use self::least_squares::LeastSquares;
-use self::shaped::Shaped;
-use self::support::{StateRows, Support};
-use self::traction::Rule;
-use super::dense::{self, SmallSystem};
-use super::minimisation::Scheme;
-use super::model::{Window, deformation_weights};
+use super::front::{Front, support as front_support};
+use super::heat::{Heated, further_nodes};
+use super::least_squares::LeastSquares;
+use super::newton::Case;
+use super::shaped::Shaped;
+use super::support::{StateRows, Support, deformed_at};
+use super::traction::{Rule, RuleTraction};
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::film_integrals::LAST_STEP;
@@ -30,71 +14,74 @@ use crate::solver::discrete::reynolds::{CENTER, RowGeometry, STENCIL};
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::reduced::dense::{self, SmallSystem};
+use crate::solver::reduced::minimisation::Scheme;
+use crate::solver::reduced::model::{Window, deformation_weights};
 use faer::{Mat, MatRef};
 
 /// What Newton's iteration needs of a window, and its work space.
 pub(crate) struct Operators {
     pub modes: usize,
     /// How many of them Newton's steps change; Galerkin's equations of the others are left out.
-    active: usize,
+    pub(super) active: usize,
     /// The nodes that the rows depend on.
-    support: Support,
+    pub(super) support: Support,
     /// Six of them per sampled row; those that a row lacks have weight zero.
-    stencil: Vec<[usize; STENCIL]>,
-    geometry: Vec<RowGeometry>,
-    row_weights: Vec<f64>,
+    pub(super) stencil: Vec<[usize; STENCIL]>,
+    pub(super) geometry: Vec<RowGeometry>,
+    pub(super) row_weights: Vec<f64>,
     /// The modes on the support.
-    state: StateRows,
+    pub(super) state: StateRows,
     /// Axes along which the rows need gradients: none of a Newtonian model.
-    axes: usize,
+    pub(super) axes: usize,
     /// What is made of the rows' values, see the window's.
-    reconstruction: Mat<f64>,
-    residual_reconstruction: Option<Mat<f64>>,
+    pub(super) reconstruction: Mat<f64>,
+    pub(super) residual_reconstruction: Option<Mat<f64>>,
     /// wᵀ V_p.
-    load_row: Vec<f64>,
+    pub(super) load_row: Vec<f64>,
     /// The rule for the traction; none of a model that knows no sliding.
-    rule: Option<Rule>,
+    pub(super) rule: Option<Rule>,
     /// V_δ V_δᵀ W K V_p over the whole node array, for reconstruction; none where the exact K V_p is used, which the
     /// window has.
-    projected: Option<Mat<f64>>,
+    pub(super) projected: Option<Mat<f64>>,
     /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form; empty for the exact
     /// operator.
-    deformation_error: Option<Mat<f64>>,
+    pub(super) deformation_error: Option<Mat<f64>>,
     /// The film at X = 0 (and Y = 0) per unit of each coefficient without a boundary, and the scale it was found for; not
     /// of ellipses.
-    at_zero: Option<(f64, Vec<f64>)>,
+    pub(super) at_zero: Option<(f64, Vec<f64>)>,
     /// Where the film ruptures; none where a penalty holds the pressures.
-    front: Option<Front>,
+    pub(super) front: Option<Front>,
     /// What follows the shape of an ellipse; none of a window that knows circles or lines.
-    shaped: Option<Shaped>,
+    pub(super) shaped: Option<Shaped>,
     /// Temperatures; none of a model that knows no heat.
-    heated: Option<Box<Heated>>,
-    scratch: Scratch,
+    pub(super) heated: Option<Box<Heated>>,
+    pub(super) scratch: Scratch,
 }
 
-struct Scratch {
+pub(super) struct Scratch {
     /// P and K P on the support, and the gradients where there are any. They follow the steps, so that each iteration
     /// multiplies once by the large `state`.
-    fields: Vec<f64>,
-    step_fields: Vec<f64>,
-    films: Vec<f64>,
-    nodes: Nodes,
+    pub(super) fields: Vec<f64>,
+    pub(super) step_fields: Vec<f64>,
+    pub(super) films: Vec<f64>,
+    pub(super) nodes: Nodes,
     /// The step that ends the iteration of a film of a node that thins.
-    film_step: f64,
-    values: Vec<f64>,
-    jacobian_rows: Vec<f64>,
+    pub(super) film_step: f64,
+    pub(super) values: Vec<f64>,
+    pub(super) jacobian_rows: Vec<f64>,
     /// By the films of each row's nodes, and by all of them at once.
-    film_slopes: Vec<[f64; STENCIL]>,
-    film_column: Vec<f64>,
+    pub(super) film_slopes: Vec<[f64; STENCIL]>,
+    pub(super) film_column: Vec<f64>,
     /// The reduced Jacobian, load row included, and the step.
-    system: SmallSystem,
+    pub(super) system: SmallSystem,
     /// By how much modes are held at zero behind the rupture boundary in it.
-    restraint: f64,
+    pub(super) restraint: f64,
     /// The equations whose squares are least, of a scheme of residual minimisation.
-    minimised: Option<LeastSquares>,
+    pub(super) minimised: Option<LeastSquares>,
     /// What observers see of the former before it is factorised.
-    jacobian: Mat<f64>,
-    product: Vec<f64>,
+    pub(super) jacobian: Mat<f64>,
+    pub(super) product: Vec<f64>,
 }
 
 impl Operators {
@@ -108,7 +95,7 @@ impl Operators {
 
     /// Operators of contacts with heat.
     pub fn with_heat(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
-        let further = heat::further_nodes(&window.grid);
+        let further = further_nodes(&window.grid);
         let mut out = Self::with_support(window, modes, deformation_modes, true, &further);
         let mut films: Vec<usize> = out.stencil.iter().flatten().copied().collect();
         films.sort_unstable();
@@ -146,7 +133,7 @@ impl Operators {
         let rows = &window.sampled_rows;
         let (stencils, geometry): (Vec<_>, Vec<_>) = rows.iter().map(|&row| reference.row(row)).unzip();
         let ruptures = window.cavitation == Cavitation::Complementarity;
-        let passed = if ruptures { front::support(window) } else { Vec::new() };
+        let passed = if ruptures { front_support(window) } else { Vec::new() };
         let own: Vec<usize> = stencils.iter().flatten().chain(further).copied().collect();
         let support = Support::new(reference, own, passed);
         let nodes = support.nodes();
@@ -325,13 +312,5 @@ impl Operators {
         if factor.is_finite() && factor > 0.0 {
             coefficients.iter_mut().for_each(|c| *c *= factor);
         }
-    }
-}
-
-/// K V_p of so many modes at some nodes, as far as a basis of deformations represents it where there is one.
-fn deformed_at(window: &Window, projected: Option<&Mat<f64>>, nodes: &[usize], modes: usize) -> Mat<f64> {
-    match projected {
-        Some(projected) => Mat::from_fn(nodes.len(), modes, |i, k| projected[(nodes[i], k)]),
-        None => window.pressure.flexed_at(nodes, modes),
     }
 }

@@ -1,11 +1,11 @@
 //! The parts of an error: they add up, the best approximation is the best, and the discretisation part is what much
 //! finer grids say.
 
-use super::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
 use crate::solver::discrete::grid::{PointGridSpec, ReferenceGrid};
 use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::reduced::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
 use crate::solver::training::small::{self, POINT_GRID, line_grid};
 use crate::solver::training::{Plan, TrainingSpec, train};
 use std::sync::Arc;
