@@ -9,7 +9,6 @@ use super::{CampaignError, VERSION};
 use crate::engine::checked_file::{Flaw, Format, Unreadable};
 use crate::engine::{EngineError, Store, Workbench};
 use crate::scene::atomic_file;
-use crate::scene::study::PieceRow;
 use crate::scene::{Scene, StudyObserver, StudyRow};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, SolveError, Start};
@@ -29,16 +28,16 @@ const FORMAT: Format =
     Format { magic: b"EHLSHD\r\n", version: VERSION, oldest: VERSION, whole_hash: VERSION, max_payload: 2 << 30 };
 
 /// What came of a shard.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Content {
     /// Rows of a study, in the order of their pieces; seconds in them are kept aside.
-    Rows(Vec<PieceRow>),
+    Rows(Vec<StudyRow>),
     /// Contacts of a training with their full solutions, none where the solver did not converge.
     Contacts(Vec<(usize, OperatingPoint, Option<Solved>)>),
 }
 
 /// A finished shard.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Shard {
     /// Hash of the program that computed it.
     program: String,
@@ -73,14 +72,14 @@ impl Content {
     /// Takes the seconds out of the rows, so that what is left depends on no clock.
     fn take_seconds(&mut self) -> Vec<f64> {
         let Self::Rows(rows) = self else { return Vec::new() };
-        let seconds = rows.iter_mut().flat_map(PieceRow::seconds);
+        let seconds = rows.iter_mut().flat_map(StudyRow::seconds);
         seconds.map(|seconds| std::mem::replace(seconds, f64::NAN)).collect()
     }
 
     /// Whether its contacts make sense and its solutions are numbers: what a right hash cannot promise.
     fn is_sound(&self) -> bool {
         match self {
-            Self::Rows(rows) => rows.iter().all(PieceRow::is_sound),
+            Self::Rows(rows) => rows.iter().all(StudyRow::is_sound),
             Self::Contacts(contacts) => contacts.iter().all(|(_, point, solved)| {
                 let numbers = solved.iter().flat_map(|s| s.pressure.iter().chain([&s.h_0, &s.h_c]));
                 point.check().is_ok() && numbers.into_iter().all(|number| number.is_finite())
@@ -93,9 +92,9 @@ impl Shard {
     /// Its rows as they were told, with their seconds.
     pub fn rows(mut self) -> Vec<StudyRow> {
         let Content::Rows(rows) = &mut self.content else { return Vec::new() };
-        let seconds = rows.iter_mut().flat_map(PieceRow::seconds);
+        let seconds = rows.iter_mut().flat_map(StudyRow::seconds);
         seconds.zip(&self.times).for_each(|(seconds, taken)| *seconds = *taken);
-        std::mem::take(rows).into_iter().map(StudyRow::from).collect()
+        std::mem::take(rows)
     }
 
     /// Reads a shard's file.
@@ -137,7 +136,7 @@ impl Shard {
 /// Keeps the rows of a shard.
 struct Rows<'a> {
     observer: &'a dyn Observer,
-    rows: Mutex<Vec<PieceRow>>,
+    rows: Mutex<Vec<StudyRow>>,
 }
 
 impl Observer for Rows<'_> {
@@ -162,7 +161,7 @@ impl TrainingObserver for Rows<'_> {}
 
 impl StudyObserver for Rows<'_> {
     fn row(&self, row: StudyRow) {
-        self.rows.lock().unwrap_or_else(PoisonError::into_inner).extend(PieceRow::of(row));
+        self.rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
     }
 }
 
@@ -182,7 +181,7 @@ pub(super) fn work(
             let kept = Rows { observer, rows: Mutex::default() };
             scene.study.work(&scene.experiment(), bench, (round, pieces), &kept)?;
             let mut rows = kept.rows.into_inner().unwrap_or_else(PoisonError::into_inner);
-            rows.sort_by_key(PieceRow::place);
+            rows.sort_by_key(StudyRow::place);
             Ok(Content::Rows(rows))
         }
         Part::Training(grid, points) => {

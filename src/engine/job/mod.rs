@@ -11,6 +11,7 @@ pub use queue::Queue;
 
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
+use serde::{Deserialize, Serialize};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -43,7 +44,7 @@ impl Default for Wake {
 }
 
 /// How far a job is, for people.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Standing {
     /// What is being done.
     pub stage: String,
@@ -57,9 +58,14 @@ pub struct Standing {
     pub since_s: f64,
 }
 
-enum Event<M> {
+/// What a job reports to its owner; a value, so that a job may run in another thread or process.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Event<M> {
+    /// A row, an answer or whatever else it finishes on its way.
     Message(M),
+    /// How far it is.
     Stage(Progress),
+    /// It ended, or failed with a sentence.
     Ended(Ending),
 }
 
