@@ -1,6 +1,7 @@
 //! What the window shows and does, for those who look at it from outside: the tests.
 
 use super::Explorer;
+use super::answers::PassedOver;
 use super::panels;
 use super::tab::Tab;
 use super::tabs;
@@ -63,6 +64,18 @@ impl Explorer {
     /// What the trust badge says after its first words; symbols stand in braces.
     pub fn badge_detail(&self) -> String {
         tabs::badge::verdict(&self.desk.answers, self.desk.display.thresholds).detail
+    }
+
+    /// Whether a reduced model was trained for the contact, and what a reader must know of its picture, one sentence each;
+    /// `None` until the picture is there.
+    pub fn trust(&self) -> Option<(bool, Vec<String>)> {
+        let answers = &self.desk.answers;
+        let said = answers.current_picture()?.warnings.iter().map(ToString::to_string);
+        match &answers.passed_over {
+            None => Some((true, said.collect())),
+            Some(PassedOver::Outside(why)) => Some((false, std::iter::once(why.clone()).chain(said).collect())),
+            Some(_) => None,
+        }
     }
 
     /// Whether a computation runs or waits.

@@ -1,11 +1,9 @@
 //! What a reader of an answer must know besides its numbers: each kind of warning once, with its values and its sentence.
 
+use crate::solver::physics::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use std::fmt::{Display, Formatter};
 
-/// Highest Hertzian pressure \[Pa\] of a real contact; beyond it bearing steel yields below the surface.
-pub const PLAUSIBLE_HERTZ_PRESSURE_PA: f64 = 3.2e9;
 /// Hertzian pressure \[Pa\] beyond which static load ratings are exceeded (ISO 76).
 pub const STATIC_RATING_PRESSURE_PA: f64 = 4.6e9;
 /// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every
@@ -21,10 +19,13 @@ pub(in crate::solver) const SMALLEST_PECLET: f64 = 5.0;
 const SATURATED: f64 = 0.1;
 
 /// What a reader of an answer must know. Its sentence is what it displays.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[serde(rename_all = "snake_case")]
 pub enum Warning {
     /// The full solver did not converge.
+    #[error(
+        "the full solver {ending} ({newton_iterations} Newton steps in {attempts} attempts, residual {residual_norm:.1e})"
+    )]
     NotConverged {
         /// How it ended, as the end of a sentence.
         ending: String,
@@ -36,8 +37,10 @@ pub enum Warning {
         residual_norm: f64,
     },
     /// The boundary of the cavitated region cycled between two sets of nodes.
+    #[error("the cavitation boundary oscillated between two sets of nodes and was then moved node by node")]
     CavitationBoundaryOscillated,
     /// The grid moves H_c by more than a few percent.
+    #[error("{}", discretisation(*relative, ends.as_ref(), spacing.as_ref()))]
     DiscretisationError {
         /// Estimated relative error of H_c.
         relative: f64,
@@ -47,8 +50,13 @@ pub enum Warning {
         spacing: Option<WideSpacing>,
     },
     /// The discretisation error of H_c cannot be estimated.
+    #[error("the discretisation error of H_c cannot be estimated; compare with a finer grid")]
     DiscretisationErrorUnknown,
     /// The grid is too wide across to resolve the side lobes.
+    #[error(
+        "H_min is not resolved: the side lobes are too narrow for the spacing of {spacing:.3} across them; H_c is not \
+         affected; take {wanted:.3} or less, or the graded grid"
+    )]
     SideLobesUnresolved {
         /// ΔY at H_min.
         spacing: f64,
@@ -56,6 +64,10 @@ pub enum Warning {
         wanted: f64,
     },
     /// Heat flows upstream within a body that moves slowly.
+    #[error(
+        "the Péclet number of body {body} is {peclet:.2}: below {SMALLEST_PECLET} heat flows upstream within it, and its \
+         surface is colder than the theory of moving sources says"
+    )]
     SmallPeclet {
         /// 1 or 2.
         body: usize,
@@ -63,50 +75,82 @@ pub enum Warning {
         peclet: f64,
     },
     /// The film is hotter than lubricants endure.
+    #[error("the film reaches {temperature_k:.0} K: oils decompose above {ENDURED_K} K, and no law was measured there")]
     TooHot {
         /// Its highest temperature \[K\].
         temperature_k: f64,
     },
     /// Heat is lost between the nodes.
+    #[error(
+        "{:.1} % of the heat that is made goes nowhere: the grid is too coarse for this film's temperatures",
+        100.0 * share
+    )]
     HeatLost {
         /// Share of the heat that is made.
         share: f64,
     },
     /// The reduced model was not trained for the contact, or for how its inputs change.
+    #[error("{reason}")]
     OutsideTrainedRange {
         /// A sentence that names the quantity, its value and the trained interval.
         reason: String,
     },
     /// The reduced model was trained with the cavitation penalty, and another law is asked for.
+    #[error("the reduced model uses the cavitation penalty of its training, not {asked}; this moves H_c by about 1e-7")]
     CavitationOfTraining {
         /// The law that is asked for.
         asked: String,
     },
     /// The contact's own local model found no solution; its neighbour answers.
+    #[error(
+        "the local model that this contact belongs to found no solution; its neighbour answers, whose errors were not \
+         measured here"
+    )]
     NeighbouringModel,
     /// The reduced model has no solution.
+    #[error("{reason}")]
     NoReducedSolution {
         /// Why, a sentence.
         reason: String,
     },
     /// The full solver answers in place of the reduced model.
+    #[error("the full solver took over")]
     FullSolverTookOver,
     /// The Hertzian pressure exceeds what bearing steel carries.
+    #[error(
+        "p_H = {:.3} GPa exceeds 3.2 GPa, where bearing steel yields below the surface{}",
+        1e-9 * pressure_pa,
+        if *pressure_pa > STATIC_RATING_PRESSURE_PA { ", and 4.6 GPa, where static load ratings end (ISO 76)" } else { "" }
+    )]
     HertzPressure {
         /// p_H \[Pa\].
         pressure_pa: f64,
     },
     /// Every isothermal traction without a limiting stress is unphysical at this α* p_H.
+    #[error(
+        "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear stress is \
+         unphysical"
+    )]
     UnphysicalExponent {
         /// α* p_H.
         exponent: f64,
     },
     /// The traction coefficient is larger than any that was measured.
+    #[error(
+        "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant thins under \
+         shear or yields"
+    )]
     UnphysicalTraction {
         /// Traction coefficient.
         traction: f64,
     },
     /// The shear stress is larger than any that lubricants carry.
+    #[error(
+        "the shear stress of {:.3} GPa under {:.3} GPa is above the limit: beyond {PLAUSIBLE_TRACTION} of the pressure a \
+         lubricant yields, and this one has no limiting stress",
+        1e-9 * stress_pa,
+        1e-9 * pressure_pa
+    )]
     ShearStressAboveLimit {
         /// At mid-film, where the pressure is largest \[Pa\].
         stress_pa: f64,
@@ -162,7 +206,7 @@ impl Warning {
 
     /// Several of them as one sentence.
     pub fn joined<'a>(warnings: impl IntoIterator<Item = &'a Self>) -> String {
-        warnings.into_iter().map(Self::to_string).collect::<Vec<_>>().join("; ")
+        warnings.into_iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     }
 
     /// How many of some answers carry each kind, with the last warning of the kind as an example.
@@ -185,104 +229,23 @@ impl Warning {
     }
 }
 
-impl Display for Warning {
-    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NotConverged { ending, newton_iterations, attempts, residual_norm } => write!(
-                f,
-                "the full solver {ending} ({newton_iterations} Newton steps in {attempts} attempts, residual \
-                 {residual_norm:.1e})"
-            ),
-            Self::CavitationBoundaryOscillated => write!(
-                f,
-                "the cavitation boundary oscillated between two sets of nodes and was then moved node by node"
-            ),
-            Self::DiscretisationError { relative, ends, spacing } => {
-                let more = if *relative > SATURATED { " or more" } else { "" };
-                write!(f, "H_c is off by about {:.0} %{more}", 100.0 * relative)?;
-                let mut separator = ": ";
-                if let Some(NearEnds { x, y, wanted }) = ends {
-                    match y {
-                        None => write!(f, ": the inlet at X = {x:.3} is too near, one at {:.0} would do", -wanted)?,
-                        Some(y) => write!(
-                            f,
-                            ": the ends of the domain at X = {x:.3} and Y = {y:.3} are too near, {:.0} and {:.0} would do",
-                            -wanted,
-                            -0.5 * wanted
-                        )?,
-                    }
-                    separator = "; ";
-                }
-                match spacing {
-                    Some(WideSpacing { spacing, wanted }) => write!(
-                        f,
-                        "{separator}the spacing of {spacing:.2e} at X = -1 is too wide, {wanted:.1e} would do"
-                    ),
-                    None => Ok(()),
-                }
-            }
-            Self::DiscretisationErrorUnknown => {
-                write!(f, "the discretisation error of H_c cannot be estimated; compare with a finer grid")
-            }
-            Self::SideLobesUnresolved { spacing, wanted } => write!(
-                f,
-                "H_min is not resolved: the side lobes are too narrow for the spacing of {spacing:.3} across them; H_c \
-                 is not affected; take {wanted:.3} or less, or the graded grid"
-            ),
-            Self::SmallPeclet { body, peclet } => write!(
-                f,
-                "the Péclet number of body {body} is {peclet:.2}: below {SMALLEST_PECLET} heat flows upstream within \
-                 it, and its surface is colder than the theory of moving sources says"
-            ),
-            Self::TooHot { temperature_k } => write!(
-                f,
-                "the film reaches {temperature_k:.0} K: oils decompose above {ENDURED_K} K, and no law was measured \
-                 there"
-            ),
-            Self::HeatLost { share } => write!(
-                f,
-                "{:.1} % of the heat that is made goes nowhere: the grid is too coarse for this film's temperatures",
-                100.0 * share
-            ),
-            Self::CavitationOfTraining { asked } => write!(
-                f,
-                "the reduced model uses the cavitation penalty of its training, not {asked}; this moves H_c by about \
-                 1e-7"
-            ),
-            Self::NeighbouringModel => write!(
-                f,
-                "the local model that this contact belongs to found no solution; its neighbour answers, whose errors \
-                 were not measured here"
-            ),
-            Self::OutsideTrainedRange { reason } | Self::NoReducedSolution { reason } => f.write_str(reason),
-            Self::FullSolverTookOver => write!(f, "the full solver took over"),
-            Self::HertzPressure { pressure_pa } => {
-                let gpa = 1e-9 * pressure_pa;
-                write!(f, "p_H = {gpa:.3} GPa exceeds 3.2 GPa, where bearing steel yields below the surface")?;
-                if *pressure_pa > STATIC_RATING_PRESSURE_PA {
-                    write!(f, ", and 4.6 GPa, where static load ratings end (ISO 76)")?;
-                }
-                Ok(())
-            }
-            Self::UnphysicalExponent { exponent } => write!(
-                f,
-                "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear \
-                 stress is unphysical"
-            ),
-            Self::UnphysicalTraction { traction } => write!(
-                f,
-                "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant \
-                 thins under shear or yields"
-            ),
-            Self::ShearStressAboveLimit { stress_pa, pressure_pa } => write!(
-                f,
-                "the shear stress of {:.3} GPa under {:.3} GPa is above the limit: beyond {PLAUSIBLE_TRACTION} of the \
-                 pressure a lubricant yields, and this one has no limiting stress",
-                1e-9 * stress_pa,
-                1e-9 * pressure_pa
-            ),
-        }
-    }
+/// The sentence of a discretisation error, with a grid that would do.
+fn discretisation(relative: f64, ends: Option<&NearEnds>, spacing: Option<&WideSpacing>) -> String {
+    let more = if relative > SATURATED { " or more" } else { "" };
+    let ends = ends.map(|NearEnds { x, y, wanted }| match y {
+        None => format!("the inlet at X = {x:.3} is too near, one at {:.0} would do", -wanted),
+        Some(y) => format!(
+            "the ends of the domain at X = {x:.3} and Y = {y:.3} are too near, {:.0} and {:.0} would do",
+            -wanted,
+            -0.5 * wanted
+        ),
+    });
+    let spacing = spacing.map(|WideSpacing { spacing, wanted }| {
+        format!("the spacing of {spacing:.2e} at X = -1 is too wide, {wanted:.1e} would do")
+    });
+    let parts: Vec<String> = ends.into_iter().chain(spacing).collect();
+    let colon = if parts.is_empty() { "" } else { ": " };
+    format!("H_c is off by about {:.0} %{more}{colon}{}", 100.0 * relative, parts.join("; "))
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ mod commands;
 mod ellipses;
 mod heat;
 mod in_time;
+mod interfaces;
 mod readme;
 mod refused;
 mod run_and_train;

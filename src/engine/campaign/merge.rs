@@ -90,15 +90,14 @@ pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, Campaig
     if !next.is_empty() {
         return open_round(folder, Pieces::of_study(next));
     }
-    let untimed = rows.iter().cloned().filter_map(without_seconds).collect();
+    let untimed = rows.iter().cloned().map(without_seconds).collect();
     finish(folder, (rows, untimed), |_| Ok(()), seconds, processors)
 }
 
 /// A row without what a clock said.
-fn without_seconds(row: StudyRow) -> Option<StudyRow> {
-    let mut row = crate::scene::study::PieceRow::of(row)?;
+fn without_seconds(mut row: StudyRow) -> StudyRow {
     row.seconds().into_iter().for_each(|seconds| *seconds = f64::NAN);
-    Some(row.into())
+    row
 }
 
 fn open_round(folder: &Folder, pieces: Pieces) -> Result<Merged, CampaignError> {

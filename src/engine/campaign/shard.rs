@@ -4,7 +4,6 @@ use super::document::{Plan, VERSION};
 use super::error::CampaignError;
 use crate::engine::checked_file::{Flaw, Format, Unreadable};
 use crate::scene::StudyRow;
-use crate::scene::study::PieceRow;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::training::Solved;
 use serde::{Deserialize, Serialize};
@@ -15,16 +14,16 @@ pub(super) const FORMAT: Format =
     Format { magic: b"EHLSHD\r\n", version: VERSION, oldest: VERSION, whole_hash: VERSION, max_payload: 2 << 30 };
 
 /// What came of a shard.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Content {
     /// Rows of a study, in the order of their pieces; seconds in them are kept aside.
-    Rows(Vec<PieceRow>),
+    Rows(Vec<StudyRow>),
     /// Contacts of a training with their full solutions, none where the solver did not converge.
     Contacts(Vec<(usize, OperatingPoint, Option<Solved>)>),
 }
 
 /// A finished shard.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Shard {
     /// Hash of the program that computed it.
     pub(super) program: String,
@@ -50,14 +49,14 @@ impl Content {
     /// Takes the seconds out of the rows, so that what is left depends on no clock.
     pub(super) fn take_seconds(&mut self) -> Vec<f64> {
         let Self::Rows(rows) = self else { return Vec::new() };
-        let seconds = rows.iter_mut().flat_map(PieceRow::seconds);
+        let seconds = rows.iter_mut().flat_map(StudyRow::seconds);
         seconds.map(|seconds| std::mem::replace(seconds, f64::NAN)).collect()
     }
 
     /// Whether its contacts make sense and its solutions are numbers: what a right hash cannot promise.
     fn is_sound(&self) -> bool {
         match self {
-            Self::Rows(rows) => rows.iter().all(PieceRow::is_sound),
+            Self::Rows(rows) => rows.iter().all(StudyRow::is_sound),
             Self::Contacts(contacts) => contacts.iter().all(|(_, point, solved)| {
                 let numbers = solved.iter().flat_map(|s| s.pressure.iter().chain([&s.h_0, &s.h_c]));
                 point.check().is_ok() && numbers.into_iter().all(|number| number.is_finite())
@@ -70,9 +69,9 @@ impl Shard {
     /// Its rows as they were told, with their seconds.
     pub fn rows(mut self) -> Vec<StudyRow> {
         let Content::Rows(rows) = &mut self.content else { return Vec::new() };
-        let seconds = rows.iter_mut().flat_map(PieceRow::seconds);
+        let seconds = rows.iter_mut().flat_map(StudyRow::seconds);
         seconds.zip(&self.times).for_each(|(seconds, taken)| *seconds = *taken);
-        std::mem::take(rows).into_iter().map(StudyRow::from).collect()
+        std::mem::take(rows)
     }
 
     /// Reads a shard's file.

@@ -6,7 +6,6 @@ use super::folder::{Folder, RESULT, SHARDS};
 use super::merge::{Merged, merge};
 use super::plan::plan;
 use crate::engine::{Workbench, model_file, run_scene};
-use crate::scene::study::PieceRow;
 use crate::scene::{Scene, StudyObserver, StudyRow};
 use crate::solver::observer::Observer;
 use crate::solver::training::{TrainingObserver, train};
@@ -14,13 +13,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 #[derive(Default)]
-struct Rows(Mutex<Vec<PieceRow>>);
+struct Rows(Mutex<Vec<StudyRow>>);
 
 impl Observer for Rows {}
 impl TrainingObserver for Rows {}
 impl StudyObserver for Rows {
     fn row(&self, row: StudyRow) {
-        self.0.lock().unwrap().extend(PieceRow::of(row));
+        self.0.lock().unwrap().push(row);
     }
 }
 
@@ -28,10 +27,10 @@ impl Rows {
     /// Without what a clock says, in the order of their bytes.
     fn bytes(self) -> Vec<Vec<u8>> {
         let mut rows = self.0.into_inner().unwrap();
-        rows.iter_mut().flat_map(PieceRow::seconds).for_each(|seconds| *seconds = 0.0);
+        rows.iter_mut().flat_map(StudyRow::seconds).for_each(|seconds| *seconds = 0.0);
         let mut bytes: Vec<_> = rows.iter().map(|row| postcard::to_allocvec(row).unwrap()).collect();
         for (row, bytes) in rows.iter().zip(&bytes) {
-            let again: PieceRow = postcard::from_bytes(bytes).unwrap();
+            let again: StudyRow = postcard::from_bytes(bytes).unwrap();
             assert_eq!(postcard::to_allocvec(&again).unwrap(), *bytes, "{row:?}");
         }
         bytes.sort();
@@ -57,7 +56,7 @@ fn pieces_in_any_order_give_every_bit_of_one_run() {
         scene.study.run(&experiment, &mut Workbench::new(""), &one).unwrap();
         let mut bench = Workbench::new("");
         for round in 0.. {
-            let before: Vec<StudyRow> = parts.0.lock().unwrap().iter().cloned().map(StudyRow::from).collect();
+            let before: Vec<StudyRow> = parts.0.lock().unwrap().clone();
             let pieces = scene.study.pieces(&experiment, &mut bench, round, &before).unwrap();
             if pieces.is_empty() {
                 break;

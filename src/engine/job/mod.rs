@@ -15,6 +15,7 @@ use crate::host::clock::Stopwatch;
 use crate::host::worker;
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -45,7 +46,7 @@ impl Default for Wake {
 }
 
 /// How far a job is, for people.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Standing {
     /// What is being done.
     pub stage: String,
@@ -59,9 +60,14 @@ pub struct Standing {
     pub since_s: f64,
 }
 
-enum Event<M> {
+/// What a job reports to its owner; a value, so that a job may run in another thread or process.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Event<M> {
+    /// A row, an answer or whatever else it finishes on its way.
     Message(M),
+    /// How far it is.
     Stage(Progress),
+    /// It ended, or failed with a sentence.
     Ended(Ending),
 }
 

@@ -24,7 +24,7 @@ pub struct DistanceMeasure {
 }
 
 /// The measure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Full solutions that converged.
     pub solutions: usize,
@@ -43,7 +43,7 @@ pub struct Row {
 }
 
 /// How different two solutions are, and what the measures say.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pair {
     /// The contacts.
     pub moes: (Moes, Moes),

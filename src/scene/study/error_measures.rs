@@ -55,7 +55,7 @@ impl OnlineScheme {
 }
 
 /// One random point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Where it lies.
     pub moes: Moes,
@@ -68,7 +68,7 @@ pub struct Row {
 }
 
 /// Measures and errors at one point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// The true e_z, (3.10).
     pub state: f64,

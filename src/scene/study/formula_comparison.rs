@@ -24,7 +24,7 @@ pub struct FormulaComparison {
 }
 
 /// One contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Load number.
     pub m: f64,

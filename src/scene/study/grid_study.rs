@@ -22,7 +22,7 @@ pub struct GridStudy {
 }
 
 /// One grid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// ΔX.
     pub dx: f64,

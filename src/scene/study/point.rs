@@ -21,7 +21,7 @@ pub struct Point {
 }
 
 /// One method's result.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row {
     /// The method.
     pub method: Method,

@@ -55,7 +55,7 @@ pub struct ComparedSampling {
 }
 
 /// What comes of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Row {
     /// What all ways share.
     Trained {
@@ -69,7 +69,7 @@ pub enum Row {
 }
 
 /// What one way of sampling is worth.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Way {
     /// Its name.
     pub name: String,

@@ -20,7 +20,7 @@ pub struct Starvation {
 }
 
 /// One supply.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// r.
     pub ratio: f64,

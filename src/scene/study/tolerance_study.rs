@@ -40,7 +40,7 @@ pub struct ToleranceStudy {
 }
 
 /// What comes of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Row {
     /// What all rungs share.
     Trained {
@@ -54,7 +54,7 @@ pub enum Row {
 }
 
 /// The training cut at one tolerance.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
     /// The tolerance that was met.
     pub tolerance: f64,
@@ -69,7 +69,7 @@ pub struct Rung {
 }
 
 /// What is measured of a model along the trajectory (3.21).
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Along {
     /// Contacts with a full solution and no reduced one.
     pub failures: usize,

@@ -21,7 +21,7 @@ pub struct Transition {
 }
 
 /// One contact.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Its load number.
     pub m: f64,

@@ -9,6 +9,7 @@
 //! (`scenes/reduced/distance_measure_*.ron`).
 
 use crate::solver::physics::contact::OperatingPoint;
+use serde::{Deserialize, Serialize};
 
 /// A candidate function g_s,k of two contacts.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +49,7 @@ pub const FURTHER: [Candidate; 8] = [
 ];
 
 /// Weights of a distance measure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
     /// ω, one per candidate, scaled so that s fits the distances themselves.
     pub weights: Vec<f64>,
