@@ -1,9 +1,9 @@
 //! `campaign`: a scene's work in shards.
 
-use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use super::run::describe;
+use super::verdict::Verdict;
 use crate::engine::campaign::merge::{Merged, Whole, merge};
 use crate::engine::campaign::plan::plan;
 use crate::engine::campaign::shard::{Done, compute};

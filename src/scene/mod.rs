@@ -15,6 +15,8 @@ pub mod chart;
 mod chart_page;
 pub mod check;
 mod contact_result;
+mod contact_spec;
+mod contact_sweep;
 pub mod document;
 pub mod drawing;
 mod error;
@@ -47,6 +49,8 @@ pub use chart_page::{Page, drawn};
 pub use contact_result::{
     CONTACT_COLUMNS, ContactResult, HeatFacts, RESULT_COLUMNS, film_shear_table, profile_table, result_columns,
 };
+pub use contact_spec::{ContactSpec, Domain, Facts, Field, Measure, MethodName, OilGrade, Refusal, ShearName, Words};
+pub use contact_sweep::{ContactSweep, SweepError, Swept, Varied};
 pub use error::{Reason, RunError, SceneError, SceneFileError, VERSION};
 pub use expectation::{Expectation, Within};
 pub use experiment::Experiment;

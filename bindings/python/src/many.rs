@@ -2,10 +2,9 @@
 
 use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
-use crate::work::{long, refused};
-use ehl_explorer::cli::{Failure, PointOptions};
+use crate::work::{Failure, long, refused};
 use ehl_explorer::engine::{CONTACT_COLUMNS, ContactResult, Workbench, result_columns};
-use ehl_explorer::scene::Bench;
+use ehl_explorer::scene::{Bench, ContactSpec, Field, Words};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -17,17 +16,13 @@ use std::time::Instant;
 /// Contacts for which a reduced solver is taken at a time; its operators cost as much as a few solves.
 const CHUNK: usize = 128;
 
-/// One contact of many, with its own values of the varied options.
-fn varied(
-    options: &PointOptions,
-    columns: &[(String, &[f64])],
-    k: usize,
-) -> std::result::Result<PointOptions, Failure> {
-    let mut own = options.clone();
-    for (name, values) in columns {
-        own.set(name, values.get(k).copied().unwrap_or(f64::NAN))?;
+/// One contact of many, with its own values of the varied fields.
+fn varied(contact: &ContactSpec, columns: &[(Field, &[f64])], k: usize) -> ContactSpec {
+    let mut own = contact.clone();
+    for (field, values) in columns {
+        own.set(*field, values.get(k).copied().unwrap_or(f64::NAN));
     }
-    Ok(own)
+    own
 }
 
 /// Solves a contact with some of its options varied, a contact for each element of the arrays (float64, shape (n,)),
@@ -47,16 +42,16 @@ pub fn solve_many<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let asked = contact.asked(method, model)?;
-    let columns = columns.iter().map(|(name, values)| Ok((name.replace('_', "-"), values.as_slice()?)));
-    let columns = columns.collect::<PyResult<Vec<(String, &[f64])>>>()?;
+    let columns = columns.iter().map(|(name, values)| Ok((Field::varied(name).map_err(refused)?, values.as_slice()?)));
+    let columns = columns.collect::<PyResult<Vec<(Field, &[f64])>>>()?;
     let total = columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
-    if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != total) {
-        return Err(refused(format!("`{name}` has {} values, but another option has {total}", values.len())));
+    if let Some((field, values)) = columns.iter().find(|(_, values)| values.len() != total) {
+        let name = Words::Keywords.of(*field);
+        return Err(refused(format!("{name} has {} values, but another option has {total}", values.len())));
     }
-    let first = varied(&asked.options, &columns, 0).map_err(refused)?;
-    let heat = total > 0 && first.request().map_err(refused)?.0.lubricant.heat.is_some();
+    let heat = asked.spec.heat == Some(true);
     let names = [&CONTACT_COLUMNS[..], &result_columns(heat), &["reduced.trained"]].concat();
-    let Asked { options, model } = asked;
+    let Asked { spec, model } = asked;
     let width = names.len();
     let numbers = long(py, progress, |watch| {
         let mut numbers = vec![f64::NAN; width * total];
@@ -65,13 +60,14 @@ pub fn solve_many<'py>(
             let mut bench = bench_with(model.as_ref());
             for (i, row) in rows.chunks_exact_mut(width).enumerate() {
                 let k = chunk * CHUNK + i;
-                let at = |error: &dyn std::fmt::Display| Failure::Request(format!("contact {k}: {error}"));
-                let (request, method) =
-                    varied(&options, &columns, k).and_then(|options| options.request()).map_err(|error| at(&error))?;
+                let at = |error: Failure| match error {
+                    Failure::Stopped => error,
+                    Failure::Refused(sentence) => Failure::Refused(format!("contact {k}: {sentence}")),
+                };
+                let (request, method) = varied(&spec, &columns, k).request().map_err(|error| at(error.into()))?;
                 bench.forget();
                 let answer = bench.answer(&request, &method, None, watch);
-                let answer = answer.map_err(|e| if e.cancelled() { Failure::Stopped } else { at(&e) })?;
-                let result = ContactResult::from(&answer);
+                let result = ContactResult::from(&answer.map_err(|error| at(error.into()))?);
                 row.iter_mut().zip(result.row(&names)).for_each(|(place, value)| *place = value);
             }
             let done = done.fetch_add(rows.len() / width, Ordering::Relaxed) + rows.len() / width;
@@ -97,7 +93,7 @@ pub fn measure(
     threads: usize,
 ) -> PyResult<f64> {
     let asked = contact.asked(method, model)?;
-    let (request, method) = asked.options.request().map_err(refused)?;
+    let (request, method) = asked.spec.request().map_err(|refusal| refused(Failure::from(refusal)))?;
     let solve = |bench: &mut Workbench, runs: usize| {
         for _ in 0..runs {
             bench.forget();

@@ -1,9 +1,8 @@
 //! Reduced models.
 
 use crate::tables::shaped;
-use crate::work::{long, refused};
-use ehl_explorer::cli::Failure;
-use ehl_explorer::engine::{Embedded, EngineError, model_arrays, model_file};
+use crate::work::{Failure, long, refused};
+use ehl_explorer::engine::{Embedded, EngineError, model_arrays, model_file, model_text};
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
@@ -115,7 +114,7 @@ impl Model {
 
     /// The same as text, as ``ehl-explorer info`` prints it.
     fn __str__(&self) -> String {
-        ehl_explorer::cli::describe_model(&self.0)
+        model_text::describe(&self.0)
     }
 
     fn __repr__(&self) -> String {

@@ -2,8 +2,7 @@
 
 use crate::contact::Contact;
 use crate::tables::{from_row, shaped};
-use crate::work::{long, refused};
-use ehl_explorer::cli::MethodName;
+use crate::work::{Failure, long, refused};
 use ehl_explorer::engine::{Answer, ContactResult};
 use ehl_explorer::scene::answer_or_full;
 use ehl_explorer::solver::full::Solution;
@@ -220,9 +219,9 @@ pub fn solve(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Result> {
     let asked = contact.asked(method, model)?;
-    let (request, method) = asked.options.request().map_err(refused)?;
+    let (request, method) = asked.spec.request().map_err(|refusal| refused(Failure::from(refusal)))?;
     // A reduced solve is over before a thread has begun, unless the full solver must take over.
-    if asked.options.method == MethodName::Reduced {
+    if method.model().is_some() {
         use ehl_explorer::scene::Bench;
         let answer = py.detach(|| asked.bench().answer(&request, &method, None, &())).map_err(refused)?;
         if answer.converged {

@@ -3,12 +3,11 @@
 use crate::contact::Contact;
 use crate::model::{Model, scene_of};
 use crate::tables::array_of;
-use crate::work::{long, refused};
-use ehl_explorer::cli::{Failure, Sweep, Varied};
+use crate::work::{Failure, long, refused};
 use ehl_explorer::engine::{EngineError, SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::study::random_test::RandomTest;
 use ehl_explorer::scene::study::transient::series;
-use ehl_explorer::scene::{At, Grid, Method, Scene, Steps, Study, TransientStudy};
+use ehl_explorer::scene::{At, ContactSweep, Grid, Method, Scene, Steps, Study, TransientStudy, Varied};
 use ehl_explorer::solver::full::transient::{Frame, Inputs, MarchProgress, Signal, TimeStep, Transient, march};
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::physics::contact::ContactKind;
@@ -35,8 +34,9 @@ pub fn sweep<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let asked = contact.asked(method, model)?;
     let varied = varied.iter().map(axis).collect::<PyResult<Vec<Varied>>>()?;
-    let swept =
-        long(py, progress, |watch| Sweep::new(&varied, &asked.options)?.solve(&mut asked.bench(), watch, |_| Ok(())))?;
+    let swept = long(py, progress, |watch| {
+        ContactSweep::new(&varied, &asked.spec)?.solve(&mut asked.bench(), watch, |_| Ok::<_, Failure>(()))
+    })?;
     array_of(py, swept.table)
 }
 
@@ -45,7 +45,7 @@ fn axis(given: &Bound<'_, PyAny>) -> PyResult<Varied> {
         return text.parse().map_err(|sentence: String| refused(sentence));
     }
     let (name, values): (String, Vec<f64>) = given.extract()?;
-    Ok(Varied { name: name.replace('_', "-"), steps: Steps::List(values) })
+    Varied::new(&name.replace('_', "-"), Steps::List(values)).map_err(refused)
 }
 
 /// Random contacts of a range, each solved alone, and compared with full solutions at the first ``compare`` of them: the

@@ -1,12 +1,13 @@
 //! Work that takes long: without Python's lock, with progress, and stopped by Ctrl-C.
 
-use ehl_explorer::cli::Failure;
+use ehl_explorer::engine::EngineError;
 use ehl_explorer::engine::job::guarded;
-use ehl_explorer::scene::StudyObserver;
+use ehl_explorer::scene::{Refusal, StudyObserver, SweepError, Words};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use ehl_explorer::solver::training::TrainingObserver;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
+use std::fmt::{Display, Formatter};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
@@ -16,6 +17,42 @@ pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A request that is
 
 /// How often Python is asked for signals, and told how far work is.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
+
+/// Why work gives nothing.
+#[derive(Debug)]
+pub enum Failure {
+    /// Ctrl-C, or an exception of the caller's.
+    Stopped,
+    /// It is refused, with this sentence.
+    Refused(String),
+}
+
+impl Display for Failure {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Stopped => f.write_str("the run was stopped before it was done"),
+            Self::Refused(sentence) => f.write_str(sentence),
+        }
+    }
+}
+
+impl From<EngineError> for Failure {
+    fn from(error: EngineError) -> Self {
+        if error.cancelled() { Self::Stopped } else { Self::Refused(error.to_string()) }
+    }
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal.in_words(Words::Keywords))
+    }
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        Self::Refused(error.in_words(Words::Keywords))
+    }
+}
 
 /// The exception of a sentence.
 pub fn refused(sentence: impl ToString) -> PyErr {

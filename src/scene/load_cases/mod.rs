@@ -64,7 +64,7 @@ pub enum CasesError {
     TooLong,
     /// A title is unknown.
     #[error(
-        "line {line}: the column “{title}” is unknown; accepted are {}; put # before a title that is not to be read",
+        "line {line}: the column “{title}” is unknown; accepted are name, {}; put # before a title that is not to be read",
         accepted()
     )]
     Title {
@@ -107,6 +107,11 @@ impl CaseTable {
             Self::Text(text) => cases(text, experiment),
             Self::File(path) => cases(&text_of(&resolve(path))?, experiment),
         }
+    }
+
+    /// The titles that a table may have, besides names.
+    pub fn accepted() -> String {
+        accepted()
     }
 
     /// The table in a file, as a text that can be edited.
@@ -263,12 +268,12 @@ mod tests {
             ("0.012,3,,2e11,0.02,", "give load, alpha too"),
             (",,,,,,,,,40,,", "M and L belong together"),
             ("0.012,3,3e5,2e11,,,ISO VG 69,60", "69 is no ISO viscosity grade"),
-            ("0.012,3,3e5,2e11,,,thick,60", "“thick” is no grade"),
+            ("0.012,3,3e5,2e11,,,thick,60", "oil: “thick” is none; write it like ISO VG 68"),
             ("0.012,3,3e5,2e11,,,68", "needs a temperature"),
             ("0.012,3,3e5,2e11,0.02,,68,60", "give one of them"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,ellipsoid", "“ellipsoid” is none"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,nan", "srr"),
-            ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,11", "slide-to-roll ratio is 11"),
+            ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,11", "srr is 11, but must be a finite number between -10 and 10"),
             ("1,2,3,4,5,6,7,8,9,10,11,12,13", "13 cells are there, but 12 titles"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,point,40,10", "M and L leave"),
         ] {
