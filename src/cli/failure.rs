@@ -1,8 +1,8 @@
 //! Why a command gives no result, each as one sentence.
 
 use crate::engine::EngineError;
-use crate::scene::{Refusal, SceneFileError, Words};
 use crate::scene::atomic_file::WriteError;
+use crate::scene::{Refusal, SceneFileError, Words};
 
 /// Why a command stops.
 #[derive(Debug, thiserror::Error)]

@@ -19,7 +19,7 @@ pub fn choices(field: Field) -> PossibleValuesParser {
 /// The flag of a field.
 fn flag(field: Field) -> Arg {
     let facts = field.facts();
-    let help = facts.help(Words::Flags);
+    let help = Words::Flags.help(field);
     let flag = Arg::new(facts.name).long(facts.name).help(help.clone());
     if field.is_switch() {
         return flag.action(ArgAction::SetTrue);
@@ -65,7 +65,8 @@ impl FromArgMatches for PointOptions {
                 true => matches.get_flag(name).then_some("yes"),
                 false => matches.get_one::<String>(name).map(String::as_str),
             };
-            let refused = |why: crate::scene::Refusal| Error::raw(ErrorKind::ValueValidation, why.in_words(Words::Flags));
+            let refused =
+                |why: crate::scene::Refusal| Error::raw(ErrorKind::ValueValidation, why.in_words(Words::Flags));
             text.map_or(Ok(()), |text| spec.read_si(field, text)).map_err(refused)?;
         }
         Ok(Self(spec))

@@ -5,7 +5,7 @@ use super::options::PointOptions;
 use super::output::{self, ProgressLine};
 use super::verdict::Verdict;
 use crate::engine::{ContactResult, Workbench};
-use crate::scene::{ContactSweep, SweepError, Swept, Varied, Words, atomic_file};
+use crate::scene::{ContactSweep, Swept, Varied, atomic_file};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -28,9 +28,8 @@ pub struct SweepArgs {
 
 /// Runs the command: all requests are checked before the first is solved.
 pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
-    let refused = |why: SweepError| Failure::Request(why.in_words(Words::Flags));
-    let sweep = ContactSweep::new(&args.varied, &args.point.0).map_err(refused)?;
-    let (progress, total) = (ProgressLine::new(false), sweep.len());
+    let sweep = ContactSweep::new(&args.varied, &args.point.0)?;
+    let (progress, total) = (ProgressLine::new(false), sweep.points.len());
     let tell = |result: &ContactResult| if args.json { output::print_json(result) } else { Ok(()) };
     let Swept { table, failures, doubtful, worst } = sweep.solve(&mut Workbench::new(""), &progress, tell)?;
     progress.finish();

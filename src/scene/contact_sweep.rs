@@ -4,7 +4,7 @@ use super::axis::Steps;
 use super::bench::{Bench, Request};
 use super::check::MAX_POINTS;
 use super::contact_result::{CONTACT_COLUMNS, ContactResult, result_columns};
-use super::contact_spec::{ContactSpec, Field, Refusal, Words};
+use super::contact_spec::{ContactSpec, Field, Refusal};
 use super::error::RunError;
 use super::method::Method;
 use super::table::Table;
@@ -12,31 +12,6 @@ use crate::solver::full::Solution;
 use crate::solver::observer::Progress;
 use crate::solver::training::TrainingObserver;
 use std::str::FromStr;
-
-/// Why a sweep is refused.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SweepError {
-    /// It has too many points.
-    TooLong,
-    /// One of its contacts is refused.
-    Contact(Refusal),
-}
-
-impl SweepError {
-    /// The sentence in the words of an interface.
-    pub fn in_words(&self, words: Words) -> String {
-        match self {
-            Self::TooLong => format!("the sweep has too many points; at most {MAX_POINTS} are accepted"),
-            Self::Contact(refusal) => refusal.in_words(words),
-        }
-    }
-}
-
-impl From<Refusal> for SweepError {
-    fn from(refusal: Refusal) -> Self {
-        Self::Contact(refusal)
-    }
-}
 
 /// One varied option and the values it takes.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,11 +76,9 @@ impl FromStr for Varied {
 /// Contacts along one or two varied options, checked and not yet solved.
 pub struct ContactSweep {
     names: Vec<String>,
-    points: Vec<Point>,
+    /// The varied values of each contact, and the contact.
+    pub points: Vec<(Vec<f64>, Request, Method)>,
 }
-
-/// The varied values of a contact, and the contact.
-type Point = (Vec<f64>, Request, Method);
 
 /// What a sweep gave.
 pub struct Swept {
@@ -124,10 +97,12 @@ impl ContactSweep {
     ///
     /// # Errors
     /// When one of them is refused, or there are too many.
-    pub fn new(varied: &[Varied], contact: &ContactSpec) -> Result<Self, SweepError> {
+    pub fn new(varied: &[Varied], contact: &ContactSpec) -> Result<Self, Refusal> {
         let product = varied.iter().try_fold(1usize, |product, v| product.checked_mul(v.steps.len()));
         if product.is_none_or(|points| points > MAX_POINTS) {
-            return Err(SweepError::TooLong);
+            let field = varied.first().map_or(Field::Contact, |axis| axis.field);
+            let sentence = format!("the sweep has too many points; at most {MAX_POINTS} are accepted");
+            return Err(Refusal::new(field, sentence));
         }
         let point = |values: Vec<f64>| {
             let mut contact = contact.clone();
@@ -136,18 +111,8 @@ impl ContactSweep {
             Ok((values, request, method))
         };
         let tuples = Steps::combinations(varied.iter().map(|axis| &axis.steps));
-        let points = tuples.into_iter().map(point).collect::<Result<_, SweepError>>()?;
+        let points = tuples.into_iter().map(point).collect::<Result<_, Refusal>>()?;
         Ok(Self { names: varied.iter().map(|v| v.name.clone()).collect(), points })
-    }
-
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.points.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.points.is_empty()
     }
 
     /// Solves them, each from its neighbour; `tell` is shown each result.

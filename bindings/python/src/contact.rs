@@ -2,7 +2,7 @@
 
 use crate::STORE;
 use crate::model::Model;
-use crate::work::{Failure, refused};
+use crate::work::{refused, stated};
 use ehl_explorer::engine::Workbench;
 use ehl_explorer::scene::{ContactSpec, Field, MethodName, Request, Words};
 use ehl_explorer::solver::physics::contact::ContactKind;
@@ -48,7 +48,7 @@ fn state(spec: &mut ContactSpec, field: Field, value: &Bound<'_, PyAny>) -> PyRe
         let sentence = format!("{} must be a number, a text, a truth or some numbers", Words::Keywords.of(field));
         return Err(PyTypeError::new_err(sentence));
     };
-    spec.read(field, &text, "").map_err(|refusal| refused(Failure::from(refusal)))
+    spec.read(field, &text, "").map_err(|refusal| refused(stated(refusal)))
 }
 
 impl Contact {
@@ -70,7 +70,7 @@ impl Contact {
         // The unit of a load depends on the kind of contact, which is the first field.
         given.sort_by_key(|(field, _)| *field);
         given.iter().try_for_each(|(field, value)| state(&mut spec, *field, value))?;
-        let (request, _) = spec.request().map_err(|refusal| refused(Failure::from(refusal)))?;
+        let (request, _) = spec.request().map_err(|refusal| refused(stated(refusal)))?;
         let mut words = Vec::new();
         for &field in Field::ALL {
             let word = Words::Keywords.of(field);
@@ -169,7 +169,7 @@ impl Contact {
     #[pyo3(signature = (contact="line", **quantities))]
     fn engineering(contact: &str, quantities: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let mut spec = ContactSpec::default();
-        spec.read(Field::Contact, contact, "").map_err(|refusal| refused(Failure::from(refusal)))?;
+        spec.read(Field::Contact, contact, "").map_err(|refusal| refused(stated(refusal)))?;
         Self::of(spec, quantities, Field::titled)
     }
 

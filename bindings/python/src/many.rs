@@ -2,8 +2,8 @@
 
 use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
-use crate::work::{Failure, long, refused};
-use ehl_explorer::engine::{CONTACT_COLUMNS, ContactResult, Workbench, result_columns};
+use crate::work::{long, refused, stated};
+use ehl_explorer::engine::{CONTACT_COLUMNS, ContactResult, EngineError, Workbench, result_columns};
 use ehl_explorer::scene::{Bench, ContactSpec, Field, Words};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use numpy::PyReadonlyArray1;
@@ -60,19 +60,19 @@ pub fn solve_many<'py>(
             let mut bench = bench_with(model.as_ref());
             for (i, row) in rows.chunks_exact_mut(width).enumerate() {
                 let k = chunk * CHUNK + i;
-                let at = |error: Failure| match error {
-                    Failure::Stopped => error,
-                    Failure::Refused(sentence) => Failure::Refused(format!("contact {k}: {sentence}")),
+                let at = |error: EngineError| match error {
+                    stopped if stopped.cancelled() => stopped,
+                    refused => EngineError::Study(format!("contact {k}: {refused}")),
                 };
-                let (request, method) = varied(&spec, &columns, k).request().map_err(|error| at(error.into()))?;
+                let (request, method) = varied(&spec, &columns, k).request().map_err(|refusal| at(stated(refusal)))?;
                 bench.forget();
                 let answer = bench.answer(&request, &method, None, watch);
-                let result = ContactResult::from(&answer.map_err(|error| at(error.into()))?);
+                let result = ContactResult::from(&answer.map_err(at)?);
                 row.iter_mut().zip(result.row(&names)).for_each(|(place, value)| *place = value);
             }
             let done = done.fetch_add(rows.len() / width, Ordering::Relaxed) + rows.len() / width;
             watch.progress(Progress { stage: "contacts".to_owned(), done, total });
-            if watch.cancelled() { Err(Failure::Stopped) } else { Ok(()) }
+            if watch.cancelled() { Err(EngineError::Cancelled) } else { Ok(()) }
         })?;
         Ok(numbers)
     })?;
@@ -93,7 +93,7 @@ pub fn measure(
     threads: usize,
 ) -> PyResult<f64> {
     let asked = contact.asked(method, model)?;
-    let (request, method) = asked.spec.request().map_err(|refusal| refused(Failure::from(refusal)))?;
+    let (request, method) = asked.spec.request().map_err(|refusal| refused(stated(refusal)))?;
     let solve = |bench: &mut Workbench, runs: usize| {
         for _ in 0..runs {
             bench.forget();

@@ -1,7 +1,7 @@
 //! Reduced models.
 
 use crate::tables::shaped;
-use crate::work::{Failure, long, refused};
+use crate::work::{long, refused};
 use ehl_explorer::engine::{Embedded, EngineError, model_arrays, model_file, model_text};
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::physics::contact::ContactKind;
@@ -67,7 +67,7 @@ impl Model {
         let (read, _) = scene_of(scene)?;
         let none = || EngineError::NoTraining { path: scene.extract().unwrap_or_default() };
         let spec = read.training().ok_or_else(|| refused(none()))?;
-        let model = long(py, progress, |watch| train(&spec, watch).map_err(|e| Failure::from(EngineError::from(e))))?;
+        let model = long(py, progress, |watch| train(&spec, watch).map_err(EngineError::from))?;
         Ok(Self(Arc::new(model)))
     }
 

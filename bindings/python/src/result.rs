@@ -2,7 +2,7 @@
 
 use crate::contact::Contact;
 use crate::tables::{from_row, shaped};
-use crate::work::{Failure, long, refused};
+use crate::work::{long, refused, stated};
 use ehl_explorer::engine::{Answer, ContactResult};
 use ehl_explorer::scene::answer_or_full;
 use ehl_explorer::solver::full::Solution;
@@ -219,7 +219,7 @@ pub fn solve(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Result> {
     let asked = contact.asked(method, model)?;
-    let (request, method) = asked.spec.request().map_err(|refusal| refused(Failure::from(refusal)))?;
+    let (request, method) = asked.spec.request().map_err(|refusal| refused(stated(refusal)))?;
     // A reduced solve is over before a thread has begun, unless the full solver must take over.
     if method.model().is_some() {
         use ehl_explorer::scene::Bench;

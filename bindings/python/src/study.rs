@@ -3,7 +3,7 @@
 use crate::contact::Contact;
 use crate::model::{Model, scene_of};
 use crate::tables::array_of;
-use crate::work::{Failure, long, refused};
+use crate::work::{long, refused, stated};
 use ehl_explorer::engine::{EngineError, SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::study::random_test::RandomTest;
 use ehl_explorer::scene::study::transient::series;
@@ -35,7 +35,8 @@ pub fn sweep<'py>(
     let asked = contact.asked(method, model)?;
     let varied = varied.iter().map(axis).collect::<PyResult<Vec<Varied>>>()?;
     let swept = long(py, progress, |watch| {
-        ContactSweep::new(&varied, &asked.spec)?.solve(&mut asked.bench(), watch, |_| Ok::<_, Failure>(()))
+        let sweep = ContactSweep::new(&varied, &asked.spec).map_err(stated)?;
+        sweep.solve(&mut asked.bench(), watch, |_| Ok(()))
     })?;
     array_of(py, swept.table)
 }
@@ -160,7 +161,7 @@ fn by_model<'py>(
         let mut reduced = ReducedMarch::new(&model, &asked).map_err(EngineError::from)?;
         let trajectory = march(&mut reduced, &asked, &observer).map_err(EngineError::from)?;
         if watch.cancelled() {
-            return Err(EngineError::Cancelled.into());
+            return Err(EngineError::Cancelled);
         }
         let outside = model.domain.left_by(&trajectory);
         Ok((trajectory, outside))
@@ -214,7 +215,7 @@ fn outcome(
     mut bench: Workbench,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<SceneOutcome> {
-    long(py, progress, |watch| run_scene(scene, &mut bench, watch).map_err(Failure::from))
+    long(py, progress, |watch| run_scene(scene, &mut bench, watch))
 }
 
 fn first_table(py: Python<'_>, outcome: SceneOutcome) -> PyResult<Bound<'_, PyAny>> {

@@ -2,12 +2,11 @@
 
 use ehl_explorer::engine::EngineError;
 use ehl_explorer::engine::job::guarded;
-use ehl_explorer::scene::{Refusal, StudyObserver, SweepError, Words};
+use ehl_explorer::scene::{Refusal, StudyObserver, Words};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use ehl_explorer::solver::training::TrainingObserver;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use std::fmt::{Display, Formatter};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
@@ -18,40 +17,9 @@ pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A request that is
 /// How often Python is asked for signals, and told how far work is.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
 
-/// Why work gives nothing.
-#[derive(Debug)]
-pub enum Failure {
-    /// Ctrl-C, or an exception of the caller's.
-    Stopped,
-    /// It is refused, with this sentence.
-    Refused(String),
-}
-
-impl Display for Failure {
-    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Stopped => f.write_str("the run was stopped before it was done"),
-            Self::Refused(sentence) => f.write_str(sentence),
-        }
-    }
-}
-
-impl From<EngineError> for Failure {
-    fn from(error: EngineError) -> Self {
-        if error.cancelled() { Self::Stopped } else { Self::Refused(error.to_string()) }
-    }
-}
-
-impl From<Refusal> for Failure {
-    fn from(refusal: Refusal) -> Self {
-        Self::Refused(refusal.in_words(Words::Keywords))
-    }
-}
-
-impl From<SweepError> for Failure {
-    fn from(error: SweepError) -> Self {
-        Self::Refused(error.in_words(Words::Keywords))
-    }
+/// A contact that is refused, in the words of Python.
+pub fn stated(refusal: Refusal) -> EngineError {
+    EngineError::Study(refusal.in_words(Words::Keywords))
 }
 
 /// The exception of a sentence.
@@ -91,7 +59,7 @@ impl StudyObserver for Watch {}
 pub fn long<T: Send>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
+    work: impl FnOnce(&Watch) -> Result<T, EngineError> + Send,
 ) -> PyResult<T> {
     let watch = Watch::default();
     let (sender, receiver) = channel();
@@ -123,8 +91,10 @@ pub fn long<T: Send>(
     tell(progress, watch.news())?;
     match result {
         Some(Ok(Ok(value))) => Ok(value),
-        Some(Ok(Err(Failure::Stopped))) => Err(PyKeyboardInterrupt::new_err(Failure::Stopped.to_string())),
-        Some(Ok(Err(failure))) => Err(refused(failure)),
+        Some(Ok(Err(error))) if error.cancelled() => {
+            Err(PyKeyboardInterrupt::new_err("the run was stopped before it was done"))
+        }
+        Some(Ok(Err(error))) => Err(refused(error)),
         Some(Err(broken)) => Err(refused(broken)),
         None => Err(refused("the work ended without an answer")),
     }

@@ -9,11 +9,12 @@ mod in_time;
 
 pub use in_time::{InTime, InTimeState};
 
+use crate::scene::{ContactSpec, Words};
 use crate::solver::full::point::resolution_warning;
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
 use crate::solver::limits::Number;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use crate::solver::physics::lubricant::{Lubricant, Sliding};
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ErrorEstimate, Online, ReducedModel, ReducedOptions, Trust};
 use std::sync::Arc;
 
@@ -82,6 +83,25 @@ pub struct Outputs {
     pub full: bool,
     /// What a reader must know, one sentence each.
     pub warnings: Vec<String>,
+}
+
+impl Inputs {
+    /// The contact that they state under a load.
+    fn stated(&self, kind: ContactKind, load: f64) -> ContactSpec {
+        let ellipse = kind == ContactKind::Point && self.radius_ratio != 1.0;
+        ContactSpec {
+            contact: Some(kind),
+            radius: Some(self.radius_m),
+            radius_y: ellipse.then_some(self.radius_m * self.radius_ratio),
+            speed: Some(self.speed_m_per_s),
+            load: Some(load),
+            modulus: Some(self.modulus_pa),
+            viscosity: Some(self.viscosity_pa_s),
+            alpha: Some(self.alpha_per_pa),
+            srr: Some(self.slide_to_roll_ratio),
+            ..ContactSpec::default()
+        }
+    }
 }
 
 /// A model with all work space; one for each thread.
@@ -220,29 +240,11 @@ impl Coupled {
 
     /// The contact that inputs describe under a load.
     fn point(&self, inputs: &Inputs, load: f64) -> Result<OperatingPoint, String> {
-        let kind = self.model.contact();
-        let quantities = [
-            inputs.radius_m,
-            inputs.speed_m_per_s,
-            load,
-            inputs.modulus_pa,
-            inputs.viscosity_pa_s,
-            self.lubricant.own_coefficient().unwrap_or(inputs.alpha_per_pa),
-        ];
-        let sliding = Sliding { slide_to_roll_ratio: inputs.slide_to_roll_ratio, newtonian_plateau_ratio: None };
-        let mut point = OperatingPoint::from_quantities(kind, quantities, sliding);
-        if kind == ContactKind::Point && inputs.radius_ratio != 1.0 {
-            point.radius_y_m = Some(inputs.radius_m * inputs.radius_ratio);
-        }
-        let srr = inputs.slide_to_roll_ratio;
-        if !(srr.is_finite() && srr.abs() <= 10.0) {
-            return Err(format!(
-                "the slide-to-roll ratio is {}, but must be a finite number between -10 and 10",
-                Number(srr)
-            ));
-        }
-        point.check().map_err(|error| error.to_string())?;
-        Ok(point)
+        let stated = inputs.stated(self.model.contact(), load);
+        // The lubricant's own α takes the place of what is given.
+        let own = self.lubricant.own_coefficient();
+        let stated = ContactSpec { alpha: stated.alpha.filter(|_| own.is_none()), ..stated };
+        stated.operating_point(&self.lubricant).map_err(|refusal| refusal.in_words(Words::Variables))
     }
 
     /// The full solution on the model's grid.

@@ -71,14 +71,4 @@ impl Facts {
         let unit = |kind| self.bare.unwrap_or_else(|| self.dimension_in(kind).si_unit());
         [ContactKind::Line, ContactKind::Point].map(unit)
     }
-
-    /// What it is, with its unit and its note, in the words of an interface.
-    pub fn help(&self, words: Words) -> String {
-        let unit = match self.units() {
-            ["", _] => String::new(),
-            [line, point] if line == point => format!(" in {line}"),
-            [line, point] => format!(" in {line} (line) or {point} (point)"),
-        };
-        format!("{}{unit}{}", self.about, words.spelled(self.note))
-    }
 }

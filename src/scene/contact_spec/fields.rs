@@ -2,12 +2,11 @@
 
 use super::facts::{Facts, Measure};
 use super::given::{Choices, Domain, Given, MethodName, OilGrade, ShearName};
-use super::refusal::{Refusal, refuse};
 use super::words::Words;
 use crate::scene::grid::Grid;
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::solver::physics::contact::{ContactKind, Quantity};
-use crate::solver::physics::engineering::{Dimension, parse};
+use crate::solver::physics::engineering::Dimension;
 use crate::solver::physics::lubricant::{
     BodyHeat, Cavitation, DensityLaw, Heat, LimitingStress, Lubricant, ViscosityLaw,
 };
@@ -64,16 +63,6 @@ macro_rules! contact_fields {
                     $(Self::$field => <$kind as Given>::NUMBERS,)*
                 }
             }
-
-            /// Refuses a text that is no value of it.
-            ///
-            /// # Errors
-            /// A sentence that says what is accepted.
-            pub fn check(self, text: &str) -> Result<(), String> {
-                match self {
-                    $(Self::$field => <$kind as Given>::read(text).map(drop),)*
-                }
-            }
         }
 
         impl ContactSpec {
@@ -98,7 +87,13 @@ macro_rules! contact_fields {
                 }
             }
 
-            fn read_plain(&mut self, field: Field, text: &str) -> Result<(), String> {
+            pub(super) fn forget(&mut self, field: Field) {
+                match field {
+                    $(Field::$field => self.$member = None,)*
+                }
+            }
+
+            pub(super) fn read_plain(&mut self, field: Field, text: &str) -> Result<(), String> {
                 match field {
                     $(Field::$field => self.$member = Some(Given::read(text)?),)*
                 }
@@ -237,6 +232,14 @@ impl Field {
         })
     }
 
+    /// Refuses a text that is no value of it.
+    ///
+    /// # Errors
+    /// A sentence that says what is accepted.
+    pub fn check(self, text: &str) -> Result<(), String> {
+        ContactSpec::default().read_plain(self, text)
+    }
+
     /// Whether its value is one number.
     pub const fn is_number(self) -> bool {
         self.numbers() == 1
@@ -250,37 +253,5 @@ impl Field {
     /// Whether it is on or off.
     pub const fn is_switch(self) -> bool {
         matches!(self, Self::Heat)
-    }
-}
-
-impl ContactSpec {
-    /// States a field by a text; a number may have a unit, and one without is in `unit`, or in the field's own where that
-    /// is empty.
-    ///
-    /// # Errors
-    /// When the text is no value of the field.
-    pub fn read(&mut self, field: Field, text: &str, unit: &str) -> Result<(), Refusal> {
-        let facts = field.facts();
-        if field.is_number() {
-            let dimension = facts.dimension_in(self.kind());
-            let unit = if unit.is_empty() { facts.bare.unwrap_or_else(|| dimension.si_unit()) } else { unit };
-            return match parse(text, dimension, unit) {
-                Ok(value) => {
-                    self.set(field, value);
-                    Ok(())
-                }
-                Err(error) => refuse(field, format!("<{}>: {error}", facts.name)),
-            };
-        }
-        let refused = |why| Refusal::new(field, format!("<{}>: “{}” is none; {why}", facts.name, text.trim()));
-        self.read_plain(field, text.trim()).map_err(refused)
-    }
-
-    /// States a field by a text in SI units, as the command line has it.
-    ///
-    /// # Errors
-    /// When the text is no value of the field.
-    pub fn read_si(&mut self, field: Field, text: &str) -> Result<(), Refusal> {
-        self.read_plain(field, text).map_err(|why| Refusal::new(field, format!("<{}>: {why}", field.facts().name)))
     }
 }

@@ -38,9 +38,12 @@ pub(super) trait Given: Sized {
     }
 }
 
-/// A value that is chosen by a word: the word, its meaning, the value.
+/// Words, their meanings, their values.
+type All<T> = &'static [(&'static str, &'static str, T)];
+
+/// A value that is chosen by a word.
 trait Choice: Copy + 'static {
-    const ALL: &'static [(&'static str, &'static str, Self)];
+    const ALL: All<Self>;
 }
 
 impl<T: Choice> Given for T {
@@ -89,19 +92,18 @@ pub struct Domain {
 pub struct OilGrade(pub f64);
 
 impl Choice for ContactKind {
-    const ALL: &'static [(&'static str, &'static str, Self)] = &[
+    const ALL: All<Self> = &[
         ("line", "Line contact, loads in N/m", Self::Line),
         ("point", "Point contact, loads in N: a circle, or with a radius across an ellipse", Self::Point),
     ];
 }
 
 impl Choice for MethodName {
-    const ALL: &'static [(&'static str, &'static str, Self)] =
-        &[("full", "The full system", Self::Full), ("reduced", "A reduced model", Self::Reduced)];
+    const ALL: All<Self> = &[("full", "The full system", Self::Full), ("reduced", "A reduced model", Self::Reduced)];
 }
 
 impl Choice for Grid {
-    const ALL: &'static [(&'static str, &'static str, Self)] = &[
+    const ALL: All<Self> = &[
         ("uniform", "Equidistant nodes", Self::Usual),
         ("graded", "The explorer's default", Self::Graded),
         ("model", "The reduced model's own", Self::Model),
@@ -109,7 +111,7 @@ impl Choice for Grid {
 }
 
 impl Choice for Cavitation {
-    const ALL: &'static [(&'static str, &'static str, Self)] = &[
+    const ALL: All<Self> = &[
         ("penalty", "The penalty term of (2.36)", Self::Penalty),
         ("complementarity", "No pressure below zero, by a multiplier (appendix D)", Self::Complementarity),
         (
@@ -121,7 +123,7 @@ impl Choice for Cavitation {
 }
 
 impl Choice for ShearName {
-    const ALL: &'static [(&'static str, &'static str, Self)] = &[
+    const ALL: All<Self> = &[
         ("newtonian", "Viscosity does not depend on stress", Self::Newtonian),
         ("eyring", "Ree and Eyring's hyperbolic sine", Self::Eyring),
         ("carreau", "The modified Carreau law (3.40)", Self::Carreau),
@@ -175,31 +177,23 @@ impl Given for OilGrade {
 
 impl Given for DensityLaw {
     fn read(text: &str) -> Result<Self, String> {
-        match text {
-            "dowson-higginson" => Ok(Self::DowsonHigginson),
-            "incompressible" => Ok(Self::Incompressible),
-            "tait" => Err(needs_constants("Tait's", "dowson-higginson, incompressible")),
-            _ => Err("accepted are dowson-higginson, incompressible".to_owned()),
-        }
+        law(text, [("dowson-higginson", Self::DowsonHigginson), ("incompressible", Self::Incompressible)], "tait")
     }
 }
 
 impl Given for ViscosityLaw {
     fn read(text: &str) -> Result<Self, String> {
-        match text {
-            "roelands" => Ok(Self::Roelands),
-            "barus" => Ok(Self::Barus),
-            "doolittle" => Err(needs_constants("Doolittle's", "roelands, barus")),
-            _ => Err("accepted are roelands, barus".to_owned()),
-        }
+        law(text, [("roelands", Self::Roelands), ("barus", Self::Barus)], "doolittle")
     }
 }
 
-fn needs_constants(law: &str, accepted: &str) -> String {
-    format!(
-        "{law} law needs constants, which come with the lubricants squalane-pip and pao-650 or with a scene; accepted are \
-         {accepted}"
-    )
+/// A law without constants of its own; one with them is refused by saying where they come from.
+fn law<T>(text: &str, laws: [(&str, T); 2], other: &str) -> Result<T, String> {
+    let accepted = format!("accepted are {}, {}", laws[0].0, laws[1].0);
+    laws.into_iter().find(|(word, _)| *word == text).map(|(_, law)| law).ok_or_else(|| {
+        let from = "needs constants, which come with the lubricants squalane-pip and pao-650 or with a scene";
+        if text == other { format!("{text} {from}; {accepted}") } else { accepted }
+    })
 }
 
 /// Numbers with commas between them; none where something else stands there.

@@ -53,7 +53,8 @@ impl ContactSpec {
             self.shear_stress.ok_or_else(|| Refusal::new(Field::ShearStress, format!("<shear={law}> {needed}")))
         };
         let carreau = self.shear == Some(ShearName::Carreau);
-        if let Some(field) = [Field::ShearBeta, Field::ShearN].into_iter().find(|field| self.states(*field) && !carreau) {
+        if let Some(field) = [Field::ShearBeta, Field::ShearN].into_iter().find(|field| self.states(*field) && !carreau)
+        {
             return refuse(field, "<shear-beta> and <shear-n> belong to <shear=carreau>; leave them out or add it");
         }
         let npr = 0.0;

@@ -11,8 +11,10 @@ mod given;
 mod grids;
 mod laws;
 mod layers;
+mod reading;
 mod refusal;
 mod request;
+mod spelling;
 #[cfg(test)]
 mod tests;
 mod words;

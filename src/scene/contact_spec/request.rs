@@ -1,6 +1,5 @@
 //! From a stated contact to what is to be solved. Everything is checked here, once.
 
-use super::facts::Measure;
 use super::fields::{ContactSpec, Field};
 use super::given::{MethodName, OilGrade};
 use super::refusal::{Refusal, refuse};
@@ -13,6 +12,11 @@ use crate::solver::physics::contact::{ContactError, OperatingPoint, Quantity, re
 use crate::solver::physics::engineering::{Grade, Oil, OilFamily, OilState};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 
+/// The six SI quantities.
+const SI: [Field; 6] = [Field::Radius, Field::Speed, Field::Load, Field::Modulus, Field::Viscosity, Field::Alpha];
+/// What is known of the motion, with its ranges.
+const SLIDING: [(Field, Quantity); 2] =
+    [(Field::Srr, Quantity::SlideToRollRatio), (Field::Npr, Quantity::NewtonianPlateauRatio)];
 /// The constants of one body and of the other one.
 const BODIES: [Field; 4] = [Field::E1, Field::Nu1, Field::E2, Field::Nu2];
 
@@ -37,29 +41,21 @@ impl ContactSpec {
         Ok((Request { point, lubricant, grid, grid_model }, method))
     }
 
-    /// Refuses numbers outside the ranges of their fields; a concave R_y gets its own sentence later.
-    fn check_ranges(&self) -> Result<(), Refusal> {
-        for &field in Field::ALL.iter().filter(|field| **field != Field::RadiusY) {
-            let (Some(value), Measure::Of(quantity)) = (self.number(field), field.facts().measure) else { continue };
-            let (low, high) = quantity.range();
-            if !(low..=high).contains(&value) {
-                let (name, unit) = (field.facts().name, quantity.unit());
-                let title = if matches!(quantity, Quantity::M | Quantity::L) { ": Moes number " } else { "" };
-                let symbol = if title.is_empty() { "" } else { quantity.name() };
-                let (value, low, high) = (Number(value), Bound(low), Bound(high));
-                let accepted = format!("must be a finite number between {low} and {high}{unit}");
-                return refuse(field, format!("<{name}>{title}{symbol} is {value}{unit}, but {accepted}"));
-            }
-        }
-        Ok(())
-    }
-
     /// The operating point of a contact with these laws.
     ///
     /// # Errors
     /// With the field that is missing, contradicts another one, or is outside any sense.
     pub fn operating_point(&self, lubricant: &Lubricant) -> Result<OperatingPoint, Refusal> {
-        self.check_ranges()?;
+        for (field, quantity) in SLIDING {
+            let (low, high) = quantity.range();
+            if let Some(value) = self.number(field).filter(|value| !(low..=high).contains(value)) {
+                let (name, value) = (field.facts().name, Number(value));
+                return refuse(
+                    field,
+                    format!("<{name}> is {value}, but must be a finite number between {low} and {high}"),
+                );
+            }
+        }
         let modulus = self.reduced_modulus()?;
         let oil = self.oil_state()?;
         let named = self.lubricant.and_then(|named| named.viscosity_pa_s);
@@ -77,56 +73,40 @@ impl ContactSpec {
     }
 
     /// The six SI quantities, or Moes' numbers with those of them that are known.
-    fn numbers(&self, [radius, speed, load, modulus, viscosity, alpha]: [Option<f64>; 6]) -> Result<At, Refusal> {
-        let radius_y = self.radius_y;
-        let fields = [Field::Radius, Field::Speed, Field::Load, Field::Modulus, Field::Viscosity, Field::Alpha];
-        match (self.moes_m, self.moes_l) {
-            (Some(m), Some(l)) => Ok(At::Moes { m, l, radius, radius_y, speed, load, modulus, viscosity, alpha }),
-            (Some(_), None) => refuse(Field::MoesL, "<moes-m> and <moes-l> belong together; give both"),
-            (None, Some(_)) => refuse(Field::MoesM, "<moes-m> and <moes-l> belong together; give both"),
-            (None, None) => match (radius, speed, load, modulus, viscosity, alpha) {
-                (Some(radius), Some(speed), Some(load), Some(modulus), Some(viscosity), Some(alpha)) => {
-                    Ok(At::Si { radius, radius_y, speed, load, modulus, viscosity, alpha })
-                }
-                _ => {
-                    let given = [radius, speed, load, modulus, viscosity, alpha];
-                    let missing = fields.into_iter().zip(given).filter_map(|(field, given)| match given {
-                        None => Some(field),
-                        Some(_) => None,
-                    });
-                    let marks: Vec<String> = missing.clone().map(|field| format!("<{}>", field.facts().name)).collect();
-                    refuse(
-                        missing.clone().next().unwrap_or(Field::Radius),
-                        format!(
-                            "the operating point is incomplete: give {} too, or <moes-m> and <moes-l> instead",
-                            marks.join(", ")
-                        ),
-                    )
-                }
-            },
+    fn numbers(&self, given: [Option<f64>; 6]) -> Result<At, Refusal> {
+        let (radius_y, [radius, speed, load, modulus, viscosity, alpha]) = (self.radius_y, given);
+        if let (Some(m), Some(l)) = (self.moes_m, self.moes_l) {
+            return Ok(At::Moes { m, l, radius, radius_y, speed, load, modulus, viscosity, alpha });
         }
+        if let Some((_, missing)) = self.moes_m.zip(Some(Field::MoesL)).or(self.moes_l.zip(Some(Field::MoesM))) {
+            return refuse(missing, "<moes-m> and <moes-l> belong together; give both");
+        }
+        if let [Some(radius), Some(speed), Some(load), Some(modulus), Some(viscosity), Some(alpha)] = given {
+            return Ok(At::Si { radius, radius_y, speed, load, modulus, viscosity, alpha });
+        }
+        let missing: Vec<Field> =
+            SI.into_iter().zip(given).filter(|(_, given)| given.is_none()).map(|(field, _)| field).collect();
+        let marks: Vec<String> = missing.iter().map(|field| format!("<{}>", field.facts().name)).collect();
+        let (first, marks) = (missing.first().copied().unwrap_or(Field::Radius), marks.join(", "));
+        let instead = "or <moes-m> and <moes-l> instead";
+        refuse(first, format!("the operating point is incomplete: give {marks} too, {instead}"))
     }
 
     /// E′, as it is stated or of both bodies.
     fn reduced_modulus(&self) -> Result<Option<f64>, Refusal> {
-        let Some(field) = BODIES.into_iter().find(|field| self.states(*field)) else { return Ok(self.modulus) };
+        let Some(stated) = BODIES.into_iter().find(|field| self.states(*field)) else { return Ok(self.modulus) };
         if self.modulus.is_some() {
-            return refuse(
-                Field::Modulus,
-                "<modulus> and <e1> <nu1> <e2> <nu2> say the same thing; give one of both",
-            );
+            return refuse(Field::Modulus, "<modulus> and <e1> <nu1> <e2> <nu2> say the same thing; give one of both");
         }
-        match (self.e1, self.nu1, self.e2, self.nu2) {
-            (Some(e1), Some(nu1), Some(e2), Some(nu2)) => reduced_modulus(e1, nu1, e2, nu2).map(Some).map_err(|error| {
-                let sentence = error.to_string();
-                let named = |field: &Field| sentence.contains(&format!(" {} is", field.facts().name));
-                Refusal::new(BODIES.into_iter().find(named).unwrap_or(field), sentence.clone())
-            }),
-            _ => {
-                let missing = BODIES.into_iter().find(|field| !self.states(*field)).unwrap_or(field);
-                refuse(missing, "two bodies need all of <e1>, <nu1>, <e2> and <nu2>")
-            }
-        }
+        let (Some(e1), Some(nu1), Some(e2), Some(nu2)) = (self.e1, self.nu1, self.e2, self.nu2) else {
+            let missing = BODIES.into_iter().find(|field| !self.states(*field)).unwrap_or(stated);
+            return refuse(missing, "two bodies need all of <e1>, <nu1>, <e2> and <nu2>");
+        };
+        reduced_modulus(e1, nu1, e2, nu2).map(Some).map_err(|error| {
+            let sentence = error.to_string();
+            let field = BODIES.into_iter().find(|field| sentence.contains(&format!(" {} is", field.facts().name)));
+            Refusal::new(field.unwrap_or(stated), sentence)
+        })
     }
 
     /// The oil of a grade at its temperature.
@@ -150,28 +130,18 @@ impl ContactSpec {
     /// The refusal of an operating point, of the field that it is about.
     fn of_contact(&self, error: &ContactError) -> Refusal {
         let sentence = error.to_string();
-        match error {
-            ContactError::OutOfRange { quantity, .. } => {
-                let field = Field::named(quantity).filter(|field| self.states(*field));
-                field.map_or_else(
-                    || Refusal::new(Field::Contact, sentence.clone()),
-                    |field| Refusal::new(field, sentence.replacen(quantity, &format!("<{quantity}>"), 1)),
-                )
-            }
-            ContactError::LineAcross | ContactError::Concave { .. } => {
-                Refusal::new(Field::RadiusY, sentence.replacen("radius-y", "<radius-y>", 1))
-            }
-            ContactError::Overdetermined { .. } => Refusal::new(Field::MoesM, sentence),
+        let quantity = match error {
+            ContactError::OutOfRange { quantity, .. } => quantity,
+            ContactError::LineAcross | ContactError::Concave { .. } => "radius-y",
+            ContactError::Overdetermined { .. } => return Refusal::new(Field::MoesM, sentence),
+        };
+        match quantity {
+            "Moes number M" if self.moes_m.is_some() => Refusal::new(Field::MoesM, format!("<moes-m>: {sentence}")),
+            "Moes number L" if self.moes_l.is_some() => Refusal::new(Field::MoesL, format!("<moes-l>: {sentence}")),
+            _ => match Field::named(quantity).filter(|field| self.states(*field)) {
+                Some(field) => Refusal::new(field, sentence.replacen(quantity, &format!("<{quantity}>"), 1)),
+                None => Refusal::new(Field::Contact, sentence),
+            },
         }
-    }
-}
-
-/// An end of a range: plain where that is short.
-struct Bound(f64);
-
-impl std::fmt::Display for Bound {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let plain = self.0 == 0.0 || (0.01..1e4).contains(&self.0.abs());
-        if plain { write!(f, "{}", self.0) } else { write!(f, "{:e}", self.0) }
     }
 }

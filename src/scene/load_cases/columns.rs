@@ -1,6 +1,6 @@
 //! What the titles of a table say that its columns hold.
 
-use super::CasesError;
+use super::error::CasesError;
 use crate::scene::contact_spec::{Field, Words};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::parse;
