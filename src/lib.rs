@@ -7,11 +7,12 @@
 //! * [`scene`] is the experiment as a document: read, check, write; [`scene::study`] has one file for each question.
 //! * [`engine`] owns what is expensive and shared: grids, solvers, models and their files, jobs, the speed table.
 //! * [`host`] owns the clock, the threads and the pool for parallel work.
-//! * [`cli`] holds the commands.
-//! * `app` is the explorer on the screen; without the feature `desktop` it is left out, for programs that only solve.
+//! * [`cli`] holds the commands, `app` is the explorer on the screen; without the feature `desktop` both are left out, for
+//!   programs that only solve.
 
 #[cfg(feature = "desktop")]
 pub mod app;
+#[cfg(feature = "desktop")]
 pub mod cli;
 pub mod engine;
 pub mod host;

@@ -1,10 +1,10 @@
 //! `campaign`: a scene's work in shards.
 
-use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use super::run::describe;
 use crate::engine::campaign::compute::{Done, compute};
+use super::verdict::Verdict;
 use crate::engine::campaign::merge::{Merged, Whole, merge};
 use crate::engine::campaign::plan::plan;
 use crate::engine::campaign::{CampaignError, Folder, local};

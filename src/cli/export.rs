@@ -1,7 +1,8 @@
 //! `export`: a reduced model as other programs take it.
 
 use super::failure::Failure;
-use super::{Verdict, output};
+use super::output;
+use super::verdict::Verdict;
 use crate::engine::coupled::{Pressed, fmu};
 use crate::engine::{EngineError, SavedModel};
 use crate::scene::atomic_file;

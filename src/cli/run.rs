@@ -1,8 +1,8 @@
 //! `run`: scenes, held against their expectations.
 
-use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
+use super::verdict::Verdict;
 use crate::engine::results::day_of;
 use crate::engine::table::Number;
 use crate::engine::{EngineError, SceneOutcome, Store, Workbench, model_file, run_scene};

@@ -1,9 +1,9 @@
 //! `run --all`: every scene below a folder, and the page of what came of them.
 
-use super::Verdict;
 use super::failure::Failure;
 use super::output;
 use super::run::{RunArgs, keep_model, make_out, outcome_of, stem, tell};
+use super::verdict::Verdict;
 use crate::engine::results::{Entry, PAGE, SceneFile, entries_of, page, scenes_below, summary};
 use crate::engine::{
     Store,

@@ -2,7 +2,8 @@
 
 use super::failure::Failure;
 use super::options::PointOptions;
-use super::{Verdict, output};
+use super::output;
+use super::verdict::Verdict;
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
 use crate::host::clock::Stopwatch;
 use crate::scene::{Method, ResultJson, Sheet, answer_or_full, atomic_file};
@@ -71,7 +72,7 @@ pub struct SolveArgs {
 
 /// Runs the command.
 pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
-    let request = args.point.request()?;
+    let request = args.point.0.request()?;
     if args.accuracy && (request.point.kind == ContactKind::Line || request.method != Method::Full) {
         return Err(Failure::Request(
             "--accuracy belongs to full solutions of point contacts; add --contact point, or leave it out".to_owned(),

@@ -20,6 +20,7 @@ mod grid_accuracy;
 pub mod job;
 pub mod model_arrays;
 pub mod model_file;
+pub mod model_text;
 mod packed;
 pub mod results;
 mod saved_model;

@@ -4,8 +4,10 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use crate::solver::physics::lubricant::{
     Cavitation, DensityLaw, Doolittle, FreeVolumeHeat, LimitingStress, Lubricant, OilHeat, ShearLaw, Tait, ViscosityLaw,
 };
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A lubricant with its name and one line about it.
+/// A lubricant with its name and one line about it; in files its name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NamedLubricant {
     /// The word on the command line.
@@ -149,6 +151,18 @@ pub static NAMED: [NamedLubricant; 6] = [
         about: "PAO 650, Table 3.8: Tait, Doolittle, modified Carreau, η₀ 1.42 Pa·s, NPR 0",
     },
 ];
+
+impl Serialize for NamedLubricant {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
+impl<'de> Deserialize<'de> for NamedLubricant {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        by_name(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
+}
 
 impl NamedLubricant {
     /// The contact in which its source studies it, in pure rolling; `None` for laws that go with any contact.

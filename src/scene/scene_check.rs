@@ -1,7 +1,11 @@
 //! Everything of a scene is checked before anything is computed from it.
 
 use super::check::{Checked, number, refuse};
-use super::{Expectation, Scene, SceneError, View, Within, grid};
+use super::document::Scene;
+use super::error::SceneError;
+use super::expectation::{Expectation, Within};
+use super::grid;
+use super::view::View;
 use crate::solver::limits::plain;
 use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};

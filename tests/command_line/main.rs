@@ -10,6 +10,7 @@ mod ellipses;
 mod heat;
 mod in_time;
 mod interfaces;
+mod load_cases;
 mod readme;
 mod refused;
 mod run_and_train;

@@ -2,12 +2,11 @@
 
 use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
-use crate::work::{long, refused};
-use ehl_explorer::cli::{Failure, PointOptions};
-use ehl_explorer::engine::{CONTACT_COLUMNS, Workbench, result_columns};
+use crate::work::{long, refused, stated};
+use ehl_explorer::engine::{CONTACT_COLUMNS, EngineError, Workbench, result_columns};
 use ehl_explorer::host::clock::Stopwatch;
 use ehl_explorer::host::pool::on_all_cores;
-use ehl_explorer::scene::Bench;
+use ehl_explorer::scene::{Bench, ContactSpec, Field, Words};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -18,17 +17,13 @@ use std::thread::ScopedJoinHandle;
 /// Contacts for which a reduced solver is taken at a time; its operators cost as much as a few solves.
 const CHUNK: usize = 128;
 
-/// One contact of many, with its own values of the varied options.
-fn varied(
-    options: &PointOptions,
-    columns: &[(String, &[f64])],
-    k: usize,
-) -> std::result::Result<PointOptions, Failure> {
-    let mut own = options.clone();
-    for (name, values) in columns {
-        own.set(name, values.get(k).copied().unwrap_or(f64::NAN))?;
+/// One contact of many, with its own values of the varied fields.
+fn varied(contact: &ContactSpec, columns: &[(Field, &[f64])], k: usize) -> ContactSpec {
+    let mut own = contact.clone();
+    for (field, values) in columns {
+        own.set(*field, values.get(k).copied().unwrap_or(f64::NAN));
     }
-    Ok(own)
+    own
 }
 
 /// Solves a contact with some of its options varied, a contact for each element of the arrays (float64, shape (n,)),
@@ -48,16 +43,16 @@ pub fn solve_many<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let asked = contact.asked(method, model)?;
-    let columns = columns.iter().map(|(name, values)| Ok((name.replace('_', "-"), values.as_slice()?)));
-    let columns = columns.collect::<PyResult<Vec<(String, &[f64])>>>()?;
+    let columns = columns.iter().map(|(name, values)| Ok((Field::varied(name).map_err(refused)?, values.as_slice()?)));
+    let columns = columns.collect::<PyResult<Vec<(Field, &[f64])>>>()?;
     let total = columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
-    if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != total) {
-        return Err(refused(format!("`{name}` has {} values, but another option has {total}", values.len())));
+    if let Some((field, values)) = columns.iter().find(|(_, values)| values.len() != total) {
+        let name = Words::Keywords.of(*field);
+        return Err(refused(format!("{name} has {} values, but another option has {total}", values.len())));
     }
-    let first = varied(&asked.options, &columns, 0).map_err(refused)?;
-    let heat = total > 0 && first.request().map_err(refused)?.lubricant.heat.is_some();
+    let heat = asked.spec.heat == Some(true);
     let names = [&CONTACT_COLUMNS[..], &result_columns(heat)].concat();
-    let Asked { options, model } = asked;
+    let Asked { spec, model } = asked;
     let width = names.len();
     let (numbers, warnings) = long(py, progress, |watch| {
         let (mut numbers, mut warnings) = (vec![f64::NAN; width * total], vec![String::new(); total]);
@@ -67,18 +62,19 @@ pub fn solve_many<'py>(
             let mut bench = bench_with(model.as_ref());
             for (i, (row, warning)) in rows.chunks_exact_mut(width).zip(&mut *warnings).enumerate() {
                 let k = chunk * CHUNK + i;
-                let at = |error: &dyn std::fmt::Display| Failure::Request(format!("contact {k}: {error}"));
-                let request =
-                    varied(&options, &columns, k).and_then(|options| options.request()).map_err(|error| at(&error))?;
+                let at = |error: EngineError| match error {
+                    stopped if stopped.cancelled() => stopped,
+                    refused => EngineError::Study(format!("contact {k}: {refused}")),
+                };
+                let request = varied(&spec, &columns, k).request().map_err(|refusal| at(stated(refusal)))?;
                 bench.forget();
-                let answer = bench.answer(&request, None, watch);
-                let result = answer.map_err(|e| if e.cancelled() { Failure::Stopped } else { at(&e) })?.result;
+                let result = bench.answer(&request, None, watch).map_err(at)?.result;
                 *warning = result.warning();
                 row.iter_mut().zip(result.row(&names)).for_each(|(place, value)| *place = value);
             }
             let done = done.fetch_add(warnings.len(), Ordering::Relaxed) + warnings.len();
             watch.progress(Progress { stage: "contacts".to_owned(), done, total });
-            if watch.cancelled() { Err(Failure::Stopped) } else { Ok(()) }
+            if watch.cancelled() { Err(EngineError::Cancelled) } else { Ok(()) }
         };
         on_all_cores(|| chunks.try_for_each(solve))?;
         Ok((numbers, warnings))
@@ -99,7 +95,7 @@ pub fn measure(
     threads: usize,
 ) -> PyResult<f64> {
     let asked = contact.asked(method, model)?;
-    let request = asked.options.request().map_err(refused)?;
+    let request = asked.spec.request().map_err(|refusal| refused(stated(refusal)))?;
     let solve = |bench: &mut Workbench, runs: usize| {
         for _ in 0..runs {
             bench.forget();

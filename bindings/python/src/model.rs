@@ -2,8 +2,7 @@
 
 use crate::tables::shaped;
 use crate::work::{long, refused};
-use ehl_explorer::cli::Failure;
-use ehl_explorer::engine::{Embedded, EngineError, model_arrays, model_file};
+use ehl_explorer::engine::{Embedded, EngineError, model_arrays, model_file, model_text};
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
@@ -68,7 +67,7 @@ impl Model {
         let (read, _) = scene_of(scene)?;
         let none = || EngineError::NoTraining { path: scene.extract().unwrap_or_default() };
         let spec = read.training().ok_or_else(|| refused(none()))?;
-        let model = long(py, progress, |watch| train(&spec, watch).map_err(|e| Failure::from(EngineError::from(e))))?;
+        let model = long(py, progress, |watch| train(&spec, watch).map_err(EngineError::from))?;
         Ok(Self(Arc::new(model)))
     }
 
@@ -115,7 +114,7 @@ impl Model {
 
     /// The same as text, as ``ehl-explorer info`` prints it.
     fn __str__(&self) -> String {
-        ehl_explorer::cli::describe_model(&self.0)
+        model_text::describe(&self.0)
     }
 
     fn __repr__(&self) -> String {

@@ -2,8 +2,7 @@
 
 use crate::contact::Contact;
 use crate::tables::{from_row, shaped};
-use crate::work::{long, refused};
-use ehl_explorer::cli::MethodName;
+use crate::work::{long, refused, stated};
 use ehl_explorer::engine::{Answer, ContactResult};
 use ehl_explorer::scene::answer_or_full;
 use ehl_explorer::solver::full::Solution;
@@ -219,9 +218,9 @@ pub fn solve(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Result> {
     let asked = contact.asked(method, model)?;
-    let request = asked.options.request().map_err(refused)?;
+    let request = asked.spec.request().map_err(|refusal| refused(stated(refusal)))?;
     // A reduced solve is over before a thread has begun, unless the full solver must take over.
-    if asked.options.method == MethodName::Reduced {
+    if request.method.model().is_some() {
         use ehl_explorer::scene::Bench;
         let answer = py.detach(|| asked.bench().answer(&request, None, &())).map_err(refused)?;
         if answer.result.converged {

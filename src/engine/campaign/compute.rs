@@ -8,7 +8,6 @@ use super::shard::{Content, FORMAT, Shard};
 use crate::engine::{EngineError, Store, Workbench};
 use crate::host::clock::Stopwatch;
 use crate::host::pool::{map_with, on_threads};
-use crate::scene::study::PieceRow;
 use crate::scene::{Scene, StudyObserver, StudyRow, atomic_file};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, SolveError, Start};
@@ -32,7 +31,7 @@ pub enum Done {
 /// Keeps the rows of a shard.
 struct Rows<'a> {
     observer: &'a dyn Observer,
-    rows: Mutex<Vec<PieceRow>>,
+    rows: Mutex<Vec<StudyRow>>,
 }
 
 impl Observer for Rows<'_> {
@@ -57,7 +56,7 @@ impl TrainingObserver for Rows<'_> {}
 
 impl StudyObserver for Rows<'_> {
     fn row(&self, row: StudyRow) {
-        self.rows.lock().unwrap_or_else(PoisonError::into_inner).extend(PieceRow::of(row));
+        self.rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
     }
 }
 
@@ -77,7 +76,7 @@ pub(super) fn work(
             let kept = Rows { observer, rows: Mutex::default() };
             scene.study.work(&scene.experiment(), bench, (round, pieces), &kept)?;
             let mut rows = kept.rows.into_inner().unwrap_or_else(PoisonError::into_inner);
-            rows.sort_by_key(PieceRow::place);
+            rows.sort_by_key(StudyRow::place);
             Ok(Content::Rows(rows))
         }
         Part::Training(grid, points) => {

@@ -54,6 +54,9 @@ pub enum CoupledError {
     /// Nothing converges.
     #[error("neither the reduced model nor the full solver has a solution here: {0}")]
     NoSolution(String),
+    /// An input states no contact.
+    #[error("{0}")]
+    Stated(String),
     /// The request is refused.
     #[error(transparent)]
     Run(#[from] Box<RunError>),

@@ -6,6 +6,7 @@
 use super::{Coupled, CoupledError, InTime, Inputs, Outputs, Pressed};
 use crate::engine::SavedModel;
 use crate::engine::archive::zip;
+use crate::scene::Field;
 use crate::solver::physics::contact::ContactKind;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -31,8 +32,10 @@ pub enum Role {
 pub struct Real {
     /// Its name.
     pub name: &'static str,
-    /// Its unit in line contacts and in point contacts; empty where it has none.
-    pub unit: [&'static str; 2],
+    /// The field of a contact that it gives.
+    field: Option<Field>,
+    /// Its unit in line contacts and in point contacts where it is no field; empty where it has none.
+    unit: [&'static str; 2],
     /// What it is.
     pub about: &'static str,
     role: Role,
@@ -41,14 +44,18 @@ pub struct Real {
     output: Option<fn(&Outputs) -> f64>,
 }
 
-const fn given(
-    name: &'static str,
-    unit: &'static str,
-    role: Role,
-    input: fn(&mut Inputs) -> &mut f64,
-    about: &'static str,
-) -> Real {
-    Real { name, unit: [unit, unit], about, role, input: Some(input), output: None }
+/// A field of a contact as a variable.
+const fn given(field: Field, role: Role, input: fn(&mut Inputs) -> &mut f64) -> Real {
+    let facts = field.facts();
+    Real {
+        name: facts.variable,
+        field: Some(field),
+        unit: [""; 2],
+        about: facts.about,
+        role,
+        input: Some(input),
+        output: None,
+    }
 }
 
 const fn follows(
@@ -57,33 +64,28 @@ const fn follows(
     output: fn(&Outputs) -> f64,
     about: &'static str,
 ) -> Real {
-    Real { name, unit, about, role: Role::Output, input: None, output: Some(output) }
+    Real { name, field: None, unit, about, role: Role::Output, input: None, output: Some(output) }
 }
 
 /// All real variables.
 pub const REALS: [Real; 17] = [
-    given("radius", "m", Role::Input, |i| &mut i.radius_m, "reduced radius R in the rolling direction"),
-    given("speed", "m/s", Role::Input, |i| &mut i.speed_m_per_s, "mean entrainment speed"),
-    given("slide_to_roll_ratio", "", Role::Input, |i| &mut i.slide_to_roll_ratio, "sliding speed over mean speed"),
+    given(Field::Radius, Role::Input, |i| &mut i.radius_m),
+    given(Field::Speed, Role::Input, |i| &mut i.speed_m_per_s),
+    given(Field::Srr, Role::Input, |i| &mut i.slide_to_roll_ratio),
+    Real { output: Some(|o| o.load), ..given(Field::Load, Role::Input, |i| &mut i.load) },
     Real {
-        unit: ["N/m", "N"],
-        output: Some(|o| o.load),
-        ..given("load", "", Role::Input, |i| &mut i.load, "load; of a line contact by its length")
+        role: Role::Input,
+        input: Some(|i| &mut i.approach_m),
+        ..follows("approach", ["m"; 2], |o| o.approach_m, "approach of points far inside both bodies")
     },
+    given(Field::Modulus, Role::Parameter, |i| &mut i.modulus_pa),
+    given(Field::Viscosity, Role::Parameter, |i| &mut i.viscosity_pa_s),
+    given(Field::Alpha, Role::Parameter, |i| &mut i.alpha_per_pa),
     Real {
-        output: Some(|o| o.approach_m),
-        ..given("approach", "m", Role::Input, |i| &mut i.approach_m, "approach of points far inside both bodies")
+        field: None,
+        about: "radius across over radius; 1 of a circle or a line",
+        ..given(Field::RadiusY, Role::Parameter, |i| &mut i.radius_ratio)
     },
-    given("modulus", "Pa", Role::Parameter, |i| &mut i.modulus_pa, "reduced modulus E'"),
-    given("viscosity", "Pa.s", Role::Parameter, |i| &mut i.viscosity_pa_s, "viscosity at ambient pressure"),
-    given("alpha", "1/Pa", Role::Parameter, |i| &mut i.alpha_per_pa, "pressure-viscosity coefficient"),
-    given(
-        "radius_ratio",
-        "",
-        Role::Parameter,
-        |i| &mut i.radius_ratio,
-        "radius across over radius; 1 of a circle or a line",
-    ),
     follows("film_central", ["m"; 2], |o| o.h_c_m, "central film"),
     follows("film_minimum", ["m"; 2], |o| o.h_min_m, "smallest film"),
     follows("friction_coefficient", [""; 2], |o| o.friction_coefficient, "friction over load"),
@@ -120,12 +122,10 @@ pub const TRUTHS: [Truth; 2] = [
 
 impl Real {
     /// Its unit in contacts of a kind.
-    fn unit_in(&self, kind: ContactKind) -> &'static str {
-        let [line, point] = self.unit;
-        match kind {
-            ContactKind::Line => line,
-            ContactKind::Point => point,
-        }
+    fn unit_in(&self, kind: ContactKind) -> String {
+        let [line, point] = self.field.map_or(self.unit, |field| field.facts().units());
+        let unit = if kind == ContactKind::Line { line } else { point };
+        unit.replace('·', ".")
     }
 
     /// What it is to a simulation in the unit of a model; none where the unit has no such variable.
@@ -306,7 +306,7 @@ fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<S
             Role::Output => String::new(),
             _ => real.value(role, &inputs, None).map_or(String::new(), |value| format!(" start=\"{value:e}\"")),
         };
-        let unit = match real.unit_in(kind) {
+        let unit = match real.unit_in(kind).as_str() {
             "" => String::new(),
             unit => format!(" unit=\"{unit}\""),
         };

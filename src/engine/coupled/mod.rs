@@ -13,7 +13,7 @@ pub use in_time::{InTime, InTimeState};
 
 use self::error::{check, check_sliding};
 use super::answer::{Solver, answer};
-use crate::scene::{Answer, ContactResult, Grid, Method, ModelSource, Request};
+use crate::scene::{Answer, ContactResult, ContactSpec, Grid, Method, ModelSource, Request, Words};
 use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
@@ -116,6 +116,25 @@ impl Outputs {
     }
 }
 
+impl Inputs {
+    /// The contact that they state under a load.
+    fn stated(&self, kind: ContactKind, load: f64) -> ContactSpec {
+        let ellipse = kind == ContactKind::Point && self.radius_ratio != 1.0;
+        ContactSpec {
+            contact: Some(kind),
+            radius: Some(self.radius_m),
+            radius_y: ellipse.then_some(self.radius_m * self.radius_ratio),
+            speed: Some(self.speed_m_per_s),
+            load: Some(load),
+            modulus: Some(self.modulus_pa),
+            viscosity: Some(self.viscosity_pa_s),
+            alpha: Some(self.alpha_per_pa),
+            srr: Some(self.slide_to_roll_ratio),
+            ..ContactSpec::default()
+        }
+    }
+}
+
 /// A model with all work space; one for each thread.
 pub struct Coupled {
     model: Arc<ReducedModel>,
@@ -197,22 +216,10 @@ impl Coupled {
 
     /// The request that inputs describe under a load.
     fn request(&self, inputs: &Inputs, load: f64) -> Result<Request, CoupledError> {
-        let kind = self.model.contact();
-        let quantities = [
-            inputs.radius_m,
-            inputs.speed_m_per_s,
-            load,
-            inputs.modulus_pa,
-            inputs.viscosity_pa_s,
-            self.lubricant.own_coefficient().unwrap_or(inputs.alpha_per_pa),
-        ];
-        let sliding = Sliding { slide_to_roll_ratio: inputs.slide_to_roll_ratio, newtonian_plateau_ratio: None };
-        let mut point = OperatingPoint::from_quantities(kind, quantities, sliding);
-        if kind == ContactKind::Point && inputs.radius_ratio != 1.0 {
-            point.radius_y_m = Some(inputs.radius_m * inputs.radius_ratio);
-        }
         check_sliding(inputs.slide_to_roll_ratio)?;
-        point.check()?;
+        let alpha = self.lubricant.own_coefficient().is_none().then_some(inputs.alpha_per_pa);
+        let stated = ContactSpec { alpha, ..inputs.stated(self.model.contact(), load) };
+        let point = stated.operating_point(&self.lubricant).map_err(|why| CoupledError::Stated(why.in_words(Words::Variables)))?;
         let (grid, grid_model, method) = (Grid::Model, ModelSource::Embedded, Method::EMBEDDED);
         Ok(Request { point, lubricant: self.lubricant, grid, grid_model, method })
     }

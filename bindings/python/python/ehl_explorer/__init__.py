@@ -5,9 +5,9 @@
 >>> result = ehl.solve(contact, method="reduced")
 >>> result.h_c_m, result.pressure.max()
 
-SI units throughout; X, P and H are dimensionless as in the dissertation (X = x/a, P = p/p_H, H = h R/a**2). What makes no
-sense is refused by an :class:`EhlError` with the sentence of the command line. Work that takes long runs without Python's
-lock, calls ``progress(stage, done, total)``, and is stopped by Ctrl-C.
+SI units throughout, or texts with a unit; X, P and H are dimensionless as in the dissertation (X = x/a, P = p/p_H,
+H = h R/a**2). What makes no sense is refused by an :class:`EhlError` in one sentence. Work that takes long runs without
+Python's lock, calls ``progress(stage, done, total)``, and is stopped by Ctrl-C.
 """
 
 from __future__ import annotations
