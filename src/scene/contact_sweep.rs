@@ -63,7 +63,7 @@ impl FromStr for Varied {
         }
         let steps = match half.map(number).transpose()? {
             Some(half) => {
-                Steps::check_grading(from, half, to)?;
+                Steps::check_grading(from, half, to).map_err(|error| error.to_string())?;
                 Steps::Graded { from, half, to, n }
             }
             None if log => Steps::Log { from, to, n },

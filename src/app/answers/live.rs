@@ -169,7 +169,7 @@ fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Answer>>) -> En
     let request = ask.key.request(Grid::Model, Method::EMBEDDED);
     let answer = answer(&request, Solver::Reduced(online), reporter).map_err(|error| error.to_string())?;
     if !answer.result.converged {
-        return Err(answer.result.warning());
+        return Err(answer.result.warning().into());
     }
     reporter.send(Box::new(answer));
     Ok(())

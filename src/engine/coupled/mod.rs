@@ -16,7 +16,7 @@ use super::answer::{Solver, answer};
 use crate::scene::{Answer, ContactResult, ContactSpec, Grid, Method, ModelSource, Request, Words};
 use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{Lubricant, Sliding};
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use crate::solver::warning::Warning;
 use std::sync::Arc;

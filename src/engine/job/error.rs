@@ -1,11 +1,12 @@
 //! Why a job ended early, each as one sentence.
 
+use serde::{Deserialize, Serialize};
 use std::any::Any;
-use std::error::Error;
+use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Why a job ended early.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 pub enum JobError {
     /// The system has no thread left.
     #[error("no thread could be had for this work")]
@@ -14,25 +15,25 @@ pub enum JobError {
     #[error(transparent)]
     Panicked(#[from] Panicked),
     /// The work is refused or has no result.
-    #[error(transparent)]
-    Failed(Box<dyn Error + Send + Sync>),
+    #[error("{0}")]
+    Failed(String),
 }
 
 impl JobError {
     /// The work is refused for a reason.
-    pub fn failed(reason: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
-        Self::Failed(reason.into())
+    pub fn failed(reason: impl Display) -> Self {
+        Self::Failed(reason.to_string())
     }
 }
 
 impl From<String> for JobError {
     fn from(sentence: String) -> Self {
-        Self::failed(sentence)
+        Self::Failed(sentence)
     }
 }
 
 /// A panic, as a sentence.
-#[derive(Debug, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[error("the solver stopped unexpectedly ({0}); the window and your work are not affected")]
 pub struct Panicked(String);
 

@@ -2,9 +2,9 @@
 
 use crate::scene::grid::Grid;
 use crate::scene::named_lubricant::{NamedLubricant, by_name};
+use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::MATERIALS;
-use crate::solver::physics::lubricant::{BodyHeat, Cavitation, DensityLaw, LimitingStress, ViscosityLaw};
+use crate::solver::physics::lubricant::{Cavitation, DensityLaw, LimitingStress, ViscosityLaw};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -164,7 +164,7 @@ impl Given for PathBuf {
 
 impl Given for NamedLubricant {
     fn read(text: &str) -> Result<Self, String> {
-        by_name(text)
+        by_name(text).map_err(|error| error.to_string())
     }
 }
 
@@ -239,11 +239,10 @@ impl Given for BodyHeat {
     const NUMBERS: usize = 3;
 
     fn read(text: &str) -> Result<Self, String> {
-        let word = |name: &str| name.to_lowercase().replace(' ', "-");
-        if let Some(material) = MATERIALS.into_iter().find(|material| word(material.name) == word(text)) {
+        if let Some(material) = Material::named(text) {
             return Ok(material.heat);
         }
-        let names = || MATERIALS.map(|material| word(material.name)).join(", ");
+        let names = || MATERIALS.map(|material| material.word()).join(", ");
         let [conductivity, heat_capacity, density] = <[f64; 3]>::read(text)
             .map_err(|_| format!("accepted are three numbers, as in 47,460,7850, or one of {}", names()))?;
         Ok(Self { conductivity, heat_capacity, density })

@@ -4,7 +4,7 @@ use super::fields::{ContactSpec, Field};
 use super::given::{MethodName, OilGrade};
 use super::refusal::{Refusal, refuse};
 use crate::scene::at::At;
-use crate::scene::bench::Request;
+use crate::scene::answer::Request;
 use crate::scene::grid::Grid;
 use crate::scene::method::{Method, ModelSource};
 use crate::solver::limits::Number;

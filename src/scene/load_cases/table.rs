@@ -3,7 +3,7 @@
 use super::columns::{Column, accepted, titles};
 use super::error::CasesError;
 use super::line::request;
-use crate::scene::bench::Request;
+use crate::scene::answer::Request;
 use crate::scene::check::MAX_POINTS;
 use crate::scene::examples;
 use crate::scene::experiment::Experiment;

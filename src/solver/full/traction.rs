@@ -8,7 +8,6 @@ use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_in
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::physics::lubricant::{LimitingStress, ScaledShear};
 use crate::solver::warning::{PLAUSIBLE_EXPONENT, PLAUSIBLE_TRACTION, Warning};
-use rayon::prelude::*;
 use std::fmt::{Display, Formatter};
 
 /// A shear stress \[Pa\] that every lubricant carries; under pressure it carries more.

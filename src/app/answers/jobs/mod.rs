@@ -12,7 +12,7 @@ use crate::scene::Method;
 use crate::solver::full::Start;
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Repaints when a job has news.
 pub fn wake(ctx: &egui::Context) -> Wake {
