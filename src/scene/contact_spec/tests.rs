@@ -156,7 +156,7 @@ fn everything_that_flags_say_a_table_says_too() {
         (Field::Dx, "0.05"),
         (Field::Domain, "-3,1.8,-1.6"),
     ]);
-    let (request, _) = spec.request().unwrap();
+    let request = spec.request().unwrap();
     let heat = request.lubricant.heat.unwrap();
     assert_eq!(request.lubricant.shear, ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 });
     assert_eq!(request.lubricant.cavitation, Cavitation::MassConserving { supply_film_m: Some(2e-7) });
@@ -179,7 +179,7 @@ fn what_is_left_out_is_the_scenes_and_what_says_the_same_takes_its_place() {
     let base = ContactSpec::from(&scene.experiment());
     let over = |texts: &[(Field, &'static str)]| {
         let texts = texts.iter().map(|(field, text)| (*field, *text, ""));
-        ContactSpec::read_over(&base, texts).unwrap().request().map(|(request, _)| request)
+        ContactSpec::read_over(&base, texts).unwrap().request()
     };
     let request = over(&[]).unwrap();
     assert_eq!(request.point, OperatingPoint { sliding: scene.sliding(), ..OperatingPoint::TABLE_2_1 });

@@ -174,7 +174,7 @@ mod tests {
         let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
         let grid = GridChoice::Spec(GridSpec::EXPLORER);
         jobs.submit(&egui::Context::default(), FullSolve { kind: JobKind::Verify, key, grid, start: None });
-        let begin = Instant::now();
+        let begin = Stopwatch::start();
         loop {
             if let Some((job, outcome)) = jobs.poll().pop() {
                 assert_eq!(job.key, key);
