@@ -151,7 +151,7 @@ impl Workbench {
         let trust = model.trust(problem);
         let mut warnings = Vec::new();
         if let Trust::Outside(reason) = &trust {
-            warnings.push(reason.clone());
+            warnings.push(reason.to_string());
         }
         let (own, asked) = (model.domain.lubricant.cavitation, request.lubricant.cavitation);
         if problem.supply.is_none() {

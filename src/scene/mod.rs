@@ -62,8 +62,6 @@ pub use study::{ComparedPlan, ComparedSampling, Contacts, OnlineScheme, Study, S
 pub use table::{Column, Table};
 pub use view::{Held, LoadFollower, LubricantFollower, View};
 
-pub use crate::solver::training::QuantityBox;
-
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, Sliding};
 use crate::solver::training::TrainingSpec;

@@ -3,7 +3,8 @@
 use super::check::{Checked, number, refuse};
 use super::{Expectation, Scene, SceneError, View, Within, grid};
 use crate::solver::limits::plain;
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 
 impl Scene {
@@ -71,7 +72,7 @@ fn expectation(index: usize, entry: &Expectation) -> Checked {
 mod tests {
     use super::*;
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
-    use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study};
+    use crate::scene::{At, Axis, Contacts, Grid, Method, ParameterSpace, Steps, Study};
     use crate::solver::physics::lubricant::{Cavitation, Heat};
 
     #[test]
@@ -113,7 +114,7 @@ mod tests {
             compare_on_model_grid: true,
         });
         assert!(message(Scene { study: alone, ..good.clone() }).contains("study.compare_on_model_grid"));
-        let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
+        let range = ParameterSpace { load: (2.0, f64::NAN), ..ParameterSpace::table_3_1() };
         let study = Study::Trajectory(trajectory::Trajectory {
             range: Some(range),
             through: None,

@@ -1,7 +1,7 @@
 //! What the explorer keeps with a scene so that nothing is lost when it is saved and opened again.
 
 use super::is_default;
-use crate::solver::physics::contact::Quantity;
+use crate::solver::parameters::Quantity;
 use crate::solver::physics::engineering::{Bodies, Oil};
 use serde::{Deserialize, Serialize};
 

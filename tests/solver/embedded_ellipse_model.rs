@@ -2,7 +2,8 @@
 
 use ehl_explorer::engine::Embedded;
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
+use ehl_explorer::solver::parameters::Quantity;
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
 use ehl_explorer::solver::training::{Range, random_points};

@@ -8,7 +8,7 @@ use ehl_explorer::app::Explorer;
 use ehl_explorer::scene::named_lubricant::MINERAL_OIL;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::physics::contact::Quantity;
+use ehl_explorer::solver::parameters::Quantity;
 
 fn window() -> Window {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();

@@ -1,7 +1,8 @@
 //! The document in the words of engineers: an oil at a temperature, two bodies.
 
 use super::Document;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::engineering::{Bodies, BodyError, Oil};
 
 const OF_THE_OIL: [Quantity; 2] = [Quantity::Viscosity, Quantity::Alpha];

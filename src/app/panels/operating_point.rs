@@ -8,8 +8,9 @@ use crate::app::controls::{
 use crate::app::document::{Document, Edit, Shape};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
-use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA, Quantity};
-use crate::solver::physics::engineering::{self, Dimension};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::physics::engineering;
 use egui::{Grid, RichText, Ui};
 
 /// What there is to choose from, and what it is.
@@ -150,7 +151,7 @@ const HELD: [f32; 2] = [62.0, 22.0];
 /// The value in SI units of a typed text with or without unit, inside what is accepted.
 fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, String> {
     let (unit, scale) = quantity.reading_unit(kind);
-    let value = engineering::parse(text, Dimension::of(quantity, kind), unit).map_err(|error| error.to_string())?;
+    let value = engineering::parse(text, quantity.dimension(kind), unit).map_err(|error| error.to_string())?;
     let (low, high) = quantity.range();
     if (low..=high).contains(&value) {
         return Ok(value);

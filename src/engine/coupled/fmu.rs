@@ -340,7 +340,8 @@ mod tests {
     use super::*;
     use crate::engine::{ContactResult, Embedded, Request, Workbench};
     use crate::scene::{Bench, Grid, Method, ModelSource};
-    use crate::solver::physics::contact::{OperatingPoint, Quantity};
+    use crate::solver::parameters::Quantity;
+    use crate::solver::physics::contact::OperatingPoint;
 
     fn first(which: Embedded) -> (Coupled, Inputs) {
         let model = which.model().unwrap();

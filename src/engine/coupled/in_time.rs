@@ -135,7 +135,7 @@ impl InTime {
         let reference = march.reference();
         let mut warnings = Vec::new();
         if let Trust::Outside(why) = domain.reference.trust(reference) {
-            warnings.push(why);
+            warnings.push(why.to_string());
         }
         warnings.extend(domain.outside(moment.time, moment.input, self.rate));
         let trained = warnings.is_empty();

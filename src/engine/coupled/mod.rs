@@ -179,7 +179,7 @@ impl Coupled {
         let (solution, friction_coefficient) = match reduced {
             Some((solution, solved)) => {
                 if let Trust::Outside(why) = trust {
-                    warnings.push(why);
+                    warnings.push(why.to_string());
                 }
                 if let Some(ErrorEstimate { h_c, h_min, traction, .. }) = solved.error {
                     bounds =

@@ -1,7 +1,8 @@
 //! What the titles of a table say that its columns hold.
 
 use super::CasesError;
-use crate::solver::physics::contact::{ContactKind, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{Dimension, parse};
 
 /// What a column holds.
@@ -75,7 +76,7 @@ fn split_title(cell: &str) -> (&str, &str) {
 fn check_unit(column: Column, unit: &str) -> Result<(), String> {
     let dimensions = match column {
         _ if unit.is_empty() => return Ok(()),
-        Column::Number(quantity) => [ContactKind::Line, ContactKind::Point].map(|kind| Dimension::of(quantity, kind)),
+        Column::Number(quantity) => [ContactKind::Line, ContactKind::Point].map(|kind| quantity.dimension(kind)),
         Column::Temperature => [Dimension::Temperature; 2],
         _ => return Ok(()),
     };

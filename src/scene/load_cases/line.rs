@@ -7,7 +7,8 @@ use crate::scene::experiment::Experiment;
 use crate::scene::grid;
 use crate::scene::named_lubricant::by_name;
 use crate::solver::full::Problem;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::engineering::{Dimension, Grade, Oil, OilFamily, parse};
 
 /// Units of numbers that have none: those of the command line, and °C.
@@ -40,7 +41,7 @@ impl Cells<'_> {
     }
 
     fn quantity(&self, quantity: Quantity, kind: ContactKind) -> Result<Option<f64>, String> {
-        self.number(Column::Number(quantity), quantity.name(), Dimension::of(quantity, kind))
+        self.number(Column::Number(quantity), quantity.name(), quantity.dimension(kind))
     }
 }
 

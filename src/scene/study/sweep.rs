@@ -8,7 +8,8 @@ use crate::scene::at::At;
 use crate::scene::axis::{Axis, Steps};
 use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
 use crate::scene::method::Method;
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Sliding;
 use serde::{Deserialize, Serialize};
 
@@ -167,6 +168,10 @@ fn set(at: &mut At, sliding: &mut Sliding, quantity: Quantity, value: f64) -> Re
         (Quantity::Alpha, At::Moes { alpha, .. }) => *alpha = Some(value),
         (Quantity::SlideToRollRatio, _) => sliding.slide_to_roll_ratio = value,
         (Quantity::NewtonianPlateauRatio, _) => sliding.newtonian_plateau_ratio = Some(value),
+        (other, _) => {
+            let why = format!("{} follows from other quantities and cannot be varied", other.name());
+            return Err(RunError::Study(why));
+        }
     }
     Ok(())
 }

@@ -34,14 +34,12 @@ mod traction_curve;
 pub mod transient;
 
 pub use calibration::{
-    Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Laws, Measured,
+    Calibration, ErrorEstimate, Estimated, Evidence, FeatureSet, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Laws,
+    Measured,
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
-pub(crate) use domain::circles;
-pub use domain::{
-    CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, ThermalDomain, Trust, gradient_stress,
-};
+pub use domain::{Domain, Trust};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use kept::{
@@ -50,9 +48,8 @@ pub use kept::{
 };
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
-pub use model::{ModelSize, ReducedModel, SHAPE_WEIGHT, Snapshot, Window, deformation_weights, distance, separation};
-pub use oils::expected_film;
-pub(crate) use oils::{BEYOND_CELLS, OilPlace, apart, from_anchor, oil_place};
+pub use model::{ModelSize, ReducedModel, Snapshot, Window, deformation_weights};
+pub(crate) use oils::{BEYOND_CELLS, from_anchor};
 pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, STANDS_IN, Starts};
 pub use operators::Warmth;
 pub(crate) use operators::{Iterate, fronts};

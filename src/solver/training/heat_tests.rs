@@ -3,7 +3,8 @@
 use super::small::{heated, heated_balls, heated_ellipses, heated_oils};
 use super::{HeatedOilRange, HeatedRange, OilRange, QuantityBox, Range, TrainingSpec, Windows, random_points, train};
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
-use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, Lubricant};
 use crate::solver::reduced::{
     Online, ReducedError, ReducedModel, ReducedOptions, ReducedSolution, Sampling, ThermalDomain, TractionRule, Trust,

@@ -6,17 +6,17 @@
 mod ellipse;
 mod film_asymptotes;
 mod film_formulas;
+pub mod limits;
 mod moes;
-mod quantity;
 mod rolling;
 
 pub use ellipse::Ellipse;
-pub use film_asymptotes::{FilmAsymptotes, FilmShape, ellipse_film, moes_film};
+pub use film_asymptotes::{FilmAsymptotes, FilmShape, ellipse_film, expected_film, moes_film};
 pub use film_formulas::{FilmFormula, FilmPrediction};
 pub use moes::{DEFAULT_VISCOSITY_PA_S, MoesRequest, si_from_moes};
-pub use quantity::Quantity;
 
 use crate::solver::limits::Number;
+use limits::Limit;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -159,17 +159,11 @@ pub struct Moes {
     pub l: f64,
 }
 
-/// Refuses a quantity outside its range.
-fn accept(quantity: &'static str, value: f64, unit: &'static str, (min, max): (f64, f64)) -> Result<(), ContactError> {
-    let inside = (min..=max).contains(&value);
-    if inside { Ok(()) } else { Err(ContactError::OutOfRange { quantity, value, unit, min, max }) }
-}
-
 impl Moes {
     /// Refuses numbers outside any sense.
     pub fn check(self) -> Result<(), ContactError> {
-        accept("Moes number M", self.m, "", Quantity::M.range())?;
-        accept("Moes number L", self.l, "", Quantity::L.range())
+        limits::M.accept(self.m)?;
+        limits::L.accept(self.l)
     }
 }
 
@@ -234,16 +228,15 @@ impl OperatingPoint {
 
     /// Refuses values that are not finite, not positive, or outside any sense.
     pub fn check(&self) -> Result<(), ContactError> {
-        for (value, quantity) in self.quantities().into_iter().zip(Quantity::SI) {
-            accept(quantity.name(), value, quantity.unit(), quantity.range())?;
+        for (value, limit) in self.quantities().into_iter().zip(limits::SI) {
+            limit.accept(value)?;
         }
         match (self.kind, self.radius_y_m) {
             (_, None) => {}
             (ContactKind::Line, Some(_)) => return Err(ContactError::LineAcross),
             (ContactKind::Point, Some(radius_y)) if radius_y <= 0.0 => return Err(ContactError::Concave { radius_y }),
             (ContactKind::Point, Some(radius_y)) => {
-                let quantity = Quantity::RadiusY;
-                accept(quantity.name(), radius_y, quantity.unit(), quantity.range())?;
+                limits::RADIUS_Y.accept(radius_y)?;
                 Ellipse::of_ratio(self.radius_ratio())?;
             }
         }
@@ -325,10 +318,12 @@ impl OperatingPoint {
 
 /// Reduced modulus E′ \[Pa\] of two bodies, (2.5). Young's moduli in Pa, Poisson ratios in \[0, 0.5\].
 pub fn reduced_modulus(e1: f64, nu1: f64, e2: f64, nu2: f64) -> Result<f64, ContactError> {
-    accept("Young's modulus e1", e1, " Pa", (1e5, 1e14))?;
-    accept("Young's modulus e2", e2, " Pa", (1e5, 1e14))?;
-    accept("Poisson ratio nu1", nu1, "", (0.0, 0.5))?;
-    accept("Poisson ratio nu2", nu2, "", (0.0, 0.5))?;
+    let young = |name| Limit { name, ..limits::MODULUS };
+    let poisson = |name| Limit { name, unit: "", range: (0.0, 0.5) };
+    young("Young's modulus e1").accept(e1)?;
+    young("Young's modulus e2").accept(e2)?;
+    poisson("Poisson ratio nu1").accept(nu1)?;
+    poisson("Poisson ratio nu2").accept(nu2)?;
     Ok(2.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2))
 }
 
