@@ -159,7 +159,8 @@ mod tests {
         let models = Models::embedded(&Store::default());
         let of = |lubricant: &Lubricant| models.of(&line(), lubricant).unwrap();
         let (newtonian, thinning) = (of(&Lubricant::default()), of(&SQUALANE_PIP));
-        assert!(newtonian.domain.sliding.is_none() && thinning.domain.sliding.is_some());
+        let plateau = |model: &ReducedModel| model.domain.space.varies(Quantity::NewtonianPlateauRatio);
+        assert!(!plateau(newtonian) && plateau(thinning));
         let barus = Lubricant { viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
         assert!(Arc::ptr_eq(of(&barus), newtonian));
         assert!(Arc::ptr_eq(of(&by_name("pao-650").unwrap().laws), thinning));
@@ -219,7 +220,8 @@ mod tests {
             assert!(Arc::ptr_eq(models.of(&ball(m), &oil).unwrap(), wanted), "M = {m}");
         }
         let mut own = ReducedModel::clone(&heavy);
-        (own.domain.m, own.domain.lubricant) = ((4.0, 20.0), light.domain.lubricant);
+        own.domain.space.axis_mut(Quantity::M).unwrap().ends = (4.0, 20.0);
+        own.domain.lubricant = light.domain.lubricant;
         let own = Arc::new(own);
         let former = models.put(Arc::clone(&own)).unwrap();
         assert!(Arc::ptr_eq(&former, &light) && Arc::ptr_eq(models.of(&ball(6.0), &oil).unwrap(), &own));

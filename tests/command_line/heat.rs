@@ -61,8 +61,9 @@ const TRAINING: &str = "Scene(
     heat: (inlet_temperature: 313.15),
     study: Training(
         title: \"Line contacts with heat\",
-        range: Heated(m: (18.0, 26.0), l: (9.0, 11.0), srr: (0.0, 0.5), radius: 0.01, modulus: 231e9, viscosity: 0.02,
-            alpha: 1.8e-8, max_hertz_pressure: 1.6e9),
+        range: (axes: {M: (18.0, 26.0), L: (9.0, 11.0), SlideToRollRatio: (0.0, 0.5)},
+            limits: {HertzPressure: (0.0, 1.6e9)},
+            fixed: {Radius: 0.01, Modulus: 231e9, Viscosity: 0.02, Alpha: 1.8e-8}),
         lubricant: (limiting_stress: (ambient: 5e6, slope: 0.05, eyring: 5e6)),
         plan: FarthestPoint(snapshots: 40),
         windows: Given([(m: (18.0, 26.0), grid: Graded(nodes: 280, domain: (-10.0, 2.0), registered: true))]),

@@ -12,7 +12,9 @@ fn scene(title: &str, plan: &str) -> String {
     format!(
         "Scene(version: 1, title: \"{title}\", at: Moes(m: 20, l: 5), study: Training(
             title: \"{title}\",
-            range: Box(radius: (2e-3, 3e-3), speed: (3.0, 5.0), load: (1e5, 2e5), alpha: (6e-9, 12e-9), modulus: 231e9, viscosity: 0.01),
+            range: (axes: {{Radius: (2e-3, 3e-3, Linear), Speed: (3.0, 5.0, Linear),
+                Load: (1e5, 2e5, Linear), Alpha: (6e-9, 12e-9, Linear)}},
+                fixed: {{Modulus: 231e9, Viscosity: 0.01}}),
             plan: {plan},
             windows: Given([(m: (5.0, 100.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),
             pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,

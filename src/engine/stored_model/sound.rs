@@ -4,6 +4,8 @@ use super::window::StoredWindow;
 use crate::engine::model_file::ModelFileError;
 use crate::engine::stored_matrix::StoredBasis;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
 use crate::solver::reduced::Domain;
 
 /// Whether a grid has these rows, at least one, in ascending order.
@@ -16,9 +18,16 @@ pub(super) fn sound_interval((low, high): (f64, f64), most: f64) -> bool {
     0.0 <= low && low <= high && high <= most
 }
 
-/// Whether a domain can be that of a model.
+/// Whether a domain can be that of a model: one that varies SRR is of a lubricant that thins or warms under shear, and one of
+/// such a lubricant gives SRR.
 pub(in crate::engine) fn sound_domain(domain: &Domain) -> bool {
-    domain.space.check().is_ok() && domain.lubricant.check().is_ok()
+    let (space, slides) = (&domain.space, domain.slides());
+    let most = if domain.heats() { LARGEST_HEATED_SRR } else { f64::MAX };
+    space.check().is_ok()
+        && domain.lubricant.check().is_ok()
+        && (slides || !space.slides())
+        && (!slides || space.gives(Quantity::SlideToRollRatio))
+        && domain.srr().is_none_or(|ends| sound_interval(ends, most))
 }
 
 /// Entries of node arrays on a grid, without building it.

@@ -50,15 +50,19 @@ impl fmt::Display for Outside {
                     Some(per) => per.to_owned(),
                     None => format!(" {unit}"),
                 };
-                let [value, least, most] = [*value, *low, *high].map(|number| digits(number / scale));
+                let [found, least, most] = [*value, *low, *high].map(|number| digits(number / scale));
                 let (name, range) = (quantity.short(), quantity.range());
                 match (*low > range.0.max(0.0), *high < range.1) {
                     _ if low == high => {
-                        write!(f, "{name} = {value}{unit}, but the model was trained at {least}{unit} only")
+                        write!(f, "{name} = {found}{unit}, but the model was trained at {least}{unit} only")
                     }
-                    (false, true) => write!(f, "{name} = {value}{unit} lies above the trained {most}{unit}"),
-                    (true, false) => write!(f, "{name} = {value}{unit} lies below the trained {least}{unit}"),
-                    _ => write!(f, "{name} = {value}{unit} lies outside the trained range {least}…{most}{unit}"),
+                    (false, true) if value > high => {
+                        write!(f, "{name} = {found}{unit} lies above the trained {most}{unit}")
+                    }
+                    (true, false) if value < low => {
+                        write!(f, "{name} = {found}{unit} lies below the trained {least}{unit}")
+                    }
+                    _ => write!(f, "{name} = {found}{unit} lies outside the trained range {least}…{most}{unit}"),
                 }
             }
             Self::Box { m, l } => write!(
@@ -69,5 +73,29 @@ impl fmt::Display for Outside {
             ),
             Self::Other(sentence) => f.write_str(sentence),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_names_the_end_that_is_passed() {
+        let sentence = |quantity, value, ends| {
+            let outside = Outside::of(quantity, ContactKind::Line, value, ends, 0.0);
+            outside.map(|outside| outside.to_string()).unwrap_or_default()
+        };
+        assert_eq!(sentence(Quantity::M, 30.0, (2.0, 500.0)), "");
+        assert_eq!(sentence(Quantity::M, 1.0, (2.0, 500.0)), "M = 1 lies outside the trained range 2…500");
+        assert_eq!(sentence(Quantity::SlideToRollRatio, 0.7, (0.0, 0.6)), "SRR = 0.7 lies above the trained 0.6");
+        let reversed = sentence(Quantity::SlideToRollRatio, -0.3, (0.0, 0.6));
+        assert_eq!(reversed, "SRR = -0.3 lies outside the trained range 0…0.6");
+        let thin = sentence(Quantity::FilmThickness, 0.1, (0.16, 1e6));
+        assert_eq!(thin, "H_c by Moes’ formula = 0.1 lies below the trained 0.16");
+        let radius = sentence(Quantity::Radius, 0.02, (0.01, 0.01));
+        assert_eq!(radius, "R = 20 mm, but the model was trained at 10 mm only");
+        let unknown = sentence(Quantity::HertzPressure, f64::NAN, (0.0, 3.2e9));
+        assert!(unknown.starts_with("p_H = NaN"), "{unknown}");
     }
 }

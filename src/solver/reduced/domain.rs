@@ -251,6 +251,8 @@ impl Domain {
     fn value_outside(&self, quantity: Quantity, point: &OperatingPoint, lubricant: &Lubricant) -> Option<Outside> {
         let ends = self.interval(quantity)?;
         let value = match quantity {
+            // Of another law there is no stress that it could be compared with.
+            Quantity::GradientStress => self.stress_ratio(lubricant).and_then(|_| quantity.of(point))?,
             // Where nothing shears the film there is no plateau.
             Quantity::NewtonianPlateauRatio => quantity.of(point).unwrap_or(1.0),
             // Films are even in SRR where both bodies are alike, or were trained as either.

@@ -234,3 +234,14 @@ pub(crate) fn moes_as_realised(m: (f64, f64), l: (f64, f64), max_hertz_pressure:
     ParameterSpace::of([Axis::new(Quantity::M, m), Axis::new(Quantity::L, l)])
         .limited([(Quantity::HertzPressure, (0.0, max_hertz_pressure))])
 }
+
+/// A space with another interval of a quantity that it varies or limits, as a constant where it is one.
+pub(crate) fn with_ends(space: &ParameterSpace, quantity: Quantity, ends: (f64, f64)) -> ParameterSpace {
+    let mut space = space.clone();
+    let varied = space.axes.iter_mut().chain(&mut space.constants).find(|axis| axis.quantity == quantity);
+    match varied {
+        Some(axis) => axis.ends = ends,
+        None => space.set_limit(quantity, ends),
+    }
+    space
+}
