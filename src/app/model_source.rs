@@ -72,7 +72,7 @@ impl Models {
         let of_law = |model: &&Arc<ReducedModel>| law(&model.domain.lubricant) == law(lubricant);
         let own = |model: &&Arc<ReducedModel>| model.domain.is_of(lubricant);
         let shaped = |model: &&Arc<ReducedModel>| model.contact() == kind && model.of_ellipses() == ellipse;
-        let warm = |model: &&Arc<ReducedModel>| model.domain.heat.is_some();
+        let warm = |model: &&Arc<ReducedModel>| model.domain.heats();
         let alike = || self.models.iter().filter(shaped).filter(akin);
         let cold = || alike().filter(|model| !warm(model));
         let wanted = lubricant.heat.is_some();
@@ -126,13 +126,13 @@ impl Models {
 
 /// Of several models the first that knows a load number, or else comes nearest to it.
 fn nearest<'a>(m: f64, models: impl Iterator<Item = &'a Arc<ReducedModel>>) -> Option<&'a Arc<ReducedModel>> {
-    let beyond = |model: &ReducedModel| (model.domain.m.0 / m).max(m / model.domain.m.1).max(1.0);
+    let beyond = |model: &ReducedModel| (model.domain.m().0 / m).max(m / model.domain.m().1).max(1.0);
     models.min_by(|a, b| beyond(a).total_cmp(&beyond(b)))
 }
 
 /// The loads that two models have in common, in ln M.
 fn in_common(a: &ReducedModel, b: &ReducedModel) -> f64 {
-    let (a, b) = (a.domain.m, b.domain.m);
+    let (a, b) = (a.domain.m(), b.domain.m());
     (a.1.min(b.1) / a.0.max(b.0)).ln()
 }
 
@@ -147,7 +147,8 @@ mod tests {
     use crate::app::document::{Document, Shape};
     use crate::scene::named_lubricant::{SQUALANE_PIP, by_name};
     use crate::solver::full::Problem;
-    use crate::solver::physics::contact::{MoesRequest, Quantity, Sliding, si_from_moes};
+    use crate::solver::parameters::Quantity;
+    use crate::solver::physics::contact::{MoesRequest, Sliding, si_from_moes};
     use crate::solver::physics::lubricant::{Heat, LimitingStress, ViscosityLaw};
     use crate::solver::reduced::Trust;
 
@@ -160,7 +161,8 @@ mod tests {
         let models = Models::embedded(&Store::default());
         let of = |lubricant: &Lubricant| models.of(&line(), lubricant).unwrap();
         let (newtonian, thinning) = (of(&Lubricant::default()), of(&SQUALANE_PIP));
-        assert!(newtonian.domain.sliding.is_none() && thinning.domain.sliding.is_some());
+        let plateau = |model: &ReducedModel| model.domain.space.varies(Quantity::NewtonianPlateauRatio);
+        assert!(!plateau(newtonian) && plateau(thinning));
         let barus = Lubricant { viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
         assert!(Arc::ptr_eq(of(&barus), newtonian));
         assert!(Arc::ptr_eq(of(&by_name("pao-650").unwrap().laws), thinning));
@@ -220,7 +222,8 @@ mod tests {
             assert!(Arc::ptr_eq(models.of(&ball(m), &oil).unwrap(), wanted), "M = {m}");
         }
         let mut own = ReducedModel::clone(&heavy);
-        (own.domain.m, own.domain.lubricant) = ((4.0, 20.0), light.domain.lubricant);
+        own.domain.space.axis_mut(Quantity::M).unwrap().ends = (4.0, 20.0);
+        own.domain.lubricant = light.domain.lubricant;
         let own = Arc::new(own);
         let former = models.put(Arc::clone(&own)).unwrap();
         assert!(Arc::ptr_eq(&former, &light) && Arc::ptr_eq(models.of(&ball(6.0), &oil).unwrap(), &own));

@@ -6,7 +6,8 @@ use super::panels;
 use super::tab::Tab;
 use super::tabs;
 use crate::scene::Table;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 
 impl Explorer {

@@ -3,8 +3,8 @@
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use super::run::describe;
-use crate::engine::campaign::compute::{Done, compute};
 use super::verdict::Verdict;
+use crate::engine::campaign::compute::{Done, compute};
 use crate::engine::campaign::merge::{Merged, Whole, merge};
 use crate::engine::campaign::plan::plan;
 use crate::engine::campaign::{CampaignError, Folder, local};

@@ -7,7 +7,8 @@ use super::verdict::Verdict;
 use crate::engine::Workbench;
 use crate::scene::study::load_cases::{LoadCases, Row};
 use crate::scene::{
-    CaseTable, Field, Grid, Method, ModelSource, ResultJson, Scene, Study, StudyObserver, StudyRow, atomic_file, run_scene,
+    CaseTable, Field, Grid, Method, ModelSource, ResultJson, Scene, Study, StudyObserver, StudyRow, atomic_file,
+    run_scene,
 };
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;

@@ -140,7 +140,7 @@ fn by_model(
 pub(super) fn outside(trust: Trust) -> Option<Warning> {
     match trust {
         Trust::Trained => None,
-        Trust::Outside(reason) => Some(Warning::OutsideTrainedRange { reason }),
+        Trust::Outside(outside) => Some(Warning::OutsideTrainedRange { outside }),
     }
 }
 

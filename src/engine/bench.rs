@@ -10,18 +10,19 @@ use super::model_file::ModelFileError;
 use super::store::Store;
 use super::{Embedded, EngineError, median, percentile};
 use crate::host::clock::Stopwatch;
+use crate::scene::named_lubricant;
 use crate::scene::study::transient::{Timed, timed_march};
-use crate::scene::{QuantityBox, named_lubricant};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::dense::{dense_kernel, dense_newton};
 use crate::solver::full::transient::{FullMarch, Inputs, Keep, Marching, Signal, Trajectory, Transient};
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::parameters::{ParameterSpace, Quantity, distance};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
-use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, distance, traction_curve};
-use crate::solver::training::{LocalBases, Range, TrajectoryTraining, random_points, train_trajectories};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, traction_curve};
+use crate::solver::training::{LocalBases, TrajectoryTraining, random_points, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
 use std::time::Duration;
@@ -100,7 +101,7 @@ pub struct Bench {
 /// When a solver refuses a point of the box, which it never should.
 pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let size = usize::from(quick);
-    let points = random_points(&Range::Box(QuantityBox::TABLE_3_1), ContactKind::Line, REDUCED_POINTS[size], SEED);
+    let points = random_points(&ParameterSpace::table_3_1(), ContactKind::Line, REDUCED_POINTS[size], SEED);
     let lubricant = Lubricant::default();
     let mut solver = FullSolver::new(GridSpec::DISSERTATION)?;
     let mut bench = Bench::default();
@@ -136,7 +137,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut rows = point_rows(size, &shear)?;
     if let Some(mut online) = bench.online("point/reduced", ContactKind::Point, ShearLaw::Newtonian) {
-        let range = Range::Box(QuantityBox::TABLE_3_4);
+        let range = ParameterSpace::table_3_4();
         let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
         let names = ["point/reduced", "point/reduced/fields", "point/reduced/1e-3"];
         rows.extend(reduced_rows(names, &mut online, (&points, lubricant), POINT_BUDGET[size])?);
@@ -204,7 +205,7 @@ impl Bench {
 
 /// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
 fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, EngineError> {
-    let range = Range::Box(QuantityBox::TABLE_3_4);
+    let range = ParameterSpace::table_3_4();
     let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
     let newtonian = |point: &OperatingPoint| Problem::new(point, Lubricant::default());
     let newtonian = points.iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;

@@ -160,7 +160,8 @@ pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
 mod tests {
     use super::*;
     use crate::scene::named_lubricant::SQUALANE_PIP;
-    use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
+    use crate::solver::parameters::Quantity;
+    use crate::solver::physics::contact::{MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::Heat;
 
     #[test]

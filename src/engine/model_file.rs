@@ -1,7 +1,7 @@
 //! Reduced model files (`.rom`): the header of `checked_file`, then what `stored_model` makes of a model. Models in time,
 //! whose versions count on from another number, are those of [`super::trajectory_file`].
 
-use super::checked_file::{Flaw, Format, Unreadable, version};
+use super::checked_file::{Flaw, Format, Unreadable};
 use super::stored_model;
 use super::trajectory_file::in_time;
 use crate::scene::atomic_file::{self, WriteError};
@@ -12,9 +12,7 @@ use std::path::{Path, PathBuf};
 
 const VERSION: u32 = 18;
 /// From it on the parts of a model have names.
-const NAMED_PARTS: u32 = 14;
-/// Before it no model said how its films rupture: by the penalty.
-const OLDEST: u32 = 6;
+const OLDEST: u32 = 14;
 /// What every reduced model file begins with.
 pub(super) const MAGIC: &[u8; 8] = b"EHLROM\r\n";
 /// Real models have a few MB.
@@ -187,7 +185,7 @@ fn proven(bytes: &[u8], observer: &dyn Observer) -> Result<ReducedModel, ModelFi
 
 /// The same of bytes that belong to the program, whose parts are known to belong together.
 pub(super) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
-    stored_model::decode(FORMAT.open(bytes)?, version(bytes) < NAMED_PARTS, observer)
+    stored_model::decode(FORMAT.open(bytes)?, observer)
 }
 
 #[cfg(test)]

@@ -2,28 +2,19 @@
 
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
-use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::limits::digits;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::TrajectoryModel;
-use crate::solver::reduced::{CIRCLES, ReducedModel, Scheme, Window};
+use crate::solver::reduced::{Domain, ReducedModel, Scheme, Window};
 use std::fmt::Write;
 
 /// A model in time for people.
 pub fn describe_in_time(model: &TrajectoryModel) -> String {
     let (domain, window) = (&model.domain, &model.window);
     let mut text = format!("{}\n  line contacts in time, frame {:?}\n", model.title, model.frame);
-    let d = &domain.reference;
-    let between =
-        |(from, to): (f64, f64)| if from == to { format!("{from:.4}") } else { format!("{from:.4}…{to:.4}") };
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "  M {}, L {} of the reference contacts", between(d.m), between(d.l));
-    let _ = writeln!(
-        text,
-        "  α {} /GPa, p_H up to {:.3} GPa, η₀ {} Pa·s",
-        between((d.alpha_per_pa.0 * 1e9, d.alpha_per_pa.1 * 1e9)),
-        d.max_hertz_pressure_pa / 1e9,
-        d.viscosity_pa_s
-    );
-    let _ = writeln!(text, "  density {:?}, viscosity {:?}", d.lubricant.density, d.lubricant.viscosity);
+    text.push_str(&describe_domain(&domain.reference));
     for (name, reach) in [("load", domain.load), ("speed", domain.speed), ("radius", domain.radius)] {
         let (from, to) = reach.range;
         let _ = match reach.varies() {
@@ -97,71 +88,42 @@ fn grid_of(window: &Window) -> String {
     }
 }
 
+/// The varied, limited and fixed quantities of a domain, and the laws of its lubricant, a line each.
+fn describe_domain(domain: &Domain) -> String {
+    let interval = |quantity: Quantity, (low, high): (f64, f64)| {
+        let (unit, scale) = quantity.reading_unit(domain.contact);
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let [low, high] = [low, high].map(|value| digits(value / scale));
+        let ends = if low == high { low } else { format!("{low}…{high}") };
+        format!("{} {ends}{unit}", quantity.short())
+    };
+    let space = &domain.space;
+    let axes =
+        space.axes.iter().map(|axis| interval(axis.quantity, domain.interval(axis.quantity).unwrap_or(axis.ends)));
+    let limits = space.limits.iter().filter(|(limited, _)| !space.gives(*limited));
+    let limits = limits.map(|(limited, ends)| interval(*limited, *ends));
+    let fixed = space.fixed.iter().map(|(fixed, value)| interval(*fixed, (*value, *value)));
+    let constants = space.constants.iter().map(|axis| interval(axis.quantity, axis.ends));
+    let lists: [(&str, Vec<String>); 4] = [
+        ("varies", axes.collect()),
+        ("limits", limits.collect()),
+        ("fixes", fixed.collect()),
+        ("any", constants.collect()),
+    ];
+    let lists = lists.into_iter().filter(|(_, list)| !list.is_empty());
+    let mut text: String = lists.map(|(name, list)| format!("  {name}: {}\n", list.join(", "))).collect();
+    let Lubricant { density, viscosity, shear, heat, .. } = domain.lubricant;
+    let _ = writeln!(text, "  density {density:?}, viscosity {viscosity:?}, shear {shear:?}");
+    if let Some(heat) = heat {
+        let _ = writeln!(text, "  thermal, inlet {} K", heat.inlet_temperature);
+    }
+    text
+}
+
 /// The model for people.
 pub fn describe(model: &ReducedModel) -> String {
     let mut text = format!("{}\n  {} contacts\n", model.title, model.contact().name());
-    let d = &model.domain;
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "  M {}…{}, L {}…{}", d.m.0, d.m.1, d.l.0, d.l.1);
-    let _ = writeln!(
-        text,
-        "  α {:.3}…{:.3} /GPa, p_H up to {:.3} GPa, η₀ {}",
-        d.alpha_per_pa.0 * 1e9,
-        d.alpha_per_pa.1 * 1e9,
-        d.max_hertz_pressure_pa / 1e9,
-        d.oils.map_or_else(
-            || format!("{} Pa·s", d.viscosity_pa_s),
-            |oils| {
-                let ((from, to), (least, most)) = (oils.viscosity_pa_s, oils.exponent);
-                format!(
-                    "{from}…{to} Pa·s, Roelands’ z {least}…{most}, p_H from {:.3} GPa",
-                    oils.lowest_hertz_pressure_pa / 1e9
-                )
-            }
-        )
-    );
-    let _ = writeln!(text, "  density {:?}, viscosity {:?}", d.lubricant.density, d.lubricant.viscosity);
-    if let Some(sliding) = d.sliding {
-        let ((srr, most), (npr, full)) = (sliding.srr, sliding.npr);
-        let modulus = sliding.modulus_pa / 1e9;
-        let _ = writeln!(text, "  SRR {srr}…{most}, NPR {npr}…{full}, E′ {modulus:.3} GPa, {:?}", d.lubricant.shear);
-    }
-    if let Some(eyring) = d.eyring {
-        let ((srr, most), (low, high), (from, to)) = (eyring.srr, eyring.modulus_pa, eyring.limit_slope);
-        let [low, high] = [low, high].map(|modulus| modulus * 1e-9);
-        let law = d.lubricant.shear;
-        let _ = writeln!(
-            text,
-            "  SRR {srr}…{most}, E′ {low:.3}…{high:.3} GPa, {law:?}, Λ of limiting stresses {from}…{to}"
-        );
-    }
-    if let Some((heat, laws)) = d.heat.zip(d.lubricant.heat) {
-        let ((srr, most), inlet) = (heat.srr, laws.inlet_temperature);
-        let interval = |(low, high): (f64, f64), scale: f64| {
-            if low == high { format!("{:.3}", low * scale) } else { format!("{}…{}", low * scale, high * scale) }
-        };
-        let (radius, modulus) = (interval(heat.radius_m, 1e3), interval(heat.modulus_pa, 1e-9));
-        let speeds = d.oils.map_or_else(String::new, |_| {
-            let ((slowest, fastest), sliding) = (heat.speed_m_per_s, heat.fastest_sliding_m_per_s);
-            format!(", u_m {slowest}…{fastest} m/s, SRR u_m up to {sliding} m/s")
-        });
-        let shear = d.lubricant.shear;
-        let _ = writeln!(
-            text,
-            "  heat: SRR {srr}…{most}, R {radius} mm, E′ {modulus} GPa{speeds}, inlet {inlet} K, {shear:?}"
-        );
-        if let Some(thermal) = heat.thermal {
-            let [(cold, hot), (from, to), (least, highest)] =
-                [thermal.inlet_temperature, thermal.effusivity, thermal.limit_slope];
-            let _ = writeln!(
-                text,
-                "  and any inlet of {cold}…{hot} K, bodies of √(kρc) {from}…{to} J/(m² K √s), limits of Λ {least}…{highest}"
-            );
-        }
-    }
-    if d.radius_ratio != CIRCLES {
-        let _ = writeln!(text, "  R_y/R {}…{}", d.radius_ratio.0, d.radius_ratio.1);
-    }
+    text.push_str(&describe_domain(&model.domain));
     for window in &model.windows {
         let grid = grid_of(window);
         let shapes = window

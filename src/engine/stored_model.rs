@@ -4,7 +4,7 @@
 //! ([`super::stored_matrix`]).
 
 mod calibrations;
-mod former;
+pub(super) mod former_domain;
 mod oils;
 mod parts;
 mod rupture;
@@ -20,9 +20,10 @@ use super::model_file::ModelFileError;
 use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::observer::Observer;
-use crate::solver::reduced::{Domain, HeatDomain, ReducedModel, Window};
+use crate::solver::reduced::{Domain, ReducedModel, Window};
 use calibrations::{StoredCalibrations, give_calibrations};
-use oils::{anchor, combined, deformations, give_coefficients, give_grid_costs};
+use former_domain::{FormerDomain, Further};
+use oils::{StoredOils, anchor, combined, deformations, give_coefficients, give_grid_costs};
 use parts::Parts;
 use rayon::prelude::*;
 use rupture::rupture;
@@ -36,7 +37,7 @@ use window::StoredWindow;
 #[derive(Serialize, Deserialize)]
 struct StoredModel {
     title: String,
-    domain: Domain,
+    domain: FormerDomain,
     windows: Vec<StoredWindow>,
     scene: String,
     log: Vec<String>,
@@ -67,7 +68,15 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     let calibrations = StoredCalibrations::of(model);
     let mut stored = StoredModel {
         title: model.title.clone(),
-        domain: model.domain.clone(),
+        domain: FormerDomain {
+            m: (0.0, 0.0),
+            l: (0.0, 0.0),
+            alpha_per_pa: (0.0, 0.0),
+            max_hertz_pressure_pa: 0.0,
+            viscosity_pa_s: 0.0,
+            lubricant: model.domain.lubricant,
+            sliding: None,
+        },
         windows: windows.map(|(k, window)| StoredWindow::of(model, k, window)).collect(),
         scene: model.scene.clone(),
         log: model.log.clone(),
@@ -80,16 +89,16 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
     Parts::write(model, calibrations, postcard::to_allocvec(&stored).ok()?)
 }
 
-/// The model of a payload; `older` where its parts have no names.
+/// The model of a payload.
 ///
 /// # Errors
 /// When its parts do not fit each other, or when the observer cancels.
-pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
+pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
     let damaged = |what| ModelFileError::Damaged { what };
     let (stored, rest): (StoredModel, &[u8]) =
         postcard::take_from_bytes(payload).map_err(|_| damaged("its content cannot be decoded"))?;
-    let StoredModel { mut title, mut domain, mut windows, scene, mut log } = stored;
-    let parts = Parts::read(rest, windows.len(), older).ok_or(damaged("its parts"))?;
+    let StoredModel { mut title, domain: former, mut windows, scene, mut log } = stored;
+    let parts = Parts::read(rest, windows.len()).ok_or(damaged("its parts"))?;
     let Parts {
         rupture: ruptures,
         schemes,
@@ -102,11 +111,22 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
         calibrations,
         snapshots,
         thermal,
+        space,
     } = parts;
-    if let Some((heat, of_heat)) = heat {
-        (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(HeatDomain { thermal, ..of_heat }));
-    }
-    domain.eyring = eyring;
+    let further = Further {
+        oils: oils.as_ref().map(StoredOils::domain),
+        heat: heat.as_ref().map(|(_, heat)| *heat),
+        eyring,
+        thermal,
+        radius_ratio: shapes.as_ref().map(|shapes| shapes.radius_ratio),
+    };
+    let space = match space {
+        Some(space) => serde_json::from_str(&space).map_err(|_| damaged("its domain"))?,
+        None => former.space(further),
+    };
+    let contact = windows.first().map(|window| window.grid.kind()).unwrap_or_default();
+    let mut domain = Domain { contact, space, lubricant: former.lubricant };
+    domain.lubricant.heat = heat.map(|(heat, _)| heat.into());
     if !sound_domain(&domain) {
         return Err(damaged("its domain"));
     }
@@ -127,7 +147,6 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
     }
     if let Some(oils) = &mut oils {
         give_coefficients(&mut windows, oils).ok_or(damaged("oils"))?;
-        domain.oils = Some(oils.domain());
     }
     // They are shown on terminals.
     log.iter_mut().chain([&mut title]).for_each(|text| text.retain(|letter| !letter.is_control()));

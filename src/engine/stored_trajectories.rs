@@ -6,10 +6,12 @@
 
 use super::model_file::ModelFileError;
 use super::stored_matrix::{StoredBasis, StoredMatrix};
+use super::stored_model::former_domain::{FormerDomain, Further};
 use super::stored_model::{StoredRows, entries, sound_domain};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{Frame, Inputs};
+use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Sliding};
 use crate::solver::reduced::transient::{
@@ -62,7 +64,7 @@ struct StoredLocal {
 
 #[derive(Serialize, Deserialize)]
 struct StoredDomain {
-    reference: Domain,
+    reference: FormerDomain,
     cavitation: Cavitation,
     radius: Reach,
     speed: Reach,
@@ -98,7 +100,15 @@ pub(super) fn encode(model: &TrajectoryModel) -> Option<Vec<u8>> {
         title: model.title.clone(),
         frame: model.frame,
         domain: StoredDomain {
-            reference: domain.reference.clone(),
+            reference: FormerDomain {
+                m: domain.reference.m(),
+                l: domain.reference.l(),
+                alpha_per_pa: domain.reference.interval(Quantity::Alpha).unwrap_or_default(),
+                max_hertz_pressure_pa: domain.reference.highest_pressure_pa(),
+                viscosity_pa_s: domain.reference.middle_viscosity_pa_s(),
+                lubricant: domain.reference.lubricant,
+                sliding: None,
+            },
             cavitation: window.cavitation,
             radius: domain.radius,
             speed: domain.speed,
@@ -258,10 +268,12 @@ fn locals_on(whole: &Window, stored: Vec<StoredLocal>) -> Result<Vec<LocalBasis>
 
 /// What a model was trained for; `None` where that makes no sense.
 fn domain_of(stored: StoredDomain, only: Option<Inputs>) -> Option<TrajectoryDomain> {
-    let StoredDomain { mut reference, cavitation, radius, speed, load, step } = stored;
-    if matches!(cavitation, Cavitation::MassConserving { .. }) || reference.sliding.is_some() {
+    let StoredDomain { reference: former, cavitation, radius, speed, load, step } = stored;
+    if matches!(cavitation, Cavitation::MassConserving { .. }) {
         return None;
     }
+    let space = former.space(Further::default());
+    let mut reference = Domain { contact: ContactKind::Line, space, lubricant: former.lubricant };
     reference.lubricant.cavitation = cavitation;
     let domain = TrajectoryDomain { reference, radius, speed, load, only, step };
     (sound_domain(&domain.reference) && domain.is_sound()).then_some(domain)

@@ -238,7 +238,7 @@ mod tests {
             &|m| m.starts[0].point.load = -1.0,
             &|m| m.domain.step = 0.0,
             &|m| m.domain.load.range = (1.2, 0.8),
-            &|m| m.domain.reference.m.0 = f64::NAN,
+            &|m| m.domain.reference.space.axes[0].ends.0 = f64::NAN,
             &|m| m.domain.speed.rate = f64::INFINITY,
         ];
         for (k, lie) in lies.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! What a sweep varies, and the values it takes.
 
-use crate::solver::physics::contact::Quantity;
+use crate::solver::parameters::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// One varied quantity.

@@ -1,7 +1,7 @@
 //! A sweep of a stated contact along one or two of its fields, on the command line and in Python.
 
-use super::axis::Steps;
 use super::answer::Request;
+use super::axis::Steps;
 use super::bench::Bench;
 use super::check::MAX_POINTS;
 use super::contact_result::{CONTACT_COLUMNS, ContactResult, result_columns};

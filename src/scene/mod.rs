@@ -70,5 +70,3 @@ pub use study::transient::{Drive, LinearisedTransient, PublishedMarch, ReducedTr
 pub use study::{ComparedPlan, ComparedSampling, Contacts, OnlineScheme, Study, StudyObserver, StudyRow};
 pub use table::{Column, Table};
 pub use view::{Held, LoadFollower, LubricantFollower, View};
-
-pub use crate::solver::training::QuantityBox;

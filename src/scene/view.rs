@@ -1,8 +1,8 @@
 //! What the explorer keeps with a scene so that nothing is lost when it is saved and opened again.
 
 use super::written::is_default;
+use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::Bodies;
-use crate::solver::physics::contact::Quantity;
 use crate::solver::physics::engineering::Oil;
 use serde::{Deserialize, Serialize};
 

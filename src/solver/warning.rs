@@ -1,5 +1,6 @@
 //! What a reader of an answer must know besides its numbers: each kind of warning once, with its values and its sentence.
 
+use crate::solver::parameters::Outside;
 use crate::solver::physics::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -90,10 +91,10 @@ pub enum Warning {
         share: f64,
     },
     /// The reduced model was not trained for the contact, or for how its inputs change.
-    #[error("{reason}")]
+    #[error("{outside}")]
     OutsideTrainedRange {
-        /// A sentence that names the quantity, its value and the trained interval.
-        reason: String,
+        /// The quantity, its value and the trained interval.
+        outside: Outside,
     },
     /// The reduced model was trained with the cavitation penalty, and another law is asked for.
     #[error("the reduced model uses the cavitation penalty of its training, not {asked}; this moves H_c by about 1e-7")]

@@ -9,11 +9,11 @@ use ehl_explorer::scene::Scene;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{self, Inputs, Keep, Signal, Transient};
+use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
 use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::training::{
-    Plan, Range, Search, Solved, TrainingSpec, TrainingState, TrajectoryTraining, WindowSpec, WindowState,
-    train_trajectories,
+    Plan, Search, Solved, TrainingSpec, TrainingState, TrajectoryTraining, WindowSpec, WindowState, train_trajectories,
 };
 use fastrand::Rng;
 
@@ -117,8 +117,10 @@ fn damaged_models_in_time_are_refused_in_a_sentence_or_rest_where_their_training
 
 /// A training of which one contact is solved and one is to be.
 fn training() -> TrainingState {
-    let range =
-        Range::Moes { m: (10.0, 20.0), l: (2.0, 3.0), alpha: (1e-8, 2e-8), max_hertz_pressure: 3e9, viscosity: 0.01 };
+    let axes = [(Quantity::M, (10.0, 20.0)), (Quantity::L, (2.0, 3.0)), (Quantity::Alpha, (1e-8, 2e-8))];
+    let range = ParameterSpace::of(axes.map(|(quantity, ends)| Axis::new(quantity, ends)))
+        .limited([(Quantity::HertzPressure, (0.0, 3e9))])
+        .fixing([(Quantity::Viscosity, 0.01)]);
     let (grid, plan) = (GridSpec::EXPLORER, Plan::FarthestPoint { snapshots: 8 });
     let spec = TrainingSpec::new(range, (10.0, 20.0), grid, plan);
     let point = OperatingPoint::TABLE_2_1;

@@ -2,14 +2,16 @@
 
 use ehl_explorer::engine::Embedded;
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
+use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
-use ehl_explorer::solver::training::{Range, random_points};
+use ehl_explorer::solver::training::random_points;
 
 fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
-    let range =
-        Range::Ellipses { m: (10.0, 300.0), l: (2.0, 12.0), radius_ratio: (0.5, 8.0), max_hertz_pressure: 3.2e9 };
+    let axes = [(Quantity::M, (10.0, 300.0)), (Quantity::L, (2.0, 12.0)), (Quantity::RadiusRatio, (0.5, 8.0))];
+    let range = ParameterSpace::of(axes.map(|(quantity, ends)| Axis::new(quantity, ends)))
+        .limited([(Quantity::HertzPressure, (0.0, 3.2e9))]);
     random_points(&range, ContactKind::Point, count, seed)
 }
 

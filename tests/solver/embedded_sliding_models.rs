@@ -3,7 +3,7 @@
 use ehl_explorer::engine::Embedded;
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, ReducedSolution, Trust};
-use ehl_explorer::solver::training::{Range, random_points};
+use ehl_explorer::solver::training::random_points;
 
 /// Tractions below this are those of contacts that hardly slide.
 const SMALL: f64 = 1e-4;
@@ -14,7 +14,7 @@ fn lie_near_full_solutions(which: Embedded, contacts: usize) {
     let (kind, laws) = (model.contact(), model.domain.lubricant);
     let mut solver = ContactSolver::on(&model.windows[0].grid);
     let mut online = Online::new(model.clone(), ReducedOptions::default());
-    for point in random_points(&Range::from(&model.domain), kind, contacts, 47) {
+    for point in random_points(&model.domain.space, kind, contacts, 47) {
         let (full, solved) =
             (solver.solve(&point, laws, Start::Cold, &()).unwrap(), online.solve(&point, laws).unwrap());
         assert!(full.converged() && solved.trust == Trust::Trained, "{:?}", point.moes());
@@ -46,7 +46,7 @@ fn films_and_tractions_of_sliding_balls_lie_near_full_solutions_from_m_3_on() {
 fn contacts_that_end_at_a_larger_step_have_the_same_films_and_tractions_in_fewer_steps() {
     let model = Embedded::EyringCircle.model().unwrap();
     let laws = model.domain.lubricant;
-    let points = random_points(&Range::from(&model.domain), model.contact(), 40, 48);
+    let points = random_points(&model.domain.space, model.contact(), 40, 48);
     let solved = [1e-3, ReducedOptions::default().tolerance].map(|tolerance| {
         let mut online = Online::new(model.clone(), ReducedOptions { tolerance, ..ReducedOptions::default() });
         points.iter().map(|point| online.solve(point, laws).unwrap()).collect::<Vec<_>>()

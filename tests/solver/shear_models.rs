@@ -6,23 +6,30 @@ use ehl_explorer::engine::model_file::{from_bytes, to_bytes};
 use ehl_explorer::scene::Study;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::full::{Problem, Solution};
+use ehl_explorer::solver::parameters::{ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::physics::lubricant::ShearLaw;
 use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
-use ehl_explorer::solver::training::{Range, SlidingRange, TrainingSpec, random_points};
+use ehl_explorer::solver::training::{TrainingSpec, random_points};
 
 /// What the model of a kind of contact was trained for, as its scene says.
-pub fn range(kind: ContactKind) -> SlidingRange {
+pub fn range(kind: ContactKind) -> ParameterSpace {
     let name = if kind == ContactKind::Line { "embedded_shear_model" } else { "embedded_point_shear_model" };
     match scene_files::read(name).study {
-        Study::Training(TrainingSpec { range: Range::Sliding(range), .. }) => range,
+        Study::Training(TrainingSpec { range, .. }) if range.varies(Quantity::NewtonianPlateauRatio) => range,
         other => panic!("{name} trains no range with sliding: {other:?}"),
     }
 }
 
 /// Random contacts of a range.
-pub fn points(kind: ContactKind, range: SlidingRange, count: usize, seed: u64) -> Vec<OperatingPoint> {
-    random_points(&Range::Sliding(range), kind, count, seed)
+pub fn points(kind: ContactKind, range: &ParameterSpace, count: usize, seed: u64) -> Vec<OperatingPoint> {
+    random_points(range, kind, count, seed)
+}
+
+/// A range with other intervals of some of its axes.
+pub fn narrowed<const N: usize>(mut range: ParameterSpace, ends: [(Quantity, (f64, f64)); N]) -> ParameterSpace {
+    ends.iter().for_each(|(quantity, ends)| range.axis_mut(*quantity).unwrap().ends = *ends);
+    range
 }
 
 /// The embedded model.
@@ -62,10 +69,10 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
     let common = [
         (OperatingPoint { sliding: sliding(1.5, 0.5), ..base }, "SRR"),
         (OperatingPoint { sliding: sliding(0.5, 0.1), ..base }, "NPR"),
-        (OperatingPoint { modulus_pa: 2.0 * base.modulus_pa, ..base }, "modulus"),
+        (OperatingPoint { modulus_pa: 2.0 * base.modulus_pa, ..base }, "E'"),
     ];
     for (point, word) in common.iter().chain(further) {
-        assert!(matches!(trust(point), Trust::Outside(why) if why.contains(word)), "{word}");
+        assert!(matches!(trust(point), Trust::Outside(why) if why.to_string().contains(word)), "{word}");
     }
     let mut newtonian =
         Online::new(Embedded::of_kind(base.kind, ShearLaw::Newtonian).model().unwrap(), ReducedOptions::default());
@@ -81,7 +88,7 @@ pub fn assert_file_keeps_everything(kind: ContactKind) {
     let again = from_bytes(&bytes).unwrap();
     assert_eq!(again.domain, model.domain);
     let (own, kept) = (&model.windows[0], &again.windows[0]);
-    assert!(kept.snapshots == own.snapshots && again.domain.sliding.is_some());
+    assert!(kept.snapshots == own.snapshots && again.domain.space.varies(Quantity::NewtonianPlateauRatio));
     assert!(kept.pressure.basis().modes == own.pressure.basis().modes);
     assert!(kept.traction == own.traction && kept.traction.is_some());
     // What was not measured is no number, and equals nothing: the bytes below tell more.

@@ -8,8 +8,9 @@ use ehl_explorer::app::Explorer;
 use ehl_explorer::scene::named_lubricant::MINERAL_OIL;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::{ContactSolver, Problem, Start};
+use ehl_explorer::solver::parameters::Quantity;
 use ehl_explorer::solver::physics::bodies::Material;
-use ehl_explorer::solver::physics::contact::{Quantity, reduced_modulus};
+use ehl_explorer::solver::physics::contact::reduced_modulus;
 
 fn window() -> Window {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();

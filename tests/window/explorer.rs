@@ -349,7 +349,8 @@ fn open_embedded() -> Window {
 /// A training of the middle of the sliders: enough for every view of a model.
 const SMALL_MODEL: &str = "Scene(version: 1, title: \"Small model\", study: Training(
     title: \"Small model\",
-    range: Moes(m: (20.0, 100.0), l: (5.0, 14.0), alpha: (8e-9, 20e-9), max_hertz_pressure: 3.2e9, viscosity: 0.01),
+    range: (axes: {M: (20.0, 100.0), L: (5.0, 14.0), Alpha: (8e-9, 20e-9)}, limits: {HertzPressure: (0.0, 3.2e9)},
+        fixed: {Viscosity: 0.01}),
     plan: FarthestPoint(snapshots: 40),
     windows: Given([(m: (20.0, 100.0), grid: Graded(nodes: 400, domain: (-8.0, 1.9), registered: true))]),
     pressure_loss: 1e-7, deformation_loss: 1e-8, rows_per_mode: 2.0, evidence: 0, seed: 1,

@@ -4,6 +4,7 @@ use crate::tables::shaped;
 use crate::work::{long, refused};
 use ehl_explorer::engine::{Embedded, EngineError, model_arrays, model_file, model_text};
 use ehl_explorer::scene::Scene;
+use ehl_explorer::solver::parameters::Quantity;
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
 use ehl_explorer::solver::training::train;
@@ -93,13 +94,12 @@ impl Model {
     #[getter]
     fn domain<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (domain, dict) = (&self.0.domain, PyDict::new(py));
-        let pairs =
-            [("m", domain.m), ("l", domain.l), ("alpha", domain.alpha_per_pa), ("radius_ratio", domain.radius_ratio)];
-        for (name, pair) in pairs {
-            dict.set_item(name, pair)?;
+        for (name, quantity) in [("m", Quantity::M), ("l", Quantity::L), ("alpha", Quantity::Alpha)] {
+            dict.set_item(name, domain.interval(quantity))?;
         }
-        dict.set_item("hertz_pressure", domain.max_hertz_pressure_pa)?;
-        dict.set_item("viscosity", domain.viscosity_pa_s)?;
+        dict.set_item("radius_ratio", domain.space.radius_ratio())?;
+        dict.set_item("hertz_pressure", domain.highest_pressure_pa())?;
+        dict.set_item("viscosity", domain.middle_viscosity_pa_s())?;
         Ok(dict)
     }
 

@@ -10,9 +10,9 @@ use ehl_explorer::scene::study::transient::series;
 use ehl_explorer::scene::{At, ContactSweep, Grid, Method, Scene, Steps, Study, TransientStudy, Varied};
 use ehl_explorer::solver::full::transient::{Frame, Inputs, MarchProgress, Signal, TimeStep, Transient, march};
 use ehl_explorer::solver::observer::Observer;
+use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
-use ehl_explorer::solver::training::Range;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
@@ -79,7 +79,8 @@ pub fn random_test<'py>(
         "reduced" => Method::EMBEDDED,
         _ => return Err(refused(format!("`{method}` is no method; accepted are full, reduced"))),
     };
-    let range = Range::Realisation { m, l, max_hertz_pressure };
+    let range = ParameterSpace::of([Axis::new(Quantity::M, m), Axis::new(Quantity::L, l)])
+        .limited([(Quantity::HertzPressure, (0.0, max_hertz_pressure))]);
     let study = Study::RandomTest(RandomTest { range, tests, seed, method, compare, worst: 0 });
     let scene = Scene { contact: kind, study, grid: Grid::Usual, ..Scene::at_moes(40.0, 10.0) };
     let outcome = outcome(py, &scene, bench_of(model, PathBuf::new())?, progress)?;

@@ -90,7 +90,7 @@ def run(program, scene, folder):
 @pytest.mark.parametrize("contact, compare", [("Line", 3), ("Point", 0)])
 def test_random_test(contact, compare, program, tmp_path):
     scene = f"""Scene(version: 1, title: "t", contact: {contact}, grid: Usual, study: RandomTest(
-        range: Realisation(m: (20.0, 100.0), l: (5.0, 15.0), max_hertz_pressure: 2e9),
+        range: (axes: {{M: (20.0, 100.0), L: (5.0, 15.0)}}, limits: {{HertzPressure: (0.0, 2e9)}}),
         tests: 40, seed: 7, method: Reduced(model: Embedded), compare: {compare}))"""
     tables = run(program, scene, tmp_path)
     tested = ehl.random_test(

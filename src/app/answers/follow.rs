@@ -144,12 +144,12 @@ impl Answers {
     /// Why the reduced model is not even tried; `None` where it is.
     fn untried(&self, document: &Document) -> Option<PassedOver> {
         let heat = document.lubricant.heat.is_some();
-        let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && model.domain.heat.is_some() == heat;
+        let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && model.domain.heats() == heat;
         let shapes = self.model(document).is_some_and(own);
         match self.trust(document) {
             _ if self.reading.is_some() && !shapes => Some(PassedOver::Reading),
             None => Some(PassedOver::NoModel),
-            Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
+            Some(Trust::Outside(why)) => Some(PassedOver::Outside(why.to_string())),
             Some(Trust::Trained) => None,
         }
     }

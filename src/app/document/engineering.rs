@@ -2,8 +2,9 @@
 
 use super::Document;
 use crate::scene::named_lubricant::of_laws;
+use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::{Bodies, Material};
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::engineering::Oil;
 use crate::solver::physics::lubricant::{Heat, Lubricant};
 

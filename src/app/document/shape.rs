@@ -1,7 +1,8 @@
 //! Roller, ball or ellipse: the shape of the contact as one choice.
 
 use super::Document;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 
 /// What touches what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

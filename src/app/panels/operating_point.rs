@@ -9,8 +9,9 @@ use crate::app::document::{Document, Edit, Shape};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
 use crate::engine::Warning;
-use crate::solver::physics::contact::{ContactKind, Quantity};
-use crate::solver::physics::engineering::{self, Dimension};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering;
 use egui::{Grid, RichText, TextWrapMode, Ui};
 
 /// What there is to choose from, and what it is.
@@ -151,7 +152,7 @@ const HELD: [f32; 2] = [62.0, 22.0];
 /// The value in SI units of a typed text with or without unit, inside what is accepted.
 fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, String> {
     let (unit, scale) = quantity.reading_unit(kind);
-    let value = engineering::parse(text, Dimension::of(quantity, kind), unit).map_err(|error| error.to_string())?;
+    let value = engineering::parse(text, quantity.dimension(kind), unit).map_err(|error| error.to_string())?;
     let (low, high) = quantity.range();
     if (low..=high).contains(&value) {
         return Ok(value);

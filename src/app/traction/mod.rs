@@ -16,7 +16,7 @@ use super::numbers;
 use crate::engine::job::{Background, Standing};
 use crate::engine::{Store, Workbench};
 use crate::scene::{Grid, Method, StudyRow};
-use crate::solver::physics::contact::Quantity;
+use crate::solver::parameters::Quantity;
 use curve::LiveCurve;
 use egui::Context;
 use serde::{Deserialize, Serialize};

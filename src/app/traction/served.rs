@@ -77,14 +77,14 @@ fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Re
         let problem =
             Problem::new(&varied.at(&key.point, value), key.lubricant).map_err(|refused| refused.to_string())?;
         if let Some(why) = domain.strange_shape(&problem) {
-            return Err(why);
+            return Err(why.to_string());
         }
         if let Trust::Outside(why) = domain.trust(&problem) {
             if problem.heat.is_some() {
                 // Full solutions are at hand, and with heat the oil and its bodies count as well.
-                return Err(why);
+                return Err(why.to_string());
             }
-            untrained.get_or_insert(why);
+            untrained.get_or_insert(why.to_string());
         }
     }
     Ok(untrained)

@@ -13,7 +13,7 @@ use super::document::Document;
 use crate::engine::job::{Background, Standing};
 use crate::engine::{Embedded, Store, training_file};
 use crate::solver::reduced::ReducedModel;
-use crate::solver::training::{Plan, Range, TrainingSpec, TrainingState, WindowState};
+use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;
 use comparison::Comparison;
 use egui::Context;
@@ -160,7 +160,7 @@ impl Training {
     pub fn start(&mut self, ctx: &Context, document: &Document) {
         let Some(spec) = document.training_spec().cloned() else { return };
         // Its films rupture as those of the contact do, and warm themselves where it is about heat.
-        let heat = document.lubricant.heat.filter(|_| spec.range.heats());
+        let heat = document.lubricant.heat.filter(|_| spec.heats());
         let spec = spec.under(document.lubricant.cavitation).heated(heat);
         match spec.check() {
             Ok(()) => self.run(ctx, TrainingState::new(spec)),
@@ -227,10 +227,10 @@ impl Training {
     pub fn comparable(&self, answers: &Answers, document: &Document) -> Vec<(String, Arc<ReducedModel>)> {
         let Some(spec) = self.compared_spec(document) else { return Vec::new() };
         let kind = spec.contact();
-        let ellipses = matches!(spec.range, Range::Ellipses { .. });
+        let ellipses = spec.range.of_ellipses();
         // That of ellipses is large: it stands here once it is in use.
-        let (heats, shear) = (spec.range.heats(), spec.lubricant.shear);
-        let (lightest, heaviest) = spec.domain().m;
+        let (heats, shear) = (spec.heats(), spec.lubricant.shear);
+        let (lightest, heaviest) = spec.domain().m();
         let middle = (lightest * heaviest).sqrt();
         let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, shear).under_load(middle) };
         let round = (!ellipses).then_some(of_kind);

@@ -40,8 +40,9 @@ impl Rows {
 
 #[test]
 fn pieces_in_any_order_give_every_bit_of_one_run() {
-    let table = "range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), \
-                 modulus: 231e9, viscosity: 0.01)";
+    let table = "range: (axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear), \
+    Load: (1e5, 5e5, Linear), Alpha: (5e-9, 20e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01})";
     for study in [
         format!("RandomTest({table}, tests: 9, seed: 7, method: Reduced(), compare: 2, worst: 2)"),
         "Sweep(over: [(vary: L, values: List([4.0, 6.0, 8.0])), (vary: M, values: Log(from: 10.0, to: 30.0, n: 3))], \
@@ -84,11 +85,13 @@ fn other_studies_say_that_they_are_whole() {
     assert!(refused.to_string().contains("a campaign is a sweep"), "{refused}");
 }
 
-const RANDOM: &str = "study: RandomTest(range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), \
-    alpha: (5e-9, 20e-9), modulus: 231e9, viscosity: 0.01), tests: 7, seed: 7, method: Reduced(), compare: 3)";
+const RANDOM: &str = "study: RandomTest(range: (axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear), \
+    Load: (1e5, 5e5, Linear), Alpha: (5e-9, 20e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), tests: 7, seed: 7, method: Reduced(), compare: 3)";
 
-const ADAPTIVE: &str = "study: Training(title: \"t\", range: Box(radius: (3e-3, 4e-3), speed: (2.0, 4.0), \
-    load: (2e5, 4e5), alpha: (8e-9, 12e-9), modulus: 231e9, viscosity: 0.01), plan: Adaptive(start: 5, \
+const ADAPTIVE: &str = "study: Training(title: \"t\", range: (axes: {Radius: (3e-3, 4e-3, Linear), Speed: (2.0, 4.0, Linear), \
+    Load: (2e5, 4e5, Linear), Alpha: (8e-9, 12e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), plan: Adaptive(start: 5, \
     indicator: Correction, tolerances: [1e-7], successes: 16, local_sigma: 0.2, local_successes: 0, vicinity: 2, \
     limit: 8), windows: Given([(m: (1.0, 500.0), grid: Graded(nodes: 240, domain: (-6.0, 1.9), registered: true))]), \
     pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, evidence: 0, seed: 5)";

@@ -343,7 +343,8 @@ mod tests {
     use super::*;
     use crate::engine::{Embedded, Workbench};
     use crate::scene::Bench;
-    use crate::solver::physics::contact::{OperatingPoint, Quantity};
+    use crate::solver::parameters::Quantity;
+    use crate::solver::physics::contact::OperatingPoint;
 
     fn first(which: Embedded) -> (Coupled, Inputs) {
         let model = which.model().unwrap();

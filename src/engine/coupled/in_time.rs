@@ -8,6 +8,7 @@ use super::{CoupledError, Inputs, Outputs};
 use crate::engine::answer::outside;
 use crate::solver::full::transient::{Frame, Input, point_at};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination};
+use crate::solver::parameters::Outside;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::transient::{CoupledError as MarchError, CoupledMarch, MarchState, TrajectoryModel};
@@ -137,7 +138,7 @@ impl InTime {
         let reference = march.reference();
         let mut warnings: Vec<Warning> = outside(domain.reference.trust(reference)).into_iter().collect();
         let of_march = domain.outside(moment.time, moment.input, self.rate).into_iter();
-        warnings.extend(of_march.map(|reason| Warning::OutsideTrainedRange { reason }));
+        warnings.extend(of_march.map(|why| Warning::OutsideTrainedRange { outside: Outside::Other(why) }));
         let trained = warnings.is_empty();
         let point = point_at(&reference.point, moment.input);
         let hertz_pressure_pa = point.hertz().pressure_pa;

@@ -219,7 +219,9 @@ impl Coupled {
         check_sliding(inputs.slide_to_roll_ratio)?;
         let alpha = self.lubricant.own_coefficient().is_none().then_some(inputs.alpha_per_pa);
         let stated = ContactSpec { alpha, ..inputs.stated(self.model.contact(), load) };
-        let point = stated.operating_point(&self.lubricant).map_err(|why| CoupledError::Stated(why.in_words(Words::Variables)))?;
+        let point = stated
+            .operating_point(&self.lubricant)
+            .map_err(|why| CoupledError::Stated(why.in_words(Words::Variables)))?;
         let (grid, grid_model, method) = (Grid::Model, ModelSource::Embedded, Method::EMBEDDED);
         Ok(Request { point, lubricant: self.lubricant, grid, grid_model, method })
     }

@@ -59,7 +59,7 @@ mod tests {
 
     /// One scene of each kind whose numbers the explorer also draws on tabs of their own.
     const SCENES: [&str; 4] = [
-        "study: RandomTest(range: Box(TABLE), tests: 12, seed: 7, method: Reduced(), compare: 3)",
+        "study: RandomTest(range: TABLE, tests: 12, seed: 7, method: Reduced(), compare: 3)",
         "study: Sweep(over: [(vary: M, values: Log(from: 10.0, to: 30.0, n: 4))], methods: [Full, Reduced()])",
         "study: ErrorSplit(contacts: Here, method: Reduced())",
         "grid: Uniform(dx: 0.01, domain: (-4.0, 2.0)), study: Transient(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), \
@@ -78,8 +78,8 @@ mod tests {
 
     #[test]
     fn a_job_gives_the_same_numbers_as_a_headless_run_to_the_last_bit() {
-        let table = "radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), \
-                     modulus: 231e9, viscosity: 0.01";
+        let table = "(axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear), Load: (1e5, 5e5, Linear), \
+                     Alpha: (5e-9, 20e-9, Linear)}, fixed: {Modulus: 231e9, Viscosity: 0.01})";
         let store = Store::default();
         for study in SCENES {
             let study = study.replace("TABLE", table);

@@ -1,15 +1,16 @@
 //! What windows around anchors have in a file beside what every window has.
 
+use super::former_domain::FormerOils;
 use super::snapshots::{give_each, stored_coefficients};
-use super::sound::sound_interval;
 use super::window::StoredWindow;
 use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::GridCost;
+use crate::solver::parameters::Metric;
 use crate::solver::physics::contact::Moes;
 use crate::solver::reduced::{
-    Combined, Keeping, OilDomain, PodBasis, ReducedModel, SharedBasis, Window, factor_accuracy, factor_scales,
+    Combined, Keeping, PodBasis, ReducedModel, SharedBasis, Window, factor_accuracy, factor_scales,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -18,7 +19,7 @@ use std::sync::Arc;
 /// The oils of a model, and where its windows lie among them.
 #[derive(Serialize, Deserialize)]
 pub(super) struct StoredOils {
-    pub oils: OilDomain,
+    pub oils: FormerOils,
     /// Thinnest H_c.
     pub thinnest_film: f64,
     pub windows: Vec<StoredAnchor>,
@@ -46,19 +47,19 @@ pub(super) struct StoredAnchor {
 impl StoredOils {
     /// What only a model of many oils has.
     pub fn of(model: &ReducedModel) -> Option<Self> {
-        let heat = model.domain.heat.is_some();
+        let heat = model.domain.heats();
         let stored = |window: &Window| {
             let Moes { m, l } = window.anchor?;
             Some(StoredAnchor { moes: (m, l), coefficients: stored_coefficients(window, heat) })
         };
-        let oils = model.domain.oils?;
         let windows = model.windows.iter().map(stored).collect::<Option<_>>()?;
-        Some(Self { oils, thinnest_film: oils.thinnest_film, windows })
+        let oils = FormerOils { viscosity_pa_s: (0.0, 0.0), exponent: (0.0, 0.0), lowest_hertz_pressure_pa: 0.0 };
+        model.domain.space.varies_lubricant().then_some(Self { oils, thinnest_film: 0.0, windows })
     }
 
     /// The oils that a model was trained for.
-    pub fn domain(&self) -> OilDomain {
-        OilDomain { thinnest_film: self.thinnest_film, ..self.oils }
+    pub fn domain(&self) -> (FormerOils, f64) {
+        (self.oils, self.thinnest_film)
     }
 }
 
@@ -68,7 +69,7 @@ impl StoredSharedBasis {
         let all: Vec<&Combined> =
             model.windows.iter().map(|window| window.pressure.combined()).collect::<Option<_>>()?;
         let (window, shared) = (model.windows.first()?, &all.first()?.shared);
-        let accuracy = Keeping::of(window, model.domain.heat.is_some()).accuracy();
+        let accuracy = Keeping::of(window, model.domain.heats()).accuracy();
         let basis = StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy);
         Some(Self { basis, factors: model.windows.iter().zip(all).map(|(w, own)| stored_factors(w, own)).collect() })
     }
@@ -150,20 +151,15 @@ pub(super) fn give_coefficients(windows: &mut [StoredWindow], oils: &mut StoredO
 /// Gives a model its oils and the anchors of its windows; `None` where these do not fit it.
 pub(super) fn anchor(model: &mut ReducedModel, oils: &StoredOils) -> Option<()> {
     let anchors: Vec<(f64, f64)> = oils.windows.iter().map(|window| window.moes).collect();
-    let OilDomain { viscosity_pa_s, exponent, lowest_hertz_pressure_pa: lowest, thinnest_film } = oils.domain();
-    let sound = [viscosity_pa_s, exponent, (lowest, model.domain.max_hertz_pressure_pa)]
-        .into_iter()
-        .all(|interval| sound_interval(interval, f64::MAX))
-        && sound_interval((0.0, thinnest_film), f64::MAX);
     let placed = |&(m, l): &(f64, f64)| Moes { m, l }.check().is_ok();
     let grid = model.windows.first()?.grid.spec();
     let shared = model.windows.iter().all(|window| window.grid.spec() == grid);
     let fits = anchors.len() == model.windows.len() && anchors.iter().all(placed) && shared;
-    if !(sound && fits) || model.domain.sliding.is_some() {
+    if !fits {
         return None;
     }
     for (window, (m, l)) in model.windows.iter_mut().zip(anchors) {
-        (window.anchor, window.thins) = (Some(Moes { m, l }), model.domain.eyring.is_some());
+        (window.anchor, window.metric) = (Some(Moes { m, l }), Metric::of_solutions(&model.domain.space));
     }
     Some(())
 }

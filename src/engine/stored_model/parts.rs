@@ -1,14 +1,14 @@
 //! What a model may have in its file beside its windows, each part under a name of its own.
 
 use super::calibrations::StoredCalibrations;
-use super::former;
+use super::former_domain::{FormerEyring, FormerHeat, FormerThermal};
 use super::oils::{GridCosts, StoredOils, StoredSharedBasis};
 use super::rupture::StoredRupture;
 use super::shapes::{StoredShapes, stored_shapes};
 use super::snapshots::StoredSnapshots;
 use crate::engine::stored_heat::StoredHeat;
 use crate::engine::stored_matrix::StoredMatrix;
-use crate::solver::reduced::{EyringDomain, HeatDomain, ReducedModel, Scheme, ThermalDomain, Window};
+use crate::solver::reduced::{ReducedModel, Scheme, Window};
 use serde::{Deserialize, Serialize};
 
 /// Of every window its scheme, and what GNAT makes of the residual.
@@ -23,11 +23,12 @@ enum Part {
     Oils(StoredOils),
     SharedBasis(StoredSharedBasis),
     GridCosts(GridCosts),
-    Heat(StoredHeat, HeatDomain),
-    Eyring(EyringDomain),
+    Heat(StoredHeat, FormerHeat),
+    Eyring(FormerEyring),
     Calibrations(StoredCalibrations),
     Snapshots(StoredSnapshots),
-    Thermal(ThermalDomain),
+    Thermal(FormerThermal),
+    Space(String),
 }
 
 /// The parts that a model has.
@@ -46,15 +47,17 @@ pub(super) struct Parts {
     /// Of many oils where they were measured; in newer files they are with the snapshots.
     pub grid_costs: Option<GridCosts>,
     /// Of contacts with heat.
-    pub heat: Option<(StoredHeat, HeatDomain)>,
+    pub heat: Option<(StoredHeat, FormerHeat)>,
     /// Of many oils that thin by Eyring's law.
-    pub eyring: Option<EyringDomain>,
+    pub eyring: Option<FormerEyring>,
     /// None where nothing was measured, or windows keep it themselves.
     pub calibrations: Option<StoredCalibrations>,
     /// Of older files none, whose windows keep them.
     pub snapshots: Option<StoredSnapshots>,
     /// Of contacts with heat whose thermal constants are many.
-    pub thermal: Option<ThermalDomain>,
+    pub thermal: Option<FormerThermal>,
+    /// The space, in JSON.
+    pub space: Option<String>,
 }
 
 impl Parts {
@@ -64,27 +67,31 @@ impl Parts {
         let scheme =
             |window: &Window| (window.scheme, window.residual_reconstruction.as_ref().map(StoredMatrix::exact));
         let schemes = (!usual).then(|| model.windows.iter().map(scheme).collect());
-        let heat = model.domain.lubricant.heat.zip(model.domain.heat);
+        let none = FormerHeat {
+            srr: (0.0, 0.0),
+            radius_m: (0.0, 0.0),
+            modulus_pa: (0.0, 0.0),
+            speed_m_per_s: (0.0, 0.0),
+            fastest_sliding_m_per_s: 0.0,
+        };
         let parts = [
             StoredRupture::of(model).map(Part::Rupture),
             schemes.map(Part::Schemes),
             stored_shapes(model).map(Part::Shapes),
             StoredOils::of(model).map(Part::Oils),
             StoredSharedBasis::of(model).map(Part::SharedBasis),
-            heat.map(|(heat, domain)| Part::Heat(heat.into(), domain)),
-            model.domain.eyring.map(Part::Eyring),
+            model.domain.lubricant.heat.map(|heat| Part::Heat(heat.into(), none)),
             calibrations.map(Part::Calibrations),
             Some(Part::Snapshots(StoredSnapshots::of(model))),
-            model.domain.heat.and_then(|heat| heat.thermal).map(Part::Thermal),
+            serde_json::to_string(&model.domain.space).ok().map(Part::Space),
         ];
         let parts: Vec<Part> = parts.into_iter().flatten().collect();
         postcard::to_extend(&parts, payload).ok()
     }
 
-    /// The parts of a model of so many windows; `None` where they cannot be understood, or do not go together. Files that
-    /// are `older` than these names have them without.
-    pub fn read(rest: &[u8], windows: usize, older: bool) -> Option<Self> {
-        let parts = if older { former::read(rest, windows)? } else { Self::named(rest)? };
+    /// The parts of a model of so many windows; `None` where they cannot be understood, or do not go together.
+    pub fn read(rest: &[u8], windows: usize) -> Option<Self> {
+        let parts = Self::named(rest)?;
         let schemes = parts.schemes.as_ref().is_none_or(|schemes| schemes.len() == windows);
         let of_oils = parts.shared.is_some() || parts.grid_costs.is_some() || parts.eyring.is_some();
         // Ellipses with heat are those of many oils, and none thins under shear.
@@ -111,6 +118,7 @@ impl Parts {
                 Part::Calibrations(part) => known.calibrations.replace(part).is_none(),
                 Part::Snapshots(part) => known.snapshots.replace(part).is_none(),
                 Part::Thermal(part) => known.thermal.replace(part).is_none(),
+                Part::Space(part) => known.space.replace(part).is_none(),
             };
             if !once {
                 return None;

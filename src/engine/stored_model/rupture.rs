@@ -26,7 +26,7 @@ pub(super) fn rupture(model: &mut ReducedModel, StoredRupture { cavitation, fron
     if cavitation == Cavitation::Penalty {
         return fronts.is_empty().then_some(());
     }
-    let ruptures = cavitation == Cavitation::Complementarity && model.domain.heat.is_none();
+    let ruptures = cavitation == Cavitation::Complementarity && !model.domain.heats();
     if !(ruptures && (fronts.is_empty() || fronts.len() == model.windows.len())) {
         return None;
     }

@@ -24,17 +24,19 @@ pub(super) fn stored_shapes(model: &ReducedModel) -> Option<StoredShapes> {
         Some((window.shapes.as_ref()?.radius_ratio, radii.collect()))
     };
     let windows: Option<Vec<_>> = model.windows.iter().map(of_window).collect();
-    Some(StoredShapes { radius_ratio: model.domain.radius_ratio, windows: windows.filter(|all| !all.is_empty())? })
+    Some(StoredShapes {
+        radius_ratio: model.domain.space.radius_ratio(),
+        windows: windows.filter(|all| !all.is_empty())?,
+    })
 }
 
 /// Gives the windows of a model their shapes; `None` where these do not fit them.
 pub(super) fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windows }: StoredShapes) -> Option<()> {
     let sound =
         |(low, high): (f64, f64)| Ellipse::of_ratio(low).is_ok() && Ellipse::of_ratio(high).is_ok() && low < high;
-    if windows.len() != model.windows.len() || !sound(radius_ratio) || model.domain.sliding.is_some() {
+    if windows.len() != model.windows.len() || !sound(radius_ratio) {
         return None;
     }
-    model.domain.radius_ratio = radius_ratio;
     let windows: Vec<_> = model.windows.iter_mut().zip(windows).collect();
     let give = |(window, (ratios, radii)): (&mut Window, ((f64, f64), Vec<f64>))| {
         let ContactGrid::Point(grid) = &window.grid else { return None };

@@ -93,8 +93,8 @@ impl StoredSnapshots {
         });
         let columns = columns.collect();
         let counts = model.windows.iter().map(|window| window.snapshots.len()).collect();
-        let apart = model.domain.oils.is_some() && model.windows.iter().all(|window| window.anchor.is_some());
-        let heat = model.domain.heat.is_some();
+        let apart = model.domain.space.varies_lubricant() && model.windows.iter().all(|window| window.anchor.is_some());
+        let heat = model.domain.heats();
         let here = model.windows.iter().filter(|_| !apart);
         let coefficients = here.map(|window| stored_coefficients(window, heat)).collect();
         Self { kind: model.contact(), counts, columns, fronts: fronts(model), coefficients }

@@ -7,8 +7,8 @@ use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::{
-    Beside, Calibration, Combined, Domain, Keeping, PodBasis, PressureModes, RULE_ACCURACY, ReducedModel, SampledRows,
-    Sampling, Scheme, Snapshot, TractionRule, Window,
+    Calibration, Combined, Domain, FeatureSet, Keeping, PodBasis, PressureModes, RULE_ACCURACY, ReducedModel,
+    SampledRows, Sampling, Scheme, Snapshot, TractionRule, Window,
 };
 use faer::Mat;
 use serde::{Deserialize, Serialize};
@@ -77,7 +77,7 @@ impl StoredRows {
 impl StoredWindow {
     /// Window `k` of a model but for its calibration.
     pub fn of(model: &ReducedModel, k: usize, window: &Window) -> Self {
-        let heat = model.domain.heat.is_some();
+        let heat = model.domain.heats();
         let basis =
             |basis: &PodBasis| StoredBasis::new(basis, window.grid.nodes().1, Keeping::of(window, heat).accuracy());
         let shared = model.windows.iter().all(|window| window.pressure.combined().is_some());
@@ -148,12 +148,8 @@ impl StoredWindow {
         if self.snapshots.is_empty() || !snapshots_fit {
             return damaged("snapshots");
         }
-        let (thins, heat) = (domain.thins(), domain.heat.is_some());
-        let slides = thins || heat;
-        // Older ones of contacts that do not slide know less of them.
-        let of_kind = |known: &Calibration| {
-            if slides { known.is_of(Beside::of(domain)) } else { !known.is_of(Beside::Sliding) }
-        };
+        let (slides, heat) = (domain.slides(), domain.heats());
+        let of_kind = |known: &Calibration| known.is_of(&FeatureSet::of(domain));
         if heat && scheme != Scheme::Galerkin {
             return damaged("heat");
         }

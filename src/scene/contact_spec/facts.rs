@@ -1,7 +1,8 @@
 //! What is known of a field of a contact besides its type.
 
 use super::words::Words;
-use crate::solver::physics::contact::{ContactKind, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::Dimension;
 
 /// What the number of a field measures.
@@ -61,7 +62,7 @@ impl Facts {
     /// What its number measures in contacts of a kind.
     pub fn dimension_in(&self, kind: ContactKind) -> Dimension {
         match self.measure {
-            Measure::Of(quantity) => Dimension::of(quantity, kind),
+            Measure::Of(quantity) => quantity.dimension(kind),
             Measure::In(dimension) => dimension,
         }
     }

@@ -5,12 +5,11 @@ use super::given::{Choices, Domain, Given, MethodName, OilGrade, ShearName};
 use super::words::Words;
 use crate::scene::grid::Grid;
 use crate::scene::named_lubricant::NamedLubricant;
+use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::BodyHeat;
-use crate::solver::physics::contact::{ContactKind, Quantity};
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::Dimension;
-use crate::solver::physics::lubricant::{
-    Cavitation, DensityLaw, Heat, LimitingStress, Lubricant, ViscosityLaw,
-};
+use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Heat, LimitingStress, Lubricant, ViscosityLaw};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

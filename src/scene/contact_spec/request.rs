@@ -3,12 +3,13 @@
 use super::fields::{ContactSpec, Field};
 use super::given::{MethodName, OilGrade};
 use super::refusal::{Refusal, refuse};
-use crate::scene::at::At;
 use crate::scene::answer::Request;
+use crate::scene::at::At;
 use crate::scene::grid::Grid;
 use crate::scene::method::{Method, ModelSource};
 use crate::solver::limits::Number;
-use crate::solver::physics::contact::{ContactError, OperatingPoint, Quantity, reduced_modulus};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactError, OperatingPoint, reduced_modulus};
 use crate::solver::physics::engineering::{Grade, Oil, OilFamily, OilState};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 

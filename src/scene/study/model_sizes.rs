@@ -13,7 +13,7 @@ use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Window};
-use crate::solver::training::{Plan, Range, TrainingObserver, TrainingSpec, random_points, with_rows};
+use crate::solver::training::{Plan, TrainingObserver, TrainingSpec, random_points, with_rows};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -152,8 +152,8 @@ fn ladder(least: usize, most: usize, steps: usize) -> Vec<usize> {
 fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunError> {
     match Scene::from_ron(&model.scene).ok().and_then(|scene| scene.training()) {
         Some(spec) => Ok(spec),
-        None if model.domain.sliding.is_none() => {
-            let (range, plan) = (Range::from(&model.domain), Plan::FarthestPoint { snapshots: window.snapshots.len() });
+        None if !model.domain.thins() => {
+            let (range, plan) = (model.domain.space.clone(), Plan::FarthestPoint { snapshots: window.snapshots.len() });
             Ok(TrainingSpec {
                 lubricant: model.domain.lubricant,
                 sampling: window.sampling,

@@ -6,8 +6,8 @@ use crate::scene::contact_result::{ContactResult, result_columns};
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
 use crate::solver::full::Solution;
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use crate::solver::training::QuantityBox;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
@@ -50,21 +50,13 @@ pub(super) struct Path<'a> {
     pub on_model_grid: bool,
 }
 
-/// The contacts of the test trajectory (3.21) at equidistant c, 0 ≤ c ≤ 2.
-///
-/// # Errors
-/// When one makes no sense.
+/// Returns the contacts of the test trajectory (3.21) at equidistant c, 0 ≤ c ≤ 2, but for those that the range excludes.
 pub(super) fn trajectory_points(
-    range: &QuantityBox,
+    range: &ParameterSpace,
     experiment: &Experiment,
     count: usize,
-) -> Result<Vec<(f64, OperatingPoint)>, RunError> {
-    let contact = |c: f64| {
-        let point = range.trajectory(experiment.contact, c);
-        point.check()?;
-        Ok((c, point))
-    };
-    places(count).map(contact).collect()
+) -> Vec<(f64, OperatingPoint)> {
+    places(count).filter_map(|c| Some((c, range.trajectory(experiment.contact, c)?))).collect()
 }
 
 /// Equidistant c of the test trajectory, both ends counted.

@@ -14,9 +14,9 @@ use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::percentile;
 use crate::solver::full::{GridCost, Solution, grid_doubts};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::training::Range;
 use fastrand::Rng;
 use rows::COMPARED;
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ use std::sync::{Mutex, PoisonError};
 #[serde(deny_unknown_fields)]
 pub struct RandomTest {
     /// Where the points are drawn.
-    pub range: Range,
+    pub range: ParameterSpace,
     /// How many.
     pub tests: usize,
     /// Seed of the random numbers: the same seed gives the same points.
@@ -67,7 +67,7 @@ impl RandomTest {
 
     /// The lubricant of a point, whichever others are tested: the scene's, or one of the range's thermal constants.
     fn lubricant(&self, k: usize, own: Lubricant) -> Lubricant {
-        self.range.warmed(own, &mut Rng::with_seed(self.seed ^ SCRAMBLE.wrapping_mul(k as u64 + 1)))
+        self.range.with_random_heat(own, &mut Rng::with_seed(self.seed ^ SCRAMBLE.wrapping_mul(k as u64 + 1)))
     }
 
     /// Tests some of the points.
@@ -191,7 +191,7 @@ impl Question for RandomTest {
         count("study.tests", self.tests, 1, MAX_TESTS)?;
         count("study.compare", self.compare, 0, self.tests.min(MAX_COMPARED))?;
         count("study.worst", self.worst, 0, self.tests.min(MAX_COMPARED))?;
-        check::test_range(&self.range)
+        check::space("study.range", &self.range)
     }
 
     fn methods(&self) -> &[Method] {
@@ -309,8 +309,8 @@ impl Question for RandomTest {
 mod tests_of_doubts {
     use super::*;
     use crate::scene::{ModelSource, Scene};
+    use crate::solver::parameters::ParameterSpace;
     use crate::solver::reduced::{ErrorEstimate, Estimated};
-    use crate::solver::training::QuantityBox;
 
     #[test]
     fn most_doubtful_are_failures_then_answers_without_a_bound_then_large_bounds() {
@@ -330,7 +330,7 @@ mod tests_of_doubts {
             test(None, None),
         ];
         let study = RandomTest {
-            range: Range::Box(QuantityBox::TABLE_3_1),
+            range: ParameterSpace::table_3_1(),
             tests: 4,
             seed: 1,
             method: Method::Reduced { model: ModelSource::Embedded, pressure_loss: None, deformation_loss: None },

@@ -8,7 +8,8 @@ use crate::scene::axis::{Axis, Steps};
 use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
 use crate::scene::contact_spec::{ContactSpec, Field, Refusal, Words};
 use crate::scene::method::Method;
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
 /// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour, and the

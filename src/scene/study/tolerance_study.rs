@@ -13,9 +13,10 @@ use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::{mean, median, percentile};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorMeasures, ModelSize, Norm, Online};
-use crate::solver::training::{Plan, QuantityBox, Range, TrainingState, Windows, train_resumable};
+use crate::solver::training::{Plan, TrainingState, Windows, train_resumable};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,7 +28,7 @@ pub struct ToleranceStudy {
     /// The scene of the training; relative paths refer to this scene's folder.
     pub training: PathBuf,
     /// The box of random tests (3.17) and of the trajectory (3.21).
-    pub range: QuantityBox,
+    pub range: ParameterSpace,
     /// Points along the trajectory, each with a full solution.
     pub points: usize,
     /// Random tests of each cut.
@@ -107,7 +108,7 @@ impl Question for ToleranceStudy {
     fn check(&self, _experiment: &Experiment) -> Checked {
         count("study.points", self.points, 2, MAX_COMPARED)?;
         count("study.tests", self.tests, 1, MAX_TESTS)?;
-        check::quantity_box("study.range", &self.range)
+        check::space("study.range", &self.range)
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
@@ -122,11 +123,11 @@ impl Question for ToleranceStudy {
         let model = train_resumable(&mut state, observer)?;
         let grid = model.windows[0].grid.clone();
         let along: Vec<OperatingPoint> =
-            trajectory_points(&self.range, experiment, self.points)?.into_iter().map(|(_, point)| point).collect();
+            trajectory_points(&self.range, experiment, self.points).into_iter().map(|(_, point)| point).collect();
         let truth = full_solutions(|_| grid.clone(), &along, experiment.lubricant, observer)?;
         let full_failures = truth.iter().filter(|full| full.is_none()).count();
         tell(Row::Trained { log: model.log, full_failures });
-        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed, observer)?;
+        let points = all_random_points(&self.range, experiment.contact, self.tests, self.seed, observer)?;
         let options = self.online.options();
         let rungs = state.windows[0].search.rungs.clone();
         for (tolerance, solutions) in tolerances.iter().zip(rungs) {

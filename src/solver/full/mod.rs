@@ -26,6 +26,7 @@ mod traction;
 pub mod transient;
 mod trust;
 
+pub use crate::solver::warning::PLAUSIBLE_TRACTION;
 pub use grid_cost::{GridCost, grid_doubts};
 pub use line::Backtracking;
 pub use mesh::Mesh;
@@ -38,5 +39,4 @@ pub use solution::{Scalars, Solution, Traction, scalars_of};
 pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start, most_newton};
 pub use system::{SolveOptions, System};
 pub(crate) use traction::mid_film_stresses;
-pub use crate::solver::warning::PLAUSIBLE_TRACTION;
 pub use traction::{Shear, TractionDoubt};

@@ -35,23 +35,20 @@ pub mod transient;
 mod warmth;
 
 pub use calibration::{
-    Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Laws, Measured,
+    Calibration, ErrorEstimate, Estimated, Evidence, FeatureSet, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Laws,
+    Measured,
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
-pub(crate) use domain::circles;
-pub use domain::{
-    CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, ThermalDomain, Trust, gradient_stress,
-};
+pub use domain::{Domain, Trust};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use kept::{FILM_DIGITS, Keeping, keep_snapshots, kept_starts};
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
-pub use model::{ModelSize, ReducedModel, SHAPE_WEIGHT, Snapshot, Window, deformation_weights, distance, separation};
+pub use model::{ModelSize, ReducedModel, Snapshot, Window, deformation_weights};
 pub use multiples::{ALL_DIGITS, Multiples, RULE_ACCURACY, factor_accuracy, factor_scales, kept_digits, kept_rule};
-pub use oils::expected_film;
-pub(crate) use oils::{BEYOND_CELLS, OilPlace, apart, from_anchor, oil_place};
+pub(crate) use oils::{BEYOND_CELLS, from_anchor};
 pub use online::{Online, ReducedError, ReducedOptions, Starts};
 pub(crate) use operators::{Iterate, fronts};
 pub use pod::PodBasis;

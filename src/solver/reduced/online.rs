@@ -7,7 +7,7 @@ mod settings;
 
 pub use settings::{ReducedError, ReducedOptions, Starts};
 
-use super::calibration::{Beside, Features};
+use super::calibration::{FeatureSet, Features};
 use super::domain::Trust;
 use super::kriging::Kriging;
 use super::model::{ReducedModel, Snapshot, Window};
@@ -16,6 +16,7 @@ use super::reduced_solution::ReducedSolution;
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
 use crate::solver::observer::Observer;
+use crate::solver::parameters::Metric;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::warning::ENDURED_K;
@@ -170,7 +171,7 @@ impl Online {
             return Err(ReducedError::OtherContact { model, given: point.kind });
         }
         let problem = Problem::new(point, lubricant)?;
-        if problem.heat.is_some() && self.model.domain.heat.is_none() {
+        if problem.heat.is_some() && !self.model.domain.heats() {
             return Err(ReducedError::Heat);
         }
         if problem.shear.is_some() && !self.model.slides() {
@@ -185,7 +186,7 @@ impl Online {
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
         };
-        let (ellipse, known) = (point.ellipse(), model.domain.radius_ratio);
+        let (ellipse, known) = (point.ellipse(), model.domain.space.radius_ratio());
         if window.shapes.as_ref().map_or(ellipse != Ellipse::CIRCLE, |shapes| !shapes.hold_for(&ellipse)) {
             return Err(ReducedError::Ellipse { given: ellipse.radius_ratio, known });
         }
@@ -231,9 +232,12 @@ impl Online {
 
     /// The start by kriging in a window around an anchor.
     fn kriged(&self, index: usize, point: &OperatingPoint) -> Option<Guess> {
-        let heat = self.model.domain.heat.is_some();
         let window = self.model.windows.get(index).filter(|window| window.anchor.is_some())?;
-        self.krigings.get(index)?.get_or_init(|| Kriging::of(window, heat)).as_ref()?.start(point)
+        self.krigings
+            .get(index)?
+            .get_or_init(|| Kriging::of(window, Metric::of_starts(&self.model.domain.space)))
+            .as_ref()?
+            .start(point)
     }
 
     /// Solves a contact from one snapshot of its window and from nowhere else, showing every iterate, for the training.
@@ -286,12 +290,13 @@ impl Online {
         };
         let own = self.model.windows.get(window).filter(|_| as_measured && !solved.is_too_hot());
         solved.error = own.and_then(|window| {
-            let features = Features::of(&solved, &point, Beside::of(domain));
+            let features = Features::of(&solved, &point, &FeatureSet::of(domain));
             window.likely_error(&features, &problem.point, problem.lubricant.cavitation)
         });
         if let Some(estimate) = solved.error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
-            let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());
+            let meant = problem.traction_warning().is_none()
+                && (knows_traction || !(domain.thins() && domain.space.varies_lubricant()));
             estimate.traction = estimate.traction.filter(|_| meant);
         }
         solved
@@ -324,7 +329,7 @@ fn all_modes() -> (&'static [f64], &'static [f64]) {
 
 fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Operators {
     let modes = options.pressure_modes.unwrap_or(usize::MAX);
-    if model.domain.heat.is_some() {
+    if model.domain.heats() {
         return Operators::with_heat(window, modes, options.deformation_modes);
     }
     Operators::new(window, modes, options.deformation_modes, model.domain.thins())

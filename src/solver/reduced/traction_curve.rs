@@ -2,7 +2,8 @@
 
 use super::online::{Online, ReducedError};
 use super::reduced_solution::ReducedSolution;
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 
 /// One contact of a curve.

@@ -139,16 +139,16 @@ fn non_negative(q: &[Vec<f64>], a: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{QuantityBox, Range, random_points};
+    use super::super::random_points;
     use super::*;
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::{FullSolver, Start};
+    use crate::solver::parameters::ParameterSpace;
     use crate::solver::physics::contact::ContactKind;
     use crate::solver::physics::lubricant::Lubricant;
 
     fn points() -> Vec<OperatingPoint> {
-        let range = Range::Box(QuantityBox::TABLE_3_1);
-        random_points(&range, ContactKind::Line, 40, 5)
+        random_points(&ParameterSpace::table_3_1(), ContactKind::Line, 40, 5)
     }
 
     #[test]

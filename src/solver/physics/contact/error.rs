@@ -39,14 +39,3 @@ pub enum ContactError {
         given: &'static str,
     },
 }
-
-/// Refuses a quantity outside its range.
-pub(super) fn accept(
-    quantity: &'static str,
-    value: f64,
-    unit: &'static str,
-    (min, max): (f64, f64),
-) -> Result<(), ContactError> {
-    let inside = (min..=max).contains(&value);
-    if inside { Ok(()) } else { Err(ContactError::OutOfRange { quantity, value, unit, min, max }) }
-}

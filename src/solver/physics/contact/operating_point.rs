@@ -1,9 +1,9 @@
 //! The operating point in SI units with its Hertzian scales and its Moes numbers.
 
 use super::ellipse::Ellipse;
-use super::error::{ContactError, accept};
+use super::error::ContactError;
 use super::kind::ContactKind;
-use super::quantity::Quantity;
+use super::limits::{self, Limit};
 use super::sliding::Sliding;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -59,8 +59,8 @@ pub struct Moes {
 impl Moes {
     /// Refuses numbers outside any sense.
     pub fn check(self) -> Result<(), ContactError> {
-        accept("Moes number M", self.m, "", Quantity::M.range())?;
-        accept("Moes number L", self.l, "", Quantity::L.range())
+        limits::M.accept(self.m)?;
+        limits::L.accept(self.l)
     }
 }
 
@@ -125,16 +125,15 @@ impl OperatingPoint {
 
     /// Refuses values that are not finite, not positive, or outside any sense.
     pub fn check(&self) -> Result<(), ContactError> {
-        for (value, quantity) in self.quantities().into_iter().zip(Quantity::SI) {
-            accept(quantity.name(), value, quantity.unit(), quantity.range())?;
+        for (value, limit) in self.quantities().into_iter().zip(limits::SI) {
+            limit.accept(value)?;
         }
         match (self.kind, self.radius_y_m) {
             (_, None) => {}
             (ContactKind::Line, Some(_)) => return Err(ContactError::LineAcross),
             (ContactKind::Point, Some(radius_y)) if radius_y <= 0.0 => return Err(ContactError::Concave { radius_y }),
             (ContactKind::Point, Some(radius_y)) => {
-                let quantity = Quantity::RadiusY;
-                accept(quantity.name(), radius_y, quantity.unit(), quantity.range())?;
+                limits::RADIUS_Y.accept(radius_y)?;
                 Ellipse::of_ratio(self.radius_ratio())?;
             }
         }
@@ -216,10 +215,12 @@ impl OperatingPoint {
 
 /// Reduced modulus E′ \[Pa\] of two bodies, (2.5). Young's moduli in Pa, Poisson ratios in \[0, 0.5\].
 pub fn reduced_modulus(e1: f64, nu1: f64, e2: f64, nu2: f64) -> Result<f64, ContactError> {
-    accept("Young's modulus e1", e1, " Pa", (1e5, 1e14))?;
-    accept("Young's modulus e2", e2, " Pa", (1e5, 1e14))?;
-    accept("Poisson ratio nu1", nu1, "", (0.0, 0.5))?;
-    accept("Poisson ratio nu2", nu2, "", (0.0, 0.5))?;
+    let young = |name| Limit { name, ..limits::MODULUS };
+    let poisson = |name| Limit { name, unit: "", range: (0.0, 0.5) };
+    young("Young's modulus e1").accept(e1)?;
+    young("Young's modulus e2").accept(e2)?;
+    poisson("Poisson ratio nu1").accept(nu1)?;
+    poisson("Poisson ratio nu2").accept(nu2)?;
     Ok(2.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2))
 }
 

@@ -1,6 +1,5 @@
 //! Numbers with units as people type them: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
 
-use crate::solver::physics::contact::{ContactKind, Quantity};
 use std::f64::consts::PI;
 
 /// 0 °C in K.
@@ -89,27 +88,6 @@ const ROTATION: Units = &[("rpm", PI / 30.0), ("1/min", PI / 30.0), ("U/min", PI
 const KINEMATIC: Units = &[("cSt", 1e-6), ("mm²/s", 1e-6), ("m²/s", 1.0), ("St", 1e-4)];
 
 impl Dimension {
-    /// What a quantity of a contact measures.
-    pub fn of(quantity: Quantity, kind: ContactKind) -> Self {
-        match (quantity, kind) {
-            (Quantity::Radius | Quantity::RadiusY, _) => Self::Length,
-            (Quantity::Speed, _) => Self::Speed { radius_m: None },
-            (Quantity::Load, ContactKind::Line) => Self::LineLoad,
-            (Quantity::Load, ContactKind::Point) => Self::Force,
-            (Quantity::Modulus, _) => Self::Pressure,
-            (Quantity::Viscosity, _) => Self::Viscosity { density: None },
-            (Quantity::Alpha, _) => Self::PressureCoefficient,
-            (
-                Quantity::M
-                | Quantity::L
-                | Quantity::RadiusRatio
-                | Quantity::SlideToRollRatio
-                | Quantity::NewtonianPlateauRatio,
-                _,
-            ) => Self::Ratio,
-        }
-    }
-
     /// Its name with the article.
     pub fn name(self) -> &'static str {
         match self {
