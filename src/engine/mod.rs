@@ -20,6 +20,7 @@ pub mod job;
 pub mod model_arrays;
 pub mod model_file;
 mod packed;
+pub mod registry;
 pub mod results;
 mod saved_model;
 mod store;
@@ -31,7 +32,7 @@ pub mod training_file;
 pub mod trajectory_file;
 mod workbench;
 
-pub use embedded::{Embedded, line_in_time};
+pub use embedded::{Entry, bytes_of, catalogue, embedded, line_in_time};
 pub use grid_accuracy::GridAccuracy;
 pub use saved_model::SavedModel;
 pub use store::Store;
