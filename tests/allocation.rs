@@ -2,7 +2,7 @@
 #![cfg(test)]
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
-use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::embedded;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{
@@ -116,8 +116,8 @@ fn more_online_iterations_do_not_allocate_more() {
     let oiled = OperatingPoint { viscosity_pa_s: 0.03, alpha_per_pa: 18e-9, ..newtonian };
     for (model, point, lubricant) in [
         (oils, oiled, ruptured),
-        (Embedded::Line.model().unwrap(), newtonian, Lubricant::default()),
-        (Embedded::ThinningLine.model().unwrap(), thinning, SQUALANE_PIP),
+        (embedded("line").unwrap(), newtonian, Lubricant::default()),
+        (embedded("line_shear").unwrap(), thinning, SQUALANE_PIP),
         (trained(Scheme::Galerkin), newtonian, ruptured),
         (trained(Scheme::LeastSquares { weighted: true }), newtonian, ruptured),
         (trained(Scheme::Gnat { weighted: true }), newtonian, ruptured),

@@ -8,7 +8,7 @@ pub use heat::HEAT_BASELINE;
 
 use super::model_file::ModelFileError;
 use super::store::Store;
-use super::{Embedded, EngineError, median, percentile};
+use super::{EngineError, median, percentile};
 use crate::host::clock::Stopwatch;
 use crate::scene::named_lubricant;
 use crate::scene::study::transient::{Timed, timed_march};
@@ -173,14 +173,22 @@ impl Bench {
 
     /// What solves with the embedded model of a row; a note where there is none.
     fn online(&mut self, row: &str, kind: ContactKind, shear: ShearLaw) -> Option<Online> {
-        let model = self.model(row, Embedded::of_kind(kind, shear));
+        let name = match (kind, shear) {
+            (ContactKind::Line, ShearLaw::Newtonian) => "line",
+            (ContactKind::Line, ShearLaw::Eyring { .. }) => "line_sliding",
+            (ContactKind::Line, _) => "line_shear",
+            (ContactKind::Point, ShearLaw::Newtonian) => "point",
+            (ContactKind::Point, ShearLaw::Eyring { .. }) => "point_sliding",
+            (ContactKind::Point, _) => "point_shear",
+        };
+        let model = self.model(row, name);
         model.map(|model| Online::new(model, ReducedOptions::default()))
     }
 
     /// The embedded model of a row; a note where there is none.
-    fn model(&mut self, row: &str, which: Embedded) -> Option<Arc<ReducedModel>> {
+    fn model(&mut self, row: &str, name: &str) -> Option<Arc<ReducedModel>> {
         let missing = |reason: &ModelFileError| self.notes.push(format!("{row} is missing: {reason}"));
-        Store::default().embedded(which).inspect_err(missing).ok()
+        Store::default().embedded(name).inspect_err(missing).ok()
     }
 
     /// Adds rows that are compared with the first of them.

@@ -22,6 +22,7 @@ pub mod model_arrays;
 pub mod model_file;
 pub mod model_text;
 mod packed;
+pub mod registry;
 pub mod results;
 mod saved_model;
 mod store;
@@ -34,7 +35,7 @@ pub mod trajectory_file;
 mod workbench;
 
 pub use answer::{Solver, answer};
-pub use embedded::{Embedded, line_in_time};
+pub use embedded::{Entry, bytes_of, catalogue, embedded, line_in_time};
 pub use grid_accuracy::GridAccuracy;
 pub use saved_model::SavedModel;
 pub use store::Store;

@@ -2,7 +2,7 @@
 //! operators.
 
 use super::model_file::{self, ModelFileError};
-use super::{Embedded, EngineError, trajectory_file};
+use super::{EngineError, embedded, trajectory_file};
 use crate::host::clock::FileTime;
 use crate::scene::Scene;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
@@ -42,7 +42,7 @@ struct Shelves {
 #[derive(Clone, PartialEq)]
 enum Origin {
     /// It is part of the program.
-    Embedded(Embedded),
+    Embedded(String),
     /// A file as it was at a time, and its size.
     File(PathBuf, Option<FileTime>, u64),
     /// Trained.
@@ -88,21 +88,21 @@ impl Store {
         keep(&self.0.online, online, |_| true, KEPT_ONLINE);
     }
 
-    /// A reduced model of the program.
+    /// Returns a reduced model of the program by its name.
     ///
     /// # Errors
-    /// When the program was built with a damaged one.
-    pub fn embedded(&self, which: Embedded) -> Result<Arc<ReducedModel>, ModelFileError> {
-        self.embedded_watched(which, &())
+    /// For an unknown name, and when the program was built with a damaged one.
+    pub fn embedded(&self, name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
+        self.embedded_watched(name, &())
     }
 
     /// The same while an observer watches: reading takes a tenth of a second and more.
     pub(super) fn embedded_watched(
         &self,
-        which: Embedded,
+        name: &str,
         observer: &dyn Observer,
     ) -> Result<Arc<ReducedModel>, ModelFileError> {
-        made_once(&self.0.models, Origin::Embedded(which), || which.model_watched(observer))
+        made_once(&self.0.models, Origin::Embedded(name.to_owned()), || embedded::embedded_watched(name, observer))
     }
 
     /// The reduced model of a file; read again where the file was changed.
@@ -276,8 +276,8 @@ mod tests {
     #[test]
     fn a_model_is_read_once_and_its_operators_are_handed_on() {
         let store = Store::default();
-        let model = store.embedded(Embedded::Line).unwrap();
-        assert!(Arc::ptr_eq(&store.embedded(Embedded::Line).unwrap(), &model));
+        let model = store.embedded("line").unwrap();
+        assert!(Arc::ptr_eq(&store.embedded("line").unwrap(), &model));
         let options = ReducedOptions::default();
         let online = store.online(&model, options);
         store.give_back(online);

@@ -92,7 +92,7 @@ pub(super) fn from_own_bytes(bytes: &[u8]) -> Result<Arc<TrajectoryModel>, Model
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{Embedded, SavedModel, model_file};
+    use crate::engine::{SavedModel, model_file, bytes_of};
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::transient::{
         Frame, Inputs, Interpolation, Keep, Quantity, Signal, Trajectory, Transient, march, solve,
@@ -205,10 +205,10 @@ mod tests {
         newer[8] = 9;
         let refused = from_bytes(&newer).map(|_| ()).unwrap_err();
         assert!(matches!(refused, ModelFileError::NewerInTime { found: 9, read: VERSION }), "{refused}");
-        assert!(matches!(from_bytes(Embedded::Line.bytes()), Err(ModelFileError::Stationary)));
+        assert!(matches!(from_bytes(bytes_of("line").unwrap()), Err(ModelFileError::Stationary)));
         assert!(matches!(model_file::from_bytes(&whole), Err(ModelFileError::InTime)));
         assert!(matches!(SavedModel::from_bytes(&whole), Ok(SavedModel::InTime(_))));
-        assert!(matches!(SavedModel::from_bytes(Embedded::Line.bytes()), Ok(SavedModel::Stationary(_))));
+        assert!(matches!(SavedModel::from_bytes(bytes_of("line").unwrap()), Ok(SavedModel::Stationary(_))));
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("model.rom");
         write(&small(), &path).unwrap();

@@ -3,7 +3,7 @@
 use super::answer::{Solver, answer, window_of};
 use super::model_file::ModelFileError;
 use super::store::Store;
-use super::{Answer, Embedded, EngineError, Request, embedded, line_in_time};
+use super::{Answer, EngineError, Request, catalogue, embedded, line_in_time, registry};
 use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::{Problem, Solution, SolveError, Start};
@@ -93,7 +93,9 @@ impl Bench for Workbench {
         }
         match source {
             ModelSource::Embedded => {
-                self.store.embedded_watched(Embedded::of(point, lubricant), observer).map_err(|reason| match reason {
+                let models = catalogue().iter().map(|entry| (entry.name.as_str(), &entry.domain));
+                let name = registry::best(models, point, lubricant).unwrap_or_default();
+                self.store.embedded_watched(name, observer).map_err(|reason| match reason {
                     ModelFileError::Cancelled => EngineError::Cancelled,
                     reason => EngineError::Embedded(reason.into()),
                 })

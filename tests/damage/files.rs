@@ -4,7 +4,7 @@ use crate::common::cases::cases;
 use crate::common::scene_files;
 use crate::common::scratch::Scratch;
 use crate::{alone, most_bytes, spoil};
-use ehl_explorer::engine::{Embedded, model_file, training_file, trajectory_file};
+use ehl_explorer::engine::{model_file, training_file, trajectory_file};
 use ehl_explorer::scene::Scene;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::GridSpec;

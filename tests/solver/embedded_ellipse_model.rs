@@ -1,6 +1,6 @@
 //! The embedded reduced model of elliptical contacts against full solutions on its own grids.
 
-use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::embedded;
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
@@ -18,7 +18,7 @@ fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
 /// One model for all of this: its operators take a second.
 #[test]
 fn random_ellipses_of_its_range_are_solved_near_full_solutions_and_pass_from_shape_to_shape() {
-    let mut online = Online::new(Embedded::Ellipse.model().unwrap(), ReducedOptions::default());
+    let mut online = Online::new(embedded("ellipse").unwrap(), ReducedOptions::default());
     for point in points(300, 51) {
         online.forget();
         let solved = online.solve(&point, Lubricant::default()).unwrap_or_else(|e| panic!("{:?}: {e}", point.moes()));

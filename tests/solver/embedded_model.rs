@@ -1,7 +1,7 @@
 //! The embedded reduced model against full solutions on its own grid, across window edges, and as a dragged slider
 //! meets it.
 
-use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::embedded;
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::parameters::Quantity;
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
@@ -15,7 +15,7 @@ fn at(m: f64, l: f64) -> OperatingPoint {
 }
 
 fn online() -> Online {
-    Online::new(Embedded::Line.model().unwrap(), ReducedOptions::default())
+    Online::new(embedded("line").unwrap(), ReducedOptions::default())
 }
 
 /// Greatest difference of two pressures, the second interpolated linearly at the nodes of the first.
@@ -113,7 +113,7 @@ fn bounds_allow_for_what_a_penalty_moves_films_by() {
 #[test]
 fn what_a_window_beside_the_contacts_own_answers_says_so_and_promises_nothing() {
     let contact = at(40.0, 10.0);
-    let mut model = ReducedModel::clone(&Embedded::Line.model().unwrap());
+    let mut model = ReducedModel::clone(&embedded("line").unwrap());
     let own = model.window_for(&contact);
     // Equations that are all zero have no solution.
     model.windows[own].reconstruction.fill(0.0);
@@ -185,7 +185,7 @@ fn outside_its_range_the_model_still_solves_the_given_point_and_says_that_it_was
 
 #[test]
 fn fewer_modes_need_no_training_and_lose_accuracy_gradually() {
-    let model = Embedded::Line.model().unwrap();
+    let model = embedded("line").unwrap();
     let point = at(20.0, 8.0);
     let film = |modes, deformation| {
         let options =

@@ -1,6 +1,6 @@
 //! The embedded reduced model of point contacts against full solutions on its own grid.
 
-use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::embedded;
 use ehl_explorer::engine::{median, percentile};
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::parameters::ParameterSpace;
@@ -10,7 +10,7 @@ use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedOptions, Trust}
 use ehl_explorer::solver::training::random_points;
 
 fn online() -> Online {
-    Online::new(Embedded::Circle.model().unwrap(), ReducedOptions::default())
+    Online::new(embedded("point").unwrap(), ReducedOptions::default())
 }
 
 fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
@@ -60,7 +60,7 @@ fn its_films_lie_near_full_solutions() {
 
 #[test]
 fn films_of_light_contacts_lie_near_full_solutions_and_meet_those_of_heavier_ones() {
-    let mut light = Online::new(Embedded::LightCircle.model().unwrap(), ReducedOptions::default());
+    let mut light = Online::new(embedded("point_light").unwrap(), ReducedOptions::default());
     let oil = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let mut solver = ContactSolver::on(&light.model.windows[0].grid);
     for point in random_points(&light.model.domain.space, ContactKind::Point, 8, 43) {

@@ -1,6 +1,6 @@
 //! A model that is saved is the one that was read.
 
-use ehl_explorer::engine::Embedded;
+
 use ehl_explorer::engine::model_file::to_bytes;
 use rayon::prelude::*;
 

@@ -1,7 +1,7 @@
 //! The embedded models of shear-thinning contacts: what the tests of both have in common.
 
 use crate::common::scene_files;
-use ehl_explorer::engine::Embedded;
+
 use ehl_explorer::engine::model_file::{from_bytes, to_bytes};
 use ehl_explorer::scene::Study;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;

@@ -6,13 +6,13 @@ use crate::driver::{Table, Window, choose, click, export, set, shows, undo, wait
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{Embedded, SceneOutcome, Workbench, run_scene};
+use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene, embedded};
 use ehl_explorer::scene::{Grid, Scene, Study};
 use std::time::Duration;
 
 /// The Accuracy tab at one of its views, over a settled picture.
 fn open(view: &str) -> Window {
-    let explorer = Explorer::new(Some(Embedded::Line.model().unwrap())).without_system_dialogs();
+    let explorer = Explorer::new(Some(embedded("line").unwrap())).without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
     wait(&mut harness, "verification", |h| h.state().badge() == "Verified" && !h.state().busy());
     click(&mut harness, "Accuracy");
@@ -119,7 +119,7 @@ fn the_failure_map_counts_and_its_worst_case_is_a_click_away() {
     let table = exported(&mut harness, "Random tests as CSV…", "map.csv");
     assert_eq!(table.len(), 4 + 200);
     assert!(table[3].starts_with("M,L,R_m"));
-    let model = Embedded::Line.model().unwrap();
+    let model = embedded("line").unwrap();
     let mut scene = Scene::from_ron(
         "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), cavitation: Complementarity, \
         study: RandomTest(range: (axes: {Radius: (2e-3, 3e-3, Linear), Speed: (3.0, 5.0, Linear), \

@@ -4,7 +4,7 @@ use crate::common::scratch::Scratch;
 use crate::driver::{Window, assert_cheap, click, give_path, undo, wait};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{Embedded, model_file, training_file};
+use ehl_explorer::engine::{model_file, training_file, embedded};
 use std::path::Path;
 
 /// A scene with a training of a small box; full solves take about a millisecond.
@@ -33,7 +33,7 @@ fn open(folder: &Path, title: &str, plan: &str) -> Window {
     let nodes = if plan == LONG { "nodes: 500" } else { "nodes: 200" };
     std::fs::write(&path, scene(title, plan).replace("nodes: 200", nodes)).unwrap();
     let mut explorer =
-        Explorer::new(Some(Embedded::Line.model().unwrap())).without_system_dialogs().keeping_trainings_in(folder);
+        Explorer::new(Some(embedded("line").unwrap())).without_system_dialogs().keeping_trainings_in(folder);
     explorer.open_scene(&path).unwrap();
     let mut harness = crate::driver::window(explorer, [1280.0, 1400.0]);
     wait(&mut harness, "the first picture", |app| !app.training() && !app.busy() && app.central_film().is_some());

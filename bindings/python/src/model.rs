@@ -2,7 +2,7 @@
 
 use crate::tables::shaped;
 use crate::work::{long, refused};
-use ehl_explorer::engine::{Embedded, EngineError, model_arrays, model_file, model_text};
+use ehl_explorer::engine::{self, EngineError, model_arrays, model_file, model_text};
 use ehl_explorer::scene::Scene;
 use ehl_explorer::solver::parameters::Quantity;
 use ehl_explorer::solver::physics::contact::ContactKind;
@@ -49,15 +49,16 @@ impl Model {
             "point" => ContactKind::Point,
             _ => return Err(refused(format!("`{contact}` is no contact; accepted are line, point"))),
         };
-        let which = match (kind, thinning, heat) {
-            (ContactKind::Line, false, false) => Embedded::Line,
-            (ContactKind::Line, true, false) => Embedded::ThinningLine,
-            (ContactKind::Point, false, false) => Embedded::Circle,
-            (ContactKind::Point, true, false) => Embedded::ThinningCircle,
-            (_, false, true) => Embedded::with_heat(kind),
+        let name = match (kind, thinning, heat) {
+            (ContactKind::Line, false, false) => "line",
+            (ContactKind::Line, true, false) => "line_shear",
+            (ContactKind::Point, false, false) => "point",
+            (ContactKind::Point, true, false) => "point_shear",
+            (ContactKind::Line, false, true) => "line_heat",
+            (ContactKind::Point, false, true) => "point_heat",
             (_, true, true) => return Err(refused("heat is known to the models without thinning only".to_owned())),
         };
-        Ok(Self(py.detach(|| which.model()).map_err(refused)?))
+        Ok(Self(py.detach(|| engine::embedded(name)).map_err(refused)?))
     }
 
     /// Trains a model as a scene describes, given by its text or its file; ``progress(stage, done, total)`` is called

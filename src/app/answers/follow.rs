@@ -16,9 +16,9 @@ impl Answers {
     /// after the panels.
     pub fn refresh(&mut self, ctx: &Context, document: &Document) {
         if self.reading.is_none()
-            && let Some(which) = self.models.late_for(&document.point, &document.lubricant)
+            && let Some(name) = self.models.late_for(&document.point, &document.lubricant)
         {
-            self.read(ctx, which);
+            self.read(ctx, name);
         }
         let ask = Ask::of(document, &self.models);
         if self.asked != Some(ask) {
@@ -210,13 +210,13 @@ mod tests {
     use crate::app::display::Thresholds;
     use crate::app::model_source::Models;
     use crate::app::tabs::badge::verdict;
-    use crate::engine::{Embedded, Store};
+    use crate::engine::{Store, embedded};
     use std::time::{Duration, Instant};
 
     #[test]
     fn a_reduced_solve_that_is_stopped_says_so_and_no_full_one_follows() {
         let (ctx, document) = (Context::default(), Document::default());
-        let mut answers = Answers::new(Models::only(Embedded::Line.model().ok()), Store::default());
+        let mut answers = Answers::new(Models::only(embedded("line").ok()), Store::default());
         let ask = Ask::of(&document, &answers.models);
         answers.asked = Some(ask);
         answers.live.endless(ask);

@@ -193,7 +193,7 @@ impl Live {
 mod tests {
     use super::*;
     use crate::app::document::Key;
-    use crate::engine::Embedded;
+    use crate::engine::embedded;
     use crate::solver::physics::contact::OperatingPoint;
     use crate::solver::physics::lubricant::Lubricant;
     use crate::solver::reduced::ReducedOptions;
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn who_waits_has_the_answer_at_once_and_who_does_not_is_called() {
-        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
         let mut live = patient();
         live.submit(&ctx, ask_at(1.0), Arc::clone(&model));
         let (ask, answer) = live.poll().pop().unwrap();
@@ -253,7 +253,7 @@ mod tests {
 
     #[test]
     fn of_asks_that_wait_the_newest_is_answered_and_of_models_no_longer_in_use_none() {
-        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
         let mut live = patient();
         live.be_patient(Duration::ZERO);
         for k in 0..50 {
@@ -273,7 +273,7 @@ mod tests {
 
     #[test]
     fn a_contact_that_is_refused_comes_back_as_a_sentence() {
-        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
         let mut live = patient();
         live.submit(&ctx, ask_at(f64::NAN), model);
         let (_, answer) = live.poll().pop().unwrap();

@@ -6,7 +6,7 @@ use super::picture::{Comparison, Origin, Picture};
 use super::{Answers, Failure};
 use crate::app::document::Key;
 use crate::engine::job::Job;
-use crate::engine::{Answer, Embedded};
+use crate::engine::Answer;
 use crate::host::pool::on_spare_cores;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::point::second_grid;
@@ -16,10 +16,10 @@ use std::sync::Arc;
 
 impl Answers {
     /// Begins to read a model of the program. Until it is there the full solver draws the pictures.
-    pub(super) fn read(&mut self, ctx: &Context, which: Embedded) {
+    pub(super) fn read(&mut self, ctx: &Context, name: &'static str) {
         let store = self.store.clone();
         self.reading = Some(Job::start("Reading a reduced model", wake(ctx), move |reporter| {
-            reporter.send(on_spare_cores(|| store.embedded(which)).map_err(|error| error.to_string())?);
+            reporter.send(on_spare_cores(|| store.embedded(name)).map_err(|error| error.to_string())?);
             Ok(())
         }));
     }
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn a_model_is_in_use_as_soon_as_it_is_there_however_long_its_reader_takes_to_end() {
         let mut answers = Answers::new(Models::only(None), Store::default());
-        let model = Embedded::Line.model().unwrap();
+        let model = crate::engine::embedded("line").unwrap();
         let (own, (sent, arrived), (end, ended)) = (Arc::clone(&model), channel(), channel::<()>());
         answers.reading = Some(Job::start("Reading", Wake::default(), move |reporter| {
             reporter.send(own);

@@ -190,7 +190,7 @@ mod tests {
     use super::*;
     use crate::app::document::Document;
     use crate::app::model_source::Models;
-    use crate::engine::{Embedded, Store};
+    use crate::engine::Store;
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable as _;
 
@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn every_tab_can_be_drawn_alone() {
         let store = Store::default();
-        let model = store.embedded(Embedded::Line).unwrap();
+        let model = store.embedded("line").unwrap();
         assert_eq!(SHOWN.map(|(tab, _)| tab), Tab::ALL);
         for (tab, _) in SHOWN {
             let desk = Desk::new(Document::default(), Models::only(Some(model.clone())), store.clone());

@@ -390,7 +390,7 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Embedded;
+    use crate::engine::embedded;
     use crate::scene::named_lubricant::{MINERAL_OIL, SQUALANE_PIP};
     use crate::solver::physics::contact::Sliding;
     use crate::solver::physics::lubricant::Heat;
@@ -405,7 +405,7 @@ mod tests {
 
     #[test]
     fn trained_speeds_end_where_a_moes_number_does() {
-        let model = Embedded::ThinningLine.model().unwrap();
+        let model = embedded("line_shear").unwrap();
         for kind in [ContactKind::Line, ContactKind::Point] {
             let point = key(kind).point;
             let here = point.moes();
@@ -430,7 +430,7 @@ mod tests {
         let point = key(ContactKind::Line).point;
         assert_eq!(Varied::SlideToRoll.trained(&model.domain, &point), Some((0.0, 1.0)));
         assert_eq!(Varied::Plateau.trained(&model.domain, &point), Some((0.2, 1.0)));
-        let (heated, fast) = (Embedded::HeatedLine.model().unwrap(), OperatingPoint { speed_m_per_s: 10.0, ..point });
+        let (heated, fast) = (embedded("line_heat").unwrap(), OperatingPoint { speed_m_per_s: 10.0, ..point });
         assert_eq!(Varied::SlideToRoll.trained(&heated.domain, &fast), Some((0.0, 0.5)), "5 m/s of sliding");
     }
 

@@ -11,7 +11,8 @@ pub use worker::{Made, Running};
 use super::answers::Answers;
 use super::document::Document;
 use crate::engine::job::{Background, Standing};
-use crate::engine::{Embedded, Store, training_file};
+use crate::engine::registry::{alike, loads_in_common};
+use crate::engine::{Store, catalogue, training_file};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use chart::Chart;
@@ -226,16 +227,15 @@ impl Training {
     /// files, and the one that was made.
     pub fn comparable(&self, answers: &Answers, document: &Document) -> Vec<(String, Arc<ReducedModel>)> {
         let Some(spec) = self.compared_spec(document) else { return Vec::new() };
-        let kind = spec.contact();
-        let ellipses = spec.range.of_ellipses();
+        let domain = spec.domain();
         // That of ellipses is large: it stands here once it is in use.
-        let (heats, shear) = (spec.heats(), spec.lubricant.shear);
-        let (lightest, heaviest) = spec.domain().m();
-        let middle = (lightest * heaviest).sqrt();
-        let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, shear).under_load(middle) };
-        let round = (!ellipses).then_some(of_kind);
-        let embedded = round.and_then(|which| answers.store.embedded(which).ok());
-        let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant, middle).cloned();
+        let round = catalogue().iter().filter(|entry| !domain.space.of_ellipses() && alike(&entry.domain, &domain));
+        let nearest = round.max_by(|a, b| {
+            let [a, b] = [a, b].map(|entry| loads_in_common(&entry.domain, &domain));
+            a.total_cmp(&b)
+        });
+        let embedded = nearest.and_then(|entry| answers.store.embedded(&entry.name).ok());
+        let in_use = answers.models.counterpart(&domain).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));

@@ -1,7 +1,6 @@
 //! Contacts with heat in the speed table.
 
 use super::{Bench, CURVES, EngineError, POINT_BUDGET, ROW_BUDGET, Timing, cold_and_warm, curve_row, reduced_row};
-use crate::engine::Embedded;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{FullSolver, Problem};
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
@@ -39,7 +38,7 @@ fn range(m: (f64, f64), highest_pressure_pa: f64) -> ParameterSpace {
 /// Solves of lines in full, cold and from the nearest other solution, reduced ones with H_c, traction and temperatures, and
 /// whole traction curves; a note where there is no model.
 pub(super) fn rows(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, EngineError> {
-    let Some(model) = bench.model(HEAT_BASELINE, Embedded::HeatedLine) else { return Ok(Vec::new()) };
+    let Some(model) = bench.model(HEAT_BASELINE, "line_heat") else { return Ok(Vec::new()) };
     let (lubricant, spec) = (model.domain.lubricant, GRID);
     let mut solver = FullSolver::new(spec)?;
     let points = random_points(&range((5.0, 100.0), 1.4e9), ContactKind::Line, REDUCED_POINTS[size], SEED);
@@ -59,7 +58,7 @@ pub(super) fn rows(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, Engine
 /// Reduced solves of balls with H_c, traction and temperatures; a note where there is no model.
 pub(super) fn balls(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, EngineError> {
     const NAME: &str = "point/heat/reduced";
-    let Some(model) = bench.model(NAME, Embedded::HeatedCircle) else { return Ok(Vec::new()) };
+    let Some(model) = bench.model(NAME, "point_heat") else { return Ok(Vec::new()) };
     let lubricant = model.domain.lubricant;
     let points = random_points(&range((15.0, 120.0), 1.8e9), ContactKind::Point, REDUCED_POINTS[size], SEED);
     let mut online = Online::new(model, ReducedOptions::default());

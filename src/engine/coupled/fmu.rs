@@ -341,20 +341,20 @@ fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{Embedded, Workbench};
+    use crate::engine::{Workbench, bytes_of, embedded};
     use crate::scene::Bench;
     use crate::solver::parameters::Quantity;
     use crate::solver::physics::contact::OperatingPoint;
 
-    fn first(which: Embedded) -> (Coupled, Inputs) {
-        let model = which.model().unwrap();
+    fn first(which: &str) -> (Coupled, Inputs) {
+        let model = embedded(which).unwrap();
         let inputs = Coupled::first_inputs(&model).unwrap();
         (Coupled::new(model, Pressed::Load).unwrap(), inputs)
     }
 
     #[test]
     fn outputs_are_what_solve_answers_to_the_last_bit() {
-        for which in [Embedded::Line, Embedded::ThinningLine, Embedded::Circle] {
+        for which in ["line", "line_shear", "point"] {
             let (mut coupled, inputs) = first(which);
             let inputs = Inputs { slide_to_roll_ratio: 0.1, ..inputs };
             let own = coupled.solve(&inputs).unwrap();
@@ -376,7 +376,7 @@ mod tests {
 
     #[test]
     fn an_approach_gives_the_load_that_gives_it() {
-        let model = Embedded::Circle.model().unwrap();
+        let model = embedded("point").unwrap();
         let inputs = Coupled::first_inputs(&model).unwrap();
         let mut by_approach = Coupled::new(model, Pressed::Approach).unwrap();
         for share in [0.9, 1.0, 1.3] {
@@ -387,13 +387,13 @@ mod tests {
         }
         let refused = by_approach.solve(&Inputs { approach_m: -1e-6, ..inputs }).unwrap_err();
         assert!(refused.to_string().contains("above zero"), "{refused}");
-        let line = Embedded::Line.model().unwrap();
+        let line = embedded("line").unwrap();
         assert!(Coupled::new(line, Pressed::Approach).is_err_and(|why| why.to_string().contains("load instead")));
     }
 
     #[test]
     fn what_makes_no_sense_is_refused_and_what_is_unknown_is_told() {
-        let (mut coupled, inputs) = first(Embedded::Line);
+        let (mut coupled, inputs) = first("line");
         for wrong in [
             Inputs { load: -1.0, ..inputs },
             Inputs { radius_m: 0.0, ..inputs },
@@ -412,7 +412,7 @@ mod tests {
 
     #[test]
     fn a_description_names_every_variable_and_its_identity() {
-        let bytes = Embedded::Circle.bytes();
+        let bytes = bytes_of("point").unwrap();
         let model = SavedModel::from_bytes(bytes).unwrap();
         for pressed in [Pressed::Load, Pressed::Approach] {
             let text = description(&model, bytes, pressed).unwrap();
@@ -420,13 +420,13 @@ mod tests {
             assert_eq!(pressed_of(&identity(bytes, pressed), bytes), Some(pressed));
         }
         assert_eq!(pressed_of("load-0000000000000000", bytes), None);
-        let line = SavedModel::from_bytes(Embedded::Line.bytes()).unwrap();
-        assert!(description(&line, Embedded::Line.bytes(), Pressed::Approach).is_err());
+        let line = SavedModel::from_bytes(bytes_of("line").unwrap()).unwrap();
+        assert!(description(&line, bytes_of("line").unwrap(), Pressed::Approach).is_err());
     }
 
     #[test]
     fn an_ellipse_keeps_its_ratio_of_radii() {
-        let (coupled, inputs) = first(Embedded::Ellipse);
+        let (coupled, inputs) = first("ellipse");
         let request = coupled.request(&Inputs { radius_ratio: 2.0, ..inputs }, inputs.load).unwrap();
         let point: OperatingPoint = request.point;
         assert!((Quantity::RadiusRatio.of(&point).unwrap() - 2.0).abs() < 1e-12);

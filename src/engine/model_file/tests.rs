@@ -1,5 +1,5 @@
 use super::*;
-use crate::engine::Embedded;
+use crate::engine::{bytes_of, embedded};
 use crate::engine::checked_file::HEADER;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::parameters::Quantity;
@@ -23,7 +23,7 @@ fn the_embedded_models_are_intact_and_survive_a_round_trip() {
 fn damage_is_named_and_never_panics() {
     assert!(matches!(from_bytes(b"PNG something else entirely"), Err(ModelFileError::Foreign)));
     assert!(matches!(from_bytes(&[]), Err(ModelFileError::Foreign)));
-    let line = Embedded::Line.bytes();
+    let line = bytes_of("line").unwrap();
     assert!(matches!(from_bytes(&line[..10]), Err(ModelFileError::Truncated { .. })));
     assert!(matches!(from_bytes(&line[..line.len() - 9]), Err(ModelFileError::Truncated { .. })));
     let mut flipped = line.to_vec();
@@ -34,7 +34,7 @@ fn damage_is_named_and_never_panics() {
     huge[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
     assert!(matches!(from_bytes(&huge), Err(ModelFileError::TooLarge { .. })));
     let of_version = |version: u8| {
-        let mut bytes = Embedded::ThinningLine.bytes().to_vec();
+        let mut bytes = bytes_of("line_shear").unwrap().to_vec();
         bytes[8] = version;
         from_bytes(&bytes)
     };
@@ -44,7 +44,7 @@ fn damage_is_named_and_never_panics() {
 
 #[test]
 fn everything_but_the_hash_itself_is_under_it_and_nothing_follows() {
-    let model = Embedded::ThinningLine.model().unwrap();
+    let model = embedded("line_shear").unwrap();
     let bytes = to_bytes(&model).unwrap();
     for place in (8..HEADER).chain([HEADER + 7]) {
         let mut changed = bytes.clone();
@@ -131,7 +131,7 @@ fn the_law_of_rupture_and_the_scheme_survive_a_round_trip_and_must_fit_the_windo
     let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
     assert!(matches!(refused, Some(ModelFileError::Damaged { what: "scheme" })), "{refused:?}");
     // What an older program wrote says nothing of it.
-    assert_eq!(Embedded::ThinningCircle.model().unwrap().domain.lubricant.cavitation, Cavitation::Penalty);
+    assert_eq!(embedded("point_shear").unwrap().domain.lubricant.cavitation, Cavitation::Penalty);
 }
 
 #[test]
@@ -309,14 +309,14 @@ fn windows_of_points_keep_one_basis_and_what_their_grid_costs() {
 
 #[test]
 fn a_version_of_another_kind_is_told() {
-    let mut bytes = Embedded::ThinningLine.bytes().to_vec();
+    let mut bytes = bytes_of("line_shear").unwrap().to_vec();
     bytes[10] = 1;
     assert!(matches!(from_bytes(&bytes), Err(ModelFileError::InTime)));
 }
 
 #[test]
 fn an_unwritable_target_is_one_sentence() {
-    let model = Embedded::Line.model().unwrap();
+    let model = embedded("line").unwrap();
     let error = write(&model, Path::new("/nonexistent-folder/model.rom")).unwrap_err().to_string();
     assert!(error.contains("/nonexistent-folder/model.rom"), "{error}");
 }

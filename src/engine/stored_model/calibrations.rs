@@ -57,11 +57,11 @@ pub(super) fn give_calibrations(windows: &mut [StoredWindow], stored: StoredCali
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Embedded;
+    use crate::engine::embedded;
 
     #[test]
     fn numbers_that_are_fewer_or_more_than_they_say_are_refused() {
-        let model = Embedded::Line.model().unwrap();
+        let model = embedded("line").unwrap();
         let windows = || -> Vec<StoredWindow> {
             let own = model.windows.iter().enumerate();
             own.map(|(k, window)| StoredWindow::of(&model, k, window)).collect()

@@ -216,7 +216,7 @@ fn summed(steps: &[i16]) -> Option<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Embedded;
+    use crate::engine::embedded;
 
     fn bare(model: &ReducedModel) -> Vec<StoredWindow> {
         model.windows.iter().enumerate().map(|(k, window)| StoredWindow::of(model, k, window)).collect()
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn contacts_films_boundaries_and_costs_come_back_with_the_digits_that_are_kept() {
-        for which in [Embedded::LightCircle, Embedded::EyringLine, Embedded::ThinningLine] {
+        for which in ["point_light", "line_sliding", "line_shear"] {
             let model = which.model().unwrap();
             let mut windows = bare(&model);
             give_snapshots(&mut windows, StoredSnapshots::of(&model)).unwrap();
@@ -257,7 +257,7 @@ mod tests {
 
     #[test]
     fn columns_that_do_not_fit_are_refused() {
-        let model = Embedded::LightCircle.model().unwrap();
+        let model = embedded("point_light").unwrap();
         let given = |change: &dyn Fn(&mut StoredSnapshots)| {
             let (mut windows, mut stored) = (bare(&model), StoredSnapshots::of(&model));
             change(&mut stored);

@@ -3,7 +3,7 @@
 use crate::solver::full::Problem;
 use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw, whole};
 use serde::{Deserialize, Serialize};
 
 /// The contacts a reduced model covers.
@@ -14,6 +14,7 @@ pub struct Domain {
     /// Varied and fixed quantities.
     pub space: ParameterSpace,
     /// Laws of the lubricant.
+    #[serde(with = "whole")]
     pub lubricant: Lubricant,
 }
 
