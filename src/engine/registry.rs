@@ -93,7 +93,8 @@ mod tests {
     #[test]
     fn a_contact_is_served_by_the_model_of_its_shape_and_lubricant() {
         let at = |kind, m| si_from_moes(&MoesRequest::new(kind, m, 5.0)).unwrap();
-        let (circle, light, line) = (at(ContactKind::Point, 50.0), at(ContactKind::Point, 6.0), at(ContactKind::Line, 50.0));
+        let (circle, light, line) =
+            (at(ContactKind::Point, 50.0), at(ContactKind::Point, 6.0), at(ContactKind::Line, 50.0));
         let ellipse = Quantity::RadiusRatio.at(&circle, 2.0);
         let oil = Lubricant::default();
         let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..oil };
@@ -130,6 +131,9 @@ mod tests {
         assert_eq!(best(models, &at(40.0), &oil), Some("narrow"));
         assert_eq!(best(models, &at(100.0), &oil), Some("wide"));
         assert_eq!(best(models, &at(40.0), &SQUALANE_PIP), Some("wide"), "the first of equals");
-        assert_eq!(best([("wide", &wide)], &si_from_moes(&MoesRequest::new(ContactKind::Point, 40.0, 5.0)).unwrap(), &oil), None);
+        assert_eq!(
+            best([("wide", &wide)], &si_from_moes(&MoesRequest::new(ContactKind::Point, 40.0, 5.0)).unwrap(), &oil),
+            None
+        );
     }
 }

@@ -92,7 +92,7 @@ pub(super) fn from_own_bytes(bytes: &[u8]) -> Result<Arc<TrajectoryModel>, Model
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{SavedModel, model_file, bytes_of};
+    use crate::engine::{SavedModel, bytes_of, model_file};
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::transient::{
         Frame, Inputs, Interpolation, Keep, Quantity, Signal, Trajectory, Transient, march, solve,

@@ -4,9 +4,8 @@ use crate::common::cases::cases;
 use crate::common::scene_files;
 use crate::common::scratch::Scratch;
 use crate::{alone, most_bytes, spoil};
-use ehl_explorer::engine::{model_file, training_file, trajectory_file};
+use ehl_explorer::engine::{embedded, model_file, training_file, trajectory_file};
 use ehl_explorer::scene::Scene;
-use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{self, Inputs, Keep, Signal, Transient};
 use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
@@ -61,7 +60,8 @@ fn damaged_models_are_refused_in_a_sentence_or_solve_their_own_snapshots() {
     let _alone = alone();
     let mut rng = Rng::with_seed(2);
     for (contact, cases) in [(ContactKind::Line, cases(150, 19_000)), (ContactKind::Point, cases(10, 1000))] {
-        let model = Embedded::of_kind(contact, SQUALANE_PIP.shear).model().unwrap();
+        let thinning = if contact == ContactKind::Line { "line_shear" } else { "point_shear" };
+        let model = embedded(thinning).unwrap();
         let whole = model_file::to_bytes(&model).unwrap();
         drop(model);
         let mut read = 0;

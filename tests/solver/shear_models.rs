@@ -2,13 +2,13 @@
 
 use crate::common::scene_files;
 
+use ehl_explorer::engine::embedded;
 use ehl_explorer::engine::model_file::{from_bytes, to_bytes};
 use ehl_explorer::scene::Study;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::full::{Problem, Solution};
 use ehl_explorer::solver::parameters::{ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
-use ehl_explorer::solver::physics::lubricant::ShearLaw;
 use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
 use ehl_explorer::solver::training::{TrainingSpec, random_points};
 
@@ -32,9 +32,16 @@ pub fn narrowed<const N: usize>(mut range: ParameterSpace, ends: [(Quantity, (f6
     range
 }
 
+fn thinning(kind: ContactKind) -> &'static str {
+    match kind {
+        ContactKind::Line => "line_shear",
+        ContactKind::Point => "point_shear",
+    }
+}
+
 /// The embedded model.
 pub fn online(kind: ContactKind) -> Online {
-    Online::new(Embedded::of_kind(kind, SQUALANE_PIP.shear).model().unwrap(), ReducedOptions::default())
+    Online::new(embedded(thinning(kind)).unwrap(), ReducedOptions::default())
 }
 
 /// Relative errors of H_c, H_min and a traction coefficient; that of the traction is zero where nothing slides.
@@ -74,8 +81,7 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
     for (point, word) in common.iter().chain(further) {
         assert!(matches!(trust(point), Trust::Outside(why) if why.to_string().contains(word)), "{word}");
     }
-    let mut newtonian =
-        Online::new(Embedded::of_kind(base.kind, ShearLaw::Newtonian).model().unwrap(), ReducedOptions::default());
+    let mut newtonian = Online::new(embedded(base.kind.name()).unwrap(), ReducedOptions::default());
     let refused = newtonian.solve(&OperatingPoint { sliding: sliding(0.5, 0.3), ..base }, SQUALANE_PIP);
     assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
 }
@@ -83,7 +89,7 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
 /// Asserts that a file keeps all of the model.
 pub fn assert_file_keeps_everything(kind: ContactKind) {
     // As the present version keeps it: the file may be of a former one.
-    let model = from_bytes(&to_bytes(&Embedded::of_kind(kind, SQUALANE_PIP.shear).model().unwrap()).unwrap()).unwrap();
+    let model = from_bytes(&to_bytes(&embedded(thinning(kind)).unwrap()).unwrap()).unwrap();
     let bytes = to_bytes(&model).unwrap();
     let again = from_bytes(&bytes).unwrap();
     assert_eq!(again.domain, model.domain);

@@ -6,7 +6,7 @@ use crate::driver::{Table, Window, choose, click, export, set, shows, undo, wait
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene, embedded};
+use ehl_explorer::engine::{SceneOutcome, Workbench, embedded, run_scene};
 use ehl_explorer::scene::{Grid, Scene, Study};
 use std::time::Duration;
 

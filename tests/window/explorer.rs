@@ -6,7 +6,7 @@ use crate::driver::{Window, assert_cheap, click, export, give_path, press, rest,
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{model_file, embedded};
+use ehl_explorer::engine::{embedded, model_file};
 use ehl_explorer::scene::{Scene, Study};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
 use ehl_explorer::solver::reduced::ReducedModel;

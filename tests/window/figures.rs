@@ -9,7 +9,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{Workbench, run_scene, embedded};
+use ehl_explorer::engine::{Workbench, embedded, run_scene};
 use ehl_explorer::scene::{Grid, Scene};
 use std::path::Path;
 use std::time::{Duration, Instant};

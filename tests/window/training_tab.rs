@@ -4,7 +4,7 @@ use crate::common::scratch::Scratch;
 use crate::driver::{Window, assert_cheap, click, give_path, undo, wait};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{model_file, training_file, embedded};
+use ehl_explorer::engine::{embedded, model_file, training_file};
 use std::path::Path;
 
 /// A scene with a training of a small box; full solves take about a millisecond.

@@ -225,7 +225,7 @@ mod tests {
     #[test]
     fn contacts_films_boundaries_and_costs_come_back_with_the_digits_that_are_kept() {
         for which in ["point_light", "line_sliding", "line_shear"] {
-            let model = which.model().unwrap();
+            let model = embedded(which).unwrap();
             let mut windows = bare(&model);
             give_snapshots(&mut windows, StoredSnapshots::of(&model)).unwrap();
             for (stored, window) in windows.iter().zip(&model.windows) {
