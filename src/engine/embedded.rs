@@ -1,7 +1,6 @@
 //! The reduced models that are part of the program.
 
-use super::model_file::{self, ModelFileError};
-use super::trajectory_file;
+use super::rom::{self, ModelFileError};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
@@ -130,20 +129,15 @@ impl Embedded {
     /// # Errors
     /// As [`Self::model`], and when the observer cancels.
     pub(super) fn model_watched(self, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
-        model_file::from_own_bytes(self.bytes(), observer).map(Arc::new)
+        rom::from_own_bytes(self.bytes(), observer)?.stationary()
     }
-}
-
-/// Whether a model's file would be, byte for byte, one of these.
-pub(super) fn is_embedded(model: &ReducedModel) -> bool {
-    model_file::to_bytes(model).is_ok_and(|bytes| Embedded::ALL.iter().any(|of| of.bytes() == bytes))
 }
 
 /// The content of the file of the model in time.
 const LINE_IN_TIME: &[u8] = include_bytes!("../../assets/line_in_time.rom");
 
-/// The model in time of line contacts whose load breathes: `scenes/training/line_in_time.ron`. It is read once, and what
-/// it was trained for is asked with every picture.
+/// The model in time of line contacts whose load varies: `scenes/training/line_in_time.ron`. It is read once: every picture
+/// needs what it was trained for.
 ///
 /// # Errors
 /// When the program was built with a damaged asset.
@@ -152,13 +146,14 @@ pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
     if let Some(model) = MODEL.get() {
         return Ok(Arc::clone(model));
     }
-    let read = trajectory_file::from_own_bytes(LINE_IN_TIME)?;
+    let read = rom::from_own_bytes(LINE_IN_TIME, &())?.in_time()?;
     Ok(Arc::clone(MODEL.get_or_init(|| read)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::{SavedModel, model_file};
     use crate::scene::named_lubricant::SQUALANE_PIP;
     use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
     use crate::solver::physics::lubricant::Heat;
@@ -172,25 +167,21 @@ mod tests {
     }
 
     #[test]
-    fn a_model_of_the_program_is_known_by_its_bytes_and_another_is_not() {
-        let mut model = ReducedModel::clone(&Embedded::LightCircle.model().unwrap());
-        assert!(is_embedded(&model));
-        model.title.push('.');
-        assert!(!is_embedded(&model));
-    }
-
-    #[test]
     fn the_parts_of_the_model_in_time_belong_together_and_it_survives_a_round_trip() {
-        let read = trajectory_file::from_bytes(LINE_IN_TIME).unwrap();
+        let read = SavedModel::from_bytes(LINE_IN_TIME).unwrap().in_time().unwrap();
         assert_eq!(read.domain, line_in_time().unwrap().domain);
-        assert!(trajectory_file::to_bytes(&read).unwrap() == LINE_IN_TIME);
+        assert!(SavedModel::InTime(read).to_bytes().unwrap() == LINE_IN_TIME);
     }
 
     #[test]
     fn all_files_together_are_small() {
         let sizes = Embedded::ALL.map(|which| which.bytes().len());
         let all = sizes.iter().sum::<usize>() + LINE_IN_TIME.len();
-        assert!(all < 25_000_000, "{all} bytes: {sizes:?} and {}", LINE_IN_TIME.len());
+        assert!(
+            all < 28_800_000 && Embedded::Line.bytes().len() < 3_100_000,
+            "{all} bytes: {sizes:?} and {}",
+            LINE_IN_TIME.len()
+        );
     }
 
     #[test]

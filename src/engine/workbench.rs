@@ -1,8 +1,8 @@
 //! Solving single contacts by any method, with everything that can be kept between solves.
 
-use super::model_file::ModelFileError;
+use super::rom::ModelFileError;
 use super::store::Store;
-use super::{Answer, Embedded, EngineError, ReducedFacts, Request, embedded, line_in_time};
+use super::{Answer, Embedded, EngineError, ReducedFacts, Request, line_in_time};
 use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::heat::Temperatures;
@@ -306,10 +306,6 @@ impl Bench for Workbench {
 
     fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, EngineError> {
         self.store.trained(spec, observer)
-    }
-
-    fn is_embedded(&self, model: &ReducedModel) -> bool {
-        embedded::is_embedded(model)
     }
 
     fn forget(&mut self) {

@@ -25,8 +25,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Full solutions of the finest grids, as many as a day gives.
-const FORMAT: Format =
-    Format { magic: b"EHLSHD\r\n", version: VERSION, oldest: VERSION, whole_hash: VERSION, max_payload: 2 << 30 };
+const FORMAT: Format = Format { magic: b"EHLSHD\r\n", version: VERSION, max_payload: 2 << 30 };
 
 /// What came of a shard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -108,7 +107,7 @@ impl Shard {
         let refused = |reason: &str| CampaignError::Shard { path: path.to_owned(), reason: reason.to_owned() };
         let flawed = |flaw: Flaw| match flaw {
             Flaw::Foreign => refused("it is another kind of file"),
-            Flaw::Newer { .. } | Flaw::Older { .. } => refused("its format has another version"),
+            Flaw::OtherVersion { .. } => refused("its format has another version"),
             Flaw::Truncated { .. } => refused("it is cut off"),
             Flaw::TooLarge { .. } => refused("it announces more bytes than any shard has"),
             Flaw::Changed => refused("its content does not match its hash"),

@@ -10,7 +10,7 @@ use self::eyring::eyring_stress;
 use super::oils::expected_film;
 use crate::solver::full::Problem;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw, roelands_exponent};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw, WholeLubricant, roelands_exponent};
 use serde::{Deserialize, Serialize};
 
 /// The range a model declares to be trained for: an interval each of M, L, α and p_H at its η₀, for its lubricant.
@@ -27,23 +27,17 @@ pub struct Domain {
     /// Ambient viscosity \[Pa·s\].
     pub viscosity_pa_s: f64,
     /// Laws of the lubricant.
+    #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
     /// What else a shear-thinning lubricant was trained for.
     pub sliding: Option<SlidingDomain>,
-    /// R_y/R; (1, 1) of a model that knows circles or lines. Files keep it in a place of its own.
-    #[serde(skip, default = "circles")]
+    /// R_y/R; (1, 1) of a model that knows circles or lines.
     pub radius_ratio: (f64, f64),
-    /// The oils of a model that knows many; none of one that knows the oils with its η₀ only. Files keep them in a place
-    /// of their own.
-    #[serde(skip)]
+    /// The oils of a model that knows many; none of one that knows the oils with its η₀ only.
     pub oils: Option<OilDomain>,
-    /// What a model of contacts with heat was trained for; its lubricant has the thermal constants. Files keep both in a
-    /// place of their own.
-    #[serde(skip)]
+    /// What a model of contacts with heat was trained for; its lubricant has the thermal constants.
     pub heat: Option<HeatDomain>,
-    /// What a model of many oils that thin under shear by Eyring's law was trained for beside these. Files keep it in a
-    /// place of its own.
-    #[serde(skip)]
+    /// What a model of many oils that thin under shear by Eyring's law was trained for beside these.
     pub eyring: Option<EyringDomain>,
 }
 
@@ -57,12 +51,12 @@ pub struct HeatDomain {
     /// E′ \[Pa\].
     pub modulus_pa: (f64, f64),
     /// u_m \[m/s\].
+    #[serde(deserialize_with = "limits::pair")]
     pub speed_m_per_s: (f64, f64),
     /// Largest |SRR| u_m \[m/s\].
+    #[serde(deserialize_with = "limits::one")]
     pub fastest_sliding_m_per_s: f64,
-    /// The thermal constants and limiting stresses of a model that knows many; of others these are its lubricant's. Files
-    /// keep them in a place of their own.
-    #[serde(skip)]
+    /// The thermal constants and limiting stresses of a model that knows many; of others these are its lubricant's.
     pub thermal: Option<ThermalDomain>,
 }
 
@@ -75,14 +69,27 @@ pub struct OilDomain {
     pub exponent: (f64, f64),
     /// Smallest p_H \[Pa\].
     pub lowest_hertz_pressure_pa: f64,
-    /// Thinnest H_c, by [`expected_film`]; 0 where there is no limit. Files keep it in a place of its own.
-    #[serde(skip)]
+    /// Thinnest H_c, by [`expected_film`]; 0 where there is no limit.
     pub thinnest_film: f64,
 }
 
 /// What is left out where a contact is a circle.
 pub(crate) fn circles() -> (f64, f64) {
     CIRCLES
+}
+
+/// Limits from JSON, which writes an infinite one as `null`.
+mod limits {
+    use serde::{Deserialize, Deserializer};
+
+    pub fn one<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+    }
+
+    pub fn pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(f64, f64), D::Error> {
+        let (low, high) = <(Option<f64>, Option<f64>)>::deserialize(deserializer)?;
+        Ok((low.unwrap_or(f64::INFINITY), high.unwrap_or(f64::INFINITY)))
+    }
 }
 
 /// R_y/R of models that know circles or lines only.

@@ -34,7 +34,8 @@ mod traction_curve;
 pub mod transient;
 
 pub use calibration::{
-    Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Laws, Measured,
+    Beside, Calibration, CalibrationParts, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE,
+    LEAST_OF_WINDOW, Measured,
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};

@@ -88,6 +88,18 @@ pub struct Lubricant {
     pub heat: Option<Heat>,
 }
 
+/// A lubricant with all its fields, as models are stored: `#[serde(with = "WholeLubricant")]`.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Lubricant", deny_unknown_fields)]
+pub(crate) struct WholeLubricant {
+    density: DensityLaw,
+    viscosity: ViscosityLaw,
+    shear: ShearLaw,
+    limiting_stress: Option<LimitingStress>,
+    cavitation: Cavitation,
+    heat: Option<Heat>,
+}
+
 /// Why a lubricant cannot be used at an operating point: a sentence.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{0}")]

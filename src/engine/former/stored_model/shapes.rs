@@ -3,7 +3,7 @@
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::contact::Ellipse;
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::{ReducedModel, Shapes, Window};
+use crate::solver::reduced::{ReducedModel, Shapes};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -14,16 +14,6 @@ pub(super) struct StoredShapes {
     pub radius_ratio: (f64, f64),
     /// R_y/R of every window, and R_y \[m\] of each of its snapshots.
     pub windows: Vec<((f64, f64), Vec<f64>)>,
-}
-
-/// What only a model of ellipses has.
-pub(super) fn stored_shapes(model: &ReducedModel) -> Option<StoredShapes> {
-    let of_window = |window: &Window| {
-        let radii = window.snapshots.iter().map(|s| s.point.radius_y_m.unwrap_or(s.point.radius_m));
-        Some((window.shapes.as_ref()?.radius_ratio, radii.collect()))
-    };
-    let windows: Option<Vec<_>> = model.windows.iter().map(of_window).collect();
-    Some(StoredShapes { radius_ratio: model.domain.radius_ratio, windows: windows.filter(|all| !all.is_empty())? })
 }
 
 /// Gives the windows of a model their shapes; `None` where these do not fit them.

@@ -4,7 +4,6 @@
 //! ([`super::stored_matrix`]).
 
 mod calibrations;
-mod former;
 mod oils;
 mod parts;
 mod rupture;
@@ -16,11 +15,12 @@ mod window;
 pub(super) use sound::{entries, sound_domain};
 pub(super) use window::StoredRows;
 
-use super::model_file::ModelFileError;
+use super::domain::FormerDomain;
+use crate::engine::rom::ModelFileError;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{Domain, HeatDomain, ReducedModel, Window};
-use calibrations::{StoredCalibrations, give_calibrations};
+use calibrations::give_calibrations;
 use oils::{anchor, combined, deformations, give_coefficients, give_grid_costs};
 use parts::Parts;
 use rayon::prelude::*;
@@ -35,23 +35,10 @@ use window::StoredWindow;
 #[derive(Serialize, Deserialize)]
 struct StoredModel {
     title: String,
-    domain: Domain,
+    domain: FormerDomain,
     windows: Vec<StoredWindow>,
     scene: String,
     log: Vec<String>,
-}
-
-/// Solves each window at two of its own snapshots.
-///
-/// # Errors
-/// When a window does not give the H_c that it was trained from, or when the observer cancels.
-pub(super) fn prove(model: &ReducedModel, observer: &dyn Observer) -> Result<(), ModelFileError> {
-    let windows = model.windows.par_iter().enumerate();
-    let proved = windows.map(|(k, window)| {
-        wanted(observer)?;
-        if model.reproduces_snapshots(k) { Ok(()) } else { Err(ModelFileError::Unproven { m: window.m }) }
-    });
-    proved.collect::<Vec<_>>().into_iter().collect()
 }
 
 /// # Errors
@@ -60,35 +47,17 @@ fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
     if observer.cancelled() { Err(ModelFileError::Cancelled) } else { Ok(()) }
 }
 
-/// The payload of a model file; none where the model cannot be encoded.
-pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
-    let windows = model.windows.iter().enumerate();
-    let calibrations = StoredCalibrations::of(model);
-    let mut stored = StoredModel {
-        title: model.title.clone(),
-        domain: model.domain.clone(),
-        windows: windows.map(|(k, window)| StoredWindow::of(model, k, window)).collect(),
-        scene: model.scene.clone(),
-        log: model.log.clone(),
-    };
-    if calibrations.is_none() {
-        for (stored, window) in stored.windows.iter_mut().zip(&model.windows) {
-            stored.calibration.clone_from(&window.calibration);
-        }
-    }
-    Parts::write(model, calibrations, postcard::to_allocvec(&stored).ok()?)
-}
-
 /// The model of a payload; `older` where its parts have no names.
 ///
 /// # Errors
 /// When its parts do not fit each other, or when the observer cancels.
-pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
+pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
     let damaged = |what| ModelFileError::Damaged { what };
     let (stored, rest): (StoredModel, &[u8]) =
         postcard::take_from_bytes(payload).map_err(|_| damaged("its content cannot be decoded"))?;
-    let StoredModel { mut title, mut domain, mut windows, scene, mut log } = stored;
-    let parts = Parts::read(rest, windows.len(), older).ok_or(damaged("its parts"))?;
+    let StoredModel { mut title, domain, mut windows, scene, mut log } = stored;
+    let mut domain = Domain::from(domain);
+    let parts = Parts::read(rest, windows.len()).ok_or(damaged("its parts"))?;
     let Parts {
         rupture: ruptures,
         schemes,
@@ -103,7 +72,8 @@ pub(super) fn decode(payload: &[u8], older: bool, observer: &dyn Observer) -> Re
         thermal,
     } = parts;
     if let Some((heat, of_heat)) = heat {
-        (domain.lubricant.heat, domain.heat) = (Some(heat.into()), Some(HeatDomain { thermal, ..of_heat }));
+        (domain.lubricant.heat, domain.heat) =
+            (Some(heat.into()), Some(HeatDomain { thermal, ..HeatDomain::from(of_heat) }));
     }
     domain.eyring = eyring;
     if !sound_domain(&domain) {

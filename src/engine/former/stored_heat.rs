@@ -57,19 +57,3 @@ impl From<StoredHeat> for Heat {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::named_lubricant::NAMED;
-
-    #[test]
-    fn every_constant_survives() {
-        for named in &NAMED {
-            let bodies = [BodyHeat::STEEL, BodyHeat { conductivity: 1.1, heat_capacity: 840.0, density: 2500.0 }];
-            let heat = Heat { oil: named.heat, bodies, inlet_temperature: 353.15 };
-            let bytes = postcard::to_allocvec(&StoredHeat::from(heat)).unwrap();
-            assert_eq!(Heat::from(postcard::from_bytes::<StoredHeat>(&bytes).unwrap()), heat, "{}", named.name);
-        }
-    }
-}

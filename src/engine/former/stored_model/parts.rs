@@ -1,14 +1,14 @@
 //! What a model may have in its file beside its windows, each part under a name of its own.
 
 use super::calibrations::StoredCalibrations;
-use super::former;
 use super::oils::{GridCosts, StoredOils, StoredSharedBasis};
 use super::rupture::StoredRupture;
-use super::shapes::{StoredShapes, stored_shapes};
+use super::shapes::StoredShapes;
 use super::snapshots::StoredSnapshots;
-use crate::engine::stored_heat::StoredHeat;
-use crate::engine::stored_matrix::StoredMatrix;
-use crate::solver::reduced::{EyringDomain, HeatDomain, ReducedModel, Scheme, ThermalDomain, Window};
+use crate::engine::former::domain::FormerHeatDomain;
+use crate::engine::former::stored_heat::StoredHeat;
+use crate::engine::former::stored_matrix::StoredMatrix;
+use crate::solver::reduced::{EyringDomain, Scheme, ThermalDomain};
 use serde::{Deserialize, Serialize};
 
 /// Of every window its scheme, and what GNAT makes of the residual.
@@ -23,7 +23,7 @@ enum Part {
     Oils(StoredOils),
     SharedBasis(StoredSharedBasis),
     GridCosts(GridCosts),
-    Heat(StoredHeat, HeatDomain),
+    Heat(StoredHeat, FormerHeatDomain),
     Eyring(EyringDomain),
     Calibrations(StoredCalibrations),
     Snapshots(StoredSnapshots),
@@ -46,7 +46,7 @@ pub(super) struct Parts {
     /// Of many oils where they were measured; in newer files they are with the snapshots.
     pub grid_costs: Option<GridCosts>,
     /// Of contacts with heat.
-    pub heat: Option<(StoredHeat, HeatDomain)>,
+    pub heat: Option<(StoredHeat, FormerHeatDomain)>,
     /// Of many oils that thin by Eyring's law.
     pub eyring: Option<EyringDomain>,
     /// None where nothing was measured, or windows keep it themselves.
@@ -58,33 +58,10 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// The parts of a model, in postcard's encoding behind a payload.
-    pub fn write(model: &ReducedModel, calibrations: Option<StoredCalibrations>, payload: Vec<u8>) -> Option<Vec<u8>> {
-        let usual = model.windows.iter().all(|window| window.scheme == Scheme::Galerkin);
-        let scheme =
-            |window: &Window| (window.scheme, window.residual_reconstruction.as_ref().map(StoredMatrix::exact));
-        let schemes = (!usual).then(|| model.windows.iter().map(scheme).collect());
-        let heat = model.domain.lubricant.heat.zip(model.domain.heat);
-        let parts = [
-            StoredRupture::of(model).map(Part::Rupture),
-            schemes.map(Part::Schemes),
-            stored_shapes(model).map(Part::Shapes),
-            StoredOils::of(model).map(Part::Oils),
-            StoredSharedBasis::of(model).map(Part::SharedBasis),
-            heat.map(|(heat, domain)| Part::Heat(heat.into(), domain)),
-            model.domain.eyring.map(Part::Eyring),
-            calibrations.map(Part::Calibrations),
-            Some(Part::Snapshots(StoredSnapshots::of(model))),
-            model.domain.heat.and_then(|heat| heat.thermal).map(Part::Thermal),
-        ];
-        let parts: Vec<Part> = parts.into_iter().flatten().collect();
-        postcard::to_extend(&parts, payload).ok()
-    }
-
     /// The parts of a model of so many windows; `None` where they cannot be understood, or do not go together. Files that
     /// are `older` than these names have them without.
-    pub fn read(rest: &[u8], windows: usize, older: bool) -> Option<Self> {
-        let parts = if older { former::read(rest, windows)? } else { Self::named(rest)? };
+    pub fn read(rest: &[u8], windows: usize) -> Option<Self> {
+        let parts = Self::named(rest)?;
         let schemes = parts.schemes.as_ref().is_none_or(|schemes| schemes.len() == windows);
         let of_oils = parts.shared.is_some() || parts.grid_costs.is_some() || parts.eyring.is_some();
         // Ellipses with heat are those of many oils, and none thins under shear.

@@ -1,11 +1,18 @@
-//! What must hold of a file's content before anything is built of it.
+//! Checks of a file's content before a model is built from it.
 
-use super::window::StoredWindow;
-use crate::engine::model_file::ModelFileError;
-use crate::engine::stored_matrix::StoredBasis;
+use super::container::Contents;
+use super::error::{ModelFileError, damaged};
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::physics::lubricant::{LARGEST_HEATED_SRR, ShearLaw};
 use crate::solver::reduced::{Domain, EyringDomain, HeatDomain, SlidingDomain};
+
+/// Reads the trained range: the one place where the type of the range meets the file.
+///
+/// # Errors
+/// When it makes no sense.
+pub(super) fn domain(contents: &Contents<'_>) -> Result<Domain, ModelFileError> {
+    contents.domain().filter(sound_domain).ok_or(damaged("its domain"))
+}
 
 /// Whether a grid has these rows, at least one, in ascending order.
 pub(super) fn are_rows(rows: &[usize], grid: &ContactGrid) -> bool {
@@ -17,9 +24,9 @@ pub(super) fn sound_interval((low, high): (f64, f64), most: f64) -> bool {
     0.0 <= low && low <= high && high <= most
 }
 
-/// Whether a domain can be that of a model: one that knows sliding is of a lubricant that thins under shear, and only
-/// such a one, unless it knows heat.
-pub(in crate::engine) fn sound_domain(domain: &Domain) -> bool {
+/// Whether a range makes sense. A range with sliding needs a shear-thinning lubricant and the other way round, except in
+/// thermal models.
+fn sound_domain(domain: &Domain) -> bool {
     let Domain { m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s, lubricant, sliding, heat, .. } = domain;
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let thins = lubricant.shear != ShearLaw::Newtonian;
@@ -51,29 +58,10 @@ pub(in crate::engine) fn sound_domain(domain: &Domain) -> bool {
 }
 
 /// Entries of node arrays on a grid, without building it.
-pub(in crate::engine) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
+pub(super) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
     Ok(match grid {
         GridSpec::Graded { nodes, .. } => nodes.saturating_add(1),
         GridSpec::Uniform { dx, domain: (from, to) } => (((to - from) / dx).round() as usize).saturating_add(2),
         GridSpec::Plane(spec) => spec.check().map(|(nx, ny)| nx * ny)?,
     })
-}
-
-/// Refuses what would take more memory than a model of so many bytes does, before anything of it is built: modes come from
-/// snapshots, or, where a model knows thermal constants, from other solutions besides, each with a singular value; and every
-/// node of a grid has a byte at least.
-pub(super) fn check_counts(windows: &[StoredWindow], domain: &Domain, bytes: usize) -> Result<(), ModelFileError> {
-    let mut nodes = 0usize;
-    let others = domain.heat.is_some_and(|heat| heat.thermal.is_some());
-    let solutions = |window: &StoredWindow| if others { window.pressure.known() } else { window.snapshots.len() };
-    let all = windows.iter().map(solutions).sum();
-    for window in windows {
-        let rows = entries(&window.grid)?;
-        nodes = nodes.saturating_add(rows);
-        let fits = |basis: &StoredBasis, most: usize| basis.rows() == rows && basis.columns() <= most;
-        if !(fits(&window.pressure, solutions(window)) && fits(&window.deformation, all)) {
-            return Err(ModelFileError::Damaged { what: "bases" });
-        }
-    }
-    if nodes > bytes { Err(ModelFileError::Damaged { what: "grids" }) } else { Ok(()) }
 }

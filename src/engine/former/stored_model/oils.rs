@@ -1,15 +1,14 @@
 //! What windows around anchors have in a file beside what every window has.
 
-use super::snapshots::{give_each, stored_coefficients};
+use super::snapshots::give_each;
 use super::sound::sound_interval;
 use super::window::StoredWindow;
-use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
+use crate::engine::former::domain::FormerOilDomain;
+use crate::engine::former::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::GridCost;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{
-    Combined, Keeping, OilDomain, PodBasis, ReducedModel, SharedBasis, Window, factor_accuracy, factor_scales,
-};
+use crate::solver::reduced::{Combined, OilDomain, PodBasis, ReducedModel, SharedBasis};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -17,7 +16,7 @@ use std::sync::Arc;
 /// The oils of a model, and where its windows lie among them.
 #[derive(Serialize, Deserialize)]
 pub(super) struct StoredOils {
-    pub oils: OilDomain,
+    pub oils: FormerOilDomain,
     /// Thinnest H_c.
     pub thinnest_film: f64,
     pub windows: Vec<StoredAnchor>,
@@ -43,41 +42,10 @@ pub(super) struct StoredAnchor {
 }
 
 impl StoredOils {
-    /// What only a model of many oils has.
-    pub fn of(model: &ReducedModel) -> Option<Self> {
-        let heat = model.domain.heat.is_some();
-        let stored = |window: &Window| {
-            let Moes { m, l } = window.anchor?;
-            Some(StoredAnchor { moes: (m, l), coefficients: stored_coefficients(window, heat) })
-        };
-        let oils = model.domain.oils?;
-        let windows = model.windows.iter().map(stored).collect::<Option<_>>()?;
-        Some(Self { oils, thinnest_film: oils.thinnest_film, windows })
-    }
-
     /// The oils that a model was trained for.
     pub fn domain(&self) -> OilDomain {
-        OilDomain { thinnest_film: self.thinnest_film, ..self.oils }
+        self.oils.with(self.thinnest_film)
     }
-}
-
-impl StoredSharedBasis {
-    /// What the windows of a model share beside the deformation basis; none where that is nothing.
-    pub fn of(model: &ReducedModel) -> Option<Self> {
-        let all: Vec<&Combined> =
-            model.windows.iter().map(|window| window.pressure.combined()).collect::<Option<_>>()?;
-        let (window, shared) = (model.windows.first()?, &all.first()?.shared);
-        let accuracy = Keeping::of(window, model.domain.heat.is_some()).accuracy();
-        let basis = StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy);
-        Some(Self { basis, factors: model.windows.iter().zip(all).map(|(w, own)| stored_factors(w, own)).collect() })
-    }
-}
-
-/// What a window's modes are in the shared basis: of each mode of that as exactly as it appears in the window.
-fn stored_factors(window: &Window, combined: &Combined) -> StoredMatrix {
-    let factors = &combined.factors;
-    let scales = factor_scales(window.pressure.singular_values(), factors.ncols());
-    StoredMatrix::stepped(factors, 1, &scales, factor_accuracy(factors, &scales))
 }
 
 /// Gives the snapshots of a model's windows what their grid costs them; `None` where that does not fit them.
