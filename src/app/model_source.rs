@@ -50,8 +50,8 @@ impl Models {
         // Operators are computed as a model is read: all of them at once, for the window waits.
         let read = || FIRST.par_iter().filter_map(|name| store.embedded(name).ok()).map(Known::Read).collect();
         let mut known: Vec<Known> = on_all_cores(read);
-        let later = catalogue().iter().filter(|entry| !FIRST.contains(&entry.name.as_str()));
-        known.extend(later.map(|entry| Known::Later(&entry.name, &entry.domain)));
+        let later = catalogue().iter().filter(|entry| !FIRST.contains(&entry.name));
+        known.extend(later.map(|entry| Known::Later(entry.name, &entry.domain)));
         Self { known }
     }
 

@@ -7,7 +7,7 @@ use super::output::{self, ProgressLine};
 use super::verdict::Verdict;
 use crate::engine::model_file::ModelFileError;
 use crate::engine::training_file::{self, TrainingKeeper};
-use crate::engine::{EngineError, Workbench, model_file, model_text, trajectory_file};
+use crate::engine::{EngineError, SavedModel, Workbench, model_file, model_text};
 use crate::scene::{ContactSpec, Field, Scene};
 use crate::solver::training::{Observer, Progress, TrainingObserver, TrainingState, train_resumable};
 use clap::Args;
@@ -114,7 +114,8 @@ fn in_time(scene: &Scene, args: &TrainArgs) -> Result<Verdict, Failure> {
     let trained = scene.train_in_time(&mut Workbench::new(folder), &progress);
     progress.finish();
     let model = Arc::new(trained?);
-    let written = write(&args.out, |path| trajectory_file::write(&model, path))?;
+    let saved = SavedModel::InTime(Arc::clone(&model));
+    let written = write(&args.out, |path| saved.write(path))?;
     output::print(&model_text::describe_in_time(&model))?;
     Ok(written)
 }

@@ -1,11 +1,9 @@
 //! The reduced models that are part of the program, with a catalogue of what they cover.
 
-use super::model_file::{self, ModelFileError};
-use super::trajectory_file;
+use super::rom::{self, Catalogue, ModelFileError};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel};
-use serde::{Deserialize, Serialize};
 use std::sync::{Arc, LazyLock, OnceLock};
 
 /// The steady models by name, each with the content of its file. Scenes in `scenes/training` train them.
@@ -23,26 +21,21 @@ const MODELS: [(&str, &[u8]); 11] = [
     ("point_light_sliding", include_bytes!("../../assets/point_light_sliding.rom")),
 ];
 
-/// What a model of the program covers, apart from its bytes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// A model of the program in the catalogue.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Name of the model and of its file.
-    pub name: String,
-    /// Title for people.
-    pub title: String,
+    pub name: &'static str,
     /// Contacts it covers.
     pub domain: Domain,
-    /// Size of its file in bytes.
-    pub bytes: usize,
-    /// XXH3 hash of its file.
-    pub hash: u64,
 }
 
-/// Returns the catalogue of the steady models; empty if the program was built with a damaged one.
+/// Returns the catalogue of the steady models, from the directories of their files; a damaged one is left out.
 pub fn catalogue() -> &'static [Entry] {
-    static CATALOGUE: LazyLock<Vec<Entry>> =
-        LazyLock::new(|| ron::from_str(include_str!("../../assets/models.ron")).unwrap_or_default());
+    static CATALOGUE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+        let entry = |(name, bytes)| Some(Entry { name, domain: Catalogue::of(bytes).ok()?.domain });
+        MODELS.into_iter().filter_map(entry).collect()
+    });
     &CATALOGUE
 }
 
@@ -65,19 +58,14 @@ pub fn embedded(name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
 /// As [`embedded`], and when the observer cancels.
 pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
     let bytes = bytes_of(name).ok_or(ModelFileError::Foreign)?;
-    model_file::from_own_bytes(bytes, observer).map(Arc::new)
-}
-
-/// Whether a model's file would be, byte for byte, one of these.
-pub(super) fn is_embedded(model: &ReducedModel) -> bool {
-    model_file::to_bytes(model).is_ok_and(|bytes| MODELS.iter().any(|(_, own)| *own == bytes))
+    rom::from_own_bytes(bytes, observer)?.stationary()
 }
 
 /// The content of the file of the model in time.
 const LINE_IN_TIME: &[u8] = include_bytes!("../../assets/line_in_time.rom");
 
-/// The model in time of line contacts whose load breathes: `scenes/training/line_in_time.ron`. It is read once, and what
-/// it was trained for is asked with every picture.
+/// The model in time of line contacts whose load varies: `scenes/training/line_in_time.ron`. It is read once: every picture
+/// needs what it was trained for.
 ///
 /// # Errors
 /// When the program was built with a damaged asset.
@@ -86,14 +74,14 @@ pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
     if let Some(model) = MODEL.get() {
         return Ok(Arc::clone(model));
     }
-    let read = trajectory_file::from_own_bytes(LINE_IN_TIME)?;
+    let read = rom::from_own_bytes(LINE_IN_TIME, &())?.in_time()?;
     Ok(Arc::clone(MODEL.get_or_init(|| read)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use xxhash_rust::xxh3::xxh3_64;
+    use crate::engine::{SavedModel, model_file};
 
     #[test]
     fn the_parts_of_every_model_belong_together() {
@@ -104,19 +92,18 @@ mod tests {
     }
 
     #[test]
-    fn the_catalogue_says_what_the_files_hold() {
-        let entries = MODELS.map(|(name, bytes)| {
-            let ReducedModel { title, domain, .. } = ReducedModel::clone(&embedded(name).unwrap());
-            Entry { name: name.to_owned(), title, domain, bytes: bytes.len(), hash: xxh3_64(bytes) }
-        });
-        let text = ron::ser::to_string_pretty(&entries, ron::ser::PrettyConfig::default()).unwrap();
-        assert!(catalogue() == entries, "assets/models.ron should be\n{text}");
+    fn the_catalogue_has_every_model() {
+        assert_eq!(catalogue().len(), MODELS.len());
+        for entry in catalogue() {
+            assert_eq!(entry.domain, embedded(entry.name).unwrap().domain, "{}", entry.name);
+        }
     }
 
     #[test]
     fn the_parts_of_the_transient_model_belong_together_and_it_survives_a_round_trip() {
-        let read = trajectory_file::from_bytes(LINE_IN_TIME).unwrap();
+        let read = SavedModel::from_bytes(LINE_IN_TIME).unwrap().in_time().unwrap();
         assert_eq!(read.domain, line_in_time().unwrap().domain);
+        assert!(SavedModel::InTime(read).to_bytes().unwrap() == LINE_IN_TIME);
     }
 
     #[test]

@@ -87,7 +87,7 @@ mod tests {
     use crate::solver::physics::lubricant::Heat;
 
     fn serves(point: &OperatingPoint, lubricant: &Lubricant) -> &'static str {
-        best(catalogue().iter().map(|entry| (entry.name.as_str(), &entry.domain)), point, lubricant).unwrap()
+        best(catalogue().iter().map(|entry| (entry.name, &entry.domain)), point, lubricant).unwrap()
     }
 
     #[test]

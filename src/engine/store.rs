@@ -1,8 +1,8 @@
 //! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their
 //! operators.
 
-use super::model_file::{self, ModelFileError};
-use super::{EngineError, embedded, trajectory_file};
+use super::rom::{ModelFileError, SavedModel};
+use super::{EngineError, embedded, model_file};
 use crate::host::clock::FileTime;
 use crate::scene::Scene;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
@@ -119,7 +119,7 @@ impl Store {
         path: &Path,
         observer: &dyn Observer,
     ) -> Result<Arc<ReducedModel>, EngineError> {
-        let read = || model_file::read_watched(path, observer).map(Arc::new);
+        let read = || model_file::read_watched(path, observer);
         made_once(&self.0.models, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
     }
 
@@ -128,7 +128,7 @@ impl Store {
     /// # Errors
     /// When it cannot be read.
     pub fn trajectory_model_of_file(&self, path: &Path) -> Result<Arc<TrajectoryModel>, EngineError> {
-        let read = || trajectory_file::read(path);
+        let read = || SavedModel::read(path)?.in_time();
         made_once(&self.0.in_time, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
     }
 

@@ -1,9 +1,9 @@
 //! Solving single contacts by any method, with everything that can be kept between solves.
 
 use super::answer::{Solver, answer, window_of};
-use super::model_file::ModelFileError;
+use super::rom::ModelFileError;
 use super::store::Store;
-use super::{Answer, EngineError, Request, catalogue, embedded, line_in_time, registry};
+use super::{Answer, EngineError, Request, catalogue, line_in_time, registry};
 use crate::scene::{Bench, Grid, Method, ModelSource, Scene, Study};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::{Problem, Solution, SolveError, Start};
@@ -93,7 +93,7 @@ impl Bench for Workbench {
         }
         match source {
             ModelSource::Embedded => {
-                let models = catalogue().iter().map(|entry| (entry.name.as_str(), &entry.domain));
+                let models = catalogue().iter().map(|entry| (entry.name, &entry.domain));
                 let name = registry::best(models, point, lubricant).unwrap_or_default();
                 self.store.embedded_watched(name, observer).map_err(|reason| match reason {
                     ModelFileError::Cancelled => EngineError::Cancelled,
@@ -153,10 +153,6 @@ impl Bench for Workbench {
 
     fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, EngineError> {
         self.store.trained(spec, observer)
-    }
-
-    fn is_embedded(&self, model: &ReducedModel) -> bool {
-        embedded::is_embedded(model)
     }
 
     fn forget(&mut self) {

@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::method::{Method, ModelSource};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::{Lubricant, whole};
+use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ pub struct Request {
     /// The operating point.
     pub point: OperatingPoint,
     /// The lubricant's laws.
-    #[serde(with = "whole")]
+    #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
     /// Grid of a full solution.
     pub grid: Grid,

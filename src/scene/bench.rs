@@ -67,9 +67,6 @@ pub trait Bench {
     /// When it gives none or the observer cancels.
     fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, RunError>;
 
-    /// Whether a model's file would be, byte for byte, one that is part of the program.
-    fn is_embedded(&self, model: &ReducedModel) -> bool;
-
     /// Forgets what has been solved: the next solution starts as the first one would.
     fn forget(&mut self);
 

@@ -4,7 +4,6 @@ use super::CampaignError;
 use super::folder::{Folder, ROUNDS};
 use super::round::{Pieces, Round};
 use super::shard::{Content, Shard};
-use crate::engine::embedded::is_embedded;
 use crate::engine::{EngineError, SceneOutcome, Store, Workbench, model_file, training_file};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::scene::study::training::Row;
@@ -72,8 +71,7 @@ pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, Campaig
             Err(TrainingError::Awaited) => open_round(folder, contacts(&folder.state_path(number), &state)?),
             Err(reason) => Err(EngineError::from(reason).into()),
             Ok(model) => {
-                let embedded = is_embedded(&model);
-                let row = |wall_s| vec![StudyRow::Training(Row { model: Arc::new(model.clone()), embedded, wall_s })];
+                let row = |wall_s| vec![StudyRow::Training(Row { model: Arc::new(model.clone()), wall_s })];
                 let name = format!("{}.rom", folder.plan.name);
                 let keep = |beside: &Path| {
                     let path = beside.join(&name);

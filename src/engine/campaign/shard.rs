@@ -10,8 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// Full solutions of the finest grids, as many as a day gives.
-pub(super) const FORMAT: Format =
-    Format { magic: b"EHLSHD\r\n", version: VERSION, oldest: VERSION, whole_hash: VERSION, max_payload: 2 << 30 };
+pub(super) const FORMAT: Format = Format { magic: b"EHLSHD\r\n", version: VERSION, max_payload: 2 << 30 };
 
 /// What came of a shard.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -84,7 +83,7 @@ impl Shard {
         let refused = |reason: &str| CampaignError::Shard { path: path.to_owned(), reason: reason.to_owned() };
         let flawed = |flaw: Flaw| match flaw {
             Flaw::Foreign => refused("it is another kind of file"),
-            Flaw::Newer { .. } | Flaw::Older { .. } => refused("its format has another version"),
+            Flaw::OtherVersion { .. } => refused("its format has another version"),
             Flaw::Truncated { .. } => refused("it is cut off"),
             Flaw::TooLarge { .. } => refused("it announces more bytes than any shard has"),
             Flaw::Changed => refused("its content does not match its hash"),

@@ -265,7 +265,7 @@ fn check_inputs(inputs: &Inputs) -> Result<(), CoupledError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::trajectory_file;
+    use crate::engine::SavedModel;
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::transient::{Frame, Inputs as Driven, Keep, Signal, Transient, march, solve};
     use crate::solver::full::{FullSolver, Start};
@@ -298,7 +298,8 @@ mod tests {
     #[test]
     fn in_seconds_and_newtons_it_is_the_march_of_the_library() {
         let model = trained(Frame::Fixed);
-        let read = trajectory_file::from_bytes(&trajectory_file::to_bytes(&model).unwrap()).unwrap();
+        let saved = SavedModel::InTime(Arc::clone(&model)).to_bytes().unwrap();
+        let read = SavedModel::from_bytes(&saved).unwrap().in_time().unwrap();
         let loads: Vec<f64> = (0..=50).map(|k| 1.0 + 0.05 * (0.2 * f64::from(k)).sin()).collect();
         let times = (0..loads.len()).map(|k| 0.01 * k as f64).collect();
         let asked = Transient { duration: 0.5, ..driven(Signal::Sampled { times, values: loads.clone() }) };

@@ -6,7 +6,7 @@ use crate::solver::discrete::nodes::Laws;
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::{
-    Lubricant, LubricantError, ScaledFluid, ScaledHeat, ScaledShear, ShearLaw, Sliding, whole,
+    Lubricant, LubricantError, ScaledFluid, ScaledHeat, ScaledShear, ShearLaw, Sliding, WholeLubricant,
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -62,7 +62,7 @@ pub struct Problem {
 #[derive(Serialize, Deserialize)]
 struct Stated {
     point: OperatingPoint,
-    #[serde(with = "whole")]
+    #[serde(with = "WholeLubricant")]
     lubricant: Lubricant,
 }
 

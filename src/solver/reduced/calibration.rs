@@ -17,6 +17,7 @@
 
 mod features;
 mod neighbours;
+mod parts;
 mod quantity;
 mod rupture;
 mod steps;
@@ -24,7 +25,7 @@ mod steps;
 mod tests;
 
 pub use features::{Evidence, FeatureSet, Features, Measured};
-pub use steps::Laws;
+pub use parts::CalibrationParts;
 
 use features::{ERRORS, FEATURES, MOST_FEATURES, SIGNS};
 use neighbours::Neighbours;
@@ -68,7 +69,7 @@ pub struct ErrorEstimate {
 }
 
 /// What a window knows about its own errors.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// Smallest and largest value of each feature in the evidence.
     ranges: Vec<(f64, f64)>,

@@ -3,7 +3,7 @@
 use crate::solver::full::Problem;
 use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw, whole};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw, WholeLubricant};
 use serde::{Deserialize, Serialize};
 
 /// The contacts a reduced model covers.
@@ -14,7 +14,7 @@ pub struct Domain {
     /// Varied and fixed quantities.
     pub space: ParameterSpace,
     /// Laws of the lubricant.
-    #[serde(with = "whole")]
+    #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
 }
 

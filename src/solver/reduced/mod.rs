@@ -35,8 +35,8 @@ pub mod transient;
 mod warmth;
 
 pub use calibration::{
-    Calibration, ErrorEstimate, Estimated, Evidence, FeatureSet, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Laws,
-    Measured,
+    Calibration, CalibrationParts, ErrorEstimate, Estimated, Evidence, FeatureSet, Features, LEAST_EVIDENCE,
+    LEAST_OF_WINDOW, Measured,
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};

@@ -19,10 +19,9 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// A training solution as the model keeps it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// The operating point. Files keep the radius across in a place of its own.
-    #[serde(with = "without_shape")]
+    /// The operating point.
     pub point: OperatingPoint,
     /// Its coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
@@ -31,28 +30,9 @@ pub struct Snapshot {
     /// Its central film H_c, from the full solution.
     pub h_c: f64,
     /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
-    /// Files keep them in a place of their own.
-    #[serde(skip)]
     pub fronts: Vec<usize>,
-    /// What the grid costs H_c, where the training asked. Files keep it in a place of its own.
-    #[serde(skip)]
+    /// What the grid costs H_c, where the training asked.
     pub grid_cost: Option<GridCost>,
-}
-
-/// An operating point as model files have it, without a radius across.
-mod without_shape {
-    use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-    use crate::solver::physics::lubricant::Sliding;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(point: &OperatingPoint, serializer: S) -> Result<S::Ok, S::Error> {
-        (point.kind, point.quantities(), point.sliding).serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<OperatingPoint, D::Error> {
-        let (kind, quantities, sliding) = <(ContactKind, [f64; 6], Sliding)>::deserialize(deserializer)?;
-        Ok(OperatingPoint::from_quantities(kind, quantities, sliding))
-    }
 }
 
 /// One local model: a window of M with its own grid, bases and sampled rows.

@@ -34,6 +34,19 @@ pub struct Lubricant {
     pub heat: Option<Heat>,
 }
 
+/// A lubricant with all its laws as one value, where scenes state cavitation and heat in fields of their own:
+/// `#[serde(with = "WholeLubricant")]`.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Lubricant", deny_unknown_fields)]
+pub(crate) struct WholeLubricant {
+    density: DensityLaw,
+    viscosity: ViscosityLaw,
+    shear: ShearLaw,
+    limiting_stress: Option<LimitingStress>,
+    cavitation: Cavitation,
+    heat: Option<Heat>,
+}
+
 impl Lubricant {
     /// Fixes the laws' constants at an operating point.
     ///

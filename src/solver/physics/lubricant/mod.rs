@@ -17,12 +17,12 @@ mod pressure_coefficient;
 mod scaled;
 mod shear_thinning;
 mod warm;
-pub(crate) mod whole;
 mod words;
 
 pub use super::contact::Sliding;
 pub use cavitation::Cavitation;
 pub use definition::Lubricant;
+pub(crate) use definition::WholeLubricant;
 pub use error::LubricantError;
 pub use free_volume::{Doolittle, Tait};
 pub use heat::{FreeVolumeHeat, Heat, LARGEST_HEATED_SRR, OilHeat, ScaledHeat};

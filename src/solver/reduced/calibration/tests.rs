@@ -224,30 +224,38 @@ fn bounds_of_tractions_follow_what_a_limit_cuts() {
 }
 
 #[test]
-fn what_files_keep_is_the_whole_calibration() {
-    let stored = |calibration: &Calibration| postcard::to_allocvec(calibration).unwrap();
-    let calibration = Calibration::fit(&synthetic(300, 6)).unwrap();
-    assert_eq!(postcard::from_bytes::<Calibration>(&stored(&calibration)).unwrap(), calibration);
-    // What was not measured is no number, and equals nothing: the bytes tell more.
-    let bytes = stored(&Calibration::fit(&sliding(300, 6)).unwrap());
-    assert_eq!(stored(&postcard::from_bytes(&bytes).unwrap()), bytes);
-}
-
-#[test]
-fn in_small_whole_numbers_nothing_of_a_calibration_is_lost_and_some_that_are_missing_are_noticed() {
-    let stored = |calibration: &Calibration| postcard::to_allocvec(calibration).unwrap();
+fn a_calibration_is_its_numbers_and_missing_ones_are_noticed() {
+    // What was not measured is no number, and equals nothing.
+    let text = |calibration: &Calibration| format!("{calibration:?}");
     for evidence in [synthetic(300, 6), sliding(300, 6)] {
         let calibration = Calibration::fit(&evidence).unwrap();
-        let (laws, mut numbers) = calibration.in_steps().unwrap();
-        let again = Calibration::from_steps(laws.clone(), 300, &mut numbers.clone().into_iter()).unwrap();
-        assert_eq!(stored(&again), stored(&calibration));
-        assert!(Calibration::from_steps(laws.clone(), usize::MAX, &mut numbers.clone().into_iter()).is_none());
-        numbers.pop();
-        assert!(Calibration::from_steps(laws, 300, &mut numbers.into_iter()).is_none());
+        let again = Calibration::from_parts(calibration.parts()).unwrap();
+        assert_eq!(text(&again), text(&calibration));
+        let lies: [fn(&mut CalibrationParts); 7] = [
+            |parts| {
+                parts.places.pop();
+            },
+            |parts| {
+                parts.surplus[1].pop();
+            },
+            |parts| {
+                parts.surplus.pop();
+            },
+            |parts| {
+                parts.laws[0].pop();
+            },
+            |parts| {
+                parts.ranges.pop();
+            },
+            |parts| parts.laws[2][3] = f64::NAN,
+            |parts| parts.laws.iter_mut().for_each(Vec::clear),
+        ];
+        for (k, lie) in lies.into_iter().enumerate() {
+            let mut parts = calibration.parts();
+            lie(&mut parts);
+            assert!(Calibration::from_parts(parts).is_none(), "lie {k}");
+        }
     }
-    let mut finer = Calibration::fit(&synthetic(300, 6)).unwrap();
-    finer.quantities[0].surplus[7] += 1e-3;
-    assert!(finer.in_steps().is_none(), "as those of former versions, which stay as they are");
 }
 
 #[test]

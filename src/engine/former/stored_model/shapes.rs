@@ -1,10 +1,9 @@
 //! What a model of ellipses has in a file beside what every model has.
 
-use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::contact::Ellipse;
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::{ReducedModel, Shapes, Window};
+use crate::solver::reduced::{ReducedModel, Shapes};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -17,28 +16,15 @@ pub(super) struct StoredShapes {
     pub windows: Vec<((f64, f64), Vec<f64>)>,
 }
 
-/// What only a model of ellipses has.
-pub(super) fn stored_shapes(model: &ReducedModel) -> Option<StoredShapes> {
-    let of_window = |window: &Window| {
-        let radii = window.snapshots.iter().map(|s| s.point.radius_y_m.unwrap_or(s.point.radius_m));
-        Some((window.shapes.as_ref()?.radius_ratio, radii.collect()))
-    };
-    let windows: Option<Vec<_>> = model.windows.iter().map(of_window).collect();
-    Some(StoredShapes {
-        radius_ratio: model.domain.space.radius_ratio(),
-        windows: windows.filter(|all| !all.is_empty())?,
-    })
-}
-
 /// Gives the windows of a model their shapes; `None` where these do not fit them.
 pub(super) fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windows }: StoredShapes) -> Option<()> {
     let sound =
         |(low, high): (f64, f64)| Ellipse::of_ratio(low).is_ok() && Ellipse::of_ratio(high).is_ok() && low < high;
-    if windows.len() != model.windows.len() || !sound(radius_ratio) {
+    if windows.len() != model.windows.len() || !sound(radius_ratio) || model.domain.thins() {
         return None;
     }
     let windows: Vec<_> = model.windows.iter_mut().zip(windows).collect();
-    let give = |(window, (ratios, radii)): (&mut Window, ((f64, f64), Vec<f64>))| {
+    windows.into_par_iter().try_for_each(|(window, (ratios, radii))| {
         let ContactGrid::Point(grid) = &window.grid else { return None };
         if !sound(ratios) || radii.len() != window.snapshots.len() || window.cavitation != Cavitation::Penalty {
             return None;
@@ -49,6 +35,5 @@ pub(super) fn shape(model: &mut ReducedModel, StoredShapes { radius_ratio, windo
             snapshot.point.check().ok()?;
         }
         Some(())
-    };
-    on_all_cores(|| windows.into_par_iter().try_for_each(give))
+    })
 }

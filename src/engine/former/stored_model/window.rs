@@ -1,8 +1,9 @@
 //! One window of a model on its way to or from a file.
 
 use super::sound::are_rows;
-use crate::engine::model_file::ModelFileError;
-use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
+use crate::engine::former::domain::FormerSnapshot;
+use crate::engine::former::stored_matrix::{StoredBasis, StoredMatrix};
+use crate::engine::rom::ModelFileError;
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Sliding;
@@ -29,10 +30,13 @@ pub(super) struct StoredWindow {
     sampling: Sampling,
     sampled_rows: Vec<usize>,
     reconstruction: StoredMatrix,
-    /// Empty but in older files.
+    _none: Vec<FormerSnapshot>,
+    #[serde(skip)]
     pub snapshots: Vec<Snapshot>,
     traction: Option<TractionRule>,
     /// None where the calibrations of all windows are kept together.
+    _one: Option<()>,
+    #[serde(skip)]
     pub calibration: Option<Calibration>,
 }
 
@@ -75,34 +79,6 @@ impl StoredRows {
 }
 
 impl StoredWindow {
-    /// Window `k` of a model but for its calibration.
-    pub fn of(model: &ReducedModel, k: usize, window: &Window) -> Self {
-        let heat = model.domain.heats();
-        let basis =
-            |basis: &PodBasis| StoredBasis::new(basis, window.grid.nodes().1, Keeping::of(window, heat).accuracy());
-        let shared = model.windows.iter().all(|window| window.pressure.combined().is_some());
-        Self {
-            m: window.m,
-            grid: window.grid.spec(),
-            penalty: window.penalty,
-            pressure: match window.pressure.combined() {
-                Some(_) if shared => StoredBasis::without_modes(window.pressure.singular_values(), window.grid.len()),
-                _ => basis(window.pressure.basis()),
-            },
-            deformation: match model.windows.first() {
-                Some(first) if k > 0 && shares_deformation(window, first) => StoredBasis::elsewhere(window.grid.len()),
-                _ if window.grid.kind() == ContactKind::Line => basis(&window.deformation),
-                _ => StoredBasis::new(&window.deformation, window.grid.nodes().1, BENT_ACCURACY),
-            },
-            sampling: window.sampling,
-            sampled_rows: window.sampled_rows.clone(),
-            reconstruction: stored_reconstruction(window, heat),
-            snapshots: Vec::new(),
-            traction: window.traction.clone(),
-            calibration: None,
-        }
-    }
-
     /// The window of a model with this domain, on its grid.
     ///
     /// # Errors
@@ -165,27 +141,8 @@ impl StoredWindow {
     }
 }
 
-/// What a window makes of its rows' values: all of it, or what a cubature makes as its weights, and what others make as they
-/// were trained with it.
-fn stored_reconstruction(window: &Window, heat: bool) -> StoredMatrix {
-    let exact = &window.reconstruction;
-    if !Keeping::of(window, heat).shortens_rules() {
-        return StoredMatrix::exact(exact);
-    }
-    let rule = || StoredMatrix::weights(exact, &modes_at(&window.grid, &window.pressure, &window.sampled_rows));
-    let rule = if window.sampling == Sampling::Cubature { rule() } else { None };
-    rule.unwrap_or_else(|| StoredMatrix::stepped(exact, 1, &vec![1.0; exact.ncols()], [RULE_ACCURACY, 0.0]))
-}
-
 /// What all modes are at the nodes of sampled rows.
 fn modes_at(grid: &ContactGrid, pressure: &PressureModes, rows: &[usize]) -> Mat<f64> {
     let nodes: Vec<usize> = rows.iter().map(|&row| grid.node(row)).collect();
     pressure.at(&nodes, pressure.count())
-}
-
-/// Whether a window around an anchor has the very deformation basis of another one.
-fn shares_deformation(window: &Window, other: &Window) -> bool {
-    let equal = || window.deformation.modes == other.deformation.modes;
-    let same = || Arc::ptr_eq(&window.deformation, &other.deformation) || equal();
-    window.anchor.is_some() && window.grid.spec() == other.grid.spec() && same()
 }

@@ -1,8 +1,8 @@
 //! What must hold of a file's content before anything is built of it.
 
 use super::window::StoredWindow;
-use crate::engine::model_file::ModelFileError;
-use crate::engine::stored_matrix::StoredBasis;
+use crate::engine::former::stored_matrix::StoredBasis;
+use crate::engine::rom::ModelFileError;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;

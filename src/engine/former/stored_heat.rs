@@ -58,20 +58,3 @@ impl From<StoredHeat> for Heat {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::named_lubricant::NAMED;
-    use crate::solver::physics::bodies::Material;
-
-    #[test]
-    fn every_constant_survives() {
-        for named in &NAMED {
-            let bodies = [Material::STEEL.heat, Material::GLASS.heat];
-            let heat = Heat { oil: named.heat, bodies, inlet_temperature: 353.15 };
-            let bytes = postcard::to_allocvec(&StoredHeat::from(heat)).unwrap();
-            assert_eq!(Heat::from(postcard::from_bytes::<StoredHeat>(&bytes).unwrap()), heat, "{}", named.name);
-        }
-    }
-}

@@ -1,14 +1,14 @@
 //! What a model may have in its file beside its windows, each part under a name of its own.
 
 use super::calibrations::StoredCalibrations;
-use super::former_domain::{FormerEyring, FormerHeat, FormerThermal};
 use super::oils::{GridCosts, StoredOils, StoredSharedBasis};
 use super::rupture::StoredRupture;
-use super::shapes::{StoredShapes, stored_shapes};
+use super::shapes::StoredShapes;
 use super::snapshots::StoredSnapshots;
-use crate::engine::stored_heat::StoredHeat;
-use crate::engine::stored_matrix::StoredMatrix;
-use crate::solver::reduced::{ReducedModel, Scheme, Window};
+use crate::engine::former::domain::{FormerEyring, FormerHeat, FormerThermal};
+use crate::engine::former::stored_heat::StoredHeat;
+use crate::engine::former::stored_matrix::StoredMatrix;
+use crate::solver::reduced::Scheme;
 use serde::{Deserialize, Serialize};
 
 /// Of every window its scheme, and what GNAT makes of the residual.
@@ -28,7 +28,6 @@ enum Part {
     Calibrations(StoredCalibrations),
     Snapshots(StoredSnapshots),
     Thermal(FormerThermal),
-    Space(String),
 }
 
 /// The parts that a model has.
@@ -56,40 +55,11 @@ pub(super) struct Parts {
     pub snapshots: Option<StoredSnapshots>,
     /// Of contacts with heat whose thermal constants are many.
     pub thermal: Option<FormerThermal>,
-    /// The space, in JSON.
-    pub space: Option<String>,
 }
 
 impl Parts {
-    /// The parts of a model, in postcard's encoding behind a payload.
-    pub fn write(model: &ReducedModel, calibrations: Option<StoredCalibrations>, payload: Vec<u8>) -> Option<Vec<u8>> {
-        let usual = model.windows.iter().all(|window| window.scheme == Scheme::Galerkin);
-        let scheme =
-            |window: &Window| (window.scheme, window.residual_reconstruction.as_ref().map(StoredMatrix::exact));
-        let schemes = (!usual).then(|| model.windows.iter().map(scheme).collect());
-        let none = FormerHeat {
-            srr: (0.0, 0.0),
-            radius_m: (0.0, 0.0),
-            modulus_pa: (0.0, 0.0),
-            speed_m_per_s: (0.0, 0.0),
-            fastest_sliding_m_per_s: 0.0,
-        };
-        let parts = [
-            StoredRupture::of(model).map(Part::Rupture),
-            schemes.map(Part::Schemes),
-            stored_shapes(model).map(Part::Shapes),
-            StoredOils::of(model).map(Part::Oils),
-            StoredSharedBasis::of(model).map(Part::SharedBasis),
-            model.domain.lubricant.heat.map(|heat| Part::Heat(heat.into(), none)),
-            calibrations.map(Part::Calibrations),
-            Some(Part::Snapshots(StoredSnapshots::of(model))),
-            serde_json::to_string(&model.domain.space).ok().map(Part::Space),
-        ];
-        let parts: Vec<Part> = parts.into_iter().flatten().collect();
-        postcard::to_extend(&parts, payload).ok()
-    }
-
-    /// The parts of a model of so many windows; `None` where they cannot be understood, or do not go together.
+    /// The parts of a model of so many windows; `None` where they cannot be understood, or do not go together. Files that
+    /// are `older` than these names have them without.
     pub fn read(rest: &[u8], windows: usize) -> Option<Self> {
         let parts = Self::named(rest)?;
         let schemes = parts.schemes.as_ref().is_none_or(|schemes| schemes.len() == windows);
@@ -118,7 +88,6 @@ impl Parts {
                 Part::Calibrations(part) => known.calibrations.replace(part).is_none(),
                 Part::Snapshots(part) => known.snapshots.replace(part).is_none(),
                 Part::Thermal(part) => known.thermal.replace(part).is_none(),
-                Part::Space(part) => known.space.replace(part).is_none(),
             };
             if !once {
                 return None;

@@ -3,8 +3,7 @@
 
 use super::Values;
 use super::sorted::{Neighbours, Sorted};
-use crate::engine::packed::{packed, unpacked};
-use crate::host::pool::on_all_cores;
+use crate::engine::former::packed::{packed, unpacked};
 use pco::{ChunkConfig, DeltaSpec, ModeSpec};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -36,23 +35,6 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    /// With the misses of these rows packed, by kinds where there are enough of them, unless they are so few bytes that
-    /// reading them would make much of little.
-    pub fn packed(mut self, used: &[bool]) -> Values {
-        let settings = ChunkConfig::default().with_mode_spec(ModeSpec::Classic).with_delta_spec(DeltaSpec::NoOp);
-        let together = packed(&self.misses, &settings, MOST_PACKED);
-        let neighbours = Neighbours::of(used, self.across);
-        let sorted = Sorted::of(&self.misses, (&neighbours, self.column_exponents.len()), &settings, MOST_PACKED);
-        let misses = std::mem::take(&mut self.misses);
-        match (sorted, together) {
-            (Some(sorted), Some(together)) if sorted.bytes() + OF_KINDS < together.len() => {
-                Values::Sorted(self, sorted)
-            }
-            (_, Some(together)) => Values::Packed(self, together),
-            _ => Values::Curves(Self { misses, ..self }),
-        }
-    }
-
     /// With the misses that were packed; `None` when these are not as many as the rest says, or more than so many bytes
     /// can be.
     pub fn with_misses(mut self, packed: &[u8]) -> Option<Self> {
@@ -94,7 +76,7 @@ impl Curves {
             });
             Some(values)
         };
-        Some(on_all_cores(|| (0..columns).into_par_iter().map(column).collect::<Option<Vec<_>>>())?.concat())
+        Some((0..columns).into_par_iter().map(column).collect::<Option<Vec<_>>>()?.concat())
     }
 }
 
@@ -109,23 +91,6 @@ pub(super) struct Lattice<'a> {
 impl<'a> Lattice<'a> {
     pub fn new(used: &'a [bool], across: usize, row_exponents: &[i16]) -> Self {
         Self { used, across, row_steps: row_exponents.iter().map(|exponent| f64::from(*exponent).exp2()).collect() }
-    }
-
-    /// The orders whose continuation takes the fewest bits to correct, and by how much it misses each row.
-    pub fn shortest(&self, column: &[f64], exponent: i16) -> ((u8, u8), Vec<i64>) {
-        let most_beside = if self.across > 1 { MOST_BESIDE } else { 0 };
-        let candidates = (1..=MOST_ALONG).flat_map(|along| (0..=most_beside).map(move |beside| (along, beside)));
-        let missed = candidates.map(|orders| {
-            let (mut misses, mut values) = (Vec::with_capacity(self.row_steps.len()), vec![0.0; column.len()]);
-            self.walk(&mut values, exponent, orders, |_, (row, step), expected| {
-                let count = (column.get(row).copied().unwrap_or_default() / step).round() as i64;
-                misses.push(count.saturating_sub(expected));
-                count
-            });
-            (orders, misses)
-        });
-        let size = |(_, misses): &(_, Vec<i64>)| misses.iter().map(|miss| bits(*miss)).sum::<u32>();
-        missed.min_by_key(size).unwrap_or_default()
     }
 
     /// Goes through a column, whose values are found as it goes: `count` says which multiple the value of a row is,
@@ -201,36 +166,4 @@ pub(super) fn flags(runs: &[usize], rows: usize) -> Option<Vec<bool>> {
         return None;
     }
     Some(runs.iter().enumerate().flat_map(|(k, &run)| std::iter::repeat_n(k % 2 == 1, run)).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_misses_are_counted_from_is_the_polynomial_through_the_nodes_before() {
-        // A cubic along X with a parabola across is met exactly from the fifth line on.
-        let (rows, across) = (40, 6);
-        let value = |i: usize, j: usize| (i * i * i) as f64 - 40.0 + (j * j) as f64 * (i + 1) as f64;
-        let column: Vec<f64> = (0..rows * across).map(|k| value(k / across, k % across)).collect();
-        let (used, exponents) = (vec![true; rows * across], vec![0; rows * across]);
-        let lattice = Lattice::new(&used, across, &exponents);
-        let (orders, misses) = lattice.shortest(&column, 0);
-        assert!(orders.0 >= 3, "{orders:?}");
-        let mut values = vec![0.0; rows * across];
-        let mut missed = Vec::new();
-        lattice.walk(&mut values, 0, (4, 2), |_, (row, _), expected| {
-            missed.push(column[row] as i64 - expected);
-            column[row] as i64
-        });
-        let within = |k: usize| k / across >= 4 && k % across >= 2;
-        assert!(missed.iter().enumerate().filter(|(k, _)| within(*k)).all(|(_, miss)| *miss == 0));
-        let size = |misses: &[i64]| misses.iter().map(|miss| bits(*miss)).sum::<u32>();
-        assert!(size(&misses) <= size(&missed));
-        for (value, size) in
-            [(0, 0), (-1, 1), (1, 2), (-2, 2), (2, 3), (63, 7), (-64, 7), (i64::MAX, 64), (i64::MIN, 64)]
-        {
-            assert_eq!(bits(value), size);
-        }
-    }
 }

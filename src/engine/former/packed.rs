@@ -71,25 +71,3 @@ pub(super) fn inflated(deflated: &[u8], most: usize) -> Option<Vec<u8>> {
     let read = decompress(&mut state, stream, &mut bytes, 0, TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF);
     (read == (TINFLStatus::Done, stream.len(), length)).then_some(bytes)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_comes_again_is_written_once_and_nothing_else_is_read_as_that() {
-        let bytes: Vec<u8> = (0..5000u32).map(|k| (k % 37 * (k / 500)) as u8).collect();
-        let short = deflated(&bytes, 64).unwrap();
-        assert!(short.len() < bytes.len() / 2);
-        assert_eq!(inflated(&short, 64).as_ref(), Some(&bytes));
-        // Fewer or more bytes, another length, or more memory than the reader is ready to give.
-        assert_eq!(inflated(&short[..short.len() - 1], 64), None);
-        assert_eq!(inflated(&[short.as_slice(), &[0]].concat(), 64), None);
-        for length in [4999u32, 5001, u32::MAX] {
-            assert_eq!(inflated(&[&length.to_le_bytes(), &short[4..]].concat(), 64), None);
-        }
-        assert_eq!(inflated(&short, 1), None);
-        assert_eq!((inflated(&[], 64), inflated(&[1, 0, 0], 64)), (None, None));
-        assert_eq!(deflated(&[0; 100_000], 64), None);
-    }
-}

@@ -4,14 +4,13 @@
 //! What local bases a model has follows behind. Modes are kept to twelve digits of the pressures that they make, the rest to
 //! the last, so that a march by what was read is that by what was written to some seven. K V_p is recomputed.
 
-use super::model_file::ModelFileError;
+use super::domain::{FormerDomain, FormerSnapshot, Further};
 use super::stored_matrix::{StoredBasis, StoredMatrix};
-use super::stored_model::former_domain::{FormerDomain, Further};
 use super::stored_model::{StoredRows, entries, sound_domain};
+use crate::engine::rom::ModelFileError;
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{Frame, Inputs};
-use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Sliding};
 use crate::solver::reduced::transient::{
@@ -44,7 +43,7 @@ struct StoredTrajectories {
     sampling: Sampling,
     rows: StoredRows,
     /// A state for each place that the rupture boundary had, and its first ruptured columns.
-    boundaries: Vec<(Snapshot, Vec<usize>)>,
+    boundaries: Vec<(FormerSnapshot, Vec<usize>)>,
     starts: Vec<StoredStart>,
     scene: String,
     log: Vec<String>,
@@ -58,7 +57,7 @@ struct StoredLocal {
     singular_values: Vec<f64>,
     sampling: Sampling,
     rows: StoredRows,
-    boundaries: Vec<(Snapshot, Vec<usize>)>,
+    boundaries: Vec<(FormerSnapshot, Vec<usize>)>,
     centre: Vec<f64>,
 }
 
@@ -82,98 +81,6 @@ struct StoredStart {
     coefficients: Vec<f64>,
     h_0: f64,
     fronts: Vec<usize>,
-}
-
-/// The payload of a file; none where the model cannot be encoded.
-pub(super) fn encode(model: &TrajectoryModel) -> Option<Vec<u8>> {
-    let (window, domain) = (&model.window, &model.domain);
-    let start = |start: &TrajectoryStart| StoredStart {
-        point: start.point.quantities(),
-        sliding: start.point.sliding,
-        inputs: start.inputs.clone(),
-        duration: start.duration,
-        coefficients: start.coefficients.clone(),
-        h_0: start.h_0,
-        fronts: start.fronts.clone(),
-    };
-    let stored = StoredTrajectories {
-        title: model.title.clone(),
-        frame: model.frame,
-        domain: StoredDomain {
-            reference: FormerDomain {
-                m: domain.reference.m(),
-                l: domain.reference.l(),
-                alpha_per_pa: domain.reference.interval(Quantity::Alpha).unwrap_or_default(),
-                max_hertz_pressure_pa: domain.reference.highest_pressure_pa(),
-                viscosity_pa_s: domain.reference.middle_viscosity_pa_s(),
-                lubricant: domain.reference.lubricant,
-                sliding: None,
-            },
-            cavitation: window.cavitation,
-            radius: domain.radius,
-            speed: domain.speed,
-            load: domain.load,
-            step: domain.step,
-        },
-        grid: window.grid.spec(),
-        penalty: window.penalty,
-        pressure: StoredBasis::new(window.pressure.basis(), 1, PRESSURES),
-        deformation: StoredBasis::new(&window.deformation, 1, DEFORMATIONS),
-        sampling: window.sampling,
-        rows: rows_of(window),
-        boundaries: boundaries_in(window),
-        starts: model.starts.iter().map(start).collect(),
-        scene: model.scene.clone(),
-        log: model.log.clone(),
-    };
-    let mut payload = postcard::to_allocvec(&stored).ok()?;
-    if !model.locals.is_empty() {
-        let locals: Option<Vec<StoredLocal>> = model.locals.iter().map(local_of).collect();
-        payload.extend(postcard::to_allocvec(&locals?).ok()?);
-    }
-    Some(payload)
-}
-
-fn rows_of(window: &Window) -> StoredRows {
-    StoredRows {
-        rows: window.sampled_rows.clone(),
-        reconstruction: StoredMatrix::exact(&window.reconstruction),
-        scheme: window.scheme,
-        residual: window.residual_reconstruction.as_ref().map(StoredMatrix::exact),
-    }
-}
-
-fn boundaries_in(window: &Window) -> Vec<(Snapshot, Vec<usize>)> {
-    window.snapshots.iter().map(|snapshot| (snapshot.clone(), snapshot.fronts.clone())).collect()
-}
-
-/// A local basis; none where it is not made of the whole one.
-fn local_of(LocalBasis { window, centre }: &LocalBasis) -> Option<StoredLocal> {
-    Some(StoredLocal {
-        factors: StoredMatrix::exact(&window.pressure.combined()?.factors),
-        singular_values: window.pressure.singular_values().to_vec(),
-        sampling: window.sampling,
-        rows: rows_of(window),
-        boundaries: boundaries_in(window),
-        centre: centre.clone(),
-    })
-}
-
-/// Lets the model rest where its first and its last training began.
-///
-/// # Errors
-/// When it does not find these contacts.
-pub(super) fn prove(model: &Arc<TrajectoryModel>) -> Result<(), ModelFileError> {
-    let proven = |start: &TrajectoryStart| {
-        let problem = Problem::new(&start.point, model.domain.reference.lubricant).ok()?;
-        let found = CoupledMarch::begin(model, problem, start.inputs.at(0.0)).ok()?;
-        let square = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
-        let off = square(&mut found.coefficients().iter().zip(&start.coefficients).map(|(own, other)| own - other));
-        Some(off <= PROVEN * PROVEN * square(&mut start.coefficients.iter().copied()))
-    };
-    let all =
-        [model.starts.first(), model.starts.last()].into_iter().flatten().all(|start| proven(start) == Some(true));
-    if all { Ok(()) } else { Err(ModelFileError::UnprovenInTime) }
 }
 
 /// The model of a payload. That its parts belong together is still to be proved.
@@ -269,9 +176,6 @@ fn locals_on(whole: &Window, stored: Vec<StoredLocal>) -> Result<Vec<LocalBasis>
 /// What a model was trained for; `None` where that makes no sense.
 fn domain_of(stored: StoredDomain, only: Option<Inputs>) -> Option<TrajectoryDomain> {
     let StoredDomain { reference: former, cavitation, radius, speed, load, step } = stored;
-    if matches!(cavitation, Cavitation::MassConserving { .. }) {
-        return None;
-    }
     let space = former.space(Further::default());
     let mut reference = Domain { contact: ContactKind::Line, space, lubricant: former.lubricant };
     reference.lubricant.cavitation = cavitation;
@@ -286,7 +190,7 @@ fn sound_fronts(fronts: &[usize], cavitation: Cavitation, grid: &ContactGrid) ->
 }
 
 fn boundaries_of(
-    stored: Vec<(Snapshot, Vec<usize>)>,
+    stored: Vec<(FormerSnapshot, Vec<usize>)>,
     cavitation: Cavitation,
     modes: usize,
     grid: &ContactGrid,
@@ -294,7 +198,8 @@ fn boundaries_of(
     if stored.is_empty() != (cavitation == Cavitation::Penalty) {
         return None;
     }
-    let sound = |(snapshot, fronts): (Snapshot, Vec<usize>)| {
+    let sound = |(snapshot, fronts): (FormerSnapshot, Vec<usize>)| {
+        let snapshot = Snapshot::from(snapshot);
         let finite = snapshot.coefficients.iter().chain([&snapshot.h_0, &snapshot.h_c]).all(|value| value.is_finite());
         let fits = snapshot.coefficients.len() == modes && sound_fronts(&fronts, cavitation, grid);
         (finite && fits && snapshot.point.check().is_ok()).then_some(Snapshot { fronts, ..snapshot })

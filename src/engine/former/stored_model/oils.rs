@@ -1,17 +1,15 @@
 //! What windows around anchors have in a file beside what every window has.
 
-use super::former_domain::FormerOils;
-use super::snapshots::{give_each, stored_coefficients};
+use super::snapshots::give_each;
+use super::sound::sound_interval;
 use super::window::StoredWindow;
-use crate::engine::stored_matrix::{StoredBasis, StoredMatrix};
-use crate::host::pool::on_all_cores;
+use crate::engine::former::domain::FormerOils;
+use crate::engine::former::stored_matrix::{StoredBasis, StoredMatrix};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::GridCost;
 use crate::solver::parameters::Metric;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{
-    Combined, Keeping, PodBasis, ReducedModel, SharedBasis, Window, factor_accuracy, factor_scales,
-};
+use crate::solver::reduced::{Combined, PodBasis, ReducedModel, SharedBasis};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -45,41 +43,10 @@ pub(super) struct StoredAnchor {
 }
 
 impl StoredOils {
-    /// What only a model of many oils has.
-    pub fn of(model: &ReducedModel) -> Option<Self> {
-        let heat = model.domain.heats();
-        let stored = |window: &Window| {
-            let Moes { m, l } = window.anchor?;
-            Some(StoredAnchor { moes: (m, l), coefficients: stored_coefficients(window, heat) })
-        };
-        let windows = model.windows.iter().map(stored).collect::<Option<_>>()?;
-        let oils = FormerOils { viscosity_pa_s: (0.0, 0.0), exponent: (0.0, 0.0), lowest_hertz_pressure_pa: 0.0 };
-        model.domain.space.varies_lubricant().then_some(Self { oils, thinnest_film: 0.0, windows })
-    }
-
     /// The oils that a model was trained for.
     pub fn domain(&self) -> (FormerOils, f64) {
         (self.oils, self.thinnest_film)
     }
-}
-
-impl StoredSharedBasis {
-    /// What the windows of a model share beside the deformation basis; none where that is nothing.
-    pub fn of(model: &ReducedModel) -> Option<Self> {
-        let all: Vec<&Combined> =
-            model.windows.iter().map(|window| window.pressure.combined()).collect::<Option<_>>()?;
-        let (window, shared) = (model.windows.first()?, &all.first()?.shared);
-        let accuracy = Keeping::of(window, model.domain.heats()).accuracy();
-        let basis = StoredBasis::new(&shared.basis, window.grid.nodes().1, accuracy);
-        Some(Self { basis, factors: model.windows.iter().zip(all).map(|(w, own)| stored_factors(w, own)).collect() })
-    }
-}
-
-/// What a window's modes are in the shared basis: of each mode of that as exactly as it appears in the window.
-fn stored_factors(window: &Window, combined: &Combined) -> StoredMatrix {
-    let factors = &combined.factors;
-    let scales = factor_scales(window.pressure.singular_values(), factors.ncols());
-    StoredMatrix::stepped(factors, 1, &scales, factor_accuracy(factors, &scales))
 }
 
 /// Gives the snapshots of a model's windows what their grid costs them; `None` where that does not fit them.
@@ -134,7 +101,7 @@ pub(super) fn deformations(
         let basis = stored.into_basis(grid.len()).filter(|basis| basis.modes.ncols() > 0)?;
         Some(Some(Arc::new(basis)))
     });
-    let own: Vec<Option<Arc<PodBasis>>> = on_all_cores(|| own.collect::<Option<_>>())?;
+    let own: Vec<Option<Arc<PodBasis>>> = own.collect::<Option<_>>()?;
     let first = own.first().cloned().flatten();
     own.into_iter().map(|own| own.or_else(|| first.clone())).collect()
 }

@@ -13,14 +13,6 @@ pub(super) struct StoredRupture {
     pub fronts: Vec<Vec<Vec<usize>>>,
 }
 
-impl StoredRupture {
-    /// What only a model has whose films do not rupture by the penalty.
-    pub fn of(model: &ReducedModel) -> Option<Self> {
-        let cavitation = model.domain.lubricant.cavitation;
-        (cavitation != Cavitation::Penalty).then(|| Self { cavitation, fronts: Vec::new() })
-    }
-}
-
 /// Gives the windows of a model their law of rupture; `None` where it does not fit them.
 pub(super) fn rupture(model: &mut ReducedModel, StoredRupture { cavitation, fronts }: StoredRupture) -> Option<()> {
     if cavitation == Cavitation::Penalty {

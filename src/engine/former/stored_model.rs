@@ -4,7 +4,6 @@
 //! ([`super::stored_matrix`]).
 
 mod calibrations;
-pub(super) mod former_domain;
 mod oils;
 mod parts;
 mod rupture;
@@ -16,13 +15,12 @@ mod window;
 pub(super) use sound::{entries, sound_domain};
 pub(super) use window::StoredRows;
 
-use super::model_file::ModelFileError;
-use crate::host::pool::on_all_cores;
+use super::domain::{FormerDomain, Further};
+use crate::engine::rom::ModelFileError;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::{Domain, ReducedModel, Window};
-use calibrations::{StoredCalibrations, give_calibrations};
-use former_domain::{FormerDomain, Further};
+use calibrations::give_calibrations;
 use oils::{StoredOils, anchor, combined, deformations, give_coefficients, give_grid_costs};
 use parts::Parts;
 use rayon::prelude::*;
@@ -43,53 +41,13 @@ struct StoredModel {
     log: Vec<String>,
 }
 
-/// Solves each window at two of its own snapshots.
-///
-/// # Errors
-/// When a window does not give the H_c that it was trained from, or when the observer cancels.
-pub(super) fn prove(model: &ReducedModel, observer: &dyn Observer) -> Result<(), ModelFileError> {
-    let windows = model.windows.par_iter().enumerate();
-    let proved = windows.map(|(k, window)| {
-        wanted(observer)?;
-        if model.reproduces_snapshots(k) { Ok(()) } else { Err(ModelFileError::Unproven { m: window.m }) }
-    });
-    on_all_cores(|| proved.collect::<Vec<_>>()).into_iter().collect()
-}
-
 /// # Errors
 /// When the observer cancels.
 fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
     if observer.cancelled() { Err(ModelFileError::Cancelled) } else { Ok(()) }
 }
 
-/// The payload of a model file; none where the model cannot be encoded.
-pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
-    let windows = model.windows.iter().enumerate();
-    let calibrations = StoredCalibrations::of(model);
-    let mut stored = StoredModel {
-        title: model.title.clone(),
-        domain: FormerDomain {
-            m: (0.0, 0.0),
-            l: (0.0, 0.0),
-            alpha_per_pa: (0.0, 0.0),
-            max_hertz_pressure_pa: 0.0,
-            viscosity_pa_s: 0.0,
-            lubricant: model.domain.lubricant,
-            sliding: None,
-        },
-        windows: windows.map(|(k, window)| StoredWindow::of(model, k, window)).collect(),
-        scene: model.scene.clone(),
-        log: model.log.clone(),
-    };
-    if calibrations.is_none() {
-        for (stored, window) in stored.windows.iter_mut().zip(&model.windows) {
-            stored.calibration.clone_from(&window.calibration);
-        }
-    }
-    Parts::write(model, calibrations, postcard::to_allocvec(&stored).ok()?)
-}
-
-/// The model of a payload.
+/// The model of a payload; `older` where its parts have no names.
 ///
 /// # Errors
 /// When its parts do not fit each other, or when the observer cancels.
@@ -111,7 +69,6 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
         calibrations,
         snapshots,
         thermal,
-        space,
     } = parts;
     let further = Further {
         oils: oils.as_ref().map(StoredOils::domain),
@@ -120,12 +77,8 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
         thermal,
         radius_ratio: shapes.as_ref().map(|shapes| shapes.radius_ratio),
     };
-    let space = match space {
-        Some(space) => serde_json::from_str(&space).map_err(|_| damaged("its domain"))?,
-        None => former.space(further),
-    };
     let contact = windows.first().map(|window| window.grid.kind()).unwrap_or_default();
-    let mut domain = Domain { contact, space, lubricant: former.lubricant };
+    let mut domain = Domain { contact, space: former.space(further), lubricant: former.lubricant };
     domain.lubricant.heat = heat.map(|(heat, _)| heat.into());
     if !sound_domain(&domain) {
         return Err(damaged("its domain"));
@@ -157,11 +110,12 @@ pub(super) fn decode(payload: &[u8], observer: &dyn Observer) -> Result<ReducedM
     let mut schemes = schemes.unwrap_or_default();
     schemes.resize_with(windows.len(), Default::default);
     let parts = windows.into_par_iter().zip(grids).zip(deformations).zip(schemes.into_par_iter().zip(combined));
-    let parts = parts.map(|(((w, grid), deformation), further)| {
-        wanted(observer)?;
-        w.into_window(grid, &domain, deformation, further)
-    });
-    let windows: Vec<Window> = on_all_cores(|| parts.collect::<Result<_, _>>())?;
+    let windows: Vec<Window> = parts
+        .map(|(((w, grid), deformation), further)| {
+            wanted(observer)?;
+            w.into_window(grid, &domain, deformation, further)
+        })
+        .collect::<Result<_, _>>()?;
     let Some(kind) = windows.first().map(|window| window.grid.kind()) else {
         return Err(damaged("no windows"));
     };
