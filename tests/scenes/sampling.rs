@@ -60,7 +60,8 @@ fn a_cubature_of_few_rows_does_what_all_rows_do() {
 fn a_range_with_too_few_contacts_is_refused_in_a_sentence() {
     let folder = Scratch::new("few");
     folder.write("training.ron", TRAINING);
-    let scene = Scene::from_ron(&COMPARISON.replace("Load: (30.0, 45.0, Linear)", "Load: (1e9, 1e10, Linear)")).unwrap();
+    let scene =
+        Scene::from_ron(&COMPARISON.replace("Load: (30.0, 45.0, Linear)", "Load: (1e9, 1e10, Linear)")).unwrap();
     let sentence = run_scene(&scene, &mut Workbench::new(&*folder), &()).unwrap_err().to_string();
     assert!(sentence.contains("hardly any point") && sentence.contains("of 20 were found"), "{sentence}");
 }
