@@ -52,9 +52,13 @@ impl Entry for (Quantity, f64) {
     }
 }
 
-/// Writes a list as a map.
-pub(super) fn serialize<E: Entry, S: Serializer>(entries: &[E], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(entries.iter().map(Entry::split))
+/// A list that is written as a map.
+pub(super) struct Named<'a, E>(pub &'a [E]);
+
+impl<E: Entry> Serialize for Named<'_, E> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(Entry::split))
+    }
 }
 
 /// Reads a list from a map; every quantity at most once.

@@ -10,6 +10,9 @@ pub const MOST_AXES: usize = 12;
 /// Coordinates that are drawn of every space, however few axes it has.
 const FEWEST_COORDINATES: usize = 4;
 
+/// Most coordinates of a space whose corners are all drawn.
+const MOST_WITH_CORNERS: usize = 7;
+
 /// Coordinates 0…1 in the unit cube, of which a space uses as many as it has axes.
 pub type Unit = [f64; MOST_AXES];
 
@@ -31,9 +34,11 @@ impl ParameterSpace {
         self.axes.len().max(FEWEST_COORDINATES)
     }
 
-    /// Returns the corners of the unit cube along its coordinates.
+    /// Returns the corners of the unit cube along its coordinates; of more than seven coordinates the lowest corner only, since
+    /// a plan of farthest points would be made of corners alone.
     pub fn corners(&self) -> impl Iterator<Item = Unit> {
-        corners(self.coordinates())
+        let coordinates = self.coordinates();
+        corners(if coordinates > MOST_WITH_CORNERS { 0 } else { coordinates })
     }
 
     /// Returns the contact of a kind at a place of the unit cube; `None` where there is none, or a limit excludes it.

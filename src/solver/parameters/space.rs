@@ -1,11 +1,13 @@
 //! A space of contacts: the varied quantities, limits on what follows from them, fixed values.
 
 use super::axis::Axis;
+use super::named::{self, Named};
 use super::quantity::Quantity;
-use super::{named, sampling};
+use super::sampling;
 use crate::solver::limits::{Refused, interval, number};
 use crate::solver::physics::contact::{ContactKind, DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Serialize, Serializer};
 
 /// R_y/R of spaces of line contacts and of circular contacts.
 pub const CIRCLES: (f64, f64) = (1.0, 1.0);
@@ -20,22 +22,45 @@ const BEYOND_SLIDING: f64 = 2.0;
 ///
 /// A contact is given by M and L, or by R, u_m and w. Quantities that are neither varied nor fixed take the values of the
 /// default realisation ([`MoesRequest`]).
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ParameterSpace {
     /// Varied quantities, in the order in which random coordinates are drawn.
-    #[serde(with = "named")]
+    #[serde(deserialize_with = "named::deserialize")]
     pub axes: Vec<Axis>,
     /// Intervals of quantities that follow from the axes.
-    #[serde(with = "named", default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(deserialize_with = "named::deserialize", default)]
     pub limits: Vec<(Quantity, (f64, f64))>,
     /// Values that all contacts share.
-    #[serde(with = "named", default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(deserialize_with = "named::deserialize", default)]
     pub fixed: Vec<(Quantity, f64)>,
     /// Constants of lubricant and bodies that vary independently of the axes. The reduced equations contain them exactly;
     /// a basis sees some of them.
-    #[serde(with = "named", default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(deserialize_with = "named::deserialize", default)]
     pub constants: Vec<Axis>,
+}
+
+impl Serialize for ParameterSpace {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // Formats that do not describe themselves need every list every time.
+        let always = !serializer.is_human_readable();
+        let Self { axes, limits, fixed, constants } = self;
+        let written = [!limits.is_empty(), !fixed.is_empty(), !constants.is_empty()].map(|has| has || always);
+        let count = 1 + written.into_iter().filter(|has| *has).count();
+        let mut lists = serializer.serialize_struct("ParameterSpace", count)?;
+        lists.serialize_field("axes", &Named(axes))?;
+        let [limited, fixes, has_constants] = written;
+        if limited {
+            lists.serialize_field("limits", &Named(limits))?;
+        }
+        if fixes {
+            lists.serialize_field("fixed", &Named(fixed))?;
+        }
+        if has_constants {
+            lists.serialize_field("constants", &Named(constants))?;
+        }
+        lists.end()
+    }
 }
 
 impl ParameterSpace {
