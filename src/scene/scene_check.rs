@@ -1,7 +1,7 @@
 //! Everything of a scene is checked before anything is computed from it.
 
 use super::check::{Checked, number, refuse};
-use super::{Expectation, Scene, SceneError, View, Within, grid};
+use super::{Expectation, Scene, SceneError, Study, TrainedModel, View, Within, grid};
 use crate::solver::limits::plain;
 use crate::solver::physics::contact::{OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
@@ -29,6 +29,10 @@ impl Scene {
             .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
         grid::check(&self.grid, self.contact)?;
         self.study.check(&self.experiment())?;
+        if self.training == TrainedModel::Embedded && !matches!(self.study, Study::Training(_) | Study::Transient(_)) {
+            let problem = "is `Embedded`, but only the studies Training and Transient train such models";
+            return Err(refuse("training", problem).into());
+        }
         self.view.iter().try_for_each(view)?;
         self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))?;
         Ok(())
@@ -71,7 +75,7 @@ fn expectation(index: usize, entry: &Expectation) -> Checked {
 mod tests {
     use super::*;
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
-    use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study};
+    use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps};
     use crate::solver::physics::lubricant::{Cavitation, Heat};
 
     #[test]
@@ -99,6 +103,7 @@ mod tests {
         let warm = Scene { heat: Some(Heat::default()), ..full };
         warm.check().unwrap();
         assert_eq!(Scene::from_ron(&warm.to_ron().unwrap()).unwrap(), warm);
+        assert!(message(Scene { training: TrainedModel::Embedded, ..good.clone() }).contains("training"));
         let huge = Study::Sweep(sweep::Sweep {
             over: vec![Axis { vary: Quantity::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],
