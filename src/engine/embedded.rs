@@ -7,7 +7,7 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::ReducedModel;
 use crate::solver::reduced::transient::TrajectoryModel;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// One of them, by what it is for. Each is trained by a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,7 +117,7 @@ impl Embedded {
         }
     }
 
-    /// The model. That its parts belong together was proved when it was tested, and is not proved anew.
+    /// The model, which is read once. A test proves that its parts belong together; reading does not prove it again.
     ///
     /// # Errors
     /// When the program was built with a damaged asset.
@@ -130,7 +130,22 @@ impl Embedded {
     /// # Errors
     /// As [`Self::model`], and when the observer cancels.
     pub(super) fn model_watched(self, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
-        model_file::from_own_bytes(self.bytes(), observer).map(Arc::new)
+        static READ: Mutex<Vec<(Embedded, Arc<ReducedModel>)>> = Mutex::new(Vec::new());
+        // A thread that panicked leaves a whole list.
+        let read = || READ.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = |read: &[(Self, Arc<ReducedModel>)]| {
+            read.iter().find(|(which, _)| *which == self).map(|(_, model)| Arc::clone(model))
+        };
+        if let Some(model) = known(&read()) {
+            return Ok(model);
+        }
+        let model = model_file::from_own_bytes(self.bytes(), observer).map(Arc::new)?;
+        let mut read = read();
+        // If another thread has read it in the meantime, everybody gets that one.
+        Ok(known(&read).unwrap_or_else(|| {
+            read.push((self, Arc::clone(&model)));
+            model
+        }))
     }
 }
 
