@@ -1,11 +1,36 @@
 //! Small trainings, which tests make of many things.
 
 use super::{
-    HeatedOilRange, HeatedRange, OilRange, Plan, QuantityBox, Range, SlidingOilRange, TrainingSpec, WindowSpec, Windows,
+    HeatedOilRange, HeatedRange, OilRange, Plan, QuantityBox, Range, SlidingOilRange, TrainingSpec, WindowSpec,
+    Windows, train,
 };
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant, ShearLaw};
-use crate::solver::reduced::{CIRCLES, Sampling, ThermalDomain};
+use crate::solver::reduced::{CIRCLES, ReducedModel, Sampling, ThermalDomain};
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::sync::{Arc, Mutex, OnceLock};
+
+/// Values that are made once for all tests of this program, by what they are made from.
+pub(crate) struct Made<T>(Mutex<BTreeMap<String, Arc<OnceLock<Arc<T>>>>>);
+
+impl<T> Made<T> {
+    pub(crate) const fn new() -> Self {
+        Self(Mutex::new(BTreeMap::new()))
+    }
+
+    /// The value made from `what`. A second test that needs it waits for the first one.
+    pub(crate) fn of(&self, what: &impl Debug, make: impl FnOnce() -> T) -> Arc<T> {
+        let once = Arc::clone(self.0.lock().unwrap().entry(format!("{what:?}")).or_default());
+        Arc::clone(once.get_or_init(|| Arc::new(make())))
+    }
+}
+
+/// The model of a specification.
+pub(crate) fn trained(spec: &TrainingSpec) -> Arc<ReducedModel> {
+    static MODELS: Made<ReducedModel> = Made::new();
+    MODELS.of(spec, || train(spec, &()).unwrap())
+}
 
 /// A grid of point contacts on which a full solve takes milliseconds.
 pub(crate) const POINT_GRID: PointGridSpec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
@@ -253,6 +278,21 @@ pub(crate) fn heated_ellipses(sampling: Sampling, snapshots: usize) -> TrainingS
     let windows =
         Windows::Anchored { count: 1, modes: 40, grid, shared: 0, missing: 0.0, missing_of_any: 0.0, divided_by: 0 };
     TrainingSpec { range: Range::HeatedOils(HeatedOilRange { oils, ..range }), windows, pressure_loss: 1e-7, ..lines }
+}
+
+/// Line contacts with heat whose model has error bounds. Most tests of heat share this model, as training it is expensive.
+pub(crate) fn heated_bounded() -> TrainingSpec {
+    TrainingSpec { evidence: 110, ..heated(Sampling::Cubature, 30) }
+}
+
+/// The same of many oils.
+pub(crate) fn heated_oils_bounded() -> TrainingSpec {
+    TrainingSpec { evidence: 120, ..heated_oils(Sampling::Cubature, 130) }
+}
+
+/// The same of elliptical contacts.
+pub(crate) fn heated_ellipses_bounded() -> TrainingSpec {
+    TrainingSpec { evidence: 100, ..heated_ellipses(Sampling::Cubature, 90) }
 }
 
 /// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.
