@@ -13,7 +13,7 @@ pub struct BenchArgs {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// Fewer points; done within 40 s
+    /// Fewer points; done within 25 s
     #[arg(long)]
     quick: bool,
 }

@@ -19,7 +19,8 @@ pub struct RunArgs {
     /// The scenes
     #[arg(value_name = "SCENE.ron", required_unless_present = "all", conflicts_with = "all")]
     pub(super) scenes: Vec<PathBuf>,
-    /// Run every scene below a folder and keep RESULTS.md there, the page of what came of them; takes hours
+    /// Run every scene below a folder and keep RESULTS.md there, the page of what came of them; takes hours. Scenes marked
+    /// `training: Embedded` run only if --only gives their place
     #[arg(long)]
     pub(super) all: bool,
     /// Of all scenes run those marked `quick: true` only, in a few minutes, and leave RESULTS.md as it is

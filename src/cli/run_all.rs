@@ -1,4 +1,6 @@
 //! `run --all`: every scene below a folder, and the page of what came of them.
+//!
+//! Scenes that train embedded models are left out unless `--only` names them: their models are retrained one at a time.
 
 use super::failure::Failure;
 use super::output;
@@ -9,7 +11,7 @@ use crate::engine::{
     Store,
     job::{JobError, guarded},
 };
-use crate::scene::atomic_file;
+use crate::scene::{TrainedModel, atomic_file};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -18,10 +20,14 @@ use std::path::{Path, PathBuf};
 pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     let folder = &args.folder;
     let all = scenes_below(folder)?;
-    let chosen: Vec<&SceneFile> = all.iter().filter(|file| wanted(file, args)).collect();
+    let (chosen, left_out): (Vec<&SceneFile>, Vec<&SceneFile>) =
+        all.iter().filter(|file| selected(file, args)).partition(|file| !embeds(file) || named(file, args));
     if chosen.is_empty() {
         let what = match (all.is_empty(), args.only.is_empty(), args.quick) {
             (true, _, _) => "no scene (.ron) lies below",
+            _ if !left_out.is_empty() => {
+                "only scenes that train embedded models, each of which --only must name, lie below"
+            }
             (_, true, _) => "no scene is marked `quick: true` below",
             (_, _, false) => "no place of a scene begins with what --only says below",
             (_, _, true) => "no scene that --only names is marked `quick: true` below",
@@ -57,14 +63,30 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
         atomic_file::replace(&target, page(&all, &recorded(&target)).as_bytes())?;
         sentence = format!("{sentence}; see {}", target.display());
     }
+    match left_out.len() {
+        0 => {}
+        1 => sentence += "; 1 scene that trains an embedded model did not run, --only can name it",
+        n => sentence += &format!("; {n} scenes that train embedded models did not run, --only can name them"),
+    }
     output::complain(&sentence);
     Ok(if entries.iter().all(Entry::passed) { Verdict::Done } else { Verdict::FellShort })
 }
 
-/// Whether a scene is to be run at all.
-fn wanted(file: &SceneFile, args: &RunArgs) -> bool {
-    let named = args.only.is_empty() || args.only.iter().any(|place| file.place.starts_with(place.as_str()));
-    named && (file.scene.quick || !args.quick)
+/// Whether the options select a scene.
+fn selected(file: &SceneFile, args: &RunArgs) -> bool {
+    let below = args.only.is_empty() || args.only.iter().any(|place| file.place.starts_with(place.as_str()));
+    below && (file.scene.quick || !args.quick)
+}
+
+/// Whether a scene trains an embedded model.
+fn embeds(file: &SceneFile) -> bool {
+    file.scene.training == TrainedModel::Embedded
+}
+
+/// Whether `--only` gives a scene's whole place, with or without `.ron`.
+fn named(file: &SceneFile, args: &RunArgs) -> bool {
+    let place = file.place.strip_suffix(".ron").unwrap_or(&file.place);
+    args.only.iter().any(|only| only.strip_suffix(".ron").unwrap_or(only) == place)
 }
 
 /// What the page says, if there is one. It is read anew each time: others may run scenes of the same folder.
@@ -110,6 +132,50 @@ mod tests {
         )
     }
 
+    fn below(scenes: &Path) -> RunArgs {
+        RunArgs {
+            scenes: Vec::new(),
+            all: true,
+            quick: false,
+            folder: scenes.to_owned(),
+            only: Vec::new(),
+            resume: false,
+            since: None,
+            out: None,
+            json: false,
+        }
+    }
+
+    #[test]
+    fn a_scene_that_trains_an_embedded_model_runs_if_it_is_named_and_its_row_outlives_other_runs() {
+        let folder = tempfile::tempdir().unwrap();
+        let scenes = folder.path();
+        std::fs::create_dir(scenes.join("training")).unwrap();
+        std::fs::write(scenes.join("training/short.ron"), scene(true, "Reduced()", 0.0)).unwrap();
+        let march =
+            "Transient(inputs: (load: Harmonic(amplitude: 0.1, period: 4.0)), duration: 0.1, time_step: Fixed(0.05))";
+        let march = format!(
+            "Scene(version: 1, title: \"t\", training: Embedded, at: Moes(m: 10.0, l: 5.0), \
+             grid: Uniform(dx: 0.05, domain: (-4.0, 2.0)), study: {march})"
+        );
+        std::fs::write(scenes.join("training/march.ron"), &march).unwrap();
+        let only = |place: &str| RunArgs { only: vec![place.to_owned()], ..below(scenes) };
+        let page = || std::fs::read_to_string(scenes.join(PAGE)).unwrap();
+        let without = "1 scene with 1 expectation: all hold. 1 scene has not run as it is now.";
+        for args in [below(scenes), only("training")] {
+            assert_eq!(run(&args).unwrap(), Verdict::Done);
+            assert!(page().contains(without), "{}", page());
+        }
+        assert!(format!("{:?}", run(&only("training/m")).unwrap_err()).contains("train embedded models"));
+        for place in ["training/march", "training/march.ron"] {
+            std::fs::remove_file(scenes.join(PAGE)).unwrap();
+            assert_eq!(run(&only(place)).unwrap(), Verdict::Done);
+            assert!(page().contains("](training/march.ron) |  | every solve converges | yes | ok |"), "{}", page());
+        }
+        assert_eq!(run(&below(scenes)).unwrap(), Verdict::Done);
+        assert!(page().contains("2 scenes with 2 expectations: all hold.\n"), "{}", page());
+    }
+
     #[test]
     fn every_scene_is_run_whatever_became_of_the_others_and_a_quick_run_leaves_the_page() {
         let folder = tempfile::tempdir().unwrap();
@@ -119,17 +185,7 @@ mod tests {
         write("line/good.ron", scene(true, "Reduced()", 0.0));
         write("line/no_model.ron", scene(false, "Reduced(model: File(\"none.rom\"))", 0.0));
         write("short.ron", scene(false, "Reduced()", 1e9));
-        let args = |quick, resume| RunArgs {
-            scenes: Vec::new(),
-            all: true,
-            quick,
-            folder: scenes.clone(),
-            only: Vec::new(),
-            resume,
-            since: None,
-            out: Some(out.clone()),
-            json: false,
-        };
+        let args = |quick, resume| RunArgs { quick, resume, out: Some(out.clone()), ..below(&scenes) };
         assert_eq!(run(&args(true, false)).unwrap(), Verdict::Done);
         assert!(!scenes.join(PAGE).exists());
         assert_eq!(run(&args(false, false)).unwrap(), Verdict::FellShort);

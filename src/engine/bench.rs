@@ -39,20 +39,20 @@ pub const POINT_BASELINE: &str = "point/full/cold";
 pub const TRANSIENT_BASELINE: &str = "line/transient/full-step";
 
 /// The dense baseline may take this long; at least three runs are made whatever they take.
-const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(10)];
+const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(4)];
 /// Each other row stops drawing further points after this.
-const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(8)];
+const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(3)];
 /// Points of the full rows and of the reduced row.
-const FULL_POINTS: [usize; 2] = [400, 120];
+const FULL_POINTS: [usize; 2] = [400, 60];
 const REDUCED_POINTS: [usize; 2] = [10_000, 1_000];
-const BASELINE_POINTS: [usize; 2] = [40, 12];
+const BASELINE_POINTS: [usize; 2] = [40, 6];
 /// Shear-thinning line contacts, of either kind for their reduced models, and how many of these have a traction curve.
-const SHEAR_POINTS: [usize; 2] = [150, 40];
+const SHEAR_POINTS: [usize; 2] = [150, 20];
 const REDUCED_SHEAR_POINTS: [usize; 2] = [1000, 150];
-const CURVES: [usize; 2] = [50, 20];
+const CURVES: [usize; 2] = [50, 8];
 /// Point contacts: solves, and the time after which no further ones are begun.
-const POINT_POINTS: [usize; 2] = [50, 8];
-const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(5)];
+const POINT_POINTS: [usize; 2] = [50, 4];
+const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(2)];
 /// The trajectory-piecewise-linear model of the same march.
 const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
 /// Modes of local bases along that march, and how many bases.
@@ -95,7 +95,7 @@ pub struct Bench {
 /// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, and of
 /// Table 3.6's ranges for shear-thinning ones: the same points for every row of a kind.
 ///
-/// `quick` takes fewer points and ends within 40 s.
+/// `quick` takes fewer points and ends within 25 s.
 ///
 /// # Errors
 /// When a solver refuses a point of the box, which it never should.

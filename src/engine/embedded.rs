@@ -4,7 +4,7 @@ use super::rom::{self, Catalogue, ModelFileError};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel};
-use std::sync::{Arc, LazyLock, OnceLock};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 
 /// The steady models by name, each with the content of its file. Scenes in `scenes/training` train them.
 const MODELS: [(&str, &[u8]); 11] = [
@@ -52,13 +52,28 @@ pub fn embedded(name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
     embedded_watched(name, &())
 }
 
-/// The same while an observer watches.
+/// [`embedded`] while an observer watches. Each model is read once.
 ///
 /// # Errors
 /// As [`embedded`], and when the observer cancels.
 pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
+    static READ: Mutex<Vec<(String, Arc<ReducedModel>)>> = Mutex::new(Vec::new());
+    // A thread that panicked leaves a whole list.
+    let read = || READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = |read: &[(String, Arc<ReducedModel>)]| {
+        read.iter().find(|(known, _)| known == name).map(|(_, model)| Arc::clone(model))
+    };
+    if let Some(model) = known(&read()) {
+        return Ok(model);
+    }
     let bytes = bytes_of(name).ok_or(ModelFileError::Foreign)?;
-    rom::from_own_bytes(bytes, observer)?.stationary()
+    let model = rom::from_own_bytes(bytes, observer)?.stationary()?;
+    let mut read = read();
+    // If another thread has read it in the meantime, everybody gets that one.
+    Ok(known(&read).unwrap_or_else(|| {
+        read.push((name.to_owned(), Arc::clone(&model)));
+        model
+    }))
 }
 
 /// The content of the file of the model in time.

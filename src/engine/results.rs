@@ -6,7 +6,8 @@
 use super::SceneOutcome;
 use super::table::significant;
 use crate::host::clock::today;
-use crate::scene::{Scene, SceneFileError, Verdict};
+use crate::scene::{Expectation, Scene, SceneFileError, Verdict};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -61,61 +62,61 @@ fn find(folder: &Path, paths: &mut Vec<PathBuf>) -> Result<(), SceneFileError> {
     Ok(())
 }
 
-/// What the page says of one scene that ran.
+/// Row group of the page: one scene that ran.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     place: String,
-    /// Of the scene that ran.
+    /// [`hash`] of the scene that ran.
     hash: u64,
     day: Date,
-    expectations: usize,
-    short: usize,
-    /// Lines of the table.
-    rows: String,
+    lines: Vec<Line>,
+}
+
+/// One line of an entry. Texts are cells of the page, with `|` escaped.
+#[derive(Clone, Debug, PartialEq)]
+struct Line {
+    wanted: String,
+    value: String,
+    holds: bool,
+}
+
+impl Line {
+    fn new(wanted: &str, value: &str, holds: bool) -> Self {
+        Self { wanted: cell(wanted), value: cell(value), holds }
+    }
 }
 
 impl Entry {
-    /// What is to be said of a scene that ran today, or of one that could not, with the reason.
+    /// Entry of a scene that ran today, or of one that could not run, with the reason.
     pub fn new(file: &SceneFile, outcome: &Result<SceneOutcome, impl Display>) -> Self {
         let (place, hash, day) = (file.place.clone(), hash(&file.scene), today());
-        let mut entry = Self { place, hash, day, expectations: 0, short: 0, rows: String::new() };
+        let mut lines = Vec::new();
         match outcome {
             Ok(outcome) => {
-                for Verdict { expected, value, holds } in &outcome.verdicts {
-                    let method =
-                        expected.method.as_ref().map_or(String::new(), |method| format!(" ({})", method.name()));
-                    let mut wanted = format!("`{}`{method}: {}", expected.name, expected.wanted());
-                    if !expected.from.is_empty() {
-                        wanted = format!("{wanted}; {}", expected.from);
-                    }
+                lines.extend(outcome.verdicts.iter().map(|Verdict { expected, value, holds }| {
                     let value = value.map_or("no such value".to_owned(), |value| significant(value, 4));
-                    entry.push(file, &wanted, &value, *holds);
-                }
-                if outcome.verdicts.is_empty() || (entry.short == 0 && !outcome.passed()) {
+                    Line::new(&wanted(expected), &value, *holds)
+                }));
+                if lines.is_empty() || (lines.iter().all(|line| line.holds) && !outcome.passed()) {
                     let converged = if outcome.found.converged { "yes" } else { "no" };
-                    entry.push(file, "every solve converges", converged, outcome.passed());
+                    lines.push(Line::new("every solve converges", converged, outcome.passed()));
                 }
             }
-            Err(why) => entry.push(file, "it runs", &why.to_string(), false),
+            Err(why) => lines.push(Line::new("it runs", &why.to_string(), false)),
         }
-        entry
-    }
-
-    /// Adds a line, with the scene, its source and the run in the first one only.
-    fn push(&mut self, file: &SceneFile, wanted: &str, value: &str, holds: bool) {
-        let verdict = if holds { "ok" } else { SHORT };
-        let run = format!("{} <!-- {:016x} -->", self.day, self.hash);
-        self.rows += &row(file, self.rows.is_empty().then_some(&*run), wanted, value, verdict);
-        self.expectations += 1;
-        self.short += usize::from(!holds);
+        Self { place, hash, day, lines }
     }
 
     /// Whether every expectation holds.
     pub fn passed(&self) -> bool {
-        self.short == 0
+        self.short() == 0
     }
 
-    /// Whether it belongs to the scene as it is now.
+    fn short(&self) -> usize {
+        self.lines.iter().filter(|line| !line.holds).count()
+    }
+
+    /// Whether the entry belongs to the scene as it is now: same place, same [`meaning`].
     pub fn belongs(&self, file: &SceneFile) -> bool {
         self.place == file.place && self.hash == hash(&file.scene)
     }
@@ -125,27 +126,48 @@ impl Entry {
         self.day >= day
     }
 
-    /// Reads the first line of an entry; `None` where it is of a scene that has not run, or of no scene at all.
-    fn begin(line: &str) -> Option<Self> {
-        let cells: Vec<_> = line.strip_prefix("| ")?.strip_suffix(" |")?.split(" | ").collect();
+    /// Reads place, hash and day from the first line of an entry; `None` if the scene has not run, or for any other line.
+    fn begin(cells: &[&str]) -> Option<Self> {
         let place = cells.first()?.rsplit_once("](")?.1.strip_suffix(')')?.to_owned();
         let (day, hash) = cells.last()?.strip_suffix(" -->")?.split_once(" <!-- ")?;
         let (day, hash) = (day_of(day)?, u64::from_str_radix(hash, 16).ok()?);
-        Some(Self { place, hash, day, expectations: 0, short: 0, rows: String::new() })
+        Some(Self { place, hash, day, lines: Vec::new() })
+    }
+
+    /// Lines of the page. Title, source and the origin of each expected value are those of the scene as it is now.
+    fn rows(&self, file: &SceneFile) -> String {
+        let run = format!("{} <!-- {:016x} -->", self.day, self.hash);
+        let mut expected = file.scene.expect.iter().map(|expected| cell(&wanted(expected)));
+        let mut rows = String::new();
+        for (i, line) in self.lines.iter().enumerate() {
+            let current = if line.wanted.starts_with('`') { expected.next() } else { None };
+            let verdict = if line.holds { "ok" } else { SHORT };
+            let run = (i == 0).then_some(&*run);
+            rows += &row(file, run, current.as_ref().unwrap_or(&line.wanted), &line.value, verdict);
+        }
+        rows
     }
 }
 
 /// What stands for a verdict that is none too good.
 const SHORT: &str = "**short**";
 
-/// A line of a page's table; what a scene's first line alone says is there where the run is.
+/// What an expectation asks for: `` `H_c` (full): 0.04 ± 1e-3; Table 2.1 ``.
+fn wanted(expected: &Expectation) -> String {
+    let method = expected.method.as_ref().map_or(String::new(), |method| format!(" ({})", method.name()));
+    let wanted = format!("`{}`{method}: {}", expected.name, expected.wanted());
+    if expected.from.is_empty() { wanted } else { format!("{wanted}; {}", expected.from) }
+}
+
+/// A line of a page's table, of texts that are cells already. `run` stands in the first line of a scene only, with title
+/// and source.
 fn row(file: &SceneFile, run: Option<&str>, wanted: &str, value: &str, verdict: &str) -> String {
     let (title, source) = match run {
         Some(_) => (format!("[{}]({})", cell(&file.scene.title), file.place), cell(&file.scene.source)),
         None => Default::default(),
     };
     let run = run.unwrap_or_default();
-    format!("| {title} | {source} | {} | {} | {verdict} | {run} |\n", cell(wanted), cell(value))
+    format!("| {title} | {source} | {wanted} | {value} | {verdict} | {run} |\n")
 }
 
 /// A day as `2026-11-29`.
@@ -158,8 +180,10 @@ pub fn entries_of(page: &str) -> BTreeMap<String, Entry> {
     let mut entries: BTreeMap<String, Entry> = BTreeMap::new();
     let mut at = None;
     for line in page.lines() {
+        let inside = line.strip_prefix("| ").and_then(|line| line.strip_suffix(" |")).unwrap_or_default();
+        let cells: Vec<_> = inside.split(" | ").collect();
         if line.starts_with("| [") {
-            at = Entry::begin(line).map(|entry| {
+            at = Entry::begin(&cells).map(|entry| {
                 let place = entry.place.clone();
                 entries.insert(place.clone(), entry);
                 place
@@ -167,17 +191,62 @@ pub fn entries_of(page: &str) -> BTreeMap<String, Entry> {
         } else if !line.starts_with("|  |") {
             at = None;
         }
-        if let Some(entry) = at.as_ref().and_then(|place| entries.get_mut(place)) {
-            entry.rows.extend([line, "\n"]);
-            entry.expectations += 1;
-            entry.short += usize::from(line.contains(&format!(" | {SHORT} | ")));
+        if let Some(entry) = at.as_ref().and_then(|place| entries.get_mut(place))
+            && let [_, _, wanted, value, verdict, _] = cells[..]
+        {
+            entry.lines.push(Line { wanted: wanted.to_owned(), value: value.to_owned(), holds: verdict != SHORT });
         }
     }
     entries
 }
 
+/// Hash of a scene's [`meaning`].
 fn hash(scene: &Scene) -> u64 {
-    xxh3_64(scene.to_ron().unwrap_or_default().as_bytes())
+    xxh3_64(meaning(scene).to_string().as_bytes())
+}
+
+/// What a scene computes and expects, in one form however it is spelled: keys sorted, fields without a value left out,
+/// numbers as `f64`. An entry of the page belongs to every scene of the same meaning.
+///
+/// Fields that change neither values nor verdicts are left out: version, titles, sources, the explorer's view and the
+/// marks that choose which scenes `run --all` runs.
+pub fn meaning(scene: &Scene) -> Value {
+    let mut form = serde_json::to_value(scene).unwrap_or_default();
+    if let Value::Object(fields) = &mut form {
+        for name in ["version", "title", "source", "quick", "training", "view"] {
+            fields.remove(name);
+        }
+    }
+    if let Some(Value::Object(training)) = form.pointer_mut("/study/Training") {
+        training.remove("title");
+    }
+    for expected in form.pointer_mut("/expect").and_then(Value::as_array_mut).into_iter().flatten() {
+        if let Value::Object(fields) = expected {
+            fields.remove("from");
+        }
+    }
+    unify(&mut form);
+    form.sort_all_objects();
+    form
+}
+
+/// Removes fields without a value and writes numbers in one form.
+fn unify(form: &mut Value) {
+    match form {
+        Value::Object(fields) => {
+            fields.retain(|_, value| !value.is_null());
+            fields.values_mut().for_each(unify);
+        }
+        Value::Array(values) => values.iter_mut().for_each(unify),
+        Value::Number(number) => {
+            // Adding zero removes the sign of -0. Integers that no `f64` holds stay as they are.
+            let exact = number.as_u64().is_none_or(|integer| integer <= 1 << f64::MANTISSA_DIGITS);
+            if let Some(value) = number.as_f64().filter(|_| exact) {
+                *form = Value::from(value + 0.0);
+            }
+        }
+        Value::Null | Value::Bool(_) | Value::String(_) => {}
+    }
 }
 
 /// Text that does not end its cell.
@@ -189,7 +258,7 @@ fn cell(text: &str) -> String {
 pub fn summary<'a>(entries: impl IntoIterator<Item = &'a Entry>) -> String {
     let (mut scenes, mut expectations, mut short) = (0, 0, 0);
     for entry in entries {
-        (scenes, expectations, short) = (scenes + 1, expectations + entry.expectations, short + entry.short);
+        (scenes, expectations, short) = (scenes + 1, expectations + entry.lines.len(), short + entry.short());
     }
     let short = match short {
         0 => "all hold".to_owned(),
@@ -227,7 +296,7 @@ pub fn page(files: &[SceneFile], entries: &BTreeMap<String, Entry>) -> String {
         );
         for file in files {
             match entry(file) {
-                Some(entry) => text += &entry.rows,
+                Some(entry) => text += &entry.rows(file),
                 None => text += &row(file, Some(""), "it runs", "not yet", ""),
             }
         }
@@ -238,7 +307,7 @@ pub fn page(files: &[SceneFile], entries: &BTreeMap<String, Entry>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Expectation, Method, Within};
+    use crate::scene::{Method, Within};
 
     fn file(place: &str) -> SceneFile {
         SceneFile { path: place.into(), place: place.to_owned(), scene: Scene::at_moes(40.0, 10.0) }
@@ -303,13 +372,49 @@ mod tests {
         let read = entries_of(&first);
         assert_eq!(read, entries);
         assert_eq!(page(&files, &read), first);
-        assert!(read.get("line/b.ron").is_some_and(|entry| (entry.expectations, entry.short) == (2, 1)));
+        assert!(read.get("line/b.ron").is_some_and(|entry| (entry.lines.len(), entry.short()) == (2, 1)));
 
         let entry = &read["time/a.ron"];
         let other = SceneFile { scene: Scene::at_moes(41.0, 10.0), ..files[2].clone() };
         assert!(entry.belongs(&files[2]) && !entry.belongs(&other) && !entry.belongs(&files[3]));
         assert!(page(&[other], &read).contains("1 scene has not run as it is now"));
         assert!(entry.ran_since(entry.day) && !entry.ran_since(entry.day.next_day().unwrap()));
+    }
+
+    #[test]
+    fn an_entry_outlives_another_spelling_of_its_scene_and_the_page_has_the_new_titles() {
+        let text = |fields: &str| format!("Scene(version: 1, {fields})");
+        let of = |fields: &str| Scene::from_ron(&text(fields)).unwrap();
+        let old = of(
+            r#"title: "a", study: Sweep(over: [(vary: Alpha, values: Log(from: 5e-9, to: 2e-8, n: 3))], methods: [Full]),
+            at: Si(radius: 0.02, speed: 5, load: 1e6, modulus: 2.2e11, viscosity: 0.004, alpha: 2.2e-8),
+            expect: [(name: "H_c", within: AtMost(1), from: "b")]"#,
+        );
+        let same =
+            of(r#"expect: [(name: "H_c", method: None, within: AtMost(1.0), from: "other")], source: "s", quick: true,
+            srr: -0.0, lubricant: (), contact: Line, title: "new title", view: (),
+            at: Si(alpha: 0.22e-7, radius: 2e-2, speed: 5.0, load: 1000000.0, modulus: 220e9, viscosity: 4e-3),
+            study: Sweep(methods: [Full], over: [(vary: Alpha, values: Log(to: 20e-9, from: 0.5e-8, n: 3))])"#);
+        assert_eq!(meaning(&same).to_string(), meaning(&old).to_string());
+        let (mut first, mut second) = (file("line/a.ron"), file("line/a.ron"));
+        (first.scene, second.scene) = (old.clone(), same);
+        let verdicts = vec![Verdict { expected: old.expect[0].clone(), value: Some(0.5), holds: true }];
+        let outcome: Result<_, String> = Ok(SceneOutcome { verdicts, ..SceneOutcome::default() });
+        let entry = Entry::new(&first, &outcome);
+        assert!(entry.belongs(&second));
+        let page = page(&[second], &record([entry.clone()]));
+        assert!(page.contains("| [new title](line/a.ron) | s | `H_c`: at most 1.0; other | 0.5000 | ok |"), "{page}");
+
+        let mut others = vec![old.clone(); 5];
+        others[0].srr = 0.1;
+        others[1].expect[0].within = Within::AtMost(2.0);
+        others[2].expect[0].method = Some(Method::Full);
+        others[3].expect.clear();
+        others[4].failures_expected = true;
+        for other in others {
+            first.scene = other;
+            assert!(!entry.belongs(&first), "{:?}", first.scene);
+        }
     }
 
     #[test]

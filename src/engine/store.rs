@@ -20,7 +20,7 @@ const KEPT_LINES: usize = 6;
 /// The same of point contacts: a quick grid, the chosen one and a second one. Each solver may hold some hundred
 /// megabytes.
 const KEPT_POINTS: usize = 3;
-/// Reduced models kept beside those in the program: a model of some windows has some ten megabytes.
+/// Reduced models kept in addition to those in the program: a model of some windows has some ten megabytes.
 const KEPT_MODELS: usize = 12;
 /// Idle reduced solvers kept at a time.
 const KEPT_ONLINE: usize = 8;
@@ -41,8 +41,6 @@ struct Shelves {
 /// What a reduced model was made from, by which it is known again.
 #[derive(Clone, PartialEq)]
 enum Origin {
-    /// It is part of the program.
-    Embedded(String),
     /// A file as it was at a time, and its size.
     File(PathBuf, Option<FileTime>, u64),
     /// Trained.
@@ -96,13 +94,13 @@ impl Store {
         self.embedded_watched(name, &())
     }
 
-    /// The same while an observer watches: reading takes a tenth of a second and more.
+    /// The same while an observer watches: reading takes a tenth of a second and more. All stores share these models.
     pub(super) fn embedded_watched(
         &self,
         name: &str,
         observer: &dyn Observer,
     ) -> Result<Arc<ReducedModel>, ModelFileError> {
-        made_once(&self.0.models, Origin::Embedded(name.to_owned()), || embedded::embedded_watched(name, observer))
+        embedded::embedded_watched(name, observer)
     }
 
     /// The reduced model of a file; read again where the file was changed.
@@ -198,8 +196,7 @@ fn made_once<M, E>(
         // Another thread has made it meanwhile: everybody gets the first.
         return Ok(first);
     }
-    let passing = |(origin, _): &(Origin, _)| !matches!(origin, Origin::Embedded(..));
-    keep(shelf, (origin, Arc::clone(&made)), passing, KEPT_MODELS);
+    keep(shelf, (origin, Arc::clone(&made)), |_| true, KEPT_MODELS);
     Ok(made)
 }
 

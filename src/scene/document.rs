@@ -27,6 +27,16 @@ pub const MAX_BYTES: u64 = 4 << 20;
 /// How far the α of a scene may lie from the one that a viscosity law determines and still count as the same, rounded.
 const ROUNDED_ALPHA: f64 = 1e-3;
 
+/// Use of the model that a scene trains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TrainedModel {
+    /// A file of its own.
+    #[default]
+    Separate,
+    /// Part of the program.
+    Embedded,
+}
+
 /// An experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -74,6 +84,9 @@ pub struct Scene {
     /// fails lets the scene fall short.
     #[serde(default, skip_serializing_if = "is_default")]
     pub failures_expected: bool,
+    /// Use of the model that the scene trains. `run --all` runs a scene that trains an embedded model only if it is named.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub training: TrainedModel,
     /// What the explorer keeps with it; results do not depend on it.
     #[serde(default, skip_serializing_if = "is_default")]
     pub view: Option<View>,
@@ -98,6 +111,7 @@ impl Scene {
             expect: Vec::new(),
             quick: false,
             failures_expected: false,
+            training: TrainedModel::Separate,
             view: None,
         }
     }

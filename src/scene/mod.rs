@@ -54,7 +54,7 @@ pub use contact_result::{
 };
 pub use contact_spec::{ContactSpec, Domain, Facts, Field, Measure, MethodName, OilGrade, Refusal, ShearName, Words};
 pub use contact_sweep::{ContactSweep, Swept, Varied};
-pub use document::Scene;
+pub use document::{Scene, TrainedModel};
 pub use error::{Reason, RunError, SceneError, SceneFileError, VERSION};
 pub use expectation::{Expectation, Within};
 pub use experiment::Experiment;

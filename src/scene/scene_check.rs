@@ -1,10 +1,11 @@
 //! Everything of a scene is checked before anything is computed from it.
 
 use super::check::{Checked, number, refuse};
-use super::document::Scene;
+use super::document::{Scene, TrainedModel};
 use super::error::SceneError;
 use super::expectation::{Expectation, Within};
 use super::grid;
+use super::study::Study;
 use super::view::View;
 use crate::solver::limits::plain;
 use crate::solver::parameters::Quantity;
@@ -34,6 +35,10 @@ impl Scene {
             .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
         grid::check(&self.grid, self.contact)?;
         self.study.check(&self.experiment())?;
+        if self.training == TrainedModel::Embedded && !matches!(self.study, Study::Training(_) | Study::Transient(_)) {
+            let problem = "is `Embedded`, but only the studies Training and Transient train such models";
+            return Err(refuse("training", problem).into());
+        }
         self.view.iter().try_for_each(view)?;
         self.expect.iter().enumerate().try_for_each(|(i, entry)| expectation(i, entry))?;
         Ok(())
@@ -76,7 +81,7 @@ fn expectation(index: usize, entry: &Expectation) -> Checked {
 mod tests {
     use super::*;
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
-    use crate::scene::{At, Axis, Contacts, Grid, Method, Steps, Study};
+    use crate::scene::{At, Axis, Contacts, Grid, Method, Steps};
     use crate::solver::parameters::ParameterSpace;
     use crate::solver::physics::lubricant::{Cavitation, Heat};
 
@@ -105,6 +110,7 @@ mod tests {
         let warm = Scene { heat: Some(Heat::default()), ..full };
         warm.check().unwrap();
         assert_eq!(Scene::from_ron(&warm.to_ron().unwrap()).unwrap(), warm);
+        assert!(message(Scene { training: TrainedModel::Embedded, ..good.clone() }).contains("training"));
         let huge = Study::Sweep(sweep::Sweep {
             over: vec![Axis { vary: Quantity::M, values: Steps::Log { from: 1.0, to: 9.0, n: usize::MAX } }],
             methods: vec![Method::Full],

@@ -9,7 +9,7 @@ use ehl_explorer::engine::{Workbench, run_scene};
 fn cancelled_studies_return_within_a_tenth_of_a_second() {
     for (name, moments) in [
         ("random_test_embedded", &[20, 200, 700][..]),
-        ("fig_3_14_line", &[20, 300]),
+        ("fig_3_14_line", &[20, 200]),
         ("fig_2_6_right", &[20, 300]),
         ("fig_4_17_quick", &[20, 300, 700]),
         ("convergence_table_3_4", &[100, 400]),

@@ -1,5 +1,6 @@
 //! The embedded reduced model of point contacts against full solutions on its own grid.
 
+use crate::common::cases::cases;
 use ehl_explorer::engine::embedded;
 use ehl_explorer::engine::{median, percentile};
 use ehl_explorer::solver::full::{ContactSolver, Start};
@@ -36,7 +37,8 @@ fn its_films_lie_near_full_solutions() {
     let mut online = online();
     let mut solver = ContactSolver::on(&online.model.windows[0].grid);
     let (mut h_c, mut h_min) = (Vec::new(), Vec::new());
-    for point in points(16, 42) {
+    // `random_test_point.ron` compares 300 contacts.
+    for point in points(cases(8, 16), 42) {
         let full = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(full.converged());
         let solved = online.solve(&point, Lubricant::default()).unwrap();

@@ -5,14 +5,13 @@ use ehl_explorer::engine::model_file::to_bytes;
 use ehl_explorer::scene::Study;
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::parameters::Quantity;
-use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::training::{Plan, TrainingSpec, Windows, train};
 
 /// The training of an embedded model with fewer full solutions, on a coarser grid.
 fn small(scene: &str) -> TrainingSpec {
     let Study::Training(mut spec) = scene_files::read(scene).study else { panic!("{scene} is no training") };
     match &mut spec.plan {
-        Plan::FarthestPoint { snapshots } => *snapshots = 40,
+        Plan::FarthestPoint { snapshots } => *snapshots = 24,
         Plan::WorstOfPool { start, pool, per_round, limit, .. } => {
             (*start, *pool, *per_round) = (12, 12, 2);
             *limit = if matches!(spec.windows, Windows::Automatic { .. }) { 40 } else { 16 };
@@ -36,7 +35,7 @@ fn small(scene: &str) -> TrainingSpec {
             (*count, *modes, *divided_by) = (2, 16, 0);
             *grid = match grid {
                 GridSpec::Plane(_) => {
-                    *shared = 40;
+                    *shared = 24;
                     GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)))
                 }
                 _ => GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true },
@@ -49,7 +48,8 @@ fn small(scene: &str) -> TrainingSpec {
             };
         }),
     }
-    spec.evidence = if spec.contact() == ContactKind::Line { 300 } else { 150 };
+    // Hardly more than a calibration needs.
+    spec.evidence = 110;
     spec
 }
 

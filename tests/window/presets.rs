@@ -96,13 +96,13 @@ fn preset(harness: &mut Window, size: [f32; 2], layout: &str, seen: &[&str], bes
 fn every_preset_has_room_on_small_and_large_screens_in_both_themes() {
     for size in [[1024.0, 640.0], [2560.0, 1440.0]] {
         let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), size);
-        for theme in ["Light theme", "Dark theme"] {
-            click(&mut harness, "View");
-            click(&mut harness, theme);
-            for kind in ["Roller", "Ball", "Ellipse"] {
-                harness.query_all_by_label(kind).next().unwrap().click();
-                wait(&mut harness, "the picture", |app| !app.busy() && app.central_film().is_some());
-                for (layout, seen, beside) in LAYOUTS {
+        for kind in ["Roller", "Ball", "Ellipse"] {
+            harness.query_all_by_label(kind).next().unwrap().click();
+            wait(&mut harness, "the picture", |app| !app.busy() && app.central_film().is_some());
+            for (layout, seen, beside) in LAYOUTS {
+                for theme in ["Light theme", "Dark theme"] {
+                    click(&mut harness, "View");
+                    click(&mut harness, theme);
                     preset(&mut harness, size, layout, seen, beside);
                 }
             }

@@ -12,8 +12,8 @@ use crate::solver::training::random_points;
 pub const HEAT_BASELINE: &str = "line/heat/full/cold";
 
 /// Contacts in full, of either start, and by the model.
-const FULL_POINTS: [usize; 2] = [150, 40];
-const REDUCED_POINTS: [usize; 2] = [1000, 150];
+const FULL_POINTS: [usize; 2] = [150, 12];
+const REDUCED_POINTS: [usize; 2] = [1000, 60];
 const SEED: u64 = 2027;
 
 /// The grid of the models with heat, of public reference solutions too.

@@ -270,6 +270,7 @@ mod tests {
     use crate::solver::full::transient::{Frame, Inputs as Driven, Keep, Signal, Transient, march, solve};
     use crate::solver::full::{FullSolver, Start};
     use crate::solver::reduced::transient::ReducedMarch;
+    use crate::solver::training::small::Made;
     use crate::solver::training::{TrajectoryTraining, train_trajectories};
 
     const GRID_STEP: f64 = 0.02;
@@ -282,13 +283,16 @@ mod tests {
 
     /// A model of two sines of the load.
     fn trained_at(point: OperatingPoint, frame: Frame) -> Arc<TrajectoryModel> {
-        let sine = |period: f64| {
-            let sine = driven(Signal::Harmonic { amplitude: 0.1, period });
-            solve(GRID, &Transient { point, frame, ..sine }, &()).unwrap()
-        };
-        let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
-        let trainings = [0.5, 1.0 / 3.0].map(sine);
-        Arc::new(train_trajectories(&GRID.line().unwrap(), &trainings, &settings, &()).unwrap())
+        static MODELS: Made<TrajectoryModel> = Made::new();
+        MODELS.of(&(point, frame), || {
+            let sine = |period: f64| {
+                let sine = driven(Signal::Harmonic { amplitude: 0.1, period });
+                solve(GRID, &Transient { point, frame, ..sine }, &()).unwrap()
+            };
+            let settings = TrajectoryTraining { loss: 1e-5, ..TrajectoryTraining::default() };
+            let trainings = [0.5, 1.0 / 3.0].map(sine);
+            train_trajectories(&GRID.line().unwrap(), &trainings, &settings, &()).unwrap()
+        })
     }
 
     fn trained(frame: Frame) -> Arc<TrajectoryModel> {

@@ -12,7 +12,7 @@ use pco::data_types::Number;
 use pco::standalone::{simple_compress, simple_decompress_into};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 
 /// Version of the format. Other versions are refused.
@@ -112,12 +112,15 @@ pub(super) struct Heading<'a, D, M> {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Directory {
+struct Directory<'a> {
     kind: ModelKind,
     contact: ContactKind,
     title: String,
-    domain: Value,
-    model: Value,
+    // As text: the order of its axes matters.
+    #[serde(borrow)]
+    domain: &'a RawValue,
+    #[serde(borrow)]
+    model: &'a RawValue,
     scene: String,
     log: Vec<String>,
     arrays: BTreeMap<String, Entry>,
@@ -210,7 +213,7 @@ fn json<T: Serialize + ?Sized>(value: &T) -> Option<String> {
 
 /// Directory of a file, and its arrays as bytes.
 pub(super) struct Contents<'a> {
-    directory: Directory,
+    directory: Directory<'a>,
     arrays: &'a [u8],
     /// Bytes of the payload.
     pub bytes: usize,
@@ -234,7 +237,7 @@ impl<'a> Contents<'a> {
         let (length, rest) = payload.split_first_chunk::<LENGTH>().ok_or(damaged("its directory"))?;
         let length = usize::try_from(u64::from_le_bytes(*length)).ok().filter(|length| *length <= rest.len());
         let (directory, arrays) = rest.split_at(length.ok_or(damaged("its directory"))?);
-        let directory: Directory = serde_json::from_slice(directory).map_err(|_| damaged("its directory"))?;
+        let directory: Directory<'a> = serde_json::from_slice(directory).map_err(|_| damaged("its directory"))?;
         let mut decoded = 0usize;
         for entry in directory.arrays.values() {
             let end = entry.offset.checked_add(entry.bytes).filter(|end| *end <= arrays.len());
@@ -267,12 +270,12 @@ impl<'a> Contents<'a> {
 
     /// Trained range.
     pub fn domain<D: DeserializeOwned>(&self) -> Option<D> {
-        D::deserialize(&self.directory.domain).ok()
+        serde_json::from_str(self.directory.domain.get()).ok()
     }
 
     /// Everything else that is not an array.
     pub fn model<M: DeserializeOwned>(&self) -> Option<M> {
-        M::deserialize(&self.directory.model).ok()
+        serde_json::from_str(self.directory.model.get()).ok()
     }
 
     /// Shape of an array, or `None` if there is none of this name.

@@ -9,7 +9,8 @@ use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
 use crate::solver::reduced::{PressureModes, ReducedModel, Sampling, Scheme};
 use crate::solver::training::small::{
-    ellipses, heated, heated_balls, heated_ellipses, heated_oils, line, oils, oils_of_points, sliding_oils, with_ends,
+    ellipses, heated_balls, heated_bounded, heated_ellipses_bounded, heated_oils_bounded, line, oils, oils_of_points,
+    sliding_oils, trained, with_ends,
 };
 use crate::solver::training::{TrainingSpec, WindowSpec, Windows, train};
 use std::path::Path;
@@ -157,7 +158,7 @@ fn shapes_survive_a_round_trip_and_must_fit_the_windows() {
 
 #[test]
 fn heat_survives_a_round_trip_and_must_fit_the_windows() {
-    let model = train(&heated(Sampling::All, 16), &()).unwrap();
+    let model = ReducedModel::clone(&trained(&heated_bounded()));
     let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
     assert_eq!(read.domain, model.domain);
     assert!(read.domain.heats() && read.domain.space.slides());
@@ -178,7 +179,7 @@ fn heat_survives_a_round_trip_and_must_fit_the_windows() {
 
 #[test]
 fn heat_of_many_oils_survives_a_round_trip_too() {
-    let model = train(&heated_oils(Sampling::Cubature, 24), &()).unwrap();
+    let model = ReducedModel::clone(&trained(&heated_oils_bounded()));
     let bytes = to_bytes(&model).unwrap();
     let read = from_bytes(&bytes).unwrap();
     assert!(read.domain == model.domain && read.domain.heats() && read.domain.space.varies_lubricant());
@@ -201,7 +202,7 @@ fn heat_of_many_oils_survives_a_round_trip_too() {
 
 #[test]
 fn heat_of_balls_survives_a_round_trip_too() {
-    let model = train(&heated_balls(Sampling::Cubature, 12), &()).unwrap();
+    let model = trained(&heated_balls(Sampling::Cubature, 24));
     let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
     assert!(read.domain == model.domain && read.contact() == ContactKind::Point && read.domain.heats());
     assert!(read.windows[0].traction.is_some() && read.windows[0].traction == model.windows[0].traction);
@@ -209,7 +210,7 @@ fn heat_of_balls_survives_a_round_trip_too() {
 
 #[test]
 fn heat_of_ellipses_of_many_oils_survives_a_round_trip_too() {
-    let model = train(&heated_ellipses(Sampling::Cubature, 24), &()).unwrap();
+    let model = ReducedModel::clone(&trained(&heated_ellipses_bounded()));
     let bytes = to_bytes(&model).unwrap();
     let read = from_bytes(&bytes).unwrap();
     assert!(read.domain == model.domain && read.of_ellipses() && to_bytes(&read).unwrap() == bytes);
@@ -220,7 +221,7 @@ fn heat_of_ellipses_of_many_oils_survives_a_round_trip_too() {
 
 #[test]
 fn oils_that_thin_survive_a_round_trip_with_their_stresses() {
-    let model = train(&sliding_oils(Sampling::QDeim, 60), &()).unwrap();
+    let model = ReducedModel::clone(&trained(&sliding_oils(Sampling::QDeim, 60)));
     let bytes = to_bytes(&model).unwrap();
     let read = from_bytes(&bytes).unwrap();
     assert!(read.domain == model.domain && read.domain.thins() && read.domain.space.varies_lubricant());

@@ -155,8 +155,8 @@ mod tests {
     use crate::solver::full::{ContactSolver, Start};
     use crate::solver::physics::contact::ContactKind;
     use crate::solver::physics::lubricant::Lubricant;
-    use crate::solver::training::small::line;
-    use crate::solver::training::{TrainingSpec, WindowSpec, Windows, random_points, train};
+    use crate::solver::training::small::{line, trained};
+    use crate::solver::training::{TrainingSpec, WindowSpec, Windows, random_points};
     use std::sync::Arc;
 
     fn spec(sampling: Sampling, registered: bool) -> TrainingSpec {
@@ -172,7 +172,7 @@ mod tests {
         mut look: impl FnMut(&Window, &Online, super::super::ReducedSolution),
     ) {
         let spec = spec(sampling, true);
-        let model = Arc::new(train(&spec, &()).unwrap());
+        let model = trained(&spec);
         let mut online = Online::new(Arc::clone(&model), options);
         let points = random_points(&spec.range, ContactKind::Line, 6, 2);
         for point in points {

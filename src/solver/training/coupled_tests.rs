@@ -1,6 +1,7 @@
 //! Reduced models in time that are led from one time to the next: what they give is what a march gives, they go back to
 //! where they were, and tell what they were not trained for.
 
+use super::small::Made;
 use super::trajectories_tests::{full, grid, reduced, trained, transient, under};
 use super::{LocalBases, TrajectoryTraining, train_trajectories};
 use crate::solver::full::transient::{
@@ -17,9 +18,12 @@ fn model(cavitation: Cavitation, frame: Frame) -> Arc<TrajectoryModel> {
 }
 
 fn model_with(cavitation: Cavitation, frame: Frame, local: Option<LocalBases>) -> Arc<TrajectoryModel> {
-    let training = full(&under(cavitation, Transient { duration: 0.6, ..transient(frame, SINE) }));
-    let settings = TrajectoryTraining { loss: 1e-5, local, ..TrajectoryTraining::default() };
-    Arc::new(train_trajectories(&grid(), &[training], &settings, &()).unwrap())
+    static MODELS: Made<TrajectoryModel> = Made::new();
+    MODELS.of(&(cavitation, frame, local), || {
+        let training = full(&under(cavitation, Transient { duration: 0.6, ..transient(frame, SINE) }));
+        let settings = TrajectoryTraining { loss: 1e-5, local, ..TrajectoryTraining::default() };
+        train_trajectories(&grid(), &[training], &settings, &()).unwrap()
+    })
 }
 
 fn begun(model: &Arc<TrajectoryModel>) -> CoupledMarch {

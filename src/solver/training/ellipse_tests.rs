@@ -1,6 +1,6 @@
 //! Models of ellipses: near full solutions of every shape, whichever came before, and refused beyond.
 
-use super::small::{ellipses, with_ends};
+use super::small::{self, ellipses, with_ends};
 use super::*;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 fn trained(sampling: Sampling) -> (TrainingSpec, Arc<ReducedModel>) {
     let spec = ellipses(sampling, 60);
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let model = small::trained(&spec);
     (spec, model)
 }
 

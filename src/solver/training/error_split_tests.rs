@@ -7,7 +7,7 @@ use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, 
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ErrorSplitter, Online, ReducedModel, ReducedOptions, Sampling, SplitError};
 use crate::solver::training::small::{self, POINT_GRID, line_grid};
-use crate::solver::training::{Plan, TrainingSpec, train};
+use crate::solver::training::{Plan, TrainingSpec};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -15,7 +15,7 @@ fn model(sampling: Sampling) -> Arc<ReducedModel> {
     let middle = small::moes_with((20.0, 80.0), (6.0, 12.0), (9e-9, 18e-9), 3.2e9);
     let spec = TrainingSpec::new(middle, (20.0, 80.0), line_grid(300), Plan::FarthestPoint { snapshots: 50 });
     let spec = TrainingSpec { deformation_loss: 1e-7, sampling, evidence: 0, ..spec };
-    Arc::new(train(&spec, &()).unwrap())
+    small::trained(&spec)
 }
 
 fn points() -> Vec<OperatingPoint> {
@@ -94,7 +94,7 @@ fn the_discretisation_part_is_what_much_finer_grids_say() {
 #[test]
 fn a_point_contacts_error_has_the_same_parts() {
     let training = TrainingSpec { deformation_loss: 1e-3, rows_per_mode: 4.0, ..small::point(Sampling::Cubature, 16) };
-    let model = Arc::new(train(&training, &()).unwrap());
+    let model = small::trained(&training);
     let point = OperatingPoint {
         kind: ContactKind::Point,
         radius_m: 10.4e-3,

@@ -1,7 +1,10 @@
 //! Reduced models of contacts with heat.
 
-use super::small::{heated, heated_balls, heated_ellipses, heated_oils, with_ends};
-use super::{TrainingSpec, Windows, random_points, train};
+use super::small::{
+    heated, heated_balls, heated_bounded, heated_ellipses, heated_ellipses_bounded, heated_oils, heated_oils_bounded,
+    line, trained, with_ends,
+};
+use super::{TrainingSpec, Windows, random_points};
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
 use crate::solver::parameters::{ParameterSpace, Quantity};
 use crate::solver::physics::bodies::BodyHeat;
@@ -45,9 +48,9 @@ fn assert_near_and_bounded(solved: &ReducedSolution, found: [f64; 4], bars: [f64
 fn reduced_contacts_with_heat_are_the_full_ones() {
     // What is wanted of a model with heat at worst.
     let bars = [5e-3, 1e-2, 1e-2, 3e-2];
-    for sampling in [Sampling::All, Sampling::Cubature] {
-        let spec = heated(sampling, 30);
-        let model = Arc::new(train(&spec, &()).unwrap());
+    for spec in [heated(Sampling::All, 30), heated_bounded()] {
+        let sampling = spec.sampling;
+        let model = trained(&spec);
         let mut online = online(&model);
         let mut full = ContactSolver::on(&model.windows[0].grid);
         for point in random_points(&spec.range, ContactKind::Line, 6, 11) {
@@ -72,8 +75,8 @@ fn reduced_contacts_with_heat_are_the_full_ones() {
 
 #[test]
 fn the_whole_grids_rule_is_the_traction_of_the_fields_with_heat_as_well() {
-    for spec in [heated(Sampling::Cubature, 30), heated_balls(Sampling::Cubature, 24)] {
-        let mut model = train(&spec, &()).unwrap();
+    for spec in [heated_bounded(), heated_balls(Sampling::Cubature, 24)] {
+        let mut model = ReducedModel::clone(&trained(&spec));
         model.windows.iter_mut().for_each(|window| window.traction = Some(TractionRule::whole()));
         let mut online = online(&Arc::new(model));
         for point in random_points(&spec.range, spec.contact(), 3, 17) {
@@ -87,7 +90,7 @@ fn the_whole_grids_rule_is_the_traction_of_the_fields_with_heat_as_well() {
 #[test]
 fn reduced_balls_with_heat_are_the_full_ones() {
     let spec = heated_balls(Sampling::Cubature, 24);
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let model = trained(&spec);
     let mut online = online(&model);
     let mut full = ContactSolver::on(&model.windows[0].grid);
     let mut warmest = 0.0f64;
@@ -118,8 +121,8 @@ fn reduced_balls_with_heat_are_the_full_ones() {
 
 #[test]
 fn reduced_ellipses_of_many_oils_with_heat_are_the_full_ones_and_bounded() {
-    let spec = TrainingSpec { evidence: 100, ..heated_ellipses(Sampling::Cubature, 90) };
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let spec = heated_ellipses_bounded();
+    let model = trained(&spec);
     assert!(model.of_ellipses() && model.domain.space == spec.range);
     let mut online = online(&model);
     let mut full = ContactSolver::on(&model.windows[0].grid);
@@ -184,8 +187,8 @@ fn contacts_of_equal_radius_over_cubed_modulus_are_alike_unless_their_stress_is_
 
 #[test]
 fn many_oils_with_heat_are_the_full_ones_and_bounded() {
-    let spec = TrainingSpec { evidence: 120, ..heated_oils(Sampling::Cubature, 130) };
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let spec = heated_oils_bounded();
+    let model = trained(&spec);
     assert!(model.windows.len() == 2 && model.windows.iter().all(|window| window.anchor.is_some()));
     // Bases know other constants; what solves start from are contacts of its own.
     for window in &model.windows {
@@ -243,8 +246,8 @@ fn most_training_contacts_have_thermal_constants_of_the_range() {
 
 #[test]
 fn of_a_film_hotter_than_lubricants_endure_nothing_is_promised() {
-    let spec = TrainingSpec { evidence: 60, ..heated_oils(Sampling::Cubature, 60) };
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let spec = heated_oils_bounded();
+    let model = trained(&spec);
     let mut online = online(&model);
     let point = random_points(&spec.range, ContactKind::Line, 1, 12)[0];
     let warm = online.solve(&point, spec.lubricant).unwrap();
@@ -292,8 +295,8 @@ fn ranges_of_many_oils_with_heat_are_refused_with_their_field_and_hold_what_they
 
 #[test]
 fn along_a_curve_contacts_are_those_found_alone_and_take_few_turns() {
-    let spec = heated(Sampling::Cubature, 30);
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let spec = heated_bounded();
+    let model = trained(&spec);
     let mut online = online(&model);
     let point = random_points(&spec.range, ContactKind::Line, 1, 3)[0];
     let values: Vec<f64> = (0..=20).map(|k| 0.03 * f64::from(k)).collect();
@@ -318,8 +321,8 @@ fn along_a_curve_contacts_are_those_found_alone_and_take_few_turns() {
 
 #[test]
 fn what_a_model_does_not_know_is_told() {
-    let spec = heated(Sampling::All, 8);
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let spec = heated_bounded();
+    let model = trained(&spec);
     let point = random_points(&spec.range, ContactKind::Line, 1, 3)[0];
     let outside = |point: OperatingPoint, lubricant: Lubricant| {
         let problem = Problem::new(&point, lubricant).unwrap();
@@ -350,12 +353,7 @@ fn what_a_model_does_not_know_is_told() {
     let stiffer = outside(equal_but(&point, 1.0, 1.1), laws);
     assert!(stiffer.starts_with("E' = 254") && stiffer.ends_with("trained at 231 GPa only"), "{stiffer}");
     // A model that knows no heat refuses.
-    let box_of = with_ends(&ParameterSpace::table_3_1(), Quantity::Load, (2e5, 4e5));
-    let box_of = with_ends(&box_of, Quantity::Speed, (2.0, 4.0));
-    let cold = TrainingSpec { range: box_of, ..heated(Sampling::All, 8) }.heated(None);
-    let cold = TrainingSpec { lubricant: Lubricant::default(), ..cold };
-    let cold =
-        Arc::new(train(&TrainingSpec { windows: super::small::line(Sampling::All, 8).windows, ..cold }, &()).unwrap());
+    let cold = trained(&line(Sampling::QDeim, 50));
     let refused = online(&cold).solve(&point, laws).unwrap_err();
     assert!(refused == ReducedError::Heat && refused.to_string().contains("knows no heat"));
 }
@@ -384,8 +382,8 @@ fn trainings_with_heat_are_of_ranges_with_heat() {
 
 #[test]
 fn errors_with_heat_are_bounded_and_rises_among_them() {
-    let spec = TrainingSpec { evidence: 110, ..heated(Sampling::Cubature, 30) };
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let spec = heated_bounded();
+    let model = trained(&spec);
     let mut online = online(&model);
     let point = random_points(&spec.range, ContactKind::Line, 3, 21)[2];
     let solved = online.solve(&point, spec.lubricant).unwrap();

@@ -1,6 +1,6 @@
 //! Models of many oils: near full solutions of every oil, without a jump between windows, and told where they end.
 
-use super::small::{heated_ellipses, oils, oils_of_points, with_ends};
+use super::small::{self, heated_ellipses, oils, oils_of_points, with_ends};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Problem, Start};
@@ -13,7 +13,7 @@ use crate::solver::reduced::{
 use std::sync::Arc;
 
 fn trained(spec: &TrainingSpec) -> (Arc<ReducedModel>, Online) {
-    let model = Arc::new(train(spec, &()).unwrap());
+    let model = small::trained(spec);
     (Arc::clone(&model), Online::new(model, ReducedOptions::default()))
 }
 
@@ -251,7 +251,7 @@ fn ellipses_of_every_oil_are_near_full_solutions() {
         let off = (solved.h_c / truth.scalars.h_c - 1.0).abs();
         assert!(off < 5e-3, "{point:?}: {off:.1e}");
     }
-    let sliding = super::small::sliding_oils(Sampling::QDeim, 60);
+    let sliding = small::sliding_oils(Sampling::QDeim, 60);
     let mut range = sliding.range.clone();
     range.axes.push(Axis::new(Quantity::RadiusRatio, (0.5, 2.0)));
     let refused = |spec: TrainingSpec| spec.check().unwrap_err().to_string();
@@ -297,7 +297,7 @@ fn ranges_of_oils_are_refused_with_their_field() {
         let sentence = refused(with(own, ends));
         assert!(sentence.contains(field), "{field}: {sentence}");
     }
-    let grid = super::small::line_grid(240);
+    let grid = small::line_grid(240);
     let anchored = |count, modes, shared, [missing, missing_of_any]: [f64; 2], divided_by| TrainingSpec {
         windows: Windows::Anchored { count, modes, grid, shared, missing, missing_of_any, divided_by },
         ..good.clone()
@@ -305,7 +305,7 @@ fn ranges_of_oils_are_refused_with_their_field() {
     let windows = |count, modes| anchored(count, modes, 0, [0.0; 2], 0);
     assert!(refused(windows(0, 20)).contains("windows.count") && refused(windows(3, 2)).contains("windows.modes"));
     assert!(refused(TrainingSpec { windows: Windows::Automatic { modes: 20 }, ..good.clone() }).contains("Anchored"));
-    let plain = TrainingSpec { range: super::small::moes((5.0, 50.0), (5.0, 8.0), 4e9), ..good.clone() };
+    let plain = TrainingSpec { range: small::moes((5.0, 50.0), (5.0, 8.0), 4e9), ..good.clone() };
     assert!(refused(plain).contains("a range that varies Viscosity"));
     let mut barus = good.clone();
     barus.lubricant.viscosity = ViscosityLaw::Barus;

@@ -1,6 +1,6 @@
 //! Training a model of point contacts on a coarse grid: every sampling method, fresh points, and what is refused.
 
-use super::small::{POINT_GRID, point};
+use super::small::{POINT_GRID, point, trained};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Start};
@@ -28,8 +28,8 @@ fn worst(films: &[(f64, f64)]) -> f64 {
 
 #[test]
 fn a_point_model_solves_fresh_points_with_all_rows_and_with_few() {
-    let all = Arc::new(train(&point(Sampling::All, 24), &()).unwrap());
-    let few = Arc::new(train(&point(Sampling::Cubature, 24), &()).unwrap());
+    let all = trained(&point(Sampling::All, 24));
+    let few = trained(&point(Sampling::Cubature, 24));
     let (modes, rows) = (few.windows[0].pressure.count(), few.windows[0].sampled_rows.len());
     assert!(rows <= 3 * modes && 8 * rows < all.windows[0].sampled_rows.len(), "{rows} rows, {modes} modes");
     assert_eq!((few.windows[0].penalty, few.contact()), (1e5, ContactKind::Point));

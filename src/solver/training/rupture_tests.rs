@@ -1,6 +1,6 @@
 //! Models of films that rupture by complementarity: near full solutions of the same law, with the boundary where it is.
 
-use super::small::{line, line_grid, point, sliding_oils, sliding_oils_of_points};
+use super::small::{line, line_grid, point, sliding_oils, sliding_oils_of_points, trained};
 use super::*;
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::discrete::nodes::Nodes;
@@ -75,7 +75,7 @@ fn line_models_are_near_full_complementarity_with_the_boundary_within_a_node() {
         (uniform, Sampling::Cubature),
     ] {
         let spec = ruptured(on(grid, line(sampling, 50)));
-        let model = Arc::new(train(&spec, &()).unwrap());
+        let model = trained(&spec);
         assert_eq!(model.domain.lubricant.cavitation, Cavitation::Complementarity);
         let ([worst, _], off) = errors(&spec, &model);
         assert!(worst < 2e-3 && off <= 1, "{grid:?}, {sampling:?}: H_c {worst:.1e}, {off} nodes");
@@ -85,16 +85,14 @@ fn line_models_are_near_full_complementarity_with_the_boundary_within_a_node() {
 #[test]
 fn a_boundary_that_begins_elsewhere_is_found_and_the_order_of_solves_does_not_matter() {
     let spec = ruptured(line(Sampling::QDeim, 50));
-    let model = train(&spec, &()).unwrap();
+    let model = trained(&spec);
     let points = random_points(&spec.range, ContactKind::Line, 6, 3);
-    let mut moved = model.clone();
+    let mut moved = ReducedModel::clone(&model);
     for snapshot in &mut moved.windows[0].snapshots {
         snapshot.fronts[0] -= 3;
     }
-    let (mut own, mut other) = (
-        Online::new(Arc::new(model), ReducedOptions::default()),
-        Online::new(Arc::new(moved), ReducedOptions::default()),
-    );
+    let (mut own, mut other) =
+        (Online::new(model, ReducedOptions::default()), Online::new(Arc::new(moved), ReducedOptions::default()));
     let solve = |online: &mut Online, k: usize| {
         online.forget();
         online.solve(&points[k], spec.lubricant).unwrap()
@@ -110,7 +108,7 @@ fn a_boundary_that_begins_elsewhere_is_found_and_the_order_of_solves_does_not_ma
 #[test]
 fn point_models_are_near_full_complementarity() {
     let spec = ruptured(point(Sampling::Cubature, 24));
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let model = trained(&spec);
     let ([worst, _], off) = errors(&spec, &model);
     assert!(worst < 6e-3 && off <= 2, "H_c {worst:.1e}, {off} nodes");
 }
@@ -119,7 +117,7 @@ fn point_models_are_near_full_complementarity() {
 fn models_of_oils_that_thin_under_shear_are_near_full_complementarity() {
     for (spec, allowed) in [(sliding_oils(Sampling::QDeim, 60), 2e-3), (sliding_oils_of_points(70), 6e-3)] {
         let spec = ruptured(spec);
-        let model = Arc::new(train(&spec, &()).unwrap());
+        let model = trained(&spec);
         let ([film, traction], off) = errors(&spec, &model);
         let told = format!("{:?}: H_c {film:.1e}, traction {traction:.1e}, {off} nodes", spec.contact());
         assert!(film < allowed && traction < allowed && traction > 0.0 && off <= 2, "{told}");

@@ -1,6 +1,6 @@
 //! Models of sliding contacts of many oils that thin by Eyring's law.
 
-use super::small::{POINT_GRID, line_grid, sliding_oils, with_ends};
+use super::small::{self, POINT_GRID, line_grid, sliding_oils, with_ends};
 use super::*;
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
 use crate::solver::physics::contact::{MoesRequest, OperatingPoint, Sliding, si_from_moes};
@@ -68,7 +68,7 @@ fn contacts_of_equal_modulus_times_stress_have_equal_films_and_tractions_that_go
 }
 
 fn trained(spec: &TrainingSpec) -> (Arc<ReducedModel>, Online) {
-    let model = Arc::new(train(spec, &()).unwrap());
+    let model = small::trained(spec);
     (Arc::clone(&model), Online::new(model, ReducedOptions::default()))
 }
 

@@ -1,10 +1,34 @@
 //! Small trainings, which tests make of many things.
 
-use super::{Plan, TrainingSpec, WindowSpec, Windows};
+use super::{Plan, TrainingSpec, WindowSpec, Windows, train};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant, ShearLaw};
-use crate::solver::reduced::Sampling;
+use crate::solver::reduced::{ReducedModel, Sampling};
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::sync::{Arc, Mutex, OnceLock};
+
+/// Values that are made once for all tests of this program, by what they are made from.
+pub(crate) struct Made<T>(Mutex<BTreeMap<String, Arc<OnceLock<Arc<T>>>>>);
+
+impl<T> Made<T> {
+    pub(crate) const fn new() -> Self {
+        Self(Mutex::new(BTreeMap::new()))
+    }
+
+    /// The value made from `what`. A second test that needs it waits for the first one.
+    pub(crate) fn of(&self, what: &impl Debug, make: impl FnOnce() -> T) -> Arc<T> {
+        let once = Arc::clone(self.0.lock().unwrap().entry(format!("{what:?}")).or_default());
+        Arc::clone(once.get_or_init(|| Arc::new(make())))
+    }
+}
+
+/// The model of a specification.
+pub(crate) fn trained(spec: &TrainingSpec) -> Arc<ReducedModel> {
+    static MODELS: Made<ReducedModel> = Made::new();
+    MODELS.of(spec, || train(spec, &()).unwrap())
+}
 
 /// A grid of point contacts on which a full solve takes milliseconds.
 pub(crate) const POINT_GRID: PointGridSpec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
@@ -215,6 +239,21 @@ pub(crate) fn heated_ellipses(sampling: Sampling, snapshots: usize) -> TrainingS
     range.axes.push(Axis::new(Quantity::RadiusRatio, (0.7, 3.0)));
     let windows = anchored(1, 40, GridSpec::Plane(POINT_GRID), 0);
     TrainingSpec { range, windows, pressure_loss: 1e-7, ..heated_oils(sampling, snapshots) }
+}
+
+/// Line contacts with heat whose model has error bounds. Most tests of heat share this model, as training it is expensive.
+pub(crate) fn heated_bounded() -> TrainingSpec {
+    TrainingSpec { evidence: 110, ..heated(Sampling::Cubature, 30) }
+}
+
+/// The same of many oils.
+pub(crate) fn heated_oils_bounded() -> TrainingSpec {
+    TrainingSpec { evidence: 120, ..heated_oils(Sampling::Cubature, 130) }
+}
+
+/// The same of elliptical contacts.
+pub(crate) fn heated_ellipses_bounded() -> TrainingSpec {
+    TrainingSpec { evidence: 100, ..heated_ellipses(Sampling::Cubature, 90) }
 }
 
 /// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.

@@ -1,7 +1,7 @@
 //! Behaviour of training: the same specification gives the same model, models reproduce what they were trained on, bad
 //! requests are refused.
 
-use super::small::line;
+use super::small::{line, trained};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Start};
@@ -16,7 +16,7 @@ fn small(sampling: Sampling) -> TrainingSpec {
 
 #[test]
 fn the_same_specification_gives_the_same_model() {
-    let (a, b) = (train(&small(Sampling::QDeim), &()).unwrap(), train(&small(Sampling::QDeim), &()).unwrap());
+    let (a, b) = (trained(&small(Sampling::QDeim)), train(&small(Sampling::QDeim), &()).unwrap());
     assert_eq!(a.windows[0].sampled_rows, b.windows[0].sampled_rows);
     assert_eq!(a.windows[0].snapshots, b.windows[0].snapshots);
     let other = train(&TrainingSpec { seed: 6, ..small(Sampling::QDeim) }, &()).unwrap();
@@ -26,7 +26,7 @@ fn the_same_specification_gives_the_same_model() {
 #[test]
 fn every_sampling_reproduces_the_training_solutions() {
     for sampling in [Sampling::All, Sampling::QDeim, Sampling::Cubature, Sampling::Greedy] {
-        let model = Arc::new(train(&small(sampling), &()).unwrap());
+        let model = trained(&small(sampling));
         let window = &model.windows[0];
         if sampling != Sampling::All {
             assert!(window.sampled_rows.len() <= 2 * window.pressure.count() + 1);
@@ -56,7 +56,7 @@ fn residual_minimisation_reproduces_the_training_solutions() {
         (Scheme::LeastSquares { weighted: false }, Sampling::All, Cavitation::Complementarity),
     ] {
         let spec = TrainingSpec { scheme, ..small(sampling).under(cavitation) };
-        let model = Arc::new(train(&spec, &()).unwrap());
+        let model = trained(&spec);
         let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
         let error = |snapshot: &Snapshot| {
             online.forget();
@@ -69,8 +69,8 @@ fn residual_minimisation_reproduces_the_training_solutions() {
 
 #[test]
 fn all_rows_and_q_deim_agree_at_fresh_points_and_lie_near_full_solutions() {
-    let exact = Arc::new(train(&small(Sampling::All), &()).unwrap());
-    let sampled = Arc::new(train(&small(Sampling::QDeim), &()).unwrap());
+    let exact = trained(&small(Sampling::All));
+    let sampled = trained(&small(Sampling::QDeim));
     let points = random_points(&exact_range(), ContactKind::Line, 20, 9);
     let mut full = ContactSolver::on(&exact.windows[0].grid);
     let (mut a, mut b) =
@@ -92,7 +92,7 @@ fn exact_range() -> ParameterSpace {
 #[test]
 fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
     let spec = TrainingSpec { plan: Plan::FarthestPoint { snapshots: 30 }, evidence: 300, ..small(Sampling::QDeim) };
-    let model = Arc::new(train(&spec, &()).unwrap());
+    let model = trained(&spec);
     let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
     let mut solver = ContactSolver::on(&model.windows[0].grid);
     let points = random_points(&spec.range, ContactKind::Line, 200, 77);

@@ -178,7 +178,7 @@ mod tests {
     use crate::solver::reduced::kept::kept_starts;
     use crate::solver::reduced::model::ReducedModel;
     use crate::solver::reduced::start;
-    use crate::solver::training::small::{line_grid, oils};
+    use crate::solver::training::small::{line_grid, oils, trained};
     use crate::solver::training::{Plan, TrainingSpec, random_points, train};
     use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn a_solve_that_is_stopped_at_any_attempt_says_so_and_the_next_one_knows_nothing_of_it() {
         let spec = oils(Sampling::QDeim, 60);
-        let model = Arc::new(train(&spec, &()).unwrap());
+        let model = trained(&spec);
         let online = || Online::new(Arc::clone(&model), ReducedOptions::default());
         // Far outside: no start leads there, nor does a walk.
         let far = si_from_moes(&MoesRequest::new(ContactKind::Line, 900.0, 24.0)).unwrap();
@@ -229,7 +229,7 @@ mod tests {
     #[test]
     fn a_start_with_fewer_modes_ends_where_a_model_with_no_more_of_them_does() {
         let spec = oils(Sampling::QDeim, 60);
-        let model = train(&spec, &()).unwrap();
+        let model = trained(&spec);
         let options = ReducedOptions::default();
         let with = |modes| ReducedOptions { pressure_modes: Some(modes), ..options };
         for point in random_points(&spec.range, spec.contact(), 6, 3) {
