@@ -6,9 +6,9 @@ use super::command::Command;
 use super::controls::Entries;
 use super::display::Thresholds;
 use super::document::{Document, Edit};
-use super::traction::TractionView;
-use super::training::Training;
-use super::transient::TransientView;
+use crate::app::tabs::traction::TractionView;
+use crate::app::tabs::training::Training;
+use crate::app::tabs::transient::TransientView;
 use std::path::Path;
 
 /// What is shown: to be looked at, not to be changed.

@@ -8,8 +8,10 @@ mod edit;
 mod engineering;
 mod held;
 mod history;
+pub mod input;
 mod key;
 mod shape;
+mod transient;
 
 pub use edit::Edit;
 pub use history::History;

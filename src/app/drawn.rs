@@ -4,7 +4,7 @@
 use super::context::Context;
 use super::document::Key;
 use super::in_use::InUse;
-use super::transient::Setup;
+use crate::app::tabs::transient::Setup;
 use crate::scene::Scene;
 use crate::solver::training::TrainingSpec;
 use egui::{Color32, Id, Ui};

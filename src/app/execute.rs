@@ -1,20 +1,19 @@
 //! What commands and choices of the palette do.
 
-use super::Explorer;
 use super::answers::jobs::wake;
 use super::command::Command;
 use super::context::Commands;
 use super::desk::files::Pending;
 use super::display::Display;
-use super::export;
 use super::layouts::Layout;
 use super::presentation::{Presentation, enlargement};
 use super::purpose::Purpose;
 use super::session::Place;
 use super::tab::Tab;
-use super::traction;
-use super::transient::Setup;
 use super::units::Units;
+use super::{Explorer, export};
+use crate::app::tabs::traction;
+use crate::app::tabs::transient::Setup;
 use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
 

@@ -3,7 +3,7 @@
 //! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`] puts it into a native one.
 
 mod answers;
-mod color_map;
+mod badge;
 mod command;
 mod context;
 mod controls;
@@ -16,6 +16,7 @@ mod execute;
 mod export;
 mod figure;
 mod form;
+mod formulas;
 mod in_use;
 mod layouts;
 mod lessons;
@@ -25,6 +26,7 @@ mod model_source;
 mod numbers;
 mod palette;
 mod panels;
+mod plot;
 mod presentation;
 mod purpose;
 mod seen;
@@ -33,9 +35,6 @@ mod sheets;
 mod tab;
 mod tabs;
 mod theme;
-mod traction;
-mod training;
-mod transient;
 mod units;
 
 use crate::engine::Store;

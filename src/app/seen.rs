@@ -1,9 +1,9 @@
 //! What the window shows and does, for those who look at it from outside: the tests.
 
 use super::Explorer;
+use super::badge;
 use super::panels;
 use super::tab::Tab;
-use super::tabs;
 use crate::scene::Table;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Lubricant;
@@ -57,12 +57,12 @@ impl Explorer {
 
     /// The first words of the trust badge.
     pub fn badge(&self) -> String {
-        tabs::badge::verdict(&self.desk.answers, self.desk.display.thresholds).title
+        badge::verdict(&self.desk.answers, self.desk.display.thresholds).title
     }
 
     /// What the trust badge says after its first words; symbols stand in braces.
     pub fn badge_detail(&self) -> String {
-        tabs::badge::verdict(&self.desk.answers, self.desk.display.thresholds).detail
+        badge::verdict(&self.desk.answers, self.desk.display.thresholds).detail
     }
 
     /// Whether a computation runs or waits.

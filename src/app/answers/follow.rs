@@ -220,9 +220,9 @@ fn quick(chosen: PointGridSpec) -> PointGridSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::badge::verdict;
     use crate::app::display::Thresholds;
     use crate::app::model_source::Models;
-    use crate::app::tabs::badge::verdict;
     use crate::engine::{Embedded, Store};
     use std::time::{Duration, Instant};
 

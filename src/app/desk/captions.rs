@@ -3,8 +3,7 @@
 use super::Desk;
 use crate::app::numbers;
 use crate::app::tab::Tab;
-use crate::app::tabs::contact_map;
-use crate::app::{traction, transient};
+use crate::app::tabs::{contact_map, traction, transient};
 use crate::scene::named_lubricant;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};

@@ -5,7 +5,7 @@ use crate::app::answers::MOST_PINS;
 use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::Origin;
 use crate::app::command::Command;
-use crate::app::traction::sweep;
+use crate::app::tabs::traction::sweep;
 use crate::app::units::Units;
 use crate::solver::physics::contact::ContactKind;
 use egui::ThemePreference;

@@ -13,7 +13,7 @@ use super::presentation::Presentation;
 use super::tab::Tab;
 use super::tabs::contact_map::{MapView, optics};
 use super::tabs::profiles;
-use super::traction;
+use crate::app::tabs::traction;
 use crate::scene::atomic_file::{self, WriteError};
 use egui::{Context, Rect};
 use egui_tiles::Tree;
@@ -349,7 +349,7 @@ pub fn restore(explorer: &mut Explorer, folder: &Path, with_document: bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::traction::Against;
+    use crate::app::tabs::traction::Against;
     use crate::scene::named_lubricant::by_name;
     use crate::solver::physics::contact::{Moes, Quantity};
 

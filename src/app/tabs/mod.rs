@@ -2,30 +2,15 @@
 //! everything else by commands; none knows another.
 
 pub mod accuracy;
-mod axes;
-pub mod badge;
 pub mod basis;
-mod color_bar;
 pub mod contact_map;
-mod cut_line;
-mod direction;
-mod formulas;
-mod grip;
-mod in_time;
-mod key;
-mod plot_frame;
 pub mod profiles;
-mod raster;
-pub mod regime_chart;
 pub mod regimes;
 pub mod results;
-mod space_time;
 mod take_away;
-pub mod tpwl;
 pub mod traction;
-mod trail;
-mod training;
-mod transient;
+pub mod training;
+pub mod transient;
 
 use super::command::Command;
 use super::context::Commands;
@@ -60,7 +45,7 @@ pub struct Views {
     /// What is being entered for a training.
     pub training: training::TrainingTab,
     /// What the TPWL tab shows.
-    pub tpwl: tpwl::Tpwl,
+    pub tpwl: transient::tpwl::Tpwl,
 }
 
 /// Draws one tab, whatever is around it.

@@ -9,7 +9,7 @@ use crate::app::document::Document;
 use crate::app::panels::headline::Headline;
 use crate::app::purpose::Purpose;
 use crate::app::tab::Tab;
-use crate::app::training::TrainingCommand;
+use crate::app::tabs::training::TrainingCommand;
 use crate::engine::campaign::Folder;
 use crate::scene::{Scene, Study};
 use egui::{Context, Ui, ViewportCommand};

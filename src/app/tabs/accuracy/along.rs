@@ -1,15 +1,15 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
-use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
+use super::tab::{AccuracyView, CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
 use crate::app::context::Context;
 use crate::app::controls::{message_ui, standing_ui};
 use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::figure::Canvas;
 use crate::app::in_use::InUse;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
-use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::plot::axes;
+use crate::app::plot::frame::PlotFrame;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::Background;
@@ -178,7 +178,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
         message_ui(ui, message);
     }
     let Some(results) = &along.results else {
-        super::nothing_yet(ui, "Follow the trajectory to see film and error along it");
+        super::tab::nothing_yet(ui, "Follow the trajectory to see film and error along it");
         return;
     };
     let stale = drawn::is_grey(ui.ctx(), "trajectory", Owner::Model(results.in_use.clone()), context);
@@ -187,7 +187,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
         drawn::fade(ui, false);
     }
     ui.label(rich(&summary(results), 13.5, Palette::of(ui).quiet));
-    super::bound_note(ui, results.steps.iter().map(Step::bound));
+    super::tab::bound_note(ui, results.steps.iter().map(Step::bound));
     film_plot(ui, results, stale, 0.4 * ui.available_height());
     error_plot(ui, results, stale, (ui.available_height() - 4.0).max(110.0));
 }

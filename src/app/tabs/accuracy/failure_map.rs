@@ -2,17 +2,16 @@
 //! there.
 
 use super::random_tests::{Results, bound_of, error_of};
-use super::worst::Worst;
-use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
+use super::tab::{AccuracyView, CONTACT_COLUMNS, contact_cells, tests_toolbar};
+use super::worst::{self, Worst};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::drawn::{self, Owner};
-use crate::app::export;
 use crate::app::in_use::InUse;
-use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::plot::axes;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::{Palette, rich, sequential};
+use crate::app::{export, numbers};
 use crate::scene::study::random_test::{Tested, errors};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use egui::{Color32, Ui};
@@ -110,7 +109,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
     tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
     context.entries.message_ui(ui, FIELD);
     let Some(results) = &own.tests.results else {
-        super::nothing_yet(
+        super::tab::nothing_yet(
             ui,
             "Run tests to see where the model fails and how large its error is over its whole range",
         );
@@ -127,7 +126,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         ui.weak(summary(results));
     });
     if map.by == By::Bound {
-        super::bound_note(ui, results.tests.iter().map(bound_of));
+        super::tab::bound_note(ui, results.tests.iter().map(bound_of));
     }
     if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
         map.drawn = Some(DrawnTests::new(results, map.by));

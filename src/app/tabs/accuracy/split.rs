@@ -1,16 +1,15 @@
 //! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
 
-use super::{AccuracyView, run_or_stop, stale_note};
+use super::tab::{AccuracyView, run_or_stop, stale_note};
 use crate::app::answers::REST_S;
 use crate::app::context::Context;
 use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
 use crate::app::document::Key;
 use crate::app::drawn::{self, Owner};
-use crate::app::export;
 use crate::app::in_use::{InUse, question};
-use crate::app::numbers;
-use crate::app::tabs::axes;
+use crate::app::plot::axes;
 use crate::app::theme::{Palette, rich};
+use crate::app::{export, numbers};
 use crate::engine::Store;
 use crate::engine::job::Background;
 use crate::scene::study::error_split::{ErrorSplitStudy, Row};
@@ -140,7 +139,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
         warning_ui(ui, &format!("{why}; the split is made on request only"));
     }
     let Some((asked, split)) = &own.split.found else {
-        super::nothing_yet(ui, "The parts appear when the sliders rest");
+        super::tab::nothing_yet(ui, "The parts appear when the sliders rest");
         return;
     };
     let owner = Owner::ContactByModel(asked.key, asked.in_use.clone());

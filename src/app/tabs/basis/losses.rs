@@ -1,12 +1,12 @@
 //! Singular values and the loss of information, with the tolerances that can be dragged.
 
-use super::{Basis, Field, TRUNCATION};
+use super::tab::{Basis, Field, TRUNCATION};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::figure::Canvas;
 use crate::app::numbers;
-use crate::app::tabs::plot_frame::PlotFrame;
-use crate::app::tabs::{axes, key};
+use crate::app::plot::frame::PlotFrame;
+use crate::app::plot::{axes, key};
 use crate::app::theme::Palette;
 use crate::solver::reduced::Window;
 use egui::{Align2, Color32, RichText, Ui};

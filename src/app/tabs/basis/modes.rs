@@ -1,8 +1,9 @@
 //! Shapes of the modes, and where the rows are sampled: along ξ, and over the plane for a point contact.
 
-use super::{Basis, Field, plane};
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
+use super::plane;
+use super::tab::{Basis, Field};
+use crate::app::plot::axes;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::contact::ContactKind;

@@ -1,17 +1,16 @@
 //! Error and time against the numbers of modes and of sampled rows, as curves on which both can be dragged.
 
-use super::TRUNCATION;
+use super::tab::TRUNCATION;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, standing_ui};
 use crate::app::document::{Edit, Key};
 use crate::app::drawn::{self, Owner};
-use crate::app::export;
 use crate::app::in_use::{InUse, question};
-use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::grip::Grip;
+use crate::app::plot::axes;
+use crate::app::plot::grip::Grip;
 use crate::app::theme::Palette;
+use crate::app::{export, numbers};
 use crate::engine::job::{Background, Standing};
 use crate::scene::study::model_sizes::{ModelSizes, Row, Varied};
 use crate::scene::{Grid, ModelSource, Study, StudyRow, View};

@@ -4,9 +4,8 @@
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::context::Context;
 use crate::app::drawn::{self, Owner};
-use crate::app::numbers;
-use crate::app::tabs::{badge, formulas};
 use crate::app::theme::{Palette, rich};
+use crate::app::{badge, formulas, numbers};
 use crate::scene::Table;
 use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, ScrollArea, Ui};

@@ -3,8 +3,8 @@
 
 use crate::app::context::Context;
 use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::plot::axes;
+use crate::app::plot::frame::PlotFrame;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use crate::solver::full::{Problem, Solution};
 use egui::{Align2, Ui};

@@ -3,7 +3,7 @@
 use crate::app::context::Context;
 use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
-use crate::app::tabs::axes;
+use crate::app::plot::axes;
 use crate::app::theme::{Palette, faded};
 use crate::solver::training::Plan;
 use egui::{Color32, RichText, Ui};

@@ -1,12 +1,12 @@
 //! The specification of a training as a form: presets, range, plan, reduction. What makes no sense is refused beside
 //! its field.
 
-use super::TrainingTab;
+use super::tab::TrainingTab;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{heading, named};
 use crate::app::document::Edit;
 use crate::app::form::{Form, choose, row, short};
-use crate::app::training::presets;
+use crate::app::tabs::training::presets;
 use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::physics::contact::ContactKind;

@@ -1,12 +1,12 @@
 //! The runs as a table, which is the plots' legend too: where each stands at this moment, how far it lies from what it
 //! is compared with, and what it cost.
 
+use super::runs::TransientView;
 use crate::app::numbers;
-use crate::app::tabs::in_time::faster;
-use crate::app::tabs::in_time::series;
-use crate::app::tabs::key::Sample;
+use crate::app::plot::key::Sample;
+use crate::app::tabs::transient::shared::faster;
+use crate::app::tabs::transient::{Run, series};
 use crate::app::theme::{Palette, rich};
-use crate::app::transient::{Run, TransientView};
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
 use egui::{Grid, Ui};

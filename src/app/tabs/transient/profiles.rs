@@ -1,12 +1,13 @@
 //! Pressure and film of every run at the moment that is looked at.
 
+use super::runs::TransientView;
 use crate::app::figure::Canvas;
 use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::in_time::series::{drawn, marks, rows, style};
-use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::plot::axes;
+use crate::app::plot::frame::PlotFrame;
+use crate::app::tabs::transient::Run;
+use crate::app::tabs::transient::series::{drawn, marks, rows, style};
 use crate::app::theme::{Palette, THIN_WIDTH};
-use crate::app::transient::{Run, TransientView};
 use crate::app::units::Scales;
 use crate::solver::full::transient::{Moment, Quantity};
 use egui::{Color32, Id, Ui, Vec2b};

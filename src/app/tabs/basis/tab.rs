@@ -1,0 +1,254 @@
+//! The reduced basis: how fast the singular values fall, what the tolerances keep, what the modes look like, where rows
+//! are sampled.
+
+use super::losses::{loss_plot, singular_plot};
+use super::{modes, plane, sizes};
+use crate::app::context::{Commands, Context};
+use crate::app::document::Edit;
+use crate::app::drawn::{self, Owner};
+use crate::app::in_use::InUse;
+use crate::app::tabs::profiles;
+use crate::app::tabs::take_away::Offer;
+use crate::app::theme::Palette;
+use crate::app::{badge, export, numbers};
+use crate::engine::job::Standing;
+use crate::engine::model_arrays;
+use crate::scene::View;
+use crate::solver::reduced::{PodBasis, ReducedModel, Scheme, Window};
+use egui::{Color32, Ui};
+use egui_plot::PlotPoint;
+use std::sync::Arc;
+
+/// Under this name a truncation is refused.
+pub const TRUNCATION: &str = "truncation";
+
+/// Which of the two bases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Field {
+    /// Pressure.
+    #[default]
+    Pressure,
+    /// Deformation.
+    Deformation,
+}
+
+impl Field {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Pressure => "Pressure",
+            Self::Deformation => "Deformation",
+        }
+    }
+
+    pub(super) fn of(self, window: &Window) -> &PodBasis {
+        match self {
+            Self::Pressure => window.pressure.basis(),
+            Self::Deformation => &window.deformation,
+        }
+    }
+
+    pub(super) fn color(self, palette: &Palette) -> Color32 {
+        match self {
+            Self::Pressure => palette.pressure,
+            Self::Deformation => palette.deformation,
+        }
+    }
+}
+
+/// What stands below the losses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+enum Below {
+    /// Shapes of the modes and sampled rows.
+    #[default]
+    Modes,
+    /// Error and time against their numbers.
+    Sizes,
+    /// The pressure of the contact, and what the reduced one differs by.
+    Difference,
+}
+
+impl Below {
+    const ALL: [(Self, &str); 3] = [
+        (Self::Modes, "Modes and rows"),
+        (Self::Sizes, "Error and time"),
+        (Self::Difference, "Profile and difference"),
+    ];
+}
+
+/// State of the tab, with the curves of one window.
+#[derive(Default)]
+pub struct Basis {
+    below: Below,
+    sizes: sizes::Sizes,
+    pub(super) field: Field,
+    pub(super) first_mode: usize,
+    pub(super) dragging: Option<Field>,
+    pub(super) curves: Option<Curves>,
+}
+
+impl Basis {
+    /// Takes in what its study has found.
+    pub fn receive(&mut self) {
+        self.sizes.receive();
+    }
+
+    /// How far its study is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.sizes.standing()
+    }
+
+    /// Stops its study.
+    pub fn stop(&self) {
+        self.sizes.stop();
+    }
+}
+
+pub(super) struct Curves {
+    window: usize,
+    model: Arc<ReducedModel>,
+    pub(super) singular: [Vec<PlotPoint>; 2],
+    pub(super) loss: [Vec<PlotPoint>; 2],
+    pub(super) modes: Vec<(Field, usize, Vec<PlotPoint>)>,
+    pub(super) plane: plane::ModeMap,
+    pub(super) rows: Vec<PlotPoint>,
+}
+
+impl Curves {
+    fn new(model: &Arc<ReducedModel>, at: usize, window: &Window) -> Self {
+        let log = |values: &mut dyn Iterator<Item = f64>, from: usize| -> Vec<PlotPoint> {
+            values
+                .enumerate()
+                .filter(|(_, v)| *v > 1e-17)
+                .map(|(k, v)| PlotPoint::new((k + from) as f64, v.log10()))
+                .collect()
+        };
+        let singular = |basis: &PodBasis| {
+            let first = basis.singular_values.first().copied().unwrap_or(1.0);
+            log(&mut basis.singular_values.iter().map(|s| s / first), 1)
+        };
+        let loss = |basis: &PodBasis| log(&mut (1..=basis.singular_values.len()).map(|k| basis.loss(k)), 1);
+        let rows = window.sampled_rows.iter().map(|row| window.grid.place(window.grid.node(*row)));
+        Self {
+            window: at,
+            model: Arc::clone(model),
+            singular: [singular(window.pressure.basis()), singular(&window.deformation)],
+            loss: [loss(window.pressure.basis()), loss(&window.deformation)],
+            modes: Vec::new(),
+            plane: plane::ModeMap::default(),
+            rows: rows.flat_map(mirrored).collect(),
+        }
+    }
+}
+
+/// A place and, off the axis, its mirror image.
+fn mirrored((xi, y): (f64, f64)) -> impl Iterator<Item = PlotPoint> {
+    let image = (y != 0.0).then(|| PlotPoint::new(xi, -y));
+    std::iter::once(PlotPoint::new(xi, y)).chain(image)
+}
+
+/// The tab.
+pub fn ui(ui: &mut Ui, own: &mut Basis, context: &Context<'_>, commands: &mut Commands) {
+    let Some(model) = context.answers.model(context.document).cloned() else {
+        ui.centered_and_justified(|ui| {
+            ui.weak("No reduced model is loaded, so there is no basis to show. The full solver draws every picture.")
+        });
+        return;
+    };
+    let at = model.window_for(&context.document.point);
+    let Some(window) = model.windows.get(at) else { return };
+    if own.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
+        own.curves = Some(Curves::new(&model, at, window));
+    }
+    if let Some(curves) = &own.curves {
+        let of = Owner::Model(InUse::new(&curves.model, &context.document.view));
+        drawn::note(ui.ctx(), "basis", of, false);
+    }
+    toolbar(ui, context, commands, &model, (at, window));
+    let height = ui.available_height();
+    let upper = 0.48 * height;
+    if ui.available_width() > 640.0 {
+        let half = 0.5 * ui.available_width() - 6.0;
+        ui.horizontal(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(half);
+                loss_plot(ui, own, context, commands, window, upper);
+            });
+            ui.vertical(|ui| {
+                ui.set_width(half);
+                singular_plot(ui, own, context.fit, upper);
+            });
+        });
+    } else {
+        loss_plot(ui, own, context, commands, window, upper);
+    }
+    ui.horizontal_wrapped(|ui| {
+        for (below, name) in Below::ALL {
+            ui.selectable_value(&mut own.below, below, name);
+        }
+    });
+    match own.below {
+        Below::Modes => modes::ui(ui, own, context.fit, window, (ui.available_height() - 4.0).max(120.0)),
+        Below::Sizes => sizes::ui(ui, &mut own.sizes, context, commands, (&model, at, window)),
+        Below::Difference => profiles::with_difference(ui, context),
+    }
+}
+
+fn toolbar(
+    ui: &mut Ui,
+    context: &Context<'_>,
+    commands: &mut Commands,
+    model: &ReducedModel,
+    (at, window): (usize, &Window),
+) {
+    let options = context.answers.options(context.document);
+    let view = context.document.view;
+    badge::ui(ui, context);
+    ui.horizontal_wrapped(|ui| {
+        ui.label(format!(
+            "Window {} of {}, M {}…{}, {} of {} modes",
+            at + 1,
+            model.windows.len(),
+            numbers::digits(window.m.0, 3),
+            numbers::digits(window.m.1, 3),
+            options.pressure_modes.unwrap_or(window.pressure.count()),
+            window.pressure.count()
+        ));
+        ui.weak(format!("Films rupture by {}", model.domain.lubricant.cavitation.name()));
+        if window.scheme != Scheme::Galerkin {
+            ui.weak(format!("Steps by {}", window.scheme.name()));
+        }
+        let truncated = view.pressure_loss.is_some() || view.deformation_loss.is_some();
+        if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
+            commands.edit(Edit::View(View { pressure_loss: None, deformation_loss: None, ..view }.into()), TRUNCATION);
+        }
+    });
+}
+
+/// What can be taken away from it.
+pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
+    let model = context.answers.model(context.document);
+    let window = model.and_then(|model| model.windows.get(model.window_for(&context.document.point)));
+    let tip = "Singular values and loss of information";
+    let whole = "Bases, singular values, sampled rows and snapshots of every window, in one archive that numpy reads";
+    vec![
+        Offer::table("Singular values as CSV…", tip, window, |window| csv(window)),
+        Offer::arrays("Model as npz…", whole, model, |model| model_arrays::of_model(model)),
+    ]
+}
+
+fn csv(window: &Window) -> String {
+    let count = window.pressure.singular_values().len().max(window.deformation.singular_values.len());
+    let row = |k: usize| {
+        let of = |basis: &PodBasis| {
+            let value = basis.singular_values.get(k).copied();
+            [value, value.map(|_| basis.loss(k + 1))]
+        };
+        let mut row = vec![Some(k as f64 + 1.0)];
+        row.extend(of(window.pressure.basis()));
+        row.extend(of(&window.deformation));
+        row
+    };
+    let header = ["mode", "sigma_pressure", "loss_pressure", "sigma_deformation", "loss_deformation"];
+    let comment = format!("window M {:e} to {:e}", window.m.0, window.m.1);
+    export::csv(&[comment], &header, (0..count).map(row))
+}
