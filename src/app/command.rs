@@ -8,7 +8,6 @@ use super::layouts::Layout;
 use super::purpose::{Purpose, Written};
 use super::sheets::Form;
 use super::tab::Tab;
-use crate::app::tabs::traction::{Served, Sweep};
 use crate::app::tabs::training::TrainingCommand;
 use crate::app::tabs::transient::InTimeCommand;
 use crate::scene::Scene;
@@ -139,14 +138,6 @@ pub enum Command {
     CloseHeadline,
     /// Put the sentence about the last file away.
     Dismiss,
-    /// Draw a curve by a reduced model.
-    FollowSweep(Box<(Sweep, Served)>),
-    /// Go to a place on the axis of the traction curve.
-    GoAlong(f64),
-    /// Full solutions along the traction curve where no model was trained for it.
-    FillAlong,
-    /// Stop the full solutions along the traction curve.
-    StopAlong,
     /// What becomes of contacts in time.
     InTime(InTimeCommand),
     /// Compare all reduced models that can be.

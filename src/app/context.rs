@@ -6,8 +6,6 @@ use super::command::Command;
 use super::controls::Entries;
 use super::display::Thresholds;
 use super::document::{Document, Edit};
-use crate::app::tabs::traction::TractionView;
-use crate::app::tabs::training::Training;
 use crate::app::tabs::transient::TransientView;
 use std::path::Path;
 
@@ -18,12 +16,8 @@ pub struct Context<'a> {
     pub document: &'a Document,
     /// What came of it.
     pub answers: &'a Answers,
-    /// Traction and film along one quantity.
-    pub traction: &'a TractionView,
-    /// Contacts in time.
+    /// Transient runs.
     pub transient: &'a TransientView,
-    /// Trainings.
-    pub training: &'a Training,
     /// What was refused, by the names of fields.
     pub entries: &'a Entries,
     /// Whether tabs say why, for teaching.

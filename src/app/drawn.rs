@@ -41,7 +41,7 @@ impl Owner {
             Self::Model(model) => serves(model),
             Self::ContactByModel(key, model) => *key == document.key() && serves(model),
             Self::InTime(setup) => **setup == Setup::of(document, context.file),
-            Self::Training(spec) => context.training.job().is_some() || document.training_spec() == Some(spec.as_ref()),
+            Self::Training(spec) => document.training_spec() == Some(spec.as_ref()),
             Self::Question(scene) => asks_the_same(scene, &document.to_scene()),
         }
     }

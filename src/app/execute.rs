@@ -12,7 +12,6 @@ use super::session::Place;
 use super::tab::Tab;
 use super::units::Units;
 use super::{Explorer, export};
-use crate::app::tabs::traction;
 use crate::app::tabs::transient::Setup;
 use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
@@ -60,12 +59,12 @@ impl Explorer {
             Command::Palette => self.palette.open(ctx),
             Command::Presentation => self.present(ctx),
             Command::Overlay => {
-                let overlay = &mut desk.views.profiles.choices.overlay;
+                let overlay = &mut desk.tabs.profiles.choices.overlay;
                 *overlay = !*overlay;
                 self.show(Tab::Profiles);
             }
             Command::Difference => {
-                let difference = &mut desk.views.profiles.choices.difference;
+                let difference = &mut desk.tabs.profiles.choices.difference;
                 *difference = !*difference;
                 self.show(Tab::Profiles);
             }
@@ -105,22 +104,8 @@ impl Explorer {
             Command::Verify => desk.answers.verify(ctx, &desk.document),
             Command::EstimateGridError => desk.answers.estimate_grid_error(ctx),
             Command::SolveAlong => {
-                let choices = &desk.views.traction.choices;
-                desk.traction.start_markers(ctx, &desk.document, &desk.answers, choices, false);
+                desk.tabs.traction.solve_along(ctx, &desk.document, &desk.answers);
                 self.show(Tab::Traction);
-            }
-            Command::FillAlong => {
-                let choices = &desk.views.traction.choices;
-                desk.traction.start_markers(ctx, &desk.document, &desk.answers, choices, true);
-            }
-            Command::StopAlong => desk.traction.stop_markers(),
-            Command::FollowSweep(asked) => {
-                let (sweep, served) = *asked;
-                desk.traction.follow(ctx, &desk.answers.store, sweep, served);
-            }
-            Command::GoAlong(place) => {
-                let edit = traction::edit_along(&desk.document, &desk.views.traction.choices, place);
-                desk.edit(edit, "traction");
             }
             Command::RunInTime => {
                 let setup = Setup::of(&desk.document, desk.files.path.as_deref());
@@ -144,13 +129,13 @@ impl Explorer {
             Command::Manual if self.help.manual.is_open() => self.help.manual.close(),
             Command::Manual => {
                 let front = self.tabs_in_front().next();
-                self.help.manual.open_at(front.map_or("start.md", Tab::page));
+                self.help.manual.open_at(front.map_or("start.md", |tab| self.desk.tabs.of(tab).about().page));
             }
             Command::Keyboard => self.help.manual.open_at("keyboard.md"),
             Command::About => self.help.about = true,
             Command::InTime(command) => desk.transient.execute(ctx, &desk.answers.store, command),
-            Command::CompareModels => desk.training.compare(ctx, &desk.answers, &desk.document),
-            Command::Training(command) => desk.training.execute(ctx, &mut desk.answers, command),
+            Command::CompareModels => desk.tabs.training.work.compare(ctx, &desk.answers, &desk.document),
+            Command::Training(command) => desk.tabs.training.work.execute(ctx, &mut desk.answers, command),
             Command::Edit(edit, field) => desk.edit(edit, field),
             Command::Refuse(field, why) => desk.entries.answer(field, Err(why.to_owned())),
             Command::Go(tab) => self.show(tab),

@@ -192,7 +192,8 @@ mod tests {
 
     #[test]
     fn every_tab_has_a_page() {
-        assert!(Tab::ALL.into_iter().all(|tab| PAGES.iter().any(|page| page.file == tab.page())));
+        let tabs = crate::app::tabs::all::Tabs::default();
+        assert!(Tab::ALL.iter().all(|tab| PAGES.iter().any(|page| page.file == tabs.of(*tab).about().page)));
     }
 
     #[test]

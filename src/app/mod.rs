@@ -4,6 +4,7 @@
 
 mod answers;
 mod badge;
+mod caption;
 mod command;
 mod context;
 mod controls;
@@ -60,7 +61,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tab::Tab;
-use tabs::Tabs;
+use tabs::frame::Frame;
 
 /// By which the system knows the window, and the session its folder.
 const APP_ID: &str = "ehl-explorer";
@@ -174,7 +175,7 @@ impl Explorer {
 
     /// Keeps trainings in a folder while they run, and offers to go on with what is found there.
     pub fn keeping_trainings_in(mut self, folder: &Path) -> Self {
-        self.desk.training.keep_in(folder);
+        self.desk.tabs.training.work.keep_in(folder);
         self
     }
 
@@ -197,7 +198,7 @@ impl Explorer {
             self.installed = true;
             theme::install(&ctx);
             ctx.set_theme(self.desk.display.theme);
-            self.desk.training.look(&ctx);
+            self.desk.tabs.training.work.look(&ctx);
         }
         self.scale(&ctx);
         self.palette.begin(&ctx);
@@ -213,7 +214,7 @@ impl Explorer {
         self.execute_all(&ctx, &mut commands);
         self.answer_opened(&ctx);
         let here = self.desk.document.point;
-        self.desk.views.regimes.follow(here.kind, here.moes());
+        self.desk.tabs.regimes.follow(here.kind, here.moes());
         self.desk.answers.refresh(&ctx, &self.desk.document);
         self.desk.follow_cuts();
         self.lessons_ui(ui, &mut commands);
@@ -228,7 +229,7 @@ impl Explorer {
         }
         CentralPanel::no_frame().show(ui, |ui| {
             let narrow = ui.available_width() < NARROW;
-            self.tree.ui(&mut Tabs { desk: &mut self.desk, commands: &mut commands, narrow }, ui);
+            self.tree.ui(&mut Frame { desk: &mut self.desk, commands: &mut commands, narrow }, ui);
         });
         self.drawn = drawn::all(&ctx);
         self.desk.files_ui(ui);

@@ -1,9 +1,7 @@
 //! What the window shows and does, for those who look at it from outside: the tests.
 
-use super::Explorer;
-use super::badge;
-use super::panels;
 use super::tab::Tab;
+use super::{Explorer, badge, panels};
 use crate::scene::Table;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
 use crate::solver::physics::lubricant::Lubricant;
@@ -72,17 +70,17 @@ impl Explorer {
 
     /// Whether the study of the open scene runs.
     pub fn running_study(&self) -> bool {
-        self.desk.views.results.standing().is_some()
+        self.desk.tabs.results.standing().is_some()
     }
 
     /// Whether all expectations of the open scene were met, once its study has ended.
     pub fn verdict(&self) -> Option<bool> {
-        self.desk.views.results.verdict()
+        self.desk.tabs.results.verdict()
     }
 
     /// The table of a name that the study of the open scene has given so far, as CSV.
     pub fn result_table(&self, name: &str) -> Option<String> {
-        self.desk.views.results.table(name).map(Table::to_csv)
+        self.desk.tabs.results.table(name).map(Table::to_csv)
     }
 
     /// The tab in front.
@@ -92,7 +90,7 @@ impl Explorer {
 
     /// Whether a training or a comparison runs.
     pub fn training(&self) -> bool {
-        self.desk.training.standing().is_some()
+        self.desk.tabs.training.work.standing().is_some()
     }
 
     /// Title of the reduced model in use.
@@ -102,7 +100,7 @@ impl Explorer {
 
     /// Whether a study of the Accuracy tab runs.
     pub fn studying(&self) -> bool {
-        self.desk.views.accuracy.standing().is_some()
+        self.desk.tabs.accuracy.works()
     }
 
     /// Whether a contact is taken through time, or about to be.
@@ -131,14 +129,14 @@ impl Explorer {
     /// Contacts of the traction curve on the screen, when it is the one that was asked for last, and full solutions
     /// beside it.
     pub fn traction_contacts(&self) -> (Option<usize>, usize) {
-        let view = &self.desk.traction;
+        let view = &self.desk.tabs.traction.sweeps;
         let curve = view.curve.as_ref().filter(|_| view.curve_is_current());
         (curve.map(|curve| curve.samples.len()), view.markers.as_ref().map_or(0, |markers| markers.samples.len()))
     }
 
     /// Whether full solutions along the traction curve are being computed.
     pub fn solving_along(&self) -> bool {
-        self.desk.traction.full.standing().is_some()
+        self.desk.tabs.traction.sweeps.full.standing().is_some()
     }
 
     /// SRR and NPR of the sliders.

@@ -1,12 +1,12 @@
 //! Everything that lies on the table: the document, what came of it, what is under way, files. Panels and tabs never
 //! see it whole: they are given a [`Context`] and ask for changes by commands.
 
-mod captions;
 pub mod files;
 mod refusal;
 
 use crate::app::answers::Answers;
 use crate::app::answers::picture::Cuts;
+use crate::app::caption;
 use crate::app::context::Context;
 use crate::app::controls::Entries;
 use crate::app::display::Display;
@@ -18,9 +18,7 @@ use crate::app::panels::headline::Headline;
 use crate::app::presentation::Presentation;
 use crate::app::sheets::Sheets;
 use crate::app::tab::Tab;
-use crate::app::tabs::Views;
-use crate::app::tabs::traction::TractionView;
-use crate::app::tabs::training::Training;
+use crate::app::tabs::all::Tabs;
 use crate::app::tabs::transient::TransientView;
 use crate::engine::job::{Standing, Wake};
 use crate::engine::{Store, Workbench};
@@ -29,9 +27,6 @@ use crate::solver::reduced::ReducedModel;
 use files::Files;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Seconds that a curve may take that follows a slider before anybody is told.
-const FOLLOWS_S: f64 = 0.5;
 
 /// What was just opened.
 pub enum Opened {
@@ -57,14 +52,10 @@ pub struct Desk {
     pub entries: Entries,
     /// Whether laws and constants of the lubricant are edited, though it may still have a name.
     pub own_lubricant: bool,
-    /// Trainings.
-    pub training: Training,
-    /// Contacts in time.
+    /// Transient runs, which several tabs show.
     pub transient: TransientView,
-    /// Traction and film along one quantity.
-    pub traction: TractionView,
-    /// What each tab keeps of its own.
-    pub views: Views,
+    /// The tabs.
+    pub tabs: Tabs,
     /// Plots that leave as figures.
     pub figures: Figures,
     /// Tables of load cases.
@@ -96,10 +87,8 @@ impl Desk {
             display: Display::default(),
             entries: Entries::default(),
             own_lubricant: false,
-            training: Training::default(),
             transient: TransientView::default(),
-            traction: TractionView::default(),
-            views: Views::default(),
+            tabs: Tabs::default(),
             figures: Figures::default(),
             load_cases: LoadCasesWindow::default(),
             headline: None,
@@ -116,8 +105,6 @@ impl Desk {
         Context {
             document: &self.document,
             answers: &self.answers,
-            traction: &self.traction,
-            training: &self.training,
             transient: &self.transient,
             file: self.files.path.as_deref(),
             entries: &self.entries,
@@ -178,61 +165,46 @@ impl Desk {
         self.answers.model(&self.document)
     }
 
-    /// How far all work is that runs beside the picture.
+    /// Returns the progress of all jobs beside the full solves for the picture.
     pub fn works(&self) -> Vec<Standing> {
-        let (views, transient) = (&self.views, &self.transient);
-        let asked = [
-            self.answers.standing(),
-            views.results.standing(),
-            views.basis.standing(),
-            transient.standing(),
-            transient.number.work.standing(),
-            self.sheets.standing(),
-            self.figures.standing(),
-            self.traction.full.standing(),
-            self.training.standing(),
-        ];
-        // What follows a dragged slider comes and goes: it is news when it lasts.
-        let following = [self.traction.following(), transient.replaying()];
-        let lasts = |standing: &Standing| standing.since_s > FOLLOWS_S;
-        let following = following.into_iter().flatten().filter(lasts);
-        views.accuracy.standings().chain(asked.into_iter().flatten()).chain(following).collect()
+        let context = self.context();
+        let tabs = Tab::ALL.iter().flat_map(|tab| self.tabs.of(*tab).jobs(&context));
+        let made = [self.sheets.standing(), self.figures.standing()];
+        self.answers.standing().into_iter().chain(tabs).chain(made.into_iter().flatten()).collect()
     }
 
-    /// Takes in what finished work brings. Called first in every frame.
+    /// Receives what has come since the last frame. Called first in every frame.
     pub fn receive(&mut self) {
         self.answers.receive();
-        self.views.accuracy.receive();
-        self.views.results.receive();
-        self.views.basis.receive();
         self.transient.receive(&self.answers.store);
-        self.traction.receive();
-        self.training.receive();
+        self.tabs.receive();
     }
 
     /// Stops everything that runs; what has been found stays.
     pub fn stop_all(&mut self) {
         self.answers.cancel_all();
-        self.training.stop();
-        self.views.accuracy.stop();
-        self.views.results.stop();
-        self.views.basis.stop();
         self.transient.stop();
-        self.traction.stop_markers();
+        self.tabs.stop();
         self.sheets.stop();
         self.figures.stop();
+    }
+
+    /// Returns the parameters of the plots of a tab, for the caption of a figure.
+    fn caption(&self, tab: Tab) -> String {
+        let own = self.tabs.of(tab).caption(&self.context());
+        own.unwrap_or_else(|| caption::contact(&self.document.point, &self.document.lubricant))
     }
 
     /// Runs the study of the scene on the screen.
     pub fn run_study(&mut self, wake: Wake) {
         let base = self.files.path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
         let bench = Workbench::on(&self.answers.store, base);
-        self.views.results.start(self.document.to_scene(), bench, wake);
+        self.tabs.results.start(self.document.to_scene(), bench, wake);
     }
 
     /// Watches a campaign of the scene on the screen.
     pub fn watch_campaign(&mut self, folder: PathBuf, wake: Wake) {
-        self.views.results.watch(self.document.to_scene(), folder, wake);
+        self.tabs.results.watch(self.document.to_scene(), folder, wake);
     }
 
     /// Replaces the document, as New and Open do.
@@ -241,7 +213,7 @@ impl Desk {
         self.document = document;
         self.own_lubricant = false;
         self.headline = None;
-        self.views.results.forget();
+        self.tabs.results.forget();
         self.entries.clear();
     }
 }

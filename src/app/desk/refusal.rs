@@ -16,7 +16,7 @@ const RUNS_ALREADY: &str = "It runs already";
 impl Desk {
     /// Whether what a command switches is on; `None` of commands that switch nothing.
     pub fn state(&self, command: &Command) -> Option<bool> {
-        let (profiles, theme) = (&self.views.profiles.choices, self.display.theme);
+        let (profiles, theme) = (&self.tabs.profiles.choices, self.display.theme);
         match command {
             Command::Overlay => Some(profiles.overlay),
             Command::Difference => Some(profiles.difference),
@@ -47,10 +47,10 @@ impl Desk {
                 (full, "The picture is the full solution itself")
             }
             Command::EstimateGridError => return grid_error(self),
-            Command::SolveAlong => match self.traction.full.standing() {
+            Command::SolveAlong => match self.tabs.traction.sweeps.full.standing() {
                 Some(_) => (true, RUNS_ALREADY),
                 None => (
-                    sweep(&self.document, &self.answers, &self.views.traction.choices).is_none(),
+                    sweep(&self.document, &self.answers, &self.tabs.traction.choices).is_none(),
                     "A Newtonian lubricant has no plateau ratio to vary",
                 ),
             },
@@ -58,9 +58,12 @@ impl Desk {
                 Some(_) => (true, RUNS_ALREADY),
                 None => return self.document.no_transient(),
             },
-            Command::Train => match self.training.standing() {
+            Command::Train => match self.tabs.training.work.standing() {
                 Some(_) => (true, "A training or comparison runs already"),
-                None => (self.training.left_behind, "First resume or discard the training that was left unfinished"),
+                None => (
+                    self.tabs.training.work.left_behind,
+                    "First resume or discard the training that was left unfinished",
+                ),
             },
             Command::Cancel => (self.works().is_empty() && self.answers.jobs.running().is_empty(), "Nothing runs"),
             _ => return None,

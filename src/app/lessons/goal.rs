@@ -62,7 +62,7 @@ impl Goal {
             "contact" => {
                 [ContactKind::Line, ContactKind::Point].into_iter().find(|kind| kind.name() == rest).map(Self::Kind)
             }
-            "tab" => Tab::ALL.into_iter().find(|tab| tab.title() == rest).map(Self::Tab),
+            "tab" => Tab::ALL.iter().find(|tab| tab.title() == rest).map(|tab| Self::Tab(*tab)),
             "lubricant" => {
                 let known = by_name(rest).ok()?;
                 NAMED.iter().find(|named| named.name == known.name).map(Self::Lubricant)

@@ -11,9 +11,7 @@ use super::figure::FigureSettings;
 use super::layouts::Layout;
 use super::presentation::Presentation;
 use super::tab::Tab;
-use super::tabs::contact_map::{MapView, optics};
-use super::tabs::profiles;
-use crate::app::tabs::traction;
+use crate::app::tabs::all::Tabs;
 use crate::scene::atomic_file::{self, WriteError};
 use egui::{Context, Rect};
 use egui_tiles::Tree;
@@ -147,33 +145,27 @@ impl Place {
 struct Shown {
     #[serde(flatten)]
     display: Display,
-    #[serde(flatten)]
-    profiles: profiles::Choices,
-    traction: traction::Choices,
-    map: MapView,
     figures: FigureSettings,
+    /// What the tabs keep, as text.
+    tabs: Vec<(Tab, String)>,
     /// Tabs whose axes stand still.
     locked: Vec<Tab>,
 }
 
 impl Shown {
     fn of(Explorer { desk, .. }: &Explorer) -> Self {
-        let views = &desk.views;
         Self {
             display: desk.display,
-            profiles: views.profiles.choices,
-            traction: views.traction.choices,
-            map: views.map.view,
             figures: desk.figures.settings,
+            tabs: desk.tabs.kept(),
             locked: desk.presentation.as_ref().map_or(&desk.locked, Presentation::locked_before).clone(),
         }
     }
 
     fn restore(self, Explorer { desk, .. }: &mut Explorer) {
+        desk.tabs.restore(&self.tabs);
         desk.display = self.display;
         (desk.figures.settings, desk.locked) = (self.figures, self.locked);
-        let views = &mut desk.views;
-        (views.profiles.choices, views.traction.choices, views.map.view) = (self.profiles, self.traction, self.map);
     }
 
     fn is_sound(&self) -> bool {
@@ -182,7 +174,7 @@ impl Shown {
             && within(zoom, Display::ZOOMS)
             && cuts.x.is_finite()
             && cuts.y.is_finite()
-            && optics::are_sound(&self.map.rig)
+            && Tabs::default().restore(&self.tabs)
             && self.figures.is_sound()
             && Tab::ALL.iter().all(|tab| self.locked.iter().filter(|locked| *locked == tab).count() <= 1)
     }
@@ -381,7 +373,7 @@ mod tests {
         document.set_quantity(Quantity::SlideToRollRatio, 0.3).unwrap();
         document.set_quantity(Quantity::NewtonianPlateauRatio, 0.4).unwrap();
         document.view.pressure_loss = Some(1e-6);
-        explorer.desk.views.traction.choices.against = Against::Stribeck;
+        explorer.desk.tabs.traction.choices.against = Against::Stribeck;
         explorer.desk.figures.settings = FigureSettings { dpi: 600.0, dark: true, ..FigureSettings::default() };
         explorer.desk.lock(Tab::Transient, true);
         explorer.place = Place { corner: Some((3.0, 4.0)), size: (1000.0, 700.0), maximized: true, sliders: 400.0 };

@@ -141,9 +141,13 @@ impl Desk {
                 self.files.quit = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
-            Pending::Train => self.training.start(ctx, &self.document),
-            Pending::DiscardTraining => self.training.execute(ctx, &mut self.answers, TrainingCommand::Discard),
-            Pending::ThrowModelAway => self.training.execute(ctx, &mut self.answers, TrainingCommand::ThrowAway),
+            Pending::Train => self.tabs.training.work.start(ctx, &self.document),
+            Pending::DiscardTraining => {
+                self.tabs.training.work.execute(ctx, &mut self.answers, TrainingCommand::Discard)
+            }
+            Pending::ThrowModelAway => {
+                self.tabs.training.work.execute(ctx, &mut self.answers, TrainingCommand::ThrowAway)
+            }
         }
     }
 

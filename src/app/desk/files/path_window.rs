@@ -163,7 +163,7 @@ impl Desk {
                 .read_inputs(&path)
                 .map(|()| self.files.notice = Some(Ok(format!("Read {}", path.display())))),
             Purpose::Cases => self.load_cases.read(&path),
-            Purpose::Beside => self.training.add_beside(&self.answers.store, &path),
+            Purpose::Beside => self.tabs.training.work.add_beside(&self.answers.store, &path),
             Purpose::Notes(sheet) => {
                 atomic_file::replace_all(&sheet.notes(&path)).map_err(|error| error.to_string()).map(|()| {
                     self.files.notice = Some(Ok(format!("Exported {} with its figures beside it", path.display())))
@@ -172,7 +172,7 @@ impl Desk {
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };
                 atomic_file::replace(&path, &bytes).map_err(|e| e.to_string()).map(|()| {
-                    self.training.saved(&bytes);
+                    self.tabs.training.work.saved(&bytes);
                     self.files.notice = Some(Ok(format!("{done} {}", path.display())));
                 })
             }

@@ -1,6 +1,6 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
-use super::tab::{AccuracyView, CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
+use super::tab::{Accuracy, CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
 use crate::app::context::Context;
 use crate::app::controls::{message_ui, standing_ui};
 use crate::app::drawn::{self, Owner};
@@ -154,7 +154,7 @@ impl Along {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut Accuracy, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let along = &mut own.along;
     along.show(&ctx, &context.answers.store, in_use);

@@ -2,7 +2,7 @@
 //! there.
 
 use super::random_tests::{Results, bound_of, error_of};
-use super::tab::{AccuracyView, CONTACT_COLUMNS, contact_cells, tests_toolbar};
+use super::tab::{Accuracy, CONTACT_COLUMNS, contact_cells, tests_toolbar};
 use super::worst::{self, Worst};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
@@ -105,7 +105,7 @@ const MAP: &str = "Map of the random tests";
 const FIELD: &str = "failure map";
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut Accuracy, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
     tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
     context.entries.message_ui(ui, FIELD);
     let Some(results) = &own.tests.results else {

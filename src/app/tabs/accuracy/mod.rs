@@ -9,4 +9,4 @@ mod tab;
 mod truth;
 mod worst;
 
-pub use tab::{AccuracyView, offers, ui};
+pub use tab::Accuracy;

@@ -1,6 +1,6 @@
 //! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
 
-use super::tab::{AccuracyView, run_or_stop, stale_note};
+use super::tab::{Accuracy, run_or_stop, stale_note};
 use crate::app::answers::REST_S;
 use crate::app::context::Context;
 use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
@@ -119,7 +119,7 @@ impl Split {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut Accuracy, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let now = SplitOf { key: context.document.key(), in_use: in_use.clone() };
     start_when_rested(ui, own, context, &now);
@@ -154,7 +154,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
 }
 
 /// Starts by itself once per contact and model, when the sliders rest where the model was trained.
-fn start_when_rested(ui: &Ui, own: &mut AccuracyView, context: &Context<'_>, now: &SplitOf) {
+fn start_when_rested(ui: &Ui, own: &mut Accuracy, context: &Context<'_>, now: &SplitOf) {
     let known = own.split.asked.as_ref() == Some(now);
     let trained = Problem::new(&now.key.point, now.key.lubricant)
         .is_ok_and(|problem| now.in_use.model.trust(&problem) == Trust::Trained);

@@ -6,7 +6,7 @@ use super::{along, failure_map, residuals, split, truth};
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{either_button, message_ui, named, standing_ui, warning_ui};
 use crate::app::in_use::InUse;
-use crate::app::tabs::take_away::Offer;
+use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::{Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::{Background, Standing};
@@ -16,7 +16,7 @@ use egui::{DragValue, Ui};
 
 /// A view of the tab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-enum View {
+enum Part {
     /// The parts of this contact's error.
     #[default]
     Split,
@@ -30,7 +30,7 @@ enum View {
     Residuals,
 }
 
-impl View {
+impl Part {
     const ALL: [Self; 5] = [Self::Split, Self::FailureMap, Self::Truth, Self::Along, Self::Residuals];
 
     fn name(self) -> &'static str {
@@ -46,8 +46,8 @@ impl View {
 
 /// The tab's studies and what they found.
 #[derive(Default)]
-pub struct AccuracyView {
-    view: View,
+pub struct Accuracy {
+    part: Part,
     pub(super) split: split::Split,
     pub(super) tests: RandomTests,
     pub(super) map: failure_map::Map,
@@ -57,9 +57,78 @@ pub struct AccuracyView {
     shown: bool,
 }
 
-impl AccuracyView {
-    /// Takes in what the studies have found since the last frame. Those that nobody asked for stop where nobody looks.
-    pub fn receive(&mut self) {
+impl Accuracy {
+    /// Whether a study runs.
+    pub fn works(&self) -> bool {
+        self.studies().into_iter().any(|work| work.standing().is_some())
+    }
+
+    fn studies(&self) -> [&Background<StudyRow>; 3] {
+        [&self.tests.work, &self.along.work, &self.split.work]
+    }
+}
+
+const ABOUT: About = About {
+    keywords: "error failure map residuals bound",
+    page: "trust.md",
+    has_units: false,
+    why: "A reduced model errs because its modes are too few, because its equations are met at some places only, \
+          and because its grid is coarse: each share can be measured. A full solution on the same grid gives the \
+          true error, and a calibrated bound predicts it without one. Random tests over the whole range show where \
+          it fails, and how often.",
+};
+
+impl View for Accuracy {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        self.shown = true;
+        ui.horizontal_wrapped(|ui| {
+            for part in Part::ALL {
+                ui.selectable_value(&mut self.part, part, part.name());
+            }
+        });
+        ui.separator();
+        if self.part == Part::Residuals {
+            residuals::ui(ui, context);
+            return;
+        }
+        let Some(in_use) = context.answers.in_use(context.document) else {
+            ui.centered_and_justified(|ui| {
+                ui.weak("No reduced model is loaded: every picture is a full solution, and there is nothing to judge")
+            });
+            return;
+        };
+        match self.part {
+            Part::Split => split::ui(ui, self, context, &in_use),
+            Part::FailureMap => failure_map::ui(ui, self, context, commands, &in_use),
+            Part::Truth => truth::ui(ui, self, context, &in_use),
+            Part::Along => along::ui(ui, self, context, &in_use),
+            Part::Residuals => {}
+        }
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        let split = self.split.found.as_ref();
+        let tests = self.tests.results.as_ref().filter(|results| !results.tests.is_empty());
+        let along = self.along.results.as_ref().filter(|results| !results.steps.is_empty());
+        let report = context.answers.last_report.as_ref();
+        let tested = "Every test with its contact, films, bound and true errors";
+        let followed = "Every contact with both films, bound and true error";
+        let steps = "Residual and step of every Newton step";
+        let parts = "All parts for H_c, H_min and the pressure";
+        vec![
+            Offer::table("Parts of the error as CSV…", parts, split, |(asked, split)| split::csv(asked, split)),
+            Offer::table("Random tests as CSV…", tested, tests, |results| failure_map::csv(results)),
+            Offer::table("Trajectory as CSV…", followed, along, |results| along::csv(results)),
+            Offer::table("Newton residuals as CSV…", steps, report, |(key, report)| residuals::csv(key, report)),
+        ]
+    }
+
+    /// Studies that nobody asked for stop where nobody looks.
+    fn receive(&mut self) {
         if !std::mem::take(&mut self.shown) {
             self.split.hide();
             self.tests.hide();
@@ -70,69 +139,12 @@ impl AccuracyView {
         self.along.receive();
     }
 
-    /// How far the study is that runs; the first where there are several.
-    pub fn standing(&self) -> Option<Standing> {
-        self.standings().next()
+    fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {
+        self.studies().into_iter().filter_map(Background::standing).collect()
     }
 
-    /// How far all of them are.
-    pub fn standings(&self) -> impl Iterator<Item = Standing> {
-        self.works().into_iter().filter_map(Background::standing)
-    }
-
-    /// Stops every study; what they have found stays.
-    pub fn stop(&self) {
-        self.works().into_iter().for_each(Background::stop);
-    }
-
-    fn works(&self) -> [&Background<StudyRow>; 3] {
-        [&self.tests.work, &self.along.work, &self.split.work]
-    }
-}
-
-/// What can be taken away from it.
-pub fn offers<'a>(own: &'a AccuracyView, context: &Context<'a>) -> Vec<Offer<'a>> {
-    let split = own.split.found.as_ref();
-    let tests = own.tests.results.as_ref().filter(|results| !results.tests.is_empty());
-    let along = own.along.results.as_ref().filter(|results| !results.steps.is_empty());
-    let report = context.answers.last_report.as_ref();
-    let tested = "Every test with its contact, films, bound and true errors";
-    let followed = "Every contact with both films, bound and true error";
-    let steps = "Residual and step of every Newton step";
-    let parts = "All parts for H_c, H_min and the pressure";
-    vec![
-        Offer::table("Parts of the error as CSV…", parts, split, |(asked, split)| split::csv(asked, split)),
-        Offer::table("Random tests as CSV…", tested, tests, |results| failure_map::csv(results)),
-        Offer::table("Trajectory as CSV…", followed, along, |results| along::csv(results)),
-        Offer::table("Newton residuals as CSV…", steps, report, |(key, report)| residuals::csv(key, report)),
-    ]
-}
-
-/// The tab.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands) {
-    own.shown = true;
-    ui.horizontal_wrapped(|ui| {
-        for view in View::ALL {
-            ui.selectable_value(&mut own.view, view, view.name());
-        }
-    });
-    ui.separator();
-    if own.view == View::Residuals {
-        residuals::ui(ui, context);
-        return;
-    }
-    let Some(in_use) = context.answers.in_use(context.document) else {
-        ui.centered_and_justified(|ui| {
-            ui.weak("No reduced model is loaded: every picture is a full solution, and there is nothing to judge")
-        });
-        return;
-    };
-    match own.view {
-        View::Split => split::ui(ui, own, context, &in_use),
-        View::FailureMap => failure_map::ui(ui, own, context, commands, &in_use),
-        View::Truth => truth::ui(ui, own, context, &in_use),
-        View::Along => along::ui(ui, own, context, &in_use),
-        View::Residuals => {}
+    fn stop(&mut self) {
+        self.studies().into_iter().for_each(Background::stop);
     }
 }
 

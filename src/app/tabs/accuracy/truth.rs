@@ -2,7 +2,7 @@
 
 use super::failure_map::{By, is_former, stamp, summary};
 use super::random_tests::{Results, bound_of};
-use super::tab::{AccuracyView, tests_toolbar};
+use super::tab::{Accuracy, tests_toolbar};
 use crate::app::context::Context;
 use crate::app::controls::spoken;
 use crate::app::in_use::InUse;
@@ -82,7 +82,7 @@ impl Scatter {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut Accuracy, context: &Context<'_>, in_use: &InUse) {
     tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
     let Some(results) = &own.tests.results else {
         super::tab::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");

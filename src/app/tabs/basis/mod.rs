@@ -6,4 +6,4 @@ mod plane;
 mod sizes;
 mod tab;
 
-pub use tab::{Basis, offers, ui};
+pub use tab::Basis;

@@ -7,13 +7,12 @@ use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::drawn::{self, Owner};
 use crate::app::in_use::InUse;
-use crate::app::tabs::profiles;
-use crate::app::tabs::take_away::Offer;
+use crate::app::tabs::{About, Offer, View, profiles};
 use crate::app::theme::Palette;
 use crate::app::{badge, export, numbers};
 use crate::engine::job::Standing;
 use crate::engine::model_arrays;
-use crate::scene::View;
+
 use crate::solver::reduced::{PodBasis, ReducedModel, Scheme, Window};
 use egui::{Color32, Ui};
 use egui_plot::PlotPoint;
@@ -86,23 +85,6 @@ pub struct Basis {
     pub(super) curves: Option<Curves>,
 }
 
-impl Basis {
-    /// Takes in what its study has found.
-    pub fn receive(&mut self) {
-        self.sizes.receive();
-    }
-
-    /// How far its study is.
-    pub fn standing(&self) -> Option<Standing> {
-        self.sizes.standing()
-    }
-
-    /// Stops its study.
-    pub fn stop(&self) {
-        self.sizes.stop();
-    }
-}
-
 pub(super) struct Curves {
     window: usize,
     model: Arc<ReducedModel>,
@@ -146,50 +128,91 @@ fn mirrored((xi, y): (f64, f64)) -> impl Iterator<Item = PlotPoint> {
     std::iter::once(PlotPoint::new(xi, y)).chain(image)
 }
 
-/// The tab.
-pub fn ui(ui: &mut Ui, own: &mut Basis, context: &Context<'_>, commands: &mut Commands) {
-    let Some(model) = context.answers.model(context.document).cloned() else {
-        ui.centered_and_justified(|ui| {
-            ui.weak("No reduced model is loaded, so there is no basis to show. The full solver draws every picture.")
-        });
-        return;
-    };
-    let at = model.window_for(&context.document.point);
-    let Some(window) = model.windows.get(at) else { return };
-    if own.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
-        own.curves = Some(Curves::new(&model, at, window));
+const ABOUT: About = About {
+    keywords: "singular values modes truncation sampled rows",
+    page: "training.md",
+    has_units: true,
+    why: "Pressures of all contacts of a range look alike: a few dozen shapes, the modes, add up to every one of \
+          them. How fast the singular values fall says how many are needed for an error that you choose. The \
+          equations are then solved at a few places only, the sampled rows, which crowd where little is decided \
+          elsewhere: at the inlet and at the spike.",
+};
+
+impl View for Basis {
+    fn about(&self) -> &'static About {
+        &ABOUT
     }
-    if let Some(curves) = &own.curves {
-        let of = Owner::Model(InUse::new(&curves.model, &context.document.view));
-        drawn::note(ui.ctx(), "basis", of, false);
-    }
-    toolbar(ui, context, commands, &model, (at, window));
-    let height = ui.available_height();
-    let upper = 0.48 * height;
-    if ui.available_width() > 640.0 {
-        let half = 0.5 * ui.available_width() - 6.0;
-        ui.horizontal(|ui| {
-            ui.vertical(|ui| {
-                ui.set_width(half);
-                loss_plot(ui, own, context, commands, window, upper);
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let Some(model) = context.answers.model(context.document).cloned() else {
+            ui.centered_and_justified(|ui| {
+                ui.weak(
+                    "No reduced model is loaded, so there is no basis to show. The full solver draws every picture.",
+                )
             });
-            ui.vertical(|ui| {
-                ui.set_width(half);
-                singular_plot(ui, own, context.fit, upper);
-            });
-        });
-    } else {
-        loss_plot(ui, own, context, commands, window, upper);
-    }
-    ui.horizontal_wrapped(|ui| {
-        for (below, name) in Below::ALL {
-            ui.selectable_value(&mut own.below, below, name);
+            return;
+        };
+        let at = model.window_for(&context.document.point);
+        let Some(window) = model.windows.get(at) else { return };
+        if self.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
+            self.curves = Some(Curves::new(&model, at, window));
         }
-    });
-    match own.below {
-        Below::Modes => modes::ui(ui, own, context.fit, window, (ui.available_height() - 4.0).max(120.0)),
-        Below::Sizes => sizes::ui(ui, &mut own.sizes, context, commands, (&model, at, window)),
-        Below::Difference => profiles::with_difference(ui, context),
+        if let Some(curves) = &self.curves {
+            let of = Owner::Model(InUse::new(&curves.model, &context.document.view));
+            drawn::note(ui.ctx(), "basis", of, false);
+        }
+        toolbar(ui, context, commands, &model, (at, window));
+        let height = ui.available_height();
+        let upper = 0.48 * height;
+        if ui.available_width() > 640.0 {
+            let half = 0.5 * ui.available_width() - 6.0;
+            ui.horizontal(|ui| {
+                ui.vertical(|ui| {
+                    ui.set_width(half);
+                    loss_plot(ui, self, context, commands, window, upper);
+                });
+                ui.vertical(|ui| {
+                    ui.set_width(half);
+                    singular_plot(ui, self, context.fit, upper);
+                });
+            });
+        } else {
+            loss_plot(ui, self, context, commands, window, upper);
+        }
+        ui.horizontal_wrapped(|ui| {
+            for (below, name) in Below::ALL {
+                ui.selectable_value(&mut self.below, below, name);
+            }
+        });
+        match self.below {
+            Below::Modes => modes::ui(ui, self, context.fit, window, (ui.available_height() - 4.0).max(120.0)),
+            Below::Sizes => sizes::ui(ui, &mut self.sizes, context, commands, (&model, at, window)),
+            Below::Difference => profiles::with_difference(ui, context),
+        }
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        let model = context.answers.model(context.document);
+        let window = model.and_then(|model| model.windows.get(model.window_for(&context.document.point)));
+        let tip = "Singular values and loss of information";
+        let whole =
+            "Bases, singular values, sampled rows and snapshots of every window, in one archive that numpy reads";
+        vec![
+            Offer::table("Singular values as CSV…", tip, window, |window| csv(window)),
+            Offer::arrays("Model as npz…", whole, model, |model| model_arrays::of_model(model)),
+        ]
+    }
+
+    fn receive(&mut self) {
+        self.sizes.receive();
+    }
+
+    fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {
+        self.sizes.standing().into_iter().collect()
+    }
+
+    fn stop(&mut self) {
+        self.sizes.stop();
     }
 }
 
@@ -219,21 +242,12 @@ fn toolbar(
         }
         let truncated = view.pressure_loss.is_some() || view.deformation_loss.is_some();
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
-            commands.edit(Edit::View(View { pressure_loss: None, deformation_loss: None, ..view }.into()), TRUNCATION);
+            commands.edit(
+                Edit::View(crate::scene::View { pressure_loss: None, deformation_loss: None, ..view }.into()),
+                TRUNCATION,
+            );
         }
     });
-}
-
-/// What can be taken away from it.
-pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
-    let model = context.answers.model(context.document);
-    let window = model.and_then(|model| model.windows.get(model.window_for(&context.document.point)));
-    let tip = "Singular values and loss of information";
-    let whole = "Bases, singular values, sampled rows and snapshots of every window, in one archive that numpy reads";
-    vec![
-        Offer::table("Singular values as CSV…", tip, window, |window| csv(window)),
-        Offer::arrays("Model as npz…", whole, model, |model| model_arrays::of_model(model)),
-    ]
 }
 
 fn csv(window: &Window) -> String {

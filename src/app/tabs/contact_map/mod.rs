@@ -3,9 +3,8 @@
 mod contours;
 mod export;
 mod images;
-pub mod optics;
+mod optics;
 mod scale;
 mod tab;
 
-pub use export::particulars;
-pub use tab::{ContactMap, MapView};
+pub use tab::ContactMap;

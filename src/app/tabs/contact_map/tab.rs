@@ -1,9 +1,8 @@
 //! The contact map: film or pressure of a point contact over the whole plane, and the interferogram that a rig shows of
 //! it. Two lines that can be dragged say where Profiles cuts it.
 
-use super::export;
 use super::images::Images;
-use super::{optics, scale};
+use super::{export, optics, scale};
 
 use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::command::Command;
@@ -16,11 +15,11 @@ use crate::app::plot::cut_line::{self, snapped};
 use crate::app::plot::grip::Grip;
 use crate::app::plot::{axes, color_bar};
 use crate::app::purpose::{Purpose, Written};
-use crate::app::tabs::take_away::Offer;
 use crate::app::tabs::transient::{InTimeCommand, shared, space_time};
+use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, faded};
 use crate::app::units::Scales;
-use crate::app::{badge, numbers};
+use crate::app::{badge, caption, numbers};
 use crate::solver::full::heat::{Rises, Temperatures};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::optics::Interferometer;
@@ -111,48 +110,6 @@ pub struct ContactMap {
 }
 
 impl ContactMap {
-    /// The tab.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        if context.document.point.kind == ContactKind::Line {
-            self.line(ui, context, commands);
-            return;
-        }
-        badge::ui(ui, context);
-        if self.view.shown == Shown::Temperature && context.document.lubricant.heat.is_none() {
-            self.view.shown = Shown::Film;
-        }
-        self.toolbar(ui, context, commands);
-        if self.view.shown == Shown::Interferogram && !context.presenting {
-            optics::ui(ui, &mut self.view);
-        }
-        let Some(picture) = context.answers.picture.as_ref().filter(|picture| picture.has_plane()) else {
-            ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
-            return;
-        };
-        let stale = drawn::is_grey(ui.ctx(), "map", Owner::Contact(picture.key), context);
-        let view = match (self.view.shown, &picture.solution.heat) {
-            // The last picture without heat, until the first one with it is there.
-            (Shown::Temperature, None) => MapView { shown: Shown::Film, ..self.view },
-            _ => self.view,
-        };
-        self.images.follow(ui.ctx(), picture, &view);
-        let framed = self.framed.replace(picture.kappa()).unwrap_or(1.0) == picture.kappa();
-        let drawing =
-            Drawing { picture, images: &self.images, view, cuts: context.cuts, fit: context.fit, framed, stale };
-        let height = ui.available_height();
-        let whole = ui.horizontal_top(|ui| {
-            let width = (ui.available_width() - color_bar::WIDTH - 8.0).max(200.0);
-            let drawn = ui.vertical(|ui| {
-                ui.set_width(width);
-                drawing.ui(ui, height)
-            });
-            scale::ui(ui, drawing.images, picture, &drawing.view, height);
-            drawn.inner
-        });
-        let (response, transform) = whole.inner;
-        drag_cuts(ui, (context.cuts, picture.kappa()), &response, &transform, commands);
-    }
-
     /// What a line contact has instead: a ball in its place with one click, and its film over time.
     fn line(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
@@ -197,9 +154,65 @@ impl ContactMap {
             cut_line::cuts_ui(ui, context, commands);
         });
     }
+}
 
-    /// What can be taken away from it.
-    pub fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+const ABOUT: About = About {
+    keywords: "interferogram fringes contours horseshoe side lobes",
+    page: "tour.md",
+    has_units: true,
+    why: "Seen from above the film has a flat middle and a horseshoe of thin film around its sides and its outlet, \
+          where pressure drives oil out. The thinnest places are the two side lobes: there surfaces touch first. \
+          The interferogram shows the same film as a rig with a glass disc photographs it, each colour one \
+          thickness.",
+};
+
+impl View for ContactMap {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        if context.document.point.kind == ContactKind::Line {
+            self.line(ui, context, commands);
+            return;
+        }
+        badge::ui(ui, context);
+        if self.view.shown == Shown::Temperature && context.document.lubricant.heat.is_none() {
+            self.view.shown = Shown::Film;
+        }
+        self.toolbar(ui, context, commands);
+        if self.view.shown == Shown::Interferogram && !context.presenting {
+            optics::ui(ui, &mut self.view);
+        }
+        let Some(picture) = context.answers.picture.as_ref().filter(|picture| picture.has_plane()) else {
+            ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
+            return;
+        };
+        let stale = drawn::is_grey(ui.ctx(), "map", Owner::Contact(picture.key), context);
+        let view = match (self.view.shown, &picture.solution.heat) {
+            // The last picture without heat, until the first one with it is there.
+            (Shown::Temperature, None) => MapView { shown: Shown::Film, ..self.view },
+            _ => self.view,
+        };
+        self.images.follow(ui.ctx(), picture, &view);
+        let framed = self.framed.replace(picture.kappa()).unwrap_or(1.0) == picture.kappa();
+        let drawing =
+            Drawing { picture, images: &self.images, view, cuts: context.cuts, fit: context.fit, framed, stale };
+        let height = ui.available_height();
+        let whole = ui.horizontal_top(|ui| {
+            let width = (ui.available_width() - color_bar::WIDTH - 8.0).max(200.0);
+            let drawn = ui.vertical(|ui| {
+                ui.set_width(width);
+                drawing.ui(ui, height)
+            });
+            scale::ui(ui, drawing.images, picture, &drawing.view, height);
+            drawn.inner
+        });
+        let (response, transform) = whole.inner;
+        drag_cuts(ui, (context.cuts, picture.kappa()), &response, &transform, commands);
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
         if context.document.point.kind == ContactKind::Line {
             return vec![space_time::offer(context)];
         }
@@ -210,6 +223,23 @@ impl ContactMap {
             Offer::table("Map as CSV…", tip, picture, |picture| export::csv(picture)),
             Offer::new("Bare map as PNG…", "The map alone, pixel by pixel", picture.map(|_| image)),
         ]
+    }
+
+    fn caption(&self, context: &Context<'_>) -> Option<String> {
+        if context.document.point.kind == ContactKind::Line {
+            return shared::caption(context.transient);
+        }
+        let more = export::particulars(context.answers, &self.view)?;
+        let key = context.document.key();
+        Some(format!("{}; {more}", caption::contact(&key.point, &key.lubricant)))
+    }
+
+    fn kept(&self) -> Option<String> {
+        view::kept(&self.view)
+    }
+
+    fn restore(&mut self, text: &str) -> bool {
+        view::restore(&mut self.view, text, |view| optics::are_sound(&view.rig))
     }
 }
 

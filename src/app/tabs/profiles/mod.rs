@@ -6,4 +6,4 @@ mod plots;
 mod tab;
 mod temperatures;
 
-pub use tab::{Choices, Profiles, offers, with_difference};
+pub use tab::{Profiles, with_difference};

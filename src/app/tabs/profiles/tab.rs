@@ -12,7 +12,7 @@ use crate::app::controls::named;
 use crate::app::drawn::{self, Owner};
 use crate::app::plot::cut_line;
 use crate::app::plot::direction::Direction;
-use crate::app::tabs::take_away::Offer;
+use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, rich};
 use crate::app::units::Scales;
 use crate::app::{badge, export, numbers};
@@ -48,9 +48,23 @@ impl Default for Choices {
     }
 }
 
-impl Profiles {
-    /// The tab.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+const ABOUT: About = About {
+    keywords: "pressure film spike shear",
+    page: "tour.md",
+    has_units: true,
+    why: "Oil that the surfaces drag into the narrowing gap builds up so much pressure that the bodies flatten: \
+          nearly everywhere the pressure is that of the dry contact, dashed, and the film between is nearly flat. \
+          Near the outlet the film must narrow so that no more oil leaves than enters, and in front of that the \
+          pressure rises to a spike. The film is made in the inlet: more speed or viscosity thickens it, while load \
+          hardly matters.",
+};
+
+impl View for Profiles {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         badge::ui(ui, context);
         toolbar(ui, &mut self.choices, context, commands);
         pins_ui(ui, context, commands);
@@ -145,6 +159,27 @@ impl Profiles {
             commands.push(Command::Cut(cuts));
         }
     }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        let (answers, cuts) = (context.answers, context.cuts);
+        let picture = answers.picture.as_ref();
+        let tip = "Live, full and pinned profiles with their SI twins, all of the domain";
+        let mut offers = vec![Offer::new("Profiles as CSV…", tip, picture.map(|_| || Command::ExportProfiles))];
+        if let Some(picture) = picture.filter(|picture| picture.has_plane()) {
+            let tip = "The live profile across, with its SI twins";
+            let across = move |picture: &&Picture| export::profile_across(picture, cuts.x);
+            offers.push(Offer::table("Profile across as CSV…", tip, Some(picture), across));
+        }
+        offers
+    }
+
+    fn kept(&self) -> Option<String> {
+        view::kept(&self.choices)
+    }
+
+    fn restore(&mut self, text: &str) -> bool {
+        view::restore(&mut self.choices, text, |_| true)
+    }
 }
 
 /// The pressure and, as soon as there is a full solution, what the reduced one differs from it by, side by side.
@@ -214,20 +249,6 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
             cut_line::cuts_ui(ui, context, commands);
         }
     });
-}
-
-/// What can be taken away from it.
-pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
-    let (answers, cuts) = (context.answers, context.cuts);
-    let picture = answers.picture.as_ref();
-    let tip = "Live, full and pinned profiles with their SI twins, all of the domain";
-    let mut offers = vec![Offer::new("Profiles as CSV…", tip, picture.map(|_| || Command::ExportProfiles))];
-    if let Some(picture) = picture.filter(|picture| picture.has_plane()) {
-        let tip = "The live profile across, with its SI twins";
-        let across = move |picture: &&Picture| export::profile_across(picture, cuts.x);
-        offers.push(Offer::table("Profile across as CSV…", tip, Some(picture), across));
-    }
-    offers
 }
 
 fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {

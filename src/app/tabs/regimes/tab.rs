@@ -9,7 +9,7 @@ use crate::app::plot::axes;
 use crate::app::plot::grip::Grip;
 use crate::app::tabs::regimes::chart::{ChartLine, ChartLines, Kind, point, shading};
 use crate::app::tabs::regimes::trail::Trail;
-use crate::app::tabs::take_away::Offer;
+use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::{Palette, faded, rich};
 use crate::app::{formulas, numbers};
 use crate::scene::regimes::{L_AXIS, M_AXIS, Regime};
@@ -53,30 +53,6 @@ impl Regimes {
     /// Takes note of where the contact is now, whether or not the chart can be seen.
     pub fn follow(&mut self, kind: ContactKind, moes: Moes) {
         self.trail.follow(kind, at(moes));
-    }
-
-    /// The tab.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        if context.presenting {
-            // An audience looks at the chart.
-            self.chart(ui, context, commands, ui.available_height());
-        } else if ui.available_width() > 760.0 {
-            ui.horizontal_top(|ui| {
-                let table = if context.document.point.kind == ContactKind::Line { 350.0 } else { 384.0 };
-                let width = ui.available_width() - table - 14.0;
-                ui.vertical(|ui| {
-                    ui.set_width(width);
-                    self.chart(ui, context, commands, ui.available_height());
-                });
-                ui.add_space(6.0);
-                ui.vertical(|ui| formulas::ui(ui, context));
-            });
-        } else {
-            let room = ui.available_height();
-            self.chart(ui, context, commands, (room - FORMULAS).max(0.7 * room));
-            let table = ScrollArea::vertical().id_salt("formulas").auto_shrink(false);
-            table.show(ui, |ui| formulas::ui(ui, context));
-        }
     }
 
     fn chart(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands, height: f32) {
@@ -221,9 +197,47 @@ impl Regimes {
             commands.edit(Edit::Moes(Moes { m, l }), FIELD);
         }
     }
+}
 
-    /// What can be taken away from it.
-    pub fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+const ABOUT: About = About {
+    keywords: "chart film formulas Moes asymptotes",
+    page: "physics.md",
+    has_units: false,
+    why: "Load, speed, size and stiffness act on a film only by two numbers: how heavily it is loaded, M, and how \
+          strongly its viscosity rises with pressure, L. Where bodies stay rigid or the oil stays thin other laws \
+          rule, and the colours say which one does. Every published formula fits a part of this chart, so look \
+          where you stand before you use one.",
+};
+
+impl View for Regimes {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        if context.presenting {
+            // An audience looks at the chart.
+            self.chart(ui, context, commands, ui.available_height());
+        } else if ui.available_width() > 760.0 {
+            ui.horizontal_top(|ui| {
+                let table = if context.document.point.kind == ContactKind::Line { 350.0 } else { 384.0 };
+                let width = ui.available_width() - table - 14.0;
+                ui.vertical(|ui| {
+                    ui.set_width(width);
+                    self.chart(ui, context, commands, ui.available_height());
+                });
+                ui.add_space(6.0);
+                ui.vertical(|ui| formulas::ui(ui, context));
+            });
+        } else {
+            let room = ui.available_height();
+            self.chart(ui, context, commands, (room - FORMULAS).max(0.7 * room));
+            let table = ScrollArea::vertical().id_salt("formulas").auto_shrink(false);
+            table.show(ui, |ui| formulas::ui(ui, context));
+        }
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
         let lines = self.lines.as_ref().map(|(_, lines)| lines);
         let tip = "Each published formula with its film, its range, its source and how far this contact is from it";
         vec![

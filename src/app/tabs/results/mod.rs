@@ -6,4 +6,4 @@ mod run;
 mod tab;
 mod table;
 
-pub use tab::ResultsView;
+pub use tab::Results;

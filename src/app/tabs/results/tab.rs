@@ -9,7 +9,7 @@ use crate::app::controls::{either_button, message_ui, named, standing_ui, warnin
 use crate::app::document::Document;
 use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
-use crate::app::tabs::take_away::Offer;
+use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::{Palette, rich};
 use crate::engine::Workbench;
 use crate::engine::job::{Standing, Wake};
@@ -33,7 +33,7 @@ enum ResultsChoice {
 }
 
 /// The tab's run and what is shown of it.
-pub struct ResultsView {
+pub struct Results {
     run: Option<Run>,
     /// The document that was on the screen last, as a scene.
     seen: Option<(Document, Scene)>,
@@ -41,13 +41,13 @@ pub struct ResultsView {
     fresh: bool,
 }
 
-impl Default for ResultsView {
+impl Default for Results {
     fn default() -> Self {
         Self { run: None, seen: None, shown: ResultsChoice::Charts, fresh: true }
     }
 }
 
-impl ResultsView {
+impl Results {
     /// Runs the study of a scene on a bench.
     pub fn start(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
         let shown = match scene.study {
@@ -68,13 +68,6 @@ impl ResultsView {
         *self = Self::default();
     }
 
-    /// Takes in what came since the last frame.
-    pub fn receive(&mut self) {
-        if let Some(run) = &mut self.run {
-            run.receive();
-        }
-    }
-
     /// How far the study is that runs.
     pub fn standing(&self) -> Option<Standing> {
         self.run.as_ref()?.standing()
@@ -83,13 +76,6 @@ impl ResultsView {
     /// Whether a study runs here whose rows lie nowhere else.
     pub fn would_lose(&self) -> bool {
         self.run.as_ref().is_some_and(|run| run.campaign.is_none() && run.standing().is_some())
-    }
-
-    /// Stops it; what it has found stays.
-    pub fn stop(&self) {
-        if let Some(run) = &self.run {
-            run.stop();
-        }
     }
 
     /// Whether everything has been answered, and whether all expectations hold.
@@ -101,15 +87,6 @@ impl ResultsView {
     /// A table by its name, of the last look.
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.run.as_ref()?.look.as_ref()?.table(name)
-    }
-
-    /// The tab for the document on the screen.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        let document = context.document;
-        let seen = self.seen.take().filter(|seen| seen.0 == *document);
-        let seen = seen.unwrap_or_else(|| (document.clone(), document.to_scene()));
-        self.scene_ui(ui, &seen.1, context, commands);
-        self.seen = Some(seen);
     }
 
     fn scene_ui(&mut self, ui: &mut Ui, scene: &Scene, context: &Context<'_>, commands: &mut Commands) {
@@ -166,27 +143,6 @@ impl ResultsView {
         }
     }
 
-    /// What can be taken away from it.
-    pub fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
-        if self.run.is_none() {
-            let text = contact::csv(context);
-            return vec![Offer::table(
-                "Table as CSV…",
-                "The table of this contact, with all digits",
-                text,
-                String::clone,
-            )];
-        }
-        let look = self.run.as_ref().and_then(|run| run.look.as_ref());
-        let table = match &self.shown {
-            ResultsChoice::Table(name) => look.and_then(|look| look.table(name)),
-            ResultsChoice::Charts => look.and_then(|look| look.outcome.tables.first()),
-        };
-        vec![Offer::table("Table as CSV…", "The table that is chosen, or the first one", table, |table| {
-            table.to_csv()
-        })]
-    }
-
     fn toolbar(&mut self, ui: &mut Ui, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
@@ -223,6 +179,65 @@ impl ResultsView {
             self.shown = chosen;
             standing_ui(ui, standing, "Progress of the study");
         });
+    }
+}
+
+const ABOUT: About = About {
+    keywords: "study scene run expectations verdicts table",
+    page: "scenes.md",
+    has_units: false,
+    why: "A scene is an experiment with a question, and here its answer comes in while it is computed. What the \
+          scene expects, and from where, stands beside what was found. The same scene gives the same numbers from \
+          the command line.",
+};
+
+impl View for Results {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let document = context.document;
+        let seen = self.seen.take().filter(|seen| seen.0 == *document);
+        let seen = seen.unwrap_or_else(|| (document.clone(), document.to_scene()));
+        self.scene_ui(ui, &seen.1, context, commands);
+        self.seen = Some(seen);
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        if self.run.is_none() {
+            let text = contact::csv(context);
+            return vec![Offer::table(
+                "Table as CSV…",
+                "The table of this contact, with all digits",
+                text,
+                String::clone,
+            )];
+        }
+        let look = self.run.as_ref().and_then(|run| run.look.as_ref());
+        let table = match &self.shown {
+            ResultsChoice::Table(name) => look.and_then(|look| look.table(name)),
+            ResultsChoice::Charts => look.and_then(|look| look.outcome.tables.first()),
+        };
+        vec![Offer::table("Table as CSV…", "The table that is chosen, or the first one", table, |table| {
+            table.to_csv()
+        })]
+    }
+
+    fn receive(&mut self) {
+        if let Some(run) = &mut self.run {
+            run.receive();
+        }
+    }
+
+    fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {
+        self.standing().into_iter().collect()
+    }
+
+    fn stop(&mut self) {
+        if let Some(run) = &self.run {
+            run.stop();
+        }
     }
 }
 

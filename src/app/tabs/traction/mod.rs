@@ -12,5 +12,4 @@ mod tab;
 pub use curve::Curve;
 pub use served::{Served, sweep};
 pub use sweep::{Against, Companion, Sample, Sweep, Varied};
-pub use sweeps::{Choices, TractionView, edit_along};
-pub use tab::{Traction, offers};
+pub use tab::Traction;

@@ -2,6 +2,11 @@
 
 use super::chart::{self, NEAR_SRR};
 use super::fluid;
+use super::sweeps::edit_along;
+use crate::app::answers::Answers;
+use crate::app::caption;
+use crate::app::document::Document;
+use crate::engine::job::Standing;
 
 use super::sweeps::{Choices, Markers, SlideView, TractionView};
 use crate::app::answers::REST_S;
@@ -10,8 +15,8 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, sentence, standing_ui, warning_ui, why};
 use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
-use crate::app::tabs::take_away::Offer;
 use crate::app::tabs::traction::{Against, Curve, Sample, Served, Sweep, Varied, export, sweep};
+use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, rich};
 use crate::solver::full::{PLAUSIBLE_TRACTION, Solution, TractionDoubt};
 use crate::solver::physics::contact::ContactKind;
@@ -23,12 +28,27 @@ use std::sync::Arc;
 pub struct Traction {
     /// What is drawn, and how.
     pub choices: Choices,
+    /// Curve and full solutions.
+    pub sweeps: TractionView,
     stress_met: Option<(Arc<Solution>, f64)>,
 }
 
-impl Traction {
-    /// The tab.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+const ABOUT: About = About {
+    keywords: "friction Stribeck slide-to-roll fluid viscosity",
+    page: "physics.md",
+    has_units: false,
+    why: "Surfaces that slide shear the film, and its shear stress, summed up over the contact, is the traction. \
+          Pressure makes the oil so stiff that it would soon carry more than any lubricant can: it bends at its \
+          Eyring stress and slips at its limiting one, and the curve levels off. Where neither is known the result \
+          is Newtonian, and under high pressure it is no physics.",
+};
+
+impl View for Traction {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let choices = &mut self.choices;
         // An audience looks at the curves.
         if !context.presenting {
@@ -44,7 +64,7 @@ impl Traction {
             return;
         }
         let Some((sweep, served)) = sweep(context.document, context.answers, choices) else {
-            toolbar(ui, choices, context, commands, false);
+            toolbar(ui, (choices, &self.sweeps), context, commands, false);
             let why = if choices.against == Against::RadiusRatio {
                 "A roller has no radius across the rolling direction; choose Ball or Ellipse"
             } else {
@@ -53,44 +73,94 @@ impl Traction {
             ui.centered_and_justified(|ui| ui.weak(why));
             return;
         };
-        if let Ok(served) = &served
-            && !context.traction.is_asked(&sweep, served)
-        {
-            commands.push(Command::FollowSweep(Box::new((sweep.clone(), served.clone()))));
+        if let Ok(served) = &served {
+            self.sweeps.follow(ui.ctx(), &context.answers.store, sweep.clone(), served.clone());
         }
-        fill(ui, context, &sweep, &served, commands);
-        toolbar(ui, choices, context, commands, true);
+        fill(ui, &mut self.sweeps, context, choices, (&sweep, &served));
+        toolbar(ui, (choices, &self.sweeps), context, commands, true);
         if !context.presenting {
-            status(ui, context, (&sweep, choices), &served);
+            status(ui, context, &self.sweeps, (&sweep, choices), &served);
         }
-        let shown = ShownSweep::of(ui, context, &sweep, &served);
+        let shown = ShownSweep::of(ui, context, &self.sweeps, (&sweep, &served));
         if shown.curve.is_none() && shown.markers.is_none() {
             let waits = match served {
-                Ok(_) if !context.traction.curve_is_current() => "The curve is being computed",
+                Ok(_) if !self.sweeps.curve_is_current() => "The curve is being computed",
                 Ok(_) => "The reduced model has no answer along here: full solutions draw the curve",
                 Err(_) => "Full solutions draw the curve here",
             };
             ui.centered_and_justified(|ui| ui.weak(waits));
             return;
         }
-        commands.extend(chart::ui(ui, choices, context, &sweep, &shown).map(Command::GoAlong));
+        if let Some(place) = chart::ui(ui, choices, context, &sweep, &shown) {
+            commands.edit(edit_along(context.document, choices, place), "traction");
+        }
+    }
+
+    fn offers<'a>(&'a self, _: &Context<'a>) -> Vec<Offer<'a>> {
+        let view = &self.sweeps;
+        let there = view.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
+            || view.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
+        let tip = "The curve and the full solutions, every contact with its traction and films";
+        let text = |view: &&TractionView| export::csv(view).unwrap_or_default();
+        vec![Offer::table("Curve as CSV…", tip, there.then_some(view), text)]
+    }
+
+    fn caption(&self, _: &Context<'_>) -> Option<String> {
+        let (key, notes) = export::parameters(&self.sweeps)?;
+        let contact = caption::contact(&key.point, &key.lubricant);
+        Some(std::iter::once(contact).chain(notes).collect::<Vec<_>>().join("; "))
+    }
+
+    fn receive(&mut self) {
+        self.sweeps.receive();
+    }
+
+    fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {
+        let full = self.sweeps.full.standing();
+        full.into_iter().chain(view::lasting(self.sweeps.following())).collect()
+    }
+
+    fn stop(&mut self) {
+        self.sweeps.stop_markers();
+    }
+
+    fn kept(&self) -> Option<String> {
+        view::kept(&self.choices)
+    }
+
+    fn restore(&mut self, text: &str) -> bool {
+        view::restore(&mut self.choices, text, |_| true)
     }
 }
 
-/// Lets full solutions draw the curve, or lie on its sketch, where no model was trained for it: once the sliders rest.
-fn fill(ui: &Ui, context: &Context<'_>, sweep: &Sweep, served: &Result<Served, String>, commands: &mut Commands) {
-    if context.traction.fills_another(sweep) {
-        commands.push(Command::StopAlong);
+impl Traction {
+    /// Solves contacts along the curve in full.
+    pub fn solve_along(&mut self, ctx: &egui::Context, document: &Document, answers: &Answers) {
+        self.sweeps.start_markers(ctx, document, answers, &self.choices, false);
+    }
+}
+
+/// Solves contacts along the curve in full once the sliders rest, if no model was trained for it.
+fn fill(
+    ui: &Ui,
+    sweeps: &mut TractionView,
+    context: &Context<'_>,
+    choices: &Choices,
+    (sweep, served): (&Sweep, &Result<Served, String>),
+) {
+    if sweeps.fills_another(sweep) {
+        sweeps.stop_markers();
     }
     let trained = served.as_ref().is_ok_and(|served| served.untrained.is_none());
-    if trained || context.traction.has_markers_of(sweep) {
+    if trained || sweeps.has_markers_of(sweep) {
         return;
     }
     let rest = context.answers.rested_s(ui.input(|i| i.time));
     if rest < REST_S {
         ui.ctx().request_repaint_after_secs((REST_S - rest) as f32);
     } else {
-        commands.push(Command::FillAlong);
+        sweeps.start_markers(ui.ctx(), context.document, context.answers, choices, true);
+        ui.ctx().request_repaint();
     }
 }
 
@@ -103,8 +173,12 @@ pub struct ShownSweep<'a> {
 }
 
 impl<'a> ShownSweep<'a> {
-    fn of(ui: &Ui, context: &Context<'a>, sweep: &Sweep, served: &Result<Served, String>) -> Self {
-        let view = context.traction;
+    fn of(
+        ui: &Ui,
+        context: &Context<'_>,
+        view: &'a TractionView,
+        (sweep, served): (&Sweep, &Result<Served, String>),
+    ) -> Self {
         let varied = sweep.varied;
         let curve = view.curve.as_ref().filter(|curve| curve.sweep.varied == varied && !curve.samples.is_empty());
         let markers = view.markers.as_ref().filter(|markers| markers.sweep.varied == varied);
@@ -146,7 +220,13 @@ impl ShownSweep<'_> {
 const WHY_FLUID: &str = "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are \
      what this very contact meets: their ends decide how much of both the film feels. Where they end left of the bend the lubricant is as good as Newtonian.";
 
-fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: &mut Commands, sweeps: bool) {
+fn toolbar(
+    ui: &mut Ui,
+    (choices, sweeps): (&mut Choices, &TractionView),
+    context: &Context<'_>,
+    commands: &mut Commands,
+    there: bool,
+) {
     ui.horizontal_wrapped(|ui| {
         against_ui(ui, choices, context.document.point.kind, commands);
         let (along, up) = &mut choices.logarithmic;
@@ -162,14 +242,14 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
             commands.push(Command::FitPlots);
         }
         ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
-        if context.traction.full.standing().is_some() {
+        if sweeps.full.standing().is_some() {
             let stop = ui.add_sized(FULL_BUTTON, Button::new("Stop")).on_hover_text("Full solutions so far stay (Esc)");
             if stop.clicked() {
-                commands.push(Command::StopAlong);
+                sweeps.stop_markers();
             }
         } else {
             let tip = "Eleven full solutions along the curve, set on it as rings";
-            let button = ui.add_enabled(sweeps, Button::new("Add full solutions").min_size(FULL_BUTTON.into()));
+            let button = ui.add_enabled(there, Button::new("Add full solutions").min_size(FULL_BUTTON.into()));
             if button.on_hover_text(tip).clicked() {
                 commands.push(Command::SolveAlong);
             }
@@ -195,35 +275,36 @@ fn against_ui(ui: &mut Ui, choices: &mut Choices, kind: ContactKind, commands: &
     }
 }
 
-/// What can be taken away from it.
-pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
-    let view = context.traction;
-    let there = view.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
-        || view.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
-    let tip = "The curve and the full solutions, every contact with its traction and films";
-    let text = |view: &&TractionView| export::csv(view).unwrap_or_default();
-    vec![Offer::table("Curve as CSV…", tip, there.then_some(view), text)]
-}
-
 /// Size of the button that begins full solutions, and of the one that stops them.
 const FULL_BUTTON: [f32; 2] = [136.0, 22.0];
 /// Lines that are always kept for what is said above the plots, so that these stand still.
 const STATUS_LINES: f32 = 3.0;
 
 /// What runs, what is amiss, and what the curve says in numbers, in a place of a fixed size.
-fn status(ui: &mut Ui, context: &Context<'_>, swept: (&Sweep, &Choices), served: &Result<Served, String>) {
+fn status(
+    ui: &mut Ui,
+    context: &Context<'_>,
+    sweeps: &TractionView,
+    swept: (&Sweep, &Choices),
+    served: &Result<Served, String>,
+) {
     let line = ui.text_style_height(&TextStyle::Small) + ui.spacing().item_spacing.y;
     let size = vec2(ui.available_width(), STATUS_LINES * line);
     ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
         ui.set_min_size(size);
         let area = ScrollArea::vertical().id_salt("traction status").max_height(size.y).auto_shrink(false);
-        area.show(ui, |ui| said(ui, context, swept, served));
+        area.show(ui, |ui| said(ui, context, sweeps, swept, served));
     });
 }
 
-fn said(ui: &mut Ui, context: &Context<'_>, (sweep, choices): (&Sweep, &Choices), served: &Result<Served, String>) {
-    let view = context.traction;
-    ui.label(rich(&summary(context, sweep), 12.5, Palette::of(ui).quiet)).on_hover_text(
+fn said(
+    ui: &mut Ui,
+    context: &Context<'_>,
+    view: &TractionView,
+    (sweep, choices): (&Sweep, &Choices),
+    served: &Result<Served, String>,
+) {
+    ui.label(rich(&summary(context, view, sweep), 12.5, Palette::of(ui).quiet)).on_hover_text(
         match sweep.base.lubricant.heat {
             Some(_) => "Of the traction coefficient over the area under pressure, with heat",
             None => "Of the traction coefficient over the whole domain of an isothermal film (3.41)",
@@ -290,21 +371,19 @@ fn left_out_ui(ui: &mut Ui, failed: usize) {
 }
 
 /// Traction here, the largest of the curve, and how far full solutions lie from it.
-fn summary(context: &Context<'_>, sweep: &Sweep) -> String {
+fn summary(context: &Context<'_>, view: &TractionView, sweep: &Sweep) -> String {
     let mut parts = Vec::new();
     let here = context.answers.picture.as_ref().filter(|_| context.answers.picture_is_current());
     if let Some(picture) = here.filter(|picture| picture.unphysical.is_none()) {
         parts.push(format!("µ {} here", numbers::significant(picture.traction)));
     }
-    if let Some(curve) =
-        context.traction.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty())
-    {
+    if let Some(curve) = view.curve.as_ref().filter(|curve| curve.sweep == *sweep && !curve.samples.is_empty()) {
         let plausible = curve.samples.iter().filter(|sample| sample.unphysical.is_none());
         let tractions = plausible.map(|sample| sample.traction);
         if sweep.unphysical().is_none() {
             parts.push(format!("{} at most", numbers::significant(tractions.fold(0.0, f64::max))));
         }
-        if let Some((traction, film)) = chart::differences(curve, context.traction.markers.as_ref()) {
+        if let Some((traction, film)) = chart::differences(curve, view.markers.as_ref()) {
             parts.push(format!(
                 "full solutions differ by {} in µ and {} in {{H_c}}",
                 numbers::small(traction),

@@ -1,7 +1,8 @@
 //! The model that was made beside those that were there before it.
 
+use super::trainings::Training;
 use crate::app::command::Command;
-use crate::app::context::{Commands, Context};
+use crate::app::context::Commands;
 use crate::app::controls::{sentence, warning_ui};
 use crate::app::numbers;
 use crate::app::plot::axes;
@@ -18,8 +19,8 @@ type Row = (&'static str, &'static str, fn(&ModelScore) -> String);
 const HEIGHT: f32 = 200.0;
 
 /// The table and the distributions of errors, when they are there.
-pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    let Some(comparison) = context.training.comparison.as_ref().filter(|comparison| comparison.done()) else { return };
+pub fn ui(ui: &mut Ui, training: &Training, commands: &mut Commands) {
+    let Some(comparison) = training.comparison.as_ref().filter(|comparison| comparison.done()) else { return };
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         ui.strong("Models compared");

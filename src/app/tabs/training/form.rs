@@ -21,7 +21,7 @@ pub fn ui(ui: &mut Ui, tab: &mut TrainingTab, context: &Context<'_>, commands: &
     let Some(before) = context.document.training_spec() else { return };
     let mut spec = before.clone();
     let mut form = Form::new("training", tab.last, context);
-    ui.add_enabled_ui(context.training.standing().is_none(), |ui| {
+    ui.add_enabled_ui(tab.work.standing().is_none(), |ui| {
         ui.horizontal(|ui| {
             for (name, preset) in presets::of_kind(spec.contact()) {
                 if ui.button(name).on_hover_text("Sets everything below").clicked() {

@@ -11,5 +11,5 @@ mod trainings;
 mod worker;
 
 pub use tab::TrainingTab;
-pub use trainings::{Training, TrainingCommand};
+pub use trainings::TrainingCommand;
 pub use worker::{Made, Running};

@@ -1,6 +1,6 @@
 //! Making a reduced model: what it shall be trained for and how, the training as it runs, and what its model is worth.
 
-use super::trainings::{Notice, TrainingCommand};
+use super::trainings::{Notice, Training, TrainingCommand};
 use super::{charts, comparison_view, form};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -9,6 +9,7 @@ use crate::app::form::LastField;
 use crate::app::numbers;
 use crate::app::purpose::{Purpose, Written};
 use crate::app::tabs::training::{Made, Running};
+use crate::app::tabs::{About, View};
 use crate::engine::job::Standing;
 use egui::{Button, Label, ProgressBar, ScrollArea, Ui};
 
@@ -19,13 +20,28 @@ const FORM_WIDTH: f32 = 316.0;
 #[derive(Default)]
 pub struct TrainingTab {
     /// The title while it is typed.
-    pub(super) title: Option<String>,
-    pub(super) last: LastField,
+    pub title: Option<String>,
+    /// The field that was changed last.
+    pub last: LastField,
+    /// Trainings and what came of them.
+    pub work: Training,
 }
 
-impl TrainingTab {
-    /// The tab.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+const ABOUT: About = About {
+    keywords: "snapshots model plan range",
+    page: "training.md",
+    has_units: false,
+    why: "A reduced model is learnt from full solutions, its snapshots, of contacts all over a range. A plan that \
+          always adds the contact that is represented worst needs fewest of them. Outside its range a model knows \
+          nothing, so choose the range for what you are going to ask.",
+};
+
+impl View for TrainingTab {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_width(FORM_WIDTH);
@@ -35,30 +51,41 @@ impl TrainingTab {
             ui.separator();
             ui.vertical(|ui| {
                 let area = ScrollArea::vertical().id_salt("training").auto_shrink(false);
-                area.show(ui, |ui| results(ui, context, commands));
+                area.show(ui, |ui| results(ui, &self.work, context, commands));
             });
         });
     }
-}
 
-fn results(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    let (top, height) = (ui.cursor().top(), ui.available_height());
-    buttons(ui, context, commands);
-    status(ui, context);
-    comparison_view::ui(ui, context, commands);
-    charts::key(ui, context);
-    let searches = context.training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
-    let rest = (height - (ui.cursor().top() - top) - 12.0).max(300.0);
-    let lower = if searches { (0.34 * rest).max(115.0) } else { 0.0 };
-    charts::plane(ui, context, rest - lower);
-    if searches {
-        charts::indicator(ui, context, lower);
+    fn receive(&mut self) {
+        self.work.receive();
+    }
+
+    fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {
+        self.work.standing().into_iter().collect()
+    }
+
+    fn stop(&mut self) {
+        self.work.stop();
     }
 }
 
-fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+fn results(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &mut Commands) {
+    let (top, height) = (ui.cursor().top(), ui.available_height());
+    buttons(ui, training, context, commands);
+    status(ui, training);
+    comparison_view::ui(ui, training, commands);
+    charts::key(ui, &training.chart);
+    let searches = training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
+    let rest = (height - (ui.cursor().top() - top) - 12.0).max(300.0);
+    let lower = if searches { (0.34 * rest).max(115.0) } else { 0.0 };
+    charts::plane(ui, training, context, rest - lower);
+    if searches {
+        charts::indicator(ui, training, context, lower);
+    }
+}
+
+fn buttons(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &mut Commands) {
     use TrainingCommand as C;
-    let training = context.training;
     let runs = training.standing().is_some();
     let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
         button(ui, commands, on, (name, tip), command);
@@ -84,9 +111,9 @@ fn buttons(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         }
     });
     if let Some(made) = &training.made {
-        made_ui(ui, context, made, commands);
+        made_ui(ui, (training, made), context, commands);
     }
-    compare_ui(ui, context, commands);
+    compare_ui(ui, training, context, commands);
 }
 
 /// A button that asks for something.
@@ -98,9 +125,8 @@ fn button(ui: &mut Ui, commands: &mut Commands, on: bool, (name, tip): (&str, &s
 }
 
 /// What can be done with the model that was made.
-fn made_ui(ui: &mut Ui, context: &Context<'_>, made: &Made, commands: &mut Commands) {
+fn made_ui(ui: &mut Ui, (training, made): (&Training, &Made), context: &Context<'_>, commands: &mut Commands) {
     use TrainingCommand as C;
-    let training = context.training;
     let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
         button(ui, commands, on, (name, tip), command);
     };
@@ -120,8 +146,7 @@ fn made_ui(ui: &mut Ui, context: &Context<'_>, made: &Made, commands: &mut Comma
 }
 
 /// Which models stand beside each other.
-fn compare_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    let training = context.training;
+fn compare_ui(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &mut Commands) {
     ui.horizontal_wrapped(|ui| {
         let several = training.comparable(context.answers, context.document).len() > 1;
         let ready = several && training.standing().is_none();
@@ -145,8 +170,8 @@ fn compare_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     });
 }
 
-fn status(ui: &mut Ui, context: &Context<'_>) {
-    for notice in &context.training.notices {
+fn status(ui: &mut Ui, training: &Training) {
+    for notice in &training.notices {
         match notice {
             Notice::Done(text) => {
                 ui.label(sentence(text));
@@ -155,11 +180,11 @@ fn status(ui: &mut Ui, context: &Context<'_>) {
             Notice::Wrong(text) => message_ui(ui, text),
         }
     }
-    if let Some(standing) = context.training.standing() {
-        standing_ui(ui, standing, context.training.job());
+    if let Some(standing) = training.standing() {
+        standing_ui(ui, standing, training.job());
         return;
     }
-    if let Some(made) = &context.training.made {
+    if let Some(made) = &training.made {
         let model = &made.model;
         let windows = model.windows.len();
         let largest =
@@ -173,8 +198,8 @@ fn status(ui: &mut Ui, context: &Context<'_>) {
         );
         ui.weak(text).on_hover_text(model.log.join("\n"));
     }
-    if context.training.left_behind
-        && let Some(unfinished) = &context.training.unfinished
+    if training.left_behind
+        && let Some(unfinished) = &training.unfinished
     {
         warning_ui(
             ui,

@@ -20,9 +20,10 @@ mod setup;
 pub mod shared;
 pub mod space_time;
 mod tab;
-pub mod tpwl;
+mod tpwl;
 
 pub use run::Run;
 pub use runs::{InTimeCommand, TransientView};
 pub use setup::{Setup, model_in_use};
-pub use tab::{Transient, offers};
+pub use tab::Transient;
+pub use tpwl::Tpwl;

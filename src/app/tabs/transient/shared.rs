@@ -1,6 +1,7 @@
 //! What the tabs of contacts in time share: their form, the button that runs them, how far they are, and the moment
 //! that is looked at.
 
+use super::export;
 use super::runs::{InTimeCommand, TransientView};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -8,9 +9,9 @@ use crate::app::controls::{either_button, named, sentence, standing_ui};
 use crate::app::document::{Edit, Shape};
 use crate::app::drawn::{self, Owner};
 use crate::app::form::{Form, LastField};
-use crate::app::numbers;
 use crate::app::tabs::transient::{Run, Setup, model_in_use};
 use crate::app::theme::{Palette, rich};
+use crate::app::{caption, numbers};
 use crate::engine::TOO_STEEP;
 use crate::scene::TransientStudy;
 use crate::scene::study::transient::MarchedBy;
@@ -242,4 +243,10 @@ fn costs(view: &TransientView) -> String {
 /// How many times faster, in brackets.
 pub fn faster(times: f64) -> String {
     format!(" (×{}{})", numbers::THIN, numbers::digits(times, 2))
+}
+
+/// Returns the contact and the inputs of the runs on the screen, for the caption of a figure.
+pub fn caption(view: &TransientView) -> Option<String> {
+    let setup = view.setup.as_ref()?;
+    Some(format!("{}; {}", caption::contact(&setup.point, &setup.lubricant), export::inputs(setup)))
 }

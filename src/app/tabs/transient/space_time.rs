@@ -5,7 +5,7 @@ use super::runs::TransientView;
 use crate::app::context::Context;
 use crate::app::figure::Texture;
 use crate::app::plot::{axes, color_bar, color_map};
-use crate::app::tabs::take_away::Offer;
+use crate::app::tabs::Offer;
 use crate::app::tabs::transient::export::describe;
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::theme::faded;

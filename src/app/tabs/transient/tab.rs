@@ -5,9 +5,10 @@ use super::{badge, cost, dials, form, profiles};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::form::LastField;
-use crate::app::tabs::take_away::Offer;
 use crate::app::tabs::transient::space_time::{self, SpaceTime};
 use crate::app::tabs::transient::{export, series, shared};
+use crate::app::tabs::{About, Offer, View, view};
+use crate::engine::job::Standing;
 use egui::{ScrollArea, Ui};
 
 /// Width of the form.
@@ -28,25 +29,21 @@ pub struct Transient {
     map: SpaceTime,
 }
 
-/// What can be taken away from it.
-pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
-    let view = context.transient;
-    let there = view.runs.iter().any(|run| !run.trajectory.moments.is_empty()).then_some(view);
-    type Text = fn(&TransientView) -> Option<String>;
-    let table = |name, tip, text: Text| {
-        Offer::table(name, tip, there, move |view: &&TransientView| text(view).unwrap_or_default())
-    };
-    let tip = "All moments of every run with their SI twins, each run in columns of its own";
-    vec![
-        table("Series as CSV…", tip, export::series),
-        table("Profiles as CSV…", "Pressure and film of every run at the moment that is shown", export::profiles),
-        space_time::offer(context),
-    ]
-}
+const ABOUT: About = About {
+    keywords: "time load speed radius frames",
+    page: "transient.md",
+    has_units: true,
+    why: "When load, speed or curvature change quickly, oil that entered long before is still inside: the film \
+          remembers. What the inlet made travels through the contact at the mean speed of the surfaces, and arrives \
+          at the outlet later. So film and load are out of step, the more the faster they change.",
+};
 
-impl Transient {
-    /// The tab.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+impl View for Transient {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if let Some(why) = context.document.no_transient() {
             shared::elsewhere(ui, context, why, commands);
             return;
@@ -67,6 +64,32 @@ impl Transient {
         });
     }
 
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        let view = context.transient;
+        let there = view.runs.iter().any(|run| !run.trajectory.moments.is_empty()).then_some(view);
+        type Text = fn(&TransientView) -> Option<String>;
+        let table = |name, tip, text: Text| {
+            Offer::table(name, tip, there, move |view: &&TransientView| text(view).unwrap_or_default())
+        };
+        let tip = "All moments of every run with their SI twins, each run in columns of its own";
+        vec![
+            table("Series as CSV…", tip, export::series),
+            table("Profiles as CSV…", "Pressure and film of every run at the moment that is shown", export::profiles),
+            space_time::offer(context),
+        ]
+    }
+
+    fn caption(&self, context: &Context<'_>) -> Option<String> {
+        shared::caption(context.transient)
+    }
+
+    fn jobs(&self, context: &Context<'_>) -> Vec<Standing> {
+        let runs = context.transient;
+        runs.standing().into_iter().chain(view::lasting(runs.replaying())).collect()
+    }
+}
+
+impl Transient {
     fn results(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let (top, height) = (ui.cursor().top(), ui.available_height());
         self.buttons(ui, context, commands);

@@ -7,12 +7,13 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{choice, either_button};
 use crate::app::document::Edit;
 use crate::app::form::LastField;
-use crate::app::tabs::take_away::Offer;
 use crate::app::tabs::transient::linearised::{Linearised, PointNow};
 use crate::app::tabs::transient::method::{WEIGHTINGS, weighting_name};
 use crate::app::tabs::transient::{InTimeCommand, Run, TransientView, badge, methods, shared};
+use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::Palette;
 use crate::app::{drawn, numbers};
+use crate::engine::job::Standing;
 use crate::scene::LinearisedTransient;
 use crate::solver::full::transient::Quantity;
 use crate::solver::reduced::tpwl::Weighting;
@@ -103,57 +104,6 @@ impl<'a> ShownModel<'a> {
 }
 
 impl Tpwl {
-    /// What can be taken away from it.
-    pub fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
-        let context = *context;
-        let view = context.transient;
-        let there = view.linearised.as_ref();
-        type Text = fn(&ShownModel<'_>) -> String;
-        let table = |name, tip, text: Text| {
-            let shown = move |linearised: &&'a Linearised| {
-                // Colours are for the screen only.
-                let palette = Palette::for_visuals(&egui::Visuals::light());
-                text(&ShownModel::new(palette, self, &context, linearised))
-            };
-            Offer::table(name, tip, there, shown)
-        };
-        let points = "All operating points with inputs, state norms, weights and distances at this moment";
-        let weights = "Every step’s operating points and weights, and how far it lies from them";
-        let whole = "Basis, operating points, linearised systems and the weights of every step, in one archive that numpy \
-                     reads";
-        let numbers = "Rule, tolerance, number of points, weights and error of every model tried";
-        let studied = (!view.number.rows.is_empty()).then_some(view);
-        vec![
-            table("Points as CSV…", points, export::points),
-            table("Weights as CSV…", weights, export::weights),
-            Offer::table("Numbers as CSV…", numbers, studied, |view| export::numbers(view)),
-            Offer::arrays("Model as npz…", whole, there, move |linearised| export::arrays(view, linearised)),
-        ]
-    }
-
-    /// The tab.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        if let Some(why) = context.document.no_transient() {
-            shared::elsewhere(ui, context, why, commands);
-            return;
-        }
-        shared::follow(context, commands);
-        self.fill_numbers(context, commands);
-        ui.horizontal_top(|ui| {
-            if self.form {
-                ui.vertical(|ui| {
-                    ui.set_width(FORM_WIDTH);
-                    let area = ScrollArea::vertical().id_salt("tpwl form").auto_shrink(false);
-                    area.show(ui, |ui| self.form_ui(ui, context, commands));
-                });
-                ui.separator();
-            }
-            shared::over_the_time_bar(ui, "tpwl", context, commands, |ui, commands| {
-                self.results(ui, context, commands);
-            });
-        });
-    }
-
     fn form_ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         self.last = shared::edit(ui, ("tpwl", self.last), context, commands, |ui, form, study| {
             methods::linearised_ui(ui, form, study);
@@ -283,6 +233,82 @@ impl Tpwl {
             let tip = "The points that the other rule would choose, as many";
             ui.selectable_value(&mut self.other, true, "Other rule").on_hover_text(tip);
         });
+    }
+}
+
+const ABOUT: About = About {
+    keywords: "linearised operating points weights",
+    page: "transient.md",
+    has_units: true,
+    why: "Near a state that has been seen, the contact answers a small change of load nearly in proportion: its \
+          equations can be replaced by their tangents there, d/dT Σ w_i (A_i + B_i y + C_i u) = Σ w_i (D_i + E_i y \
+          + F_i u), (4.27), so that a step is one small linear system. The tangents are taken at operating points \
+          along a trained trajectory, and the weights w follow the state: drag the time and watch them pass from \
+          point to point. Tangents on one side of a curved path err to one side; the dual Taylor form expands half \
+          about the points and half about their barycentre, which cancels that, while far from every point, under \
+          inputs steeper than the trained ones, no weights help and the reduced model is the right choice.",
+};
+
+impl View for Tpwl {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        if let Some(why) = context.document.no_transient() {
+            shared::elsewhere(ui, context, why, commands);
+            return;
+        }
+        shared::follow(context, commands);
+        self.fill_numbers(context, commands);
+        ui.horizontal_top(|ui| {
+            if self.form {
+                ui.vertical(|ui| {
+                    ui.set_width(FORM_WIDTH);
+                    let area = ScrollArea::vertical().id_salt("tpwl form").auto_shrink(false);
+                    area.show(ui, |ui| self.form_ui(ui, context, commands));
+                });
+                ui.separator();
+            }
+            shared::over_the_time_bar(ui, "tpwl", context, commands, |ui, commands| {
+                self.results(ui, context, commands);
+            });
+        });
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        let context = *context;
+        let view = context.transient;
+        let there = view.linearised.as_ref();
+        type Text = fn(&ShownModel<'_>) -> String;
+        let table = |name, tip, text: Text| {
+            let shown = move |linearised: &&'a Linearised| {
+                // Colours are for the screen only.
+                let palette = Palette::for_visuals(&egui::Visuals::light());
+                text(&ShownModel::new(palette, self, &context, linearised))
+            };
+            Offer::table(name, tip, there, shown)
+        };
+        let points = "All operating points with inputs, state norms, weights and distances at this moment";
+        let weights = "Every step’s operating points and weights, and how far it lies from them";
+        let whole = "Basis, operating points, linearised systems and the weights of every step, in one archive that numpy \
+                     reads";
+        let numbers = "Rule, tolerance, number of points, weights and error of every model tried";
+        let studied = (!view.number.rows.is_empty()).then_some(view);
+        vec![
+            table("Points as CSV…", points, export::points),
+            table("Weights as CSV…", weights, export::weights),
+            Offer::table("Numbers as CSV…", numbers, studied, |view| export::numbers(view)),
+            Offer::arrays("Model as npz…", whole, there, move |linearised| export::arrays(view, linearised)),
+        ]
+    }
+
+    fn caption(&self, context: &Context<'_>) -> Option<String> {
+        shared::caption(context.transient)
+    }
+
+    fn jobs(&self, context: &Context<'_>) -> Vec<Standing> {
+        context.transient.number.work.standing().into_iter().collect()
     }
 }
 

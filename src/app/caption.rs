@@ -1,41 +1,12 @@
-//! What a plot is of, in the caption of its figure.
+//! A contact in one line, for captions of figures.
 
-use super::Desk;
 use crate::app::numbers;
-use crate::app::tab::Tab;
-use crate::app::tabs::{contact_map, traction, transient};
 use crate::scene::named_lubricant;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 
-impl Desk {
-    /// The parameters of what the plots of a tab are of.
-    pub(super) fn caption(&self, tab: Tab) -> String {
-        let is_line = self.document.point.kind == ContactKind::Line;
-        let lines = match tab {
-            Tab::ContactMap if !is_line => {
-                contact_map::particulars(&self.answers, &self.views.map.view).map(|more| vec![self.contact(), more])
-            }
-            Tab::Traction => traction::export::parameters(&self.traction)
-                .map(|(key, notes)| std::iter::once(contact(&key.point, &key.lubricant)).chain(notes).collect()),
-            Tab::ContactMap | Tab::Transient | Tab::Tpwl => self
-                .transient
-                .setup
-                .as_ref()
-                .map(|setup| vec![contact(&setup.point, &setup.lubricant), transient::export::inputs(setup)]),
-            _ => None,
-        };
-        lines.map_or_else(|| self.contact(), |lines: Vec<String>| lines.join("; "))
-    }
-
-    /// The contact of the sliders.
-    fn contact(&self) -> String {
-        contact(&self.document.point, &self.document.lubricant)
-    }
-}
-
-/// A contact in a line.
-fn contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
+/// Returns a contact with its lubricant in one line.
+pub fn contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
     let significant = numbers::significant;
     let load = match point.kind {
         ContactKind::Line => format!("{} N/mm", significant(1e-3 * point.load)),
