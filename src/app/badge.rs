@@ -39,7 +39,7 @@ pub enum Kind {
 /// What can be said of the picture.
 pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     let make = |title: &str, detail: String, why: String, kind| Verdict { title: title.to_owned(), detail, why, kind };
-    if let Some(failure) = &answers.failure {
+    if let Some(failure) = answers.failure() {
         let got = failure.report.as_ref().map_or_else(String::new, |r| {
             format!("{} Newton steps, residual {}", r.newton_iterations, numbers::digits(r.residual_norm, 2))
         });
@@ -47,10 +47,10 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
             if failure.stopped { ("Cancelled", Kind::Neutral) } else { ("No solution here", Kind::Wrong) };
         return make(title, got, format!("{}. The last valid picture stays, in grey", failure.message), kind);
     }
-    let Some(picture) = &answers.picture else {
+    let Some(picture) = answers.picture() else {
         return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);
     };
-    let waits = answers.jobs.busy(JobKind::Live);
+    let waits = answers.runs(JobKind::Live);
     let full = match () {
         () if waits && !answers.picture_is_current() => "full solver at work",
         () if answers.is_quick() => "full solution on a quick grid",
@@ -59,7 +59,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     // Of a picture that is still another contact's nothing is said here.
     let unresolved = answers.current_picture().and_then(|picture| picture.unresolved.as_ref());
     let of_grid = unresolved.map_or_else(String::new, |why| format!("{} ", sentence(why)));
-    match (picture.origin, &answers.passed_over) {
+    match (picture.origin, answers.passed_over()) {
         (_, Some(PassedOver::Outside(why))) => make(
             "Outside the reduced model",
             format!("{full}: {why}"),
@@ -109,7 +109,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                 numbers::small(residual_estimate)
             );
             let grid_cost = picture.solution.grid_cost.map(GridCost::total).filter(|cost| cost.is_finite());
-            match &answers.comparison {
+            match answers.comparison() {
                 Some(c) if answers.full_is_current() => {
                     let (title, kind) = match judged(c, thresholds) {
                         (_, Kind::Verified) if picture.costly_grid => ("Grid does not do", Kind::Warning),
@@ -142,11 +142,11 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                              (3.15) says whether the reduced equations are met, not how large the error of the film is",
                         ),
                     };
-                    let next = match &answers.verify_failure {
+                    let next = match answers.verify_failure() {
                         Some(failure) => failure.message.trim_end_matches('.'),
                         None => "True errors follow with the full solve",
                     };
-                    let doubtful = answers.verify_failure.is_some() || picture.costly_grid || stands_in;
+                    let doubtful = answers.verify_failure().is_some() || picture.costly_grid || stands_in;
                     let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
                     make("Reduced model", with_grid(detail, grid_cost), format!("{} {of_grid}{next}. {how}", sentence(meaning)), kind)
                 }
@@ -191,7 +191,7 @@ const HEIGHT: f32 = 26.0;
 /// The badge in a row of its own, and beside it whose picture is shown where that is not the sliders'.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let verdict = verdict(context.answers, context.thresholds);
-    let other = context.answers.picture.as_ref().filter(|picture| picture.key != context.document.key());
+    let other = context.answers.picture().filter(|picture| picture.key != context.document.key());
     let row = vec2(ui.available_width(), HEIGHT);
     ui.allocate_ui_with_layout(row, Layout::left_to_right(Align::Center), |ui| {
         ui.set_min_size(row);

@@ -1,6 +1,5 @@
 //! What commands and choices of the palette do.
 
-use super::answers::jobs::wake;
 use super::command::Command;
 use super::context::Commands;
 use super::desk::files::Pending;
@@ -11,7 +10,9 @@ use super::purpose::Purpose;
 use super::session::Place;
 use super::tab::Tab;
 use super::units::Units;
+use super::wake::wake;
 use super::{Explorer, export};
+use crate::app::refusal::Refusal;
 use crate::app::tabs::transient::Setup;
 use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
@@ -53,7 +54,7 @@ impl Explorer {
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers)),
             Command::Pin => desk.answers.pin(),
-            Command::Unpin => desk.answers.pins.clear(),
+            Command::Unpin => desk.answers.unpin_all(),
             Command::Settings => self.settings.open = true,
             Command::SetThresholds(thresholds) => desk.display.thresholds = thresholds,
             Command::Palette => self.palette.open(ctx),
@@ -109,7 +110,7 @@ impl Explorer {
             }
             Command::RunInTime => {
                 let setup = Setup::of(&desk.document, desk.files.path.as_deref());
-                desk.transient.start(ctx, &desk.answers.store, setup);
+                desk.transient.start(ctx, desk.answers.store(), setup);
                 self.show(Tab::Transient);
             }
             Command::Train => {
@@ -133,17 +134,15 @@ impl Explorer {
             }
             Command::Keyboard => self.help.manual.open_at("keyboard.md"),
             Command::About => self.help.about = true,
-            Command::InTime(command) => desk.transient.execute(ctx, &desk.answers.store, command),
+            Command::InTime(command) => desk.transient.execute(ctx, desk.answers.store(), command),
             Command::CompareModels => desk.tabs.training.work.compare(ctx, &desk.answers, &desk.document),
             Command::Training(command) => desk.tabs.training.work.execute(ctx, &mut desk.answers, command),
             Command::Edit(edit, field) => desk.edit(edit, field),
-            Command::Refuse(field, why) => desk.entries.answer(field, Err(why.to_owned())),
+            Command::Refuse(field, why) => desk.entries.answer(field, Err(Refusal::new(why))),
             Command::Go(tab) => self.show(tab),
             Command::Cut(cuts) => desk.display.cuts = cuts,
             Command::RemovePin(place) => {
-                if place < desk.answers.pins.len() {
-                    desk.answers.pins.remove(place);
-                }
+                desk.answers.unpin(place);
             }
             Command::UseModel(wanted) => _ = desk.answers.use_model(wanted.model),
             Command::OpenPath(path) => desk.request(ctx, Pending::Open(path)),

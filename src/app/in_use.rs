@@ -1,7 +1,9 @@
 //! The reduced model as it is used: with the truncation that the document asks for.
 
-use super::answers::jobs::wake;
-use super::document::Key;
+use super::document::{Document, Key};
+use super::model_source::Models;
+use super::wake::wake;
+use crate::app::refusal::Refusal;
 use crate::engine::job::Job;
 use crate::engine::{Store, Workbench};
 use crate::scene::{At, Grid, Method, ModelSource, Scene, Study, StudyRow, View};
@@ -35,6 +37,12 @@ impl InUse {
         Self { model: Arc::clone(model), pressure_loss: view.pressure_loss, deformation_loss }
     }
 
+    /// Returns the model that serves a document's contact, under the document's view.
+    pub fn of(document: &Document, models: &Models) -> Option<Self> {
+        let model = models.of(&document.point, &document.lubricant)?;
+        Some(Self::new(model, &document.view))
+    }
+
     /// The method that studies know it by, where it stands in place of the embedded model.
     pub fn method(&self) -> Method {
         let Self { pressure_loss, deformation_loss, .. } = *self;
@@ -59,10 +67,10 @@ impl InUse {
     ///
     /// # Errors
     /// When that range holds none.
-    pub fn question(&self, title: &str, study: Study) -> Result<Scene, String> {
+    pub fn question(&self, title: &str, study: Study) -> Result<Scene, Refusal> {
         let none = "the model’s range holds no admissible contact to test";
         let points = random_points(&self.trained_range(), self.model.contact(), 1, 1);
-        let point = OperatingPoint { sliding: Sliding::NONE, ..*points.first().ok_or(none)? };
+        let point = OperatingPoint { sliding: Sliding::NONE, ..*points.first().ok_or_else(|| Refusal::new(none))? };
         Ok(question(title, &Key { point, lubricant: self.model.domain.lubricant }, Grid::Model, study))
     }
 
@@ -106,7 +114,6 @@ pub fn question(title: &str, key: &Key, grid: Grid, study: Study) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::document::Document;
     use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
 
     #[test]

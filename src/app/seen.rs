@@ -34,7 +34,7 @@ impl Explorer {
 
     /// Nodes along X and across of the picture's grid.
     pub fn nodes(&self) -> Option<(usize, usize)> {
-        self.desk.answers.picture.as_ref().map(|p| (p.solution.x.len(), p.solution.y.len()))
+        self.desk.answers.picture().map(|p| (p.solution.x.len(), p.solution.y.len()))
     }
 
     /// Where the profiles cut a point contact: X of the one across, Y of the one along.
@@ -45,7 +45,7 @@ impl Explorer {
     /// Largest pressures of the drawn profiles: along X, and across where there is one.
     pub fn profile_peaks(&self) -> Option<(f64, Option<f64>)> {
         let peak = |curve: &[egui_plot::PlotPoint]| curve.iter().map(|p| p.y).reduce(f64::max);
-        self.desk.answers.picture.as_ref().and_then(|p| Some((peak(&p.pressure)?, peak(&p.across.pressure))))
+        self.desk.answers.picture().and_then(|p| Some((peak(&p.pressure)?, peak(&p.across.pressure))))
     }
 
     /// Estimated relative grid errors of H_c and H_min, when they belong to the sliders.

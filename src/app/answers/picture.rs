@@ -1,5 +1,6 @@
 //! What the plots draw: a solution with its curves ready for the screen, and how two of them compare.
 
+use super::live::Solved;
 use crate::app::document::Key;
 use crate::app::numbers;
 use crate::solver::full::point::resolution_warning;
@@ -126,6 +127,19 @@ impl Picture {
         };
         picture.draw_curves();
         picture
+    }
+
+    /// Prepares a reduced solution for drawing.
+    pub fn of_reduced(key: Key, solved: Solved, cuts: Cuts) -> Self {
+        let Solved { reduced, fields, .. } = solved;
+        let origin = Origin::Reduced {
+            residual_estimate: reduced.residual_estimate,
+            error: reduced.error,
+            iterations: reduced.iterations,
+            window: reduced.window,
+            stands_in: reduced.stands_in,
+        };
+        Self::new(key, origin, Arc::new(fields), cuts, reduced.traction)
     }
 
     /// Goes over to a contact with the same film ([`Key::has_film_of`]): only the traction is another one.

@@ -1,6 +1,6 @@
 //! What can be done now, and why the rest cannot.
 
-use super::Desk;
+use super::workspace::Desk;
 use crate::app::answers::MOST_PINS;
 use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::Origin;
@@ -36,14 +36,14 @@ impl Desk {
         let (refused, why) = match command {
             Command::Undo => (!self.history.can_undo(&self.document), "Nothing has been changed"),
             Command::Redo => (!self.history.can_redo(), "Nothing has been undone"),
-            Command::CopyReadouts | Command::ExportProfiles => (self.answers.picture.is_none(), NO_PICTURE),
-            Command::Pin if self.answers.picture.is_some() => {
-                (self.answers.pins.len() >= MOST_PINS, "As many curves are pinned as can be told apart")
+            Command::CopyReadouts | Command::ExportProfiles => (self.answers.picture().is_none(), NO_PICTURE),
+            Command::Pin if self.answers.picture().is_some() => {
+                (self.answers.pins().len() >= MOST_PINS, "As many curves are pinned as can be told apart")
             }
             Command::Pin => (true, NO_PICTURE),
-            Command::Unpin => (self.answers.pins.is_empty(), "Nothing is pinned"),
+            Command::Unpin => (self.answers.pins().is_empty(), "Nothing is pinned"),
             Command::Overlay | Command::Difference => {
-                let full = self.answers.picture.as_ref().is_none_or(|picture| picture.origin == Origin::Full);
+                let full = self.answers.picture().is_none_or(|picture| picture.origin == Origin::Full);
                 (full, "The picture is the full solution itself")
             }
             Command::EstimateGridError => return grid_error(self),
@@ -65,7 +65,7 @@ impl Desk {
                     "First resume or discard the training that was left unfinished",
                 ),
             },
-            Command::Cancel => (self.works().is_empty() && self.answers.jobs.running().is_empty(), "Nothing runs"),
+            Command::Cancel => (self.works().is_empty() && self.answers.running().is_empty(), "Nothing runs"),
             _ => return None,
         };
         refused.then_some(why)
@@ -75,7 +75,7 @@ impl Desk {
 fn grid_error(desk: &Desk) -> Option<&'static str> {
     if desk.document.point.kind == ContactKind::Line {
         Some("Only the grid of a point contact is estimated")
-    } else if desk.answers.jobs.busy(JobKind::Estimate) {
+    } else if desk.answers.runs(JobKind::Estimate) {
         Some(RUNS_ALREADY)
     } else {
         let there = desk.answers.can_estimate();

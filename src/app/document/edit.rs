@@ -1,6 +1,8 @@
 //! Every change of the document that can be asked for, and the one place where it is made.
 
-use super::{Document, Shape};
+use super::experiment::Document;
+use super::shape::Shape;
+use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{LoadFollower, LubricantFollower, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
@@ -51,7 +53,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when it is refused; the document is unchanged then.
-    pub fn edit(&mut self, edit: Edit) -> Result<(), String> {
+    pub fn edit(&mut self, edit: Edit) -> Result<(), Refusal> {
         match edit {
             Edit::Moes(moes) => return self.set_moes(moes),
             Edit::Quantity(quantity, value) => return self.set_quantity(quantity, value),

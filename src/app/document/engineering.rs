@@ -1,8 +1,9 @@
 //! The document in the words of engineers: an oil at a temperature, two bodies.
 
-use super::Document;
+use super::experiment::Document;
+use crate::app::refusal::Refusal;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
-use crate::solver::physics::engineering::{Bodies, BodyError, Oil};
+use crate::solver::physics::engineering::{Bodies, Oil};
 
 const OF_THE_OIL: [Quantity; 2] = [Quantity::Viscosity, Quantity::Alpha];
 const OF_THE_BODIES: [Quantity; 3] = [Quantity::Radius, Quantity::Modulus, Quantity::Speed];
@@ -12,11 +13,10 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when there is no such oil, or the lubricant's own law fixes α; the document is unchanged then.
-    pub fn set_oil(&mut self, oil: Oil) -> Result<(), String> {
+    pub fn set_oil(&mut self, oil: Oil) -> Result<(), Refusal> {
         if self.lubricant.own_coefficient().is_some() {
-            return Err(
-                "the lubricant’s own viscosity law fixes α; choose Mineral oil above to enter a grade".to_owned()
-            );
+            let why = "the lubricant’s own viscosity law fixes α; choose Mineral oil above to enter a grade";
+            return Err(Refusal::new(why));
         }
         let point = self.of_oil(&oil)?;
         self.accept(point)?;
@@ -30,7 +30,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the bodies make no contact; the document is unchanged then.
-    pub fn set_bodies(&mut self, bodies: Bodies) -> Result<(), String> {
+    pub fn set_bodies(&mut self, bodies: Bodies) -> Result<(), Refusal> {
         let point = self.of_bodies(&bodies)?;
         self.accept(point)?;
         self.view.bodies = Some(bodies);
@@ -51,20 +51,19 @@ impl Document {
         self.view.bodies.is_some_and(|bodies| self.of_bodies(&bodies) == Ok(self.point))
     }
 
-    fn of_oil(&self, oil: &Oil) -> Result<OperatingPoint, String> {
-        let state = oil.state().map_err(|error| error.to_string())?;
+    fn of_oil(&self, oil: &Oil) -> Result<OperatingPoint, Refusal> {
+        let state = oil.state()?;
         Ok(OperatingPoint { viscosity_pa_s: state.viscosity_pa_s, alpha_per_pa: state.alpha_per_pa, ..self.point })
     }
 
-    fn of_bodies(&self, bodies: &Bodies) -> Result<OperatingPoint, String> {
-        let said = |error: BodyError| error.to_string();
-        let (speed_m_per_s, srr) = bodies.entrainment().map_err(said)?;
-        let radius_m = bodies.reduced_radius_m().map_err(said)?;
-        let modulus_pa = bodies.reduced_modulus_pa().map_err(said)?;
+    fn of_bodies(&self, bodies: &Bodies) -> Result<OperatingPoint, Refusal> {
+        let (speed_m_per_s, srr) = bodies.entrainment()?;
+        let radius_m = bodies.reduced_radius_m()?;
+        let modulus_pa = bodies.reduced_modulus_pa()?;
         let radius_y_m = match self.point.kind {
             ContactKind::Line => None,
             // An ellipse stays one where its radii happen to be equal.
-            ContactKind::Point => Some(bodies.reduced_transverse_radius_m().map_err(said)?)
+            ContactKind::Point => Some(bodies.reduced_transverse_radius_m()?)
                 .filter(|radius_y| *radius_y != radius_m || self.point.radius_y_m.is_some()),
         };
         let mut point = OperatingPoint { radius_m, radius_y_m, modulus_pa, speed_m_per_s, ..self.point };

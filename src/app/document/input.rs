@@ -1,6 +1,7 @@
 //! The three inputs of a contact in time, and taking them from a table.
 
 use crate::app::document::Document;
+use crate::app::refusal::Refusal;
 use crate::scene::{TransientStudy, sampled};
 use crate::solver::full::transient::{Inputs, Signal};
 use std::path::Path;
@@ -56,18 +57,18 @@ impl Document {
     ///
     /// # Errors
     /// A sentence with the line that makes no sense, or why an input is refused; nothing is changed then.
-    pub fn read_inputs(&mut self, path: &Path) -> Result<(), String> {
+    pub fn read_inputs(&mut self, path: &Path) -> Result<(), Refusal> {
         let mut study = TransientStudy { sampled: None, ..self.transient_study() };
-        sampled::read_into(&mut study.inputs, path).map_err(|error| error.to_string())?;
+        sampled::read_into(&mut study.inputs, path)?;
         let rows = |input: Input| match input.of(&study.inputs) {
             Signal::Sampled { times, .. } => times.len(),
             _ => 0,
         };
         if let Some(rows) = Input::ALL.map(rows).into_iter().max().filter(|rows| *rows > MOST_ROWS) {
-            return Err(format!(
+            return Err(Refusal::new(format!(
                 "the table has {rows} rows, but a scene that is edited here keeps at most {MOST_ROWS}; thin it out, or name the file \
                  in the scene as `sampled`"
-            ));
+            )));
         }
         self.set_transient(study)
     }

@@ -2,6 +2,7 @@
 
 use crate::app::document::Document;
 use crate::app::in_use::question;
+use crate::app::refusal::Refusal;
 use crate::scene::{Grid, LinearisedTransient, ReducedTransient, Study, TransientStudy};
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep};
 use crate::solver::physics::contact::ContactKind;
@@ -20,10 +21,10 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when it makes no sense; the document is unchanged then.
-    pub fn set_transient(&mut self, study: TransientStudy) -> Result<(), String> {
-        study.own_march(self.point, self.lubricant, Frame::Fixed).problem().map_err(|e| e.to_string())?;
+    pub fn set_transient(&mut self, study: TransientStudy) -> Result<(), Refusal> {
+        study.own_march(self.point, self.lubricant, Frame::Fixed).problem()?;
         let asked = question("Contact in time", &self.key(), self.transient_grid(), Study::Transient(study.clone()));
-        asked.check().map_err(|e| e.to_string())?;
+        asked.check()?;
         self.transient = Some(study);
         Ok(())
     }

@@ -1,11 +1,11 @@
 //! The window in which a figure gets its size, its theme, its words, and leaves.
 
-use super::with_sitting;
-use crate::app::answers::jobs::wake;
+use super::sitting::with_sitting;
 use crate::app::controls::{message_ui, named, standing_ui};
 use crate::app::purpose::{Purpose, Written};
 use crate::app::tab::Tab;
 use crate::app::units::Units;
+use crate::app::wake::wake;
 use crate::engine::job::{Background, Job, Standing};
 use crate::scene::drawing::{DPI, Drawing, Pixels};
 use crate::scene::{Chart, Page, drawn};

@@ -1,5 +1,6 @@
 //! What a step of a lesson waits for.
 
+use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
@@ -48,9 +49,11 @@ impl Goal {
     ///
     /// # Errors
     /// With what would be accepted.
-    pub fn all(words: &str) -> Result<Vec<Self>, String> {
+    pub fn all(words: &str) -> Result<Vec<Self>, Refusal> {
         let goals = words.split(',').map(str::trim).filter(|words| *words != "read");
-        goals.map(|words| Self::read(words).ok_or_else(|| format!("“{words}” is no goal; {ACCEPTED}"))).collect()
+        goals
+            .map(|words| Self::read(words).ok_or_else(|| Refusal::new(format!("“{words}” is no goal; {ACCEPTED}"))))
+            .collect()
     }
 
     fn read(words: &str) -> Option<Self> {

@@ -5,6 +5,7 @@ use crate::app::context::Commands;
 use crate::app::controls::{Entries, heading, row_name, typed_field};
 use crate::app::desk::Desk;
 use crate::app::display::{Display, Thresholds};
+use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::engineering::{self, Dimension};
 use egui::{Context, Id, ThemePreference, Ui, Window};
@@ -61,7 +62,7 @@ impl Settings {
             ui.horizontal(|ui| {
                 row_name(ui, name_and_symbol(ui, row, "", ""), tip);
                 let read = |text: &str| {
-                    engineering::parse(text, Dimension::Ratio, "%").map(|si| si / PERCENT).map_err(|e| e.to_string())
+                    engineering::parse(text, Dimension::Ratio, "%").map(|si| si / PERCENT).map_err(Refusal::from)
                 };
                 if let Some(typed) = typed_field(ui, &mut self.entries, name, *value / PERCENT, 70.0, tip, read) {
                     *value = typed * PERCENT;

@@ -1,6 +1,7 @@
 //! The question before something is lost: it says what that is, and is asked only then.
 
-use super::{Pending, is_model};
+use super::open::is_model;
+use super::state::Pending;
 use crate::app::desk::Desk;
 use egui::{Context, Id, Modal};
 

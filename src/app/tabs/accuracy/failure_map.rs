@@ -1,8 +1,8 @@
 //! Random tests in the M–L plane: where the reduced model fails, and how large its error is elsewhere. A click goes
 //! there.
 
-use super::random_tests::{Results, bound_of, error_of};
-use super::tab::{Accuracy, CONTACT_COLUMNS, contact_cells, tests_toolbar};
+use super::parts::{CONTACT_COLUMNS, contact_cells, tests_toolbar};
+use super::random_tests::{RandomTests, Results, bound_of, error_of};
 use super::worst::{self, Worst};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
@@ -105,17 +105,22 @@ const MAP: &str = "Map of the random tests";
 const FIELD: &str = "failure map";
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut Accuracy, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
-    tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
+pub fn ui(
+    ui: &mut Ui,
+    (map, tests): (&mut Map, &mut RandomTests),
+    context: &Context<'_>,
+    commands: &mut Commands,
+    in_use: &InUse,
+) {
+    tests_toolbar(ui, context.answers.store(), tests, in_use);
     context.entries.message_ui(ui, FIELD);
-    let Some(results) = &own.tests.results else {
-        super::tab::nothing_yet(
+    let Some(results) = &tests.results else {
+        super::parts::nothing_yet(
             ui,
             "Run tests to see where the model fails and how large its error is over its whole range",
         );
         return;
     };
-    let map = &mut own.map;
     ui.horizontal_wrapped(|ui| {
         ui.label("Judged by").on_hover_text("Colours the map and sorts the list");
         let bound = rich("bound on the error of {H_c}", 13.5, ui.visuals().text_color());
@@ -126,7 +131,7 @@ pub fn ui(ui: &mut Ui, own: &mut Accuracy, context: &Context<'_>, commands: &mut
         ui.weak(summary(results));
     });
     if map.by == By::Bound {
-        super::tab::bound_note(ui, results.tests.iter().map(bound_of));
+        super::parts::bound_note(ui, results.tests.iter().map(bound_of));
     }
     if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
         map.drawn = Some(DrawnTests::new(results, map.by));

@@ -2,6 +2,7 @@
 
 mod along;
 mod failure_map;
+mod parts;
 mod random_tests;
 mod residuals;
 mod split;

@@ -22,11 +22,11 @@ const PLOT: &str = "Newton residuals of the last solve";
 /// The view: the solve that runs, else the last one that ended.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let news = |job: &&Running| job.since.elapsed().as_secs_f64() > NEWS_S && !job.steps.is_empty();
-    if let Some(job) = context.answers.jobs.running().iter().find(news) {
+    if let Some(job) = context.answers.running().iter().find(news) {
         running_ui(ui, job, context);
         return;
     }
-    let Some((key, report)) = &context.answers.last_report else {
+    let Some((key, report)) = context.answers.last_report() else {
         ui.centered_and_justified(|ui| ui.weak("No full solve has finished yet"));
         return;
     };
@@ -55,7 +55,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         }
         ui.end_row();
     });
-    if let Some(c) = context.answers.comparison.as_ref().filter(|_| context.answers.picture_is_current()) {
+    if let Some(c) = context.answers.comparison().filter(|_| context.answers.picture_is_current()) {
         let text = format!("Reduced against full: {}", c.describe());
         ui.label(rich(&text, 13.5, ui.visuals().text_color()));
     }

@@ -1,5 +1,7 @@
 //! The reduced basis: singular values, modes, sampled equations.
 
+mod curves;
+mod field;
 mod losses;
 mod modes;
 mod plane;

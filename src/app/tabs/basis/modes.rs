@@ -1,7 +1,8 @@
 //! Shapes of the modes, and where the rows are sampled: along ξ, and over the plane for a point contact.
 
+use super::curves::Shown;
+use super::field::Field;
 use super::plane;
-use super::tab::{Basis, Field};
 use crate::app::plot::axes;
 use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
@@ -23,7 +24,7 @@ const MARK: f32 = 3.0;
 const SHAPES: &str = "Mode shapes";
 
 /// Choices and plots.
-pub fn ui(ui: &mut Ui, view: &mut Basis, fit: bool, window: &Window, height: f32) {
+pub fn ui(ui: &mut Ui, view: &mut Shown, fit: bool, window: &Window, height: f32) {
     let palette = Palette::of(ui);
     let of_points = window.grid.kind() == ContactKind::Point;
     ui.horizontal(|ui| {

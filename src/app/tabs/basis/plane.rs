@@ -1,6 +1,6 @@
 //! A mode of a point contact over the plane, with the rows that the reduced model evaluates.
 
-use super::tab::Field;
+use super::field::Field;
 use crate::app::figure::Texture;
 use crate::app::plot::axes;
 use crate::app::plot::key::{self, Entry, Sample};

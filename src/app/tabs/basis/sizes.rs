@@ -1,6 +1,6 @@
 //! Error and time against the numbers of modes and of sampled rows, as curves on which both can be dragged.
 
-use super::tab::TRUNCATION;
+use super::field::TRUNCATION;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, standing_ui};
@@ -78,7 +78,7 @@ impl Sizes {
         let question = question("Modes and rows", &key, Grid::Model, Study::ModelSizes(study));
         let in_use = InUse::new(model, &View::default());
         *self = Self { of: Some((Arc::clone(model), window)), ..Self::default() };
-        self.work.run(in_use.ask(ui.ctx(), &context.answers.store, question));
+        self.work.run(in_use.ask(ui.ctx(), context.answers.store(), question));
     }
 
     /// All sizes of a kind, the model's own among the rows.

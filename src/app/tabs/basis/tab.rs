@@ -1,58 +1,23 @@
 //! The reduced basis: how fast the singular values fall, what the tolerances keep, what the modes look like, where rows
 //! are sampled.
 
+use super::curves::{Curves, Shown};
+use super::field::TRUNCATION;
 use super::losses::{loss_plot, singular_plot};
-use super::{modes, plane, sizes};
+use super::{modes, sizes};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::drawn::{self, Owner};
 use crate::app::in_use::InUse;
 use crate::app::tabs::{About, Offer, View, profiles};
-use crate::app::theme::Palette;
 use crate::app::{badge, export, numbers};
 use crate::engine::job::Standing;
 use crate::engine::model_arrays;
 
 use crate::solver::reduced::{PodBasis, ReducedModel, Scheme, Window};
-use egui::{Color32, Ui};
-use egui_plot::PlotPoint;
+use egui::Ui;
+
 use std::sync::Arc;
-
-/// Under this name a truncation is refused.
-pub const TRUNCATION: &str = "truncation";
-
-/// Which of the two bases.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Field {
-    /// Pressure.
-    #[default]
-    Pressure,
-    /// Deformation.
-    Deformation,
-}
-
-impl Field {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Pressure => "Pressure",
-            Self::Deformation => "Deformation",
-        }
-    }
-
-    pub(super) fn of(self, window: &Window) -> &PodBasis {
-        match self {
-            Self::Pressure => window.pressure.basis(),
-            Self::Deformation => &window.deformation,
-        }
-    }
-
-    pub(super) fn color(self, palette: &Palette) -> Color32 {
-        match self {
-            Self::Pressure => palette.pressure,
-            Self::Deformation => palette.deformation,
-        }
-    }
-}
 
 /// What stands below the losses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -79,53 +44,7 @@ impl Below {
 pub struct Basis {
     below: Below,
     sizes: sizes::Sizes,
-    pub(super) field: Field,
-    pub(super) first_mode: usize,
-    pub(super) dragging: Option<Field>,
-    pub(super) curves: Option<Curves>,
-}
-
-pub(super) struct Curves {
-    window: usize,
-    model: Arc<ReducedModel>,
-    pub(super) singular: [Vec<PlotPoint>; 2],
-    pub(super) loss: [Vec<PlotPoint>; 2],
-    pub(super) modes: Vec<(Field, usize, Vec<PlotPoint>)>,
-    pub(super) plane: plane::ModeMap,
-    pub(super) rows: Vec<PlotPoint>,
-}
-
-impl Curves {
-    fn new(model: &Arc<ReducedModel>, at: usize, window: &Window) -> Self {
-        let log = |values: &mut dyn Iterator<Item = f64>, from: usize| -> Vec<PlotPoint> {
-            values
-                .enumerate()
-                .filter(|(_, v)| *v > 1e-17)
-                .map(|(k, v)| PlotPoint::new((k + from) as f64, v.log10()))
-                .collect()
-        };
-        let singular = |basis: &PodBasis| {
-            let first = basis.singular_values.first().copied().unwrap_or(1.0);
-            log(&mut basis.singular_values.iter().map(|s| s / first), 1)
-        };
-        let loss = |basis: &PodBasis| log(&mut (1..=basis.singular_values.len()).map(|k| basis.loss(k)), 1);
-        let rows = window.sampled_rows.iter().map(|row| window.grid.place(window.grid.node(*row)));
-        Self {
-            window: at,
-            model: Arc::clone(model),
-            singular: [singular(window.pressure.basis()), singular(&window.deformation)],
-            loss: [loss(window.pressure.basis()), loss(&window.deformation)],
-            modes: Vec::new(),
-            plane: plane::ModeMap::default(),
-            rows: rows.flat_map(mirrored).collect(),
-        }
-    }
-}
-
-/// A place and, off the axis, its mirror image.
-fn mirrored((xi, y): (f64, f64)) -> impl Iterator<Item = PlotPoint> {
-    let image = (y != 0.0).then(|| PlotPoint::new(xi, -y));
-    std::iter::once(PlotPoint::new(xi, y)).chain(image)
+    shown: Shown,
 }
 
 const ABOUT: About = About {
@@ -154,10 +73,10 @@ impl View for Basis {
         };
         let at = model.window_for(&context.document.point);
         let Some(window) = model.windows.get(at) else { return };
-        if self.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
-            self.curves = Some(Curves::new(&model, at, window));
+        if self.shown.curves.as_ref().is_none_or(|c| c.window != at || !Arc::ptr_eq(&c.model, &model)) {
+            self.shown.curves = Some(Curves::new(&model, at, window));
         }
-        if let Some(curves) = &self.curves {
+        if let Some(curves) = &self.shown.curves {
             let of = Owner::Model(InUse::new(&curves.model, &context.document.view));
             drawn::note(ui.ctx(), "basis", of, false);
         }
@@ -169,15 +88,15 @@ impl View for Basis {
             ui.horizontal(|ui| {
                 ui.vertical(|ui| {
                     ui.set_width(half);
-                    loss_plot(ui, self, context, commands, window, upper);
+                    loss_plot(ui, &mut self.shown, context, commands, window, upper);
                 });
                 ui.vertical(|ui| {
                     ui.set_width(half);
-                    singular_plot(ui, self, context.fit, upper);
+                    singular_plot(ui, &self.shown, context.fit, upper);
                 });
             });
         } else {
-            loss_plot(ui, self, context, commands, window, upper);
+            loss_plot(ui, &mut self.shown, context, commands, window, upper);
         }
         ui.horizontal_wrapped(|ui| {
             for (below, name) in Below::ALL {
@@ -185,7 +104,9 @@ impl View for Basis {
             }
         });
         match self.below {
-            Below::Modes => modes::ui(ui, self, context.fit, window, (ui.available_height() - 4.0).max(120.0)),
+            Below::Modes => {
+                modes::ui(ui, &mut self.shown, context.fit, window, (ui.available_height() - 4.0).max(120.0))
+            }
             Below::Sizes => sizes::ui(ui, &mut self.sizes, context, commands, (&model, at, window)),
             Below::Difference => profiles::with_difference(ui, context),
         }

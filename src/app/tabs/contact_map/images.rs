@@ -1,7 +1,7 @@
 //! The map as a texture and its contour lines, made anew only when the solution or what is shown of it changes.
 
 use super::contours::Field;
-use super::tab::{MapView, Shown, mid_film_rises};
+use super::map_view::{MapView, Shown, mid_film_rises};
 use crate::app::answers::picture::Picture;
 use crate::app::figure::{Texture, pixels};
 use crate::app::numbers;

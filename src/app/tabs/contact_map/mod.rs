@@ -3,6 +3,7 @@
 mod contours;
 mod export;
 mod images;
+mod map_view;
 mod optics;
 mod scale;
 mod tab;

@@ -1,7 +1,7 @@
 //! The colour bar beside the map, with its values and their SI twins.
 
 use super::images::{Images, table};
-use super::tab::{MapView, Shown};
+use super::map_view::{MapView, Shown};
 use crate::app::answers::picture::Picture;
 use crate::app::plot::color_bar::{self, STRIPS, in_gigapascals, in_nanometres};
 use crate::app::plot::raster;

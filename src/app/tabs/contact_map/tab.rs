@@ -2,8 +2,8 @@
 //! it. Two lines that can be dragged say where Profiles cuts it.
 
 use super::images::Images;
+use super::map_view::{MapView, Shown};
 use super::{export, optics, scale};
-
 use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -20,12 +20,10 @@ use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, faded};
 use crate::app::units::Scales;
 use crate::app::{badge, caption, numbers};
-use crate::solver::full::heat::{Rises, Temperatures};
+use crate::solver::full::heat::Rises;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::optics::Interferometer;
 use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, Vec2, vec2};
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotBounds, PlotPoint, PlotPoints, PlotTransform, Text, VLine};
-use serde::{Deserialize, Serialize};
 
 /// X range at first.
 const X_RANGE: (f64, f64) = (-2.0, 1.6);
@@ -38,64 +36,6 @@ const GRAB: f32 = 7.0;
 
 /// By which the map is known to screen readers and as a picture.
 const NAME: &str = "Map of the contact";
-
-/// What the map shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum Shown {
-    /// Film thickness.
-    #[default]
-    Film,
-    /// Pressure.
-    Pressure,
-    /// Interference of light in the film.
-    Interferogram,
-    /// Rise of temperature at mid-film, where heat was computed.
-    Temperature,
-}
-
-impl Shown {
-    const ALL: [Self; 4] = [Self::Film, Self::Pressure, Self::Interferogram, Self::Temperature];
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Film => "Film map",
-            Self::Pressure => "Pressure map",
-            Self::Interferogram => "Interferogram",
-            Self::Temperature => "Temperature map",
-        }
-    }
-
-    fn tip(self) -> &'static str {
-        match self {
-            Self::Film => "H over the plane, bright where the film is thin: the horseshoe with its side lobes",
-            Self::Pressure => "P over the plane",
-            Self::Interferogram => {
-                "What an optical rig shows: a glass disc in place of one body, light reflected at both sides of the film"
-            }
-            Self::Temperature => "The rise of temperature at mid-film over the plane",
-        }
-    }
-}
-
-/// Settings of the map; not part of the document.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct MapView {
-    /// What is drawn.
-    pub shown: Shown,
-    /// Whether contour lines are drawn over it.
-    pub contours: bool,
-    /// The optics of the interferogram.
-    pub rig: Interferometer,
-    /// Whether it is drawn in three colours rather than in one.
-    pub three_colors: bool,
-}
-
-impl Default for MapView {
-    fn default() -> Self {
-        Self { shown: Shown::Film, contours: true, rig: Interferometer::default(), three_colors: true }
-    }
-}
 
 /// The tab: what it shows, and the images it keeps between frames.
 #[derive(Default)]
@@ -184,7 +124,7 @@ impl View for ContactMap {
         if self.view.shown == Shown::Interferogram && !context.presenting {
             optics::ui(ui, &mut self.view);
         }
-        let Some(picture) = context.answers.picture.as_ref().filter(|picture| picture.has_plane()) else {
+        let Some(picture) = context.answers.picture().filter(|picture| picture.has_plane()) else {
             ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
             return;
         };
@@ -216,7 +156,7 @@ impl View for ContactMap {
         if context.document.point.kind == ContactKind::Line {
             return vec![space_time::offer(context)];
         }
-        let picture = context.answers.picture.as_ref().filter(|picture| picture.has_plane());
+        let picture = context.answers.picture().filter(|picture| picture.has_plane());
         let tip = "X, Y, P, H of all nodes of both halves, with their SI twins";
         let image = || Command::Ask(Purpose::Write(Written::Png, self.images.png().into()));
         vec![
@@ -392,11 +332,6 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
         numbers::significant(h),
         numbers::length(h * scale)
     ))
-}
-
-/// Rises at mid-film \[K\] of all nodes.
-pub fn mid_film_rises(heat: &Temperatures) -> Vec<f64> {
-    heat.rises().map(|rises| rises.mid_film_k).collect()
 }
 
 /// The map in words.

@@ -69,14 +69,14 @@ impl View for Profiles {
         toolbar(ui, &mut self.choices, context, commands);
         pins_ui(ui, context, commands);
         let answers = context.answers;
-        let Some(picture) = &answers.picture else {
+        let Some(picture) = answers.picture() else {
             ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
             return;
         };
         let stale = drawn::is_grey(ui.ctx(), "profiles", Owner::Contact(picture.key), context);
         let reduced = picture.origin != Origin::Full;
-        let full = answers.full.as_ref().filter(|_| self.choices.overlay && reduced);
-        let comparison = answers.comparison.as_ref().filter(|_| self.choices.difference);
+        let full = answers.full().filter(|_| self.choices.overlay && reduced);
+        let comparison = answers.comparison().filter(|_| self.choices.difference);
         let shear = self.choices.film_shear;
         if shear != FilmShear::Off {
             self.image.follow(ui.ctx(), picture, shear);
@@ -86,7 +86,7 @@ impl View for Profiles {
         let scene = Scene {
             picture,
             full,
-            pins: &answers.pins,
+            pins: answers.pins(),
             stale,
             full_stale: full
                 .is_some_and(|full| drawn::is_grey(ui.ctx(), "full solution", Owner::Contact(full.key), context)),
@@ -162,7 +162,7 @@ impl View for Profiles {
 
     fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
         let (answers, cuts) = (context.answers, context.cuts);
-        let picture = answers.picture.as_ref();
+        let picture = answers.picture();
         let tip = "Live, full and pinned profiles with their SI twins, all of the domain";
         let mut offers = vec![Offer::new("Profiles as CSV…", tip, picture.map(|_| || Command::ExportProfiles))];
         if let Some(picture) = picture.filter(|picture| picture.has_plane()) {
@@ -185,7 +185,7 @@ impl View for Profiles {
 /// The pressure and, as soon as there is a full solution, what the reduced one differs from it by, side by side.
 pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
     let answers = context.answers;
-    let Some(picture) = &answers.picture else {
+    let Some(picture) = answers.picture() else {
         ui.weak("The first picture is being computed");
         return;
     };
@@ -200,7 +200,7 @@ pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
         });
         ui.vertical(|ui| {
             ui.set_width(half);
-            match &answers.comparison {
+            match answers.comparison() {
                 Some(comparison) => {
                     let length_mm = Scales::of(&context.document.point).length_mm;
                     difference_plot(ui, (comparison, length_mm), (context.fit, stale), height);
@@ -221,7 +221,7 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
         {
             commands.push(Command::Pin);
         }
-        let reduced = answers.picture.as_ref().is_some_and(|p| p.origin != Origin::Full);
+        let reduced = answers.picture().is_some_and(|p| p.origin != Origin::Full);
         let why = "The picture is the full solution itself";
         let switches = [
             ("Full solution", "Draw the full solution over the reduced one", &mut choices.overlay),
@@ -245,14 +245,14 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
             commands.push(Command::Verify);
         }
-        if answers.picture.as_ref().is_some_and(|picture| picture.has_plane()) {
+        if answers.picture().is_some_and(|picture| picture.has_plane()) {
             cut_line::cuts_ui(ui, context, commands);
         }
     });
 }
 
 fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    let pins = &context.answers.pins;
+    let pins = context.answers.pins();
     if pins.is_empty() || context.presenting {
         return;
     }

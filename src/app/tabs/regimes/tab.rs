@@ -111,7 +111,7 @@ impl Regimes {
         let fit = context.fit;
         let pins: Vec<[f64; 2]> = context
             .answers
-            .pins
+            .pins()
             .iter()
             .filter(|p| p.picture.key.point.kind == kind)
             .map(|p| at(p.picture.key.point.moes()))

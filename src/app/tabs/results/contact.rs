@@ -108,8 +108,8 @@ fn force(newtons: f64, kind: ContactKind) -> String {
 
 /// What is shown beside each other: the picture, and the full solution where that is another one of the same contact.
 fn columns<'a>(context: &Context<'a>) -> Option<(&'a Picture, Option<&'a Picture>)> {
-    let picture = context.answers.picture.as_ref()?;
-    let full = context.answers.full.as_ref();
+    let picture = context.answers.picture()?;
+    let full = context.answers.full();
     Some((picture, full.filter(|full| picture.origin != Origin::Full && full.key == picture.key)))
 }
 

@@ -1,6 +1,7 @@
 //! The live curve: a sweep by the reduced model, one at a time. The latest request counts.
 
 use super::sweeps::CURVE;
+use crate::app::refusal::Refusal;
 use crate::app::tabs::traction::{Sample, Served, Sweep};
 use crate::engine::Store;
 use crate::engine::job::{Ending, Job, Standing};
@@ -21,7 +22,7 @@ pub struct Curve {
     /// Its contacts, in their order.
     pub samples: Vec<Sample>,
     /// How many of its contacts the reduced model did not converge at, or a sentence why there is no curve.
-    pub left_out: Result<usize, String>,
+    pub left_out: Result<usize, Refusal>,
     /// Some contacts of its companion.
     companions: Vec<Sample>,
     /// Seconds it took.
@@ -100,7 +101,7 @@ impl LiveCurve {
             // It was given up.
             Ok(()) if contacts < CURVE => None,
             Ok(()) => Some(curve),
-            Err(why) => Some(Curve { samples: Vec::new(), left_out: Err(why), ..curve }),
+            Err(why) => Some(Curve { samples: Vec::new(), left_out: Err(Refusal::new(why)), ..curve }),
         }
     }
 }

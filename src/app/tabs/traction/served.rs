@@ -4,6 +4,7 @@ use super::sweeps::Choices;
 use crate::app::answers::Answers;
 use crate::app::document::{Document, Key};
 use crate::app::in_use::InUse;
+use crate::app::refusal::Refusal;
 use crate::app::tabs::traction::{Sweep, Varied};
 use crate::solver::full::Problem;
 use crate::solver::physics::lubricant::{LARGEST_HEATED_SRR, ShearLaw};
@@ -24,7 +25,7 @@ pub struct Served {
 
 /// The sweep through the contact of the sliders, and the reduced model that draws it or why none does. `None` where the
 /// fluid does not answer to the quantity, or a line does not have it.
-pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, String>)> {
+pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, Refusal>)> {
     let varied = choices.against.varied();
     let key = document.key();
     let mut point = key.point;
@@ -33,7 +34,7 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
         return None;
     }
     let (ends, served) = match answers.in_use(document) {
-        None => (varied.everywhere(&point), Err("there is no reduced model of this contact".to_owned())),
+        None => (varied.everywhere(&point), Err(Refusal::new("there is no reduced model of this contact"))),
         Some(by) => match varied.trained(&by.model.domain, &point) {
             Some(ends) => match untrained(&by.model.domain, &key, varied, ends) {
                 Ok(untrained) => {
@@ -48,7 +49,7 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
                     Varied::Plateau => "one plateau ratio only",
                     Varied::SlideToRoll | Varied::Speed => "no such speed",
                 };
-                (varied.everywhere(&point), Err(format!("the reduced model was trained for {what}")))
+                (varied.everywhere(&point), Err(Refusal::new(format!("the reduced model was trained for {what}"))))
             }
         },
     };
@@ -72,18 +73,17 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
 /// # Errors
 /// A sentence where it cannot serve it at all: pressure and film have shapes there that it does not know, or a contact
 /// is refused.
-fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Result<Option<String>, String> {
+fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Result<Option<String>, Refusal> {
     let mut untrained = None;
     for value in [ends.0, ends.1] {
-        let problem =
-            Problem::new(&varied.at(&key.point, value), key.lubricant).map_err(|refused| refused.to_string())?;
+        let problem = Problem::new(&varied.at(&key.point, value), key.lubricant)?;
         if let Some(why) = domain.strange_shape(&problem) {
-            return Err(why);
+            return Err(Refusal::new(why));
         }
         if let Trust::Outside(why) = domain.trust(&problem) {
             if problem.heat.is_some() {
                 // Full solutions are at hand, and with heat the oil and its bodies count as well.
-                return Err(why);
+                return Err(Refusal::new(why));
             }
             untrained.get_or_insert(why);
         }

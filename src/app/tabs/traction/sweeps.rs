@@ -6,9 +6,9 @@ use super::sweep::{Against, Sample, Sweep, Varied};
 
 use super::curve::LiveCurve;
 use crate::app::answers::Answers;
-use crate::app::answers::jobs::wake;
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
+use crate::app::wake::wake;
 use crate::engine::job::{Background, Standing};
 use crate::engine::{Store, Workbench};
 use crate::scene::{Grid, Method, StudyRow};
@@ -186,7 +186,7 @@ impl TractionView {
             (None, None) => Grid::Graded,
         };
         let ask = |title: &str, sweep: &Sweep, count: usize| {
-            let bench = Workbench::on(&answers.store, "");
+            let bench = Workbench::on(answers.store(), "");
             let bench = if let Some(model) = model { bench.using(model) } else { bench };
             sweep.question(title, grid, count, Method::Full).ask(bench, wake(ctx))
         };

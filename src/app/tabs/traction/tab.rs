@@ -6,6 +6,7 @@ use super::sweeps::edit_along;
 use crate::app::answers::Answers;
 use crate::app::caption;
 use crate::app::document::Document;
+use crate::app::refusal::Refusal;
 use crate::engine::job::Standing;
 
 use super::sweeps::{Choices, Markers, SlideView, TractionView};
@@ -74,7 +75,7 @@ impl View for Traction {
             return;
         };
         if let Ok(served) = &served {
-            self.sweeps.follow(ui.ctx(), &context.answers.store, sweep.clone(), served.clone());
+            self.sweeps.follow(ui.ctx(), context.answers.store(), sweep.clone(), served.clone());
         }
         fill(ui, &mut self.sweeps, context, choices, (&sweep, &served));
         toolbar(ui, (choices, &self.sweeps), context, commands, true);
@@ -146,7 +147,7 @@ fn fill(
     sweeps: &mut TractionView,
     context: &Context<'_>,
     choices: &Choices,
-    (sweep, served): (&Sweep, &Result<Served, String>),
+    (sweep, served): (&Sweep, &Result<Served, Refusal>),
 ) {
     if sweeps.fills_another(sweep) {
         sweeps.stop_markers();
@@ -177,7 +178,7 @@ impl<'a> ShownSweep<'a> {
         ui: &Ui,
         context: &Context<'_>,
         view: &'a TractionView,
-        (sweep, served): (&Sweep, &Result<Served, String>),
+        (sweep, served): (&Sweep, &Result<Served, Refusal>),
     ) -> Self {
         let varied = sweep.varied;
         let curve = view.curve.as_ref().filter(|curve| curve.sweep.varied == varied && !curve.samples.is_empty());
@@ -286,7 +287,7 @@ fn status(
     context: &Context<'_>,
     sweeps: &TractionView,
     swept: (&Sweep, &Choices),
-    served: &Result<Served, String>,
+    served: &Result<Served, Refusal>,
 ) {
     let line = ui.text_style_height(&TextStyle::Small) + ui.spacing().item_spacing.y;
     let size = vec2(ui.available_width(), STATUS_LINES * line);
@@ -302,7 +303,7 @@ fn said(
     context: &Context<'_>,
     view: &TractionView,
     (sweep, choices): (&Sweep, &Choices),
-    served: &Result<Served, String>,
+    served: &Result<Served, Refusal>,
 ) {
     ui.label(rich(&summary(context, view, sweep), 12.5, Palette::of(ui).quiet)).on_hover_text(
         match sweep.base.lubricant.heat {
@@ -373,7 +374,7 @@ fn left_out_ui(ui: &mut Ui, failed: usize) {
 /// Traction here, the largest of the curve, and how far full solutions lie from it.
 fn summary(context: &Context<'_>, view: &TractionView, sweep: &Sweep) -> String {
     let mut parts = Vec::new();
-    let here = context.answers.picture.as_ref().filter(|_| context.answers.picture_is_current());
+    let here = context.answers.picture().filter(|_| context.answers.picture_is_current());
     if let Some(picture) = here.filter(|picture| picture.unphysical.is_none()) {
         parts.push(format!("µ {} here", numbers::significant(picture.traction)));
     }

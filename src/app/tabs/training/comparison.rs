@@ -4,6 +4,7 @@
 use crate::app::document::Key;
 use crate::app::export;
 use crate::app::in_use::{InUse, question};
+use crate::app::refusal::Refusal;
 use crate::engine::Store;
 use crate::engine::job::{Background, Standing};
 use crate::scene::study::random_test::{RandomTest, Tested, errors, tests};
@@ -69,9 +70,9 @@ impl Comparison {
         store: &Store,
         models: Vec<(String, Arc<ReducedModel>)>,
         spec: &TrainingSpec,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Refusal> {
         let points = random_points(&spec.range, spec.contact(), 1, SEED);
-        let point = *points.first().ok_or("the range holds no points to compare at")?;
+        let point = *points.first().ok_or_else(|| Refusal::new("the range holds no points to compare at"))?;
         let range = spec.range;
         let test = RandomTest { range, tests: POINTS, seed: SEED, method: Method::EMBEDDED, compare: POINTS, worst: 0 };
         let key = Key { point, lubricant: spec.lubricant };

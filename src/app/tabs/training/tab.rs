@@ -1,11 +1,12 @@
 //! Making a reduced model: what it shall be trained for and how, the training as it runs, and what its model is worth.
 
-use super::trainings::{Notice, Training, TrainingCommand};
+use super::trainings::{Training, TrainingCommand};
 use super::{charts, comparison_view, form};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, named, sentence, warning_ui};
 use crate::app::form::LastField;
+use crate::app::notice::Notice;
 use crate::app::numbers;
 use crate::app::purpose::{Purpose, Written};
 use crate::app::tabs::training::{Made, Running};

@@ -2,6 +2,8 @@
 
 use super::presets;
 use super::worker::{self, Files, Found, Made, Running};
+use crate::app::notice::Notice;
+use crate::app::refusal::Refusal;
 
 use super::chart::Chart;
 use super::comparison::Comparison;
@@ -20,17 +22,6 @@ use std::sync::Arc;
 /// Names of the files in the session's folder.
 const FILE: &str = "unfinished.training";
 const MODEL_FILE: &str = "trained.rom";
-
-/// A sentence about how something ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Notice {
-    /// As it should.
-    Done(String),
-    /// Worth knowing.
-    Short(String),
-    /// Wrong.
-    Wrong(String),
-}
 
 /// What can be asked for when there is a training or what came of one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,7 +150,7 @@ impl Training {
         let spec = spec.under(document.lubricant.cavitation).heated(heat);
         match spec.check() {
             Ok(()) => self.run(ctx, TrainingState::new(spec)),
-            Err(error) => self.notices = vec![Notice::Wrong(error.to_string())],
+            Err(error) => self.notices = vec![Notice::wrong(error)],
         }
     }
 
@@ -197,15 +188,15 @@ impl Training {
 
     /// Whether the model that was made is in use.
     pub fn uses_made(&self, answers: &Answers) -> bool {
-        self.made.as_ref().is_some_and(|made| answers.models.contains(&made.model))
+        self.made.as_ref().is_some_and(|made| answers.models().contains(&made.model))
     }
 
     /// Takes in the model of a file for comparisons; it does not come into use.
     ///
     /// # Errors
     /// A sentence when it cannot be read.
-    pub fn add_beside(&mut self, store: &Store, path: &Path) -> Result<(), String> {
-        let model = store.model_of_file(path).map_err(|error| error.to_string())?;
+    pub fn add_beside(&mut self, store: &Store, path: &Path) -> Result<(), Refusal> {
+        let model = store.model_of_file(path)?;
         let name = path.file_stem().map_or_else(|| model.title.clone(), |stem| stem.to_string_lossy().into_owned());
         self.beside.retain(|(_, known)| !Arc::ptr_eq(known, &model));
         self.beside.push((name, model));
@@ -229,8 +220,8 @@ impl Training {
         let middle = (lightest * heaviest).sqrt();
         let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, shear).under_load(middle) };
         let round = (!ellipses).then_some(of_kind);
-        let embedded = round.and_then(|which| answers.store.embedded(which).ok());
-        let in_use = answers.models.shaped(kind, ellipses, &spec.lubricant, middle).cloned();
+        let embedded = round.and_then(|which| answers.store().embedded(which).ok());
+        let in_use = answers.models().shaped(kind, ellipses, &spec.lubricant, middle).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));
@@ -249,9 +240,9 @@ impl Training {
     pub fn compare(&mut self, ctx: &Context, answers: &Answers, document: &Document) {
         let models = self.comparable(answers, document);
         let Some(spec) = self.compared_spec(document).filter(|_| models.len() > 1) else { return };
-        match Comparison::start(ctx, &answers.store, models, spec) {
+        match Comparison::start(ctx, answers.store(), models, spec) {
             Ok(comparison) => self.comparison = Some(comparison),
-            Err(why) => self.notices.push(Notice::Wrong(why)),
+            Err(why) => self.notices.push(Notice::wrong(why)),
         }
     }
 
@@ -275,7 +266,7 @@ impl Training {
         if let Some(files) = &self.files
             && let Err(error) = training_file::remove(&files.training)
         {
-            self.notices.push(Notice::Wrong(error.to_string()));
+            self.notices.push(Notice::wrong(error));
         }
     }
 
@@ -342,7 +333,7 @@ impl Training {
         }
         match made {
             Ok(made) => self.made = Some(made),
-            Err(why) => self.notices.push(Notice::Wrong(why)),
+            Err(why) => self.notices.push(Notice::wrong(why)),
         }
         self.notices.extend(unkept.map(Notice::Wrong));
         self.unfinished = (ended != Ended::Complete && solutions > 0).then(|| Box::new(state));

@@ -1,7 +1,8 @@
 //! One training or comparison at a time, on threads of its own, so that the live picture keeps answering.
 
-use crate::app::answers::jobs::wake;
+use crate::app::refusal::Refusal;
 use crate::app::tabs::training::chart::Chart;
+use crate::app::wake::wake;
 use crate::engine::job::{Ending, Job, Reporter, guarded, on_spare_cores};
 use crate::engine::model_file;
 use crate::engine::training_file::{self, TrainingKeeper};
@@ -36,7 +37,7 @@ pub struct Trained {
     /// How it ended.
     pub ended: Ended,
     /// The model, also of a training that was stopped or failed; or a sentence why there is none.
-    pub made: Result<Made, String>,
+    pub made: Result<Made, Refusal>,
     /// Why it could not be kept on disk.
     pub unkept: Option<String>,
 }
@@ -208,9 +209,9 @@ pub fn look(ctx: &egui::Context, files: Files) -> Job<Found> {
     })
 }
 
-fn found_model(path: &Path) -> Result<Made, String> {
-    let model = model_file::read(path).map_err(|error| error.to_string())?;
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+fn found_model(path: &Path) -> Result<Made, Refusal> {
+    let model = model_file::read(path)?;
+    let bytes = std::fs::read(path)?;
     Ok(Made { model: Arc::new(model), bytes: Arc::new(bytes), kept: true, saved: false })
 }
 
@@ -227,7 +228,7 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
         Ok(Err(TrainingError::Cancelled)) => (Ended::Stopped, rest(&state, watch.reporter)),
         Ok(Err(error)) => (Ended::Failed(error.to_string()), rest(&state, watch.reporter)),
         // Whatever broke there would break here too.
-        Err(message) => (Ended::Failed(message.clone()), Err(message)),
+        Err(message) => (Ended::Failed(message.clone()), Err(Refusal::new(message))),
     };
     let kept = match (keeper, &ended) {
         (Some(keeper), Ended::Complete) => keeper.discard(),
@@ -247,15 +248,15 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
 }
 
 /// The model of what there is, unless that is not wanted either.
-fn rest(state: &TrainingState, reporter: &Reporter<Trained>) -> Result<Made, String> {
-    guarded(|| state.model(&reporter.abandoned())).and_then(|result| match result {
+fn rest(state: &TrainingState, reporter: &Reporter<Trained>) -> Result<Made, Refusal> {
+    guarded(|| state.model(&reporter.abandoned())).map_err(Refusal::new).and_then(|result| match result {
         Ok(model) => file_of(model),
-        Err(TrainingError::Cancelled) => Err("no model was made of them".to_owned()),
-        Err(error) => Err(error.to_string()),
+        Err(TrainingError::Cancelled) => Err(Refusal::new("no model was made of them")),
+        Err(error) => Err(error.into()),
     })
 }
 
-fn file_of(model: ReducedModel) -> Result<Made, String> {
-    let bytes = model_file::to_bytes(&model).map_err(|error| error.to_string())?;
+fn file_of(model: ReducedModel) -> Result<Made, Refusal> {
+    let bytes = model_file::to_bytes(&model)?;
     Ok(Made { model: Arc::new(model), bytes: Arc::new(bytes), kept: false, saved: false })
 }

@@ -3,8 +3,8 @@
 
 use super::linearised::NumberStudy;
 use super::runs::{TransientView, insert};
-use crate::app::answers::jobs::wake;
 use crate::app::tabs::transient::{Run, Setup};
+use crate::app::wake::wake;
 use crate::engine::job::Background;
 use crate::engine::{Store, Workbench};
 use crate::scene::study::transient::{Kind, MarchedBy, Model, Row};

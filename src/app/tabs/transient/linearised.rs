@@ -1,9 +1,10 @@
 //! The linearised model of a contact in time as it is looked into: its operating points, what the other rule would choose, and the study of
 //! how many points it takes.
 
-use crate::app::answers::jobs::wake;
+use crate::app::refusal::Refusal;
 use crate::app::tabs::transient::Run;
 use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name};
+use crate::app::wake::wake;
 use crate::engine::job::{Background, Ending, Job, Reporter};
 use crate::engine::median;
 use crate::scene::study::transient::{Timed, timed_march};
@@ -175,7 +176,7 @@ fn work(model: &Arc<TpwlModel>, full: &Trajectory, reporter: &Reporter<NumberRow
                     if reporter.cancelled() {
                         return Ok(());
                     }
-                    reporter.send(row?);
+                    reporter.send(row.map_err(|why| why.to_string())?);
                 }
             }
             last = last.max(points);
@@ -194,10 +195,10 @@ fn tried(
     full: &Trajectory,
     weighting: Weighting,
     reporter: &Reporter<NumberRow>,
-) -> Result<NumberRow, String> {
-    let mut marching = TpwlMarch::new(model, transient, weighting).map_err(|error| error.to_string())?;
+) -> Result<NumberRow, Refusal> {
+    let mut marching = TpwlMarch::new(model, transient, weighting)?;
     let marched = timed_march(&mut marching, transient, stage(model.training.selection), reporter, None);
-    let Timed { trajectory, seconds } = marched.map_err(|error| error.to_string())?;
+    let Timed { trajectory, seconds } = marched?;
     let difference = trajectory.difference(full, Quantity::CentralFilm, (0.0, transient.duration));
     Ok(NumberRow {
         selection: model.training.selection,

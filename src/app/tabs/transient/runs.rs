@@ -7,7 +7,7 @@ use super::setup::Setup;
 use super::follow::Following;
 use super::linearised::{Linearised, NumberStudy, OtherRule};
 use super::projection::FieldErrors;
-use crate::app::answers::jobs::wake;
+use crate::app::wake::wake;
 use crate::engine::job::{Background, Job, Standing};
 use crate::engine::{Store, Workbench};
 use crate::scene::study::transient::{By, Kind, MarchedBy, Model, Row};

@@ -1,6 +1,6 @@
 //! The linearised model for other programs: its operating points, the weights of every step, and the study of numbers.
 
-use super::tab::ShownModel;
+use super::shown::ShownModel;
 use crate::app::export;
 use crate::app::tabs::transient::TransientView;
 use crate::app::tabs::transient::export::describe;
@@ -30,7 +30,7 @@ fn comments(shown: &ShownModel<'_>) -> Vec<String> {
 /// All operating points, with their weights and distances at the moment that is looked at.
 pub fn points(shown: &ShownModel<'_>) -> String {
     let model = &shown.linearised.model;
-    let [across, up] = shown.tab.coordinates;
+    let [across, up] = shown.choices.coordinates;
     let header = [
         "point",
         "training",

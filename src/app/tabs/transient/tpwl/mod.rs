@@ -5,6 +5,7 @@ mod export;
 mod number;
 mod pictures;
 mod plane;
+mod shown;
 mod tab;
 mod table;
 mod trajectory;

@@ -1,6 +1,6 @@
 //! Error against the number of operating points: both rules, both weightings.
 
-use super::tab::ShownModel;
+use super::shown::ShownModel;
 use crate::app::plot::axes;
 use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::tabs::transient::linearised::NumberRow;

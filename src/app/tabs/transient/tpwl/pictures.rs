@@ -1,6 +1,6 @@
 //! All pictures of a linearised model, as many beside each other as there is room for.
 
-use super::tab::{LEAST_HEIGHT, ShownModel};
+use super::shown::{LEAST_HEIGHT, ShownModel};
 use crate::app::tabs::transient::series;
 use crate::app::tabs::transient::tpwl::table::{self, Sorting};
 use crate::app::tabs::transient::tpwl::{number, plane, trajectory, weights};
@@ -62,7 +62,7 @@ impl Drawn {
                 series::deviation(ui, shown.view, height - 22.0)
             }
             Self::Weights => weights::ui(ui, shown, height),
-            Self::Table if shown.tab.other => trajectory::not_chosen(ui, shown, height),
+            Self::Table if shown.choices.other => trajectory::not_chosen(ui, shown, height),
             Self::Table => table::ui(ui, shown, sorting, height),
         }
     }

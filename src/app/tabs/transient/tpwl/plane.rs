@@ -1,6 +1,6 @@
 //! The plane of two reduced coordinates: training trajectories, operating points, and the path of the run through them.
 
-use super::tab::{ShownModel, near, point_under};
+use super::shown::{ShownModel, near, point_under};
 use crate::app::plot::axes;
 use crate::app::tabs::transient::linearised::PointNow;
 use crate::app::tabs::transient::tpwl::trajectory::{marks, weighted};
@@ -23,7 +23,7 @@ fn axis_title(k: usize, modes: usize) -> String {
 /// The plane; returns the moment that was clicked at.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let model = &shown.linearised.model;
-    let [across, up] = shown.tab.coordinates;
+    let [across, up] = shown.choices.coordinates;
     let modes = model.space.modes();
     let at = |state: &[f64]| {
         let place = PlotPoint::new(*state.get(across)?, *state.get(up)?);

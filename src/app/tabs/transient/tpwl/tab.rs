@@ -1,106 +1,34 @@
 //! The linearised model: where its operating points lie, which of them carry the present moment, and how many it takes.
 
+use super::shown::{Choices, ShownModel};
 use super::table::Sorting;
 use super::{dials, export, pictures, plane};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{choice, either_button};
 use crate::app::document::Edit;
+use crate::app::drawn;
 use crate::app::form::LastField;
-use crate::app::tabs::transient::linearised::{Linearised, PointNow};
-use crate::app::tabs::transient::method::{WEIGHTINGS, weighting_name};
-use crate::app::tabs::transient::{InTimeCommand, Run, TransientView, badge, methods, shared};
+use crate::app::tabs::transient::linearised::Linearised;
+use crate::app::tabs::transient::{InTimeCommand, badge, methods, shared};
 use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::Palette;
-use crate::app::{drawn, numbers};
 use crate::engine::job::Standing;
 use crate::scene::LinearisedTransient;
 use crate::solver::full::transient::Quantity;
-use crate::solver::reduced::tpwl::Weighting;
-use egui::{Color32, Grid, Pos2, Response, ScrollArea, Ui};
-use egui_plot::{PlotPoint, PlotTransform};
+
+use egui::{Grid, ScrollArea, Ui};
 
 /// Width of the settings.
 const FORM_WIDTH: f32 = 296.0;
-/// Height below which a picture cannot be read.
-pub const LEAST_HEIGHT: f32 = 118.0;
-/// How near (in screen points) the pointer must be to a point.
-const GRAB: f32 = 12.0;
-
 /// What the tab keeps between frames; none of it belongs to the scene.
+#[derive(Default)]
 pub struct Tpwl {
-    /// What is drawn along the training trajectory.
-    pub(super) quantity: Quantity,
-    /// Coordinates of the plane, from 0; the last one is H_0.
-    pub(super) coordinates: [usize; 2],
-    /// Which training trajectory is drawn.
-    pub(super) trajectory: usize,
-    /// Whether the other rule's points stand in place of the table.
-    pub(super) other: bool,
+    choices: Choices,
     sorting: Sorting,
     /// Whether settings are shown.
     form: bool,
     last: LastField,
-}
-
-impl Default for Tpwl {
-    fn default() -> Self {
-        Self {
-            quantity: Quantity::CentralFilm,
-            coordinates: [0, 1],
-            trajectory: 0,
-            other: false,
-            sorting: Sorting::default(),
-            form: false,
-            last: None,
-        }
-    }
-}
-
-/// What all pictures of one frame share.
-pub struct ShownModel<'a> {
-    pub(super) view: &'a TransientView,
-    pub(super) tab: &'a Tpwl,
-    pub(super) linearised: &'a Linearised,
-    /// Its runs.
-    pub(super) runs: Vec<(Weighting, &'a Run)>,
-    /// Its points at the moment that is looked at.
-    pub(super) points: Vec<PointNow>,
-    pub(super) palette: Palette,
-    pub(super) fit: bool,
-}
-
-impl<'a> ShownModel<'a> {
-    fn new(palette: Palette, tab: &'a Tpwl, context: &Context<'a>, linearised: &'a Linearised) -> Self {
-        let view = context.transient;
-        let runs: Vec<_> = view.runs_of(linearised).collect();
-        let points = linearised.points_at(&runs, view.player.time());
-        Self { view, tab, linearised, runs, points, palette, fit: context.fit }
-    }
-
-    /// The operating points of the trajectory that is drawn.
-    pub(super) fn of_trajectory(&self) -> impl Iterator<Item = &PointNow> {
-        self.points.iter().filter(|now| {
-            let trained = self.linearised.model.points.get(now.point);
-            trained.is_some_and(|trained| trained.trajectory == self.tab.trajectory)
-        })
-    }
-
-    /// The colour of a weighting, by its place in [`WEIGHTINGS`].
-    pub(super) fn color(&self, weighting: usize) -> Color32 {
-        [self.palette.accent, self.palette.warning][weighting]
-    }
-
-    /// Whether a weighting, by its place in [`WEIGHTINGS`], was run.
-    pub(super) fn was_run(&self, weighting: usize) -> bool {
-        self.runs.iter().any(|(own, _)| *own == WEIGHTINGS[weighting])
-    }
-
-    /// Whether it is run in this set-up, sooner or later: what has a place for it keeps that.
-    pub(super) fn is_run(&self, weighting: usize) -> bool {
-        let linearised = self.view.setup.as_ref().and_then(|setup| setup.study.linearised.as_ref());
-        linearised.is_some_and(|linearised| linearised.weightings.contains(&WEIGHTINGS[weighting]))
-    }
 }
 
 impl Tpwl {
@@ -146,7 +74,7 @@ impl Tpwl {
             if context.transient.is_current() && context.transient.runs_of(linearised).next().is_none() {
                 drawn::fade(ui, shared::is_coming(context));
             }
-            pictures::all(ui, &ShownModel::new(Palette::of(ui), self, context, linearised), &mut sorting, rest)
+            pictures::all(ui, &ShownModel::new(Palette::of(ui), &self.choices, context, linearised), &mut sorting, rest)
         });
         self.sorting = sorting;
         commands.extend(pictures.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
@@ -180,8 +108,8 @@ impl Tpwl {
     fn choices(&mut self, ui: &mut Ui, linearised: &Linearised) {
         let modes = linearised.model.space.modes();
         let trainings = linearised.trainings.len();
-        self.trajectory = self.trajectory.min(trainings.saturating_sub(1));
-        self.coordinates = self.coordinates.map(|k| k.min(modes));
+        self.choices.trajectory = self.choices.trajectory.min(trainings.saturating_sub(1));
+        self.choices.coordinates = self.choices.coordinates.map(|k| k.min(modes));
         ui.horizontal_wrapped(|ui| {
             let combo = |ui: &mut Ui, content: &mut dyn FnMut(&mut Ui)| {
                 Grid::new(ui.next_auto_id()).spacing([6.0, 0.0]).min_col_width(0.0).show(ui, |ui| content(ui));
@@ -196,7 +124,7 @@ impl Tpwl {
                     ui,
                     "Along",
                     "What is drawn along the training trajectory",
-                    &mut self.quantity,
+                    &mut self.choices.quantity,
                     &quantities,
                     name,
                 );
@@ -204,11 +132,11 @@ impl Tpwl {
             if trainings > 1 {
                 let label = ui.label("Training");
                 egui::ComboBox::from_id_salt("training shown")
-                    .selected_text((self.trajectory + 1).to_string())
+                    .selected_text((self.choices.trajectory + 1).to_string())
                     .width(56.0)
                     .show_ui(ui, |ui| {
                         for k in 0..trainings {
-                            ui.selectable_value(&mut self.trajectory, k, (k + 1).to_string());
+                            ui.selectable_value(&mut self.choices.trajectory, k, (k + 1).to_string());
                         }
                     })
                     .response
@@ -218,20 +146,20 @@ impl Tpwl {
                 let label =
                     ui.label(name).on_hover_text("A reduced coordinate of the plane: a pressure mode’s, or H_0");
                 egui::ComboBox::from_id_salt(("coordinate", at))
-                    .selected_text(plane::coordinate_name(self.coordinates[at], modes))
+                    .selected_text(plane::coordinate_name(self.choices.coordinates[at], modes))
                     .width(84.0)
                     .show_ui(ui, |ui| {
                         for k in 0..=modes {
-                            ui.selectable_value(&mut self.coordinates[at], k, plane::coordinate_name(k, modes));
+                            ui.selectable_value(&mut self.choices.coordinates[at], k, plane::coordinate_name(k, modes));
                         }
                     })
                     .response
                     .labelled_by(label.id);
             }
             let tip = "All points with their weights and distances at this moment";
-            ui.selectable_value(&mut self.other, false, "Table").on_hover_text(tip);
+            ui.selectable_value(&mut self.choices.other, false, "Table").on_hover_text(tip);
             let tip = "The points that the other rule would choose, as many";
-            ui.selectable_value(&mut self.other, true, "Other rule").on_hover_text(tip);
+            ui.selectable_value(&mut self.choices.other, true, "Other rule").on_hover_text(tip);
         });
     }
 }
@@ -285,7 +213,7 @@ impl View for Tpwl {
             let shown = move |linearised: &&'a Linearised| {
                 // Colours are for the screen only.
                 let palette = Palette::for_visuals(&egui::Visuals::light());
-                text(&ShownModel::new(palette, self, &context, linearised))
+                text(&ShownModel::new(palette, &self.choices, &context, linearised))
             };
             Offer::table(name, tip, there, shown)
         };
@@ -324,31 +252,4 @@ fn nothing_yet(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     } else if !shared::is_coming(context) {
         ui.weak("Run it in time: the full system first, whose trajectory is then linearised and followed.");
     }
-}
-
-/// The point whose place on the screen is nearest to the pointer, if it is near.
-pub fn near<T>(places: impl Iterator<Item = (T, PlotPoint)>, transform: &PlotTransform, pointer: Pos2) -> Option<T> {
-    let distance = |place: &PlotPoint| transform.position_from_point(place).distance(pointer);
-    let measured = places.map(|(what, place)| (what, distance(&place)));
-    measured.filter(|(_, d)| *d < GRAB).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(what, _)| what)
-}
-
-/// What the weights of a point are, for people.
-pub fn weights_text(shown: &ShownModel<'_>, now: &PointNow) -> String {
-    let each = (0..WEIGHTINGS.len()).filter(|&k| shown.was_run(k));
-    let said = each.map(|k| format!("{} {}", weighting_name(WEIGHTINGS[k]).0, numbers::digits(now.weights[k], 3)));
-    said.collect::<Vec<_>>().join(", ")
-}
-
-/// Says which operating point lies under the pointer; returns the moment to go to when it is clicked.
-pub fn point_under(shown: &ShownModel<'_>, response: Response, under: Option<&PointNow>) -> Option<f64> {
-    let (now, trained) = under.and_then(|now| Some((now, shown.linearised.model.points.get(now.point)?)))?;
-    let clicked = response.clicked();
-    response.on_hover_text_at_pointer(format!(
-        "Operating point {}, T = {}\nWeights: {}\nA click goes to its moment",
-        now.point + 1,
-        numbers::significant(trained.moment.time),
-        weights_text(shown, now)
-    ));
-    if clicked { shown.linearised.moment_of(now.point, &shown.runs) } else { None }
 }

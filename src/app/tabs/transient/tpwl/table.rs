@@ -1,6 +1,6 @@
 //! All operating points as a sorted table: number, T, weights, distance. A click on a row goes to its moment.
 
-use super::tab::ShownModel;
+use super::shown::ShownModel;
 use crate::app::controls::named;
 use crate::app::numbers;
 use crate::app::tabs::transient::linearised::PointNow;

@@ -1,7 +1,7 @@
 //! The training trajectory with its operating points, chosen by the rule in use, and what the other rule would choose
 //! instead.
 
-use super::tab::{ShownModel, near, point_under};
+use super::shown::{ShownModel, near, point_under};
 use crate::app::numbers;
 use crate::app::plot::axes;
 use crate::app::plot::frame::PlotFrame;
@@ -17,7 +17,7 @@ use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
 
 /// The colour of what is drawn, and its symbol.
 fn look(shown: &ShownModel<'_>) -> (Color32, &'static str) {
-    match shown.tab.quantity {
+    match shown.choices.quantity {
         Quantity::CentralPressure => (shown.palette.pressure, "{P_c}"),
         _ => (shown.palette.film, "{H_c}"),
     }
@@ -25,8 +25,8 @@ fn look(shown: &ShownModel<'_>) -> (Color32, &'static str) {
 
 fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), height: f32) -> PlotFrame<'a> {
     let columns = series::marks(ui.available_width());
-    let group = Id::unique(("tpwl trajectory", shown.view.generation, shown.tab.trajectory));
-    let (generation, quantity, trajectory) = (shown.view.generation, shown.tab.quantity, shown.tab.trajectory);
+    let group = Id::unique(("tpwl trajectory", shown.view.generation, shown.choices.trajectory));
+    let (generation, quantity, trajectory) = (shown.view.generation, shown.choices.quantity, shown.choices.trajectory);
     let plot = axes::plot(ui, &format!("{id} {generation} {quantity:?} {trajectory}"), height, titles.0, titles.1);
     let plot = match &shown.view.setup {
         Some(setup) => {
@@ -48,21 +48,23 @@ fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), hei
 
 /// The trajectory as a line.
 fn curve(shown: &ShownModel<'_>) -> Vec<PlotPoint> {
-    let moments = shown.linearised.trainings.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
-    axes::thinned(moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.tab.quantity))).collect())
+    let moments = shown.linearised.trainings.get(shown.choices.trajectory).map_or(&[][..], Vec::as_slice);
+    axes::thinned(
+        moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(shown.choices.quantity))).collect(),
+    )
 }
 
 /// What the linearised model makes of it, where it was trained by the run itself: broad and pale, as everywhere.
 fn runs(shown: &ShownModel<'_>) -> Vec<(String, Vec<PlotPoint>)> {
     let runs = shown.runs.iter().filter(|_| shown.linearised.own);
     let points = |run: &Run| -> Vec<PlotPoint> {
-        run.trajectory.moments.iter().map(|m| PlotPoint::new(m.time, m.value(shown.tab.quantity))).collect()
+        run.trajectory.moments.iter().map(|m| PlotPoint::new(m.time, m.value(shown.choices.quantity))).collect()
     };
     runs.map(|(_, run)| (run.name(), axes::thinned(points(run)))).collect()
 }
 
 fn place(shown: &ShownModel<'_>, time: f64) -> Option<PlotPoint> {
-    let value = shown.linearised.value(shown.tab.trajectory, shown.tab.quantity, time)?;
+    let value = shown.linearised.value(shown.choices.trajectory, shown.choices.quantity, time)?;
     Some(PlotPoint::new(time, value))
 }
 
@@ -117,10 +119,10 @@ pub fn not_chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f6
         return None;
     };
     let rule = other.selection;
-    let chosen = other.chosen.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
+    let chosen = other.chosen.get(shown.choices.trajectory).map_or(&[][..], Vec::as_slice);
     title(ui, rule, chosen.len(), "the other rule");
     let (color, symbol) = look(shown);
-    let moments = shown.linearised.model.trajectories.get(shown.tab.trajectory).map_or(&[][..], Vec::as_slice);
+    let moments = shown.linearised.model.trajectories.get(shown.choices.trajectory).map_or(&[][..], Vec::as_slice);
     let times = chosen.iter().filter_map(|&i| moments.get(i)).map(|moment| moment.time);
     let dots: Vec<PlotPoint> = times.filter_map(|time| place(shown, time)).collect();
     let (line, reference, quiet, time, own) =

@@ -1,6 +1,6 @@
 //! The weights of the operating points at this moment, both kinds over each other.
 
-use super::tab::{ShownModel, near, point_under};
+use super::shown::{ShownModel, near, point_under};
 use crate::app::numbers;
 use crate::app::plot::axes;
 use crate::app::tabs::transient::method::{WEIGHTINGS, weighting_name};

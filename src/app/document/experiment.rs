@@ -1,23 +1,8 @@
 //! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the
 //! truncation. Undo and redo are snapshots of it.
 
-#[cfg(test)]
-mod tests;
-
-mod edit;
-mod engineering;
-mod held;
-mod history;
-pub mod input;
-mod key;
-mod shape;
-mod transient;
-
-pub use edit::Edit;
-pub use history::History;
-pub use key::Key;
-pub use shape::Shape;
-
+use super::key::Key;
+use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::{MINERAL_OIL, NamedLubricant};
 use crate::scene::study::point::Point;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
@@ -95,7 +80,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the point would be refused; the document is unchanged then.
-    pub fn set_moes(&mut self, wanted: Moes) -> Result<(), String> {
+    pub fn set_moes(&mut self, wanted: Moes) -> Result<(), Refusal> {
         let here = self.point;
         let followers = self.followers_to(wanted)?;
         let moes = here.moes();
@@ -125,7 +110,7 @@ impl Document {
         request.speed_m_per_s = speed.then_some(here.speed_m_per_s);
         request.load = load.then_some(here.load);
         request.alpha_per_pa = alpha.then_some(here.alpha_per_pa);
-        let point = si_from_moes(&request).map_err(|e| e.to_string())?;
+        let point = si_from_moes(&request)?;
         // An ellipse keeps its shape, unless its radius across is held.
         let across = match (here.radius_y_m, self.holds(Quantity::RadiusY)) {
             (Some(radius_y), false) if point.radius_m != here.radius_m => {
@@ -181,7 +166,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the value is refused; the document is unchanged then.
-    pub fn set_quantity(&mut self, quantity: Quantity, value: f64) -> Result<(), String> {
+    pub fn set_quantity(&mut self, quantity: Quantity, value: f64) -> Result<(), Refusal> {
         let moes = self.point.moes();
         match quantity {
             Quantity::M => self.set_moes(Moes { m: value, ..moes }),
@@ -191,7 +176,7 @@ impl Document {
                 self.accept(OperatingPoint { sliding, ..self.point })
             }
             Quantity::RadiusRatio if self.holds(Quantity::RadiusY) => {
-                Err("R_y is held, so that R_y/R cannot move; free it by its lock".to_owned())
+                Err(Refusal::new("R_y is held, so that R_y/R cannot move; free it by its lock"))
             }
             _ => self.accept(quantity.at(&self.point, value)),
         }
@@ -201,8 +186,8 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when it would be refused; the document is unchanged then.
-    pub fn set_contact(&mut self, point: OperatingPoint, lubricant: Lubricant) -> Result<(), String> {
-        let problem = Problem::new(&point, lubricant).map_err(|e| e.to_string())?;
+    pub fn set_contact(&mut self, point: OperatingPoint, lubricant: Lubricant) -> Result<(), Refusal> {
+        let problem = Problem::new(&point, lubricant)?;
         let former = self.point.kind;
         self.point = OperatingPoint { alpha_per_pa: problem.point.alpha_per_pa, ..point };
         self.lubricant = lubricant;
@@ -224,7 +209,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
-    pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), String> {
+    pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), Refusal> {
         let mut point = self.point;
         let mut lubricant = lubricant;
         if lubricant.shear == ShearLaw::Newtonian {
@@ -241,7 +226,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when a law is not defined here; the document is unchanged then.
-    pub fn pick_lubricant(&mut self, named: &NamedLubricant) -> Result<(), String> {
+    pub fn pick_lubricant(&mut self, named: &NamedLubricant) -> Result<(), Refusal> {
         let own = named.viscosity_pa_s.unwrap_or(self.point.viscosity_pa_s);
         let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
         let point = OperatingPoint { sliding, viscosity_pa_s: own, ..self.point };
@@ -258,11 +243,11 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the training makes no sense; the document is unchanged then.
-    pub fn set_training(&mut self, spec: TrainingSpec) -> Result<(), String> {
-        spec.check().map_err(|e| e.to_string())?;
+    pub fn set_training(&mut self, spec: TrainingSpec) -> Result<(), Refusal> {
+        spec.check()?;
         let study = Study::Training(spec.clone());
         let scene = Scene { contact: spec.contact(), study, ..Scene::at_moes(HOME.m, HOME.l) };
-        scene.check().map_err(|e| e.to_string())?;
+        scene.check()?;
         self.training = Some(spec);
         Ok(())
     }
@@ -288,7 +273,7 @@ impl Document {
         }
     }
 
-    fn accept(&mut self, point: OperatingPoint) -> Result<(), String> {
+    pub(super) fn accept(&mut self, point: OperatingPoint) -> Result<(), Refusal> {
         self.set_contact(point, self.lubricant)
     }
 
@@ -296,9 +281,9 @@ impl Document {
     ///
     /// # Errors
     /// A sentence that names what the explorer cannot solve.
-    pub fn of_scene(scene: Scene) -> Result<Self, String> {
-        let point = OperatingPoint { sliding: scene.sliding(), ..scene.point().map_err(|e| e.to_string())? };
-        Problem::new(&point, scene.laws()).map_err(|e| e.to_string())?;
+    pub fn of_scene(scene: Scene) -> Result<Self, Refusal> {
+        let point = OperatingPoint { sliding: scene.sliding(), ..scene.point()? };
+        Problem::new(&point, scene.laws())?;
         Ok(Self {
             title: scene.title.clone(),
             point,
@@ -359,16 +344,16 @@ impl Document {
     ///
     /// # Errors
     /// A sentence with line and column, or what was refused.
-    pub fn from_ron(text: &str) -> Result<Self, String> {
-        Self::of_scene(Scene::from_ron(text).map_err(|e| e.to_string())?)
+    pub fn from_ron(text: &str) -> Result<Self, Refusal> {
+        Self::of_scene(Scene::from_ron(text)?)
     }
 
     /// Writes the document as the text of a scene.
     ///
     /// # Errors
     /// A sentence; in practice never.
-    pub fn to_ron(&self) -> Result<String, String> {
-        self.to_scene().to_ron().map_err(|e| e.to_string())
+    pub fn to_ron(&self) -> Result<String, Refusal> {
+        Ok(self.to_scene().to_ron()?)
     }
 }
 
@@ -382,3 +367,7 @@ fn methods_of(kind: ContactKind) -> Vec<Method> {
         ContactKind::Point => vec![Method::Full],
     }
 }
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;
