@@ -66,7 +66,6 @@ impl Manual {
         self.page = PAGES.iter().position(|page| page.file == file).unwrap_or_default();
     }
 
-    /// Closes it.
     pub fn close(&mut self) {
         self.open = false;
     }
@@ -147,6 +146,8 @@ mod tests {
     use crate::app::Explorer;
     use crate::app::command::MENUS;
     use crate::app::tab::Tab;
+    use crate::app::tabs::View as _;
+    use crate::app::tabs::all::Tabs;
     use egui::accesskit::Role;
     use egui::{Key, ModifierNames, Modifiers};
     use egui_kittest::Harness;
@@ -184,7 +185,7 @@ mod tests {
         press(&mut harness, Key::Escape);
         assert!(!reads(&harness, PAGES[PAGES.len() - 1].title()), "Escape closes it");
         press(&mut harness, Key::F1);
-        let tour = PAGES.iter().find(|page| page.file == Tab::Profiles.page()).unwrap();
+        let tour = PAGES.iter().find(|page| page.file == Tabs::default().profiles.about().page).unwrap();
         assert!(reads(&harness, tour.title()), "it opens at the page of the tab in front");
         press(&mut harness, Key::F1);
         assert!(!reads(&harness, tour.title()), "a second F1 closes it");
@@ -192,7 +193,7 @@ mod tests {
 
     #[test]
     fn every_tab_has_a_page() {
-        let tabs = crate::app::tabs::all::Tabs::default();
+        let tabs = Tabs::default();
         assert!(Tab::ALL.iter().all(|tab| PAGES.iter().any(|page| page.file == tabs.of(*tab).about().page)));
     }
 

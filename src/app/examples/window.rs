@@ -50,12 +50,10 @@ impl Examples {
         self.open
     }
 
-    /// Opens it.
     pub fn open(&mut self) {
         (self.open, self.fresh) = (true, true);
     }
 
-    /// Closes it.
     pub fn close(&mut self) {
         self.open = false;
     }
@@ -175,7 +173,7 @@ fn expected(scene: &Scene) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::app::*;
+    use super::*;
 
     #[test]
     fn every_folder_has_its_title_and_every_scene_its_question() {

@@ -220,8 +220,9 @@ pub fn restore(explorer: &mut Explorer, folder: &Path, with_document: bool) {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
+    use crate::app::figure::FigureSettings;
     use crate::app::tabs::traction::Against;
-    use crate::app::*;
     use crate::scene::named_lubricant::by_name;
     use crate::solver::physics::contact::{Moes, Quantity};
 
