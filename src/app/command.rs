@@ -9,9 +9,9 @@ use super::purpose::{Purpose, Written};
 use super::sheets::Form;
 use super::tab::Tab;
 use crate::app::tabs::training::TrainingCommand;
-use crate::app::tabs::transient::InTimeCommand;
+use crate::app::tabs::transient::TransientCommand;
 use crate::scene::Scene;
-use egui::{Context, Id, Key, KeyboardShortcut, Modifiers};
+use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, ThemePreference};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -74,12 +74,8 @@ pub enum Command {
     LockAxes,
     /// Let the axes of a tab stand still, or no more.
     LockAxesOf(Tab),
-    /// Light theme.
-    LightTheme,
-    /// Dark theme.
-    DarkTheme,
-    /// The system's theme.
-    SystemTheme,
+    /// Use a theme.
+    Theme(ThemePreference),
     /// Light presentations whatever the theme, or no more.
     LightPresentation,
     /// Larger text and lines.
@@ -138,8 +134,8 @@ pub enum Command {
     CloseHeadline,
     /// Put the sentence about the last file away.
     Dismiss,
-    /// What becomes of contacts in time.
-    InTime(InTimeCommand),
+    /// Change transient runs or the moment that is shown.
+    Transient(TransientCommand),
     /// Compare all reduced models that can be.
     CompareModels,
     /// What becomes of trainings and of what they made.
@@ -148,7 +144,6 @@ pub enum Command {
 
 /// A command as menus show it.
 pub struct Item {
-    /// The menu.
     pub menu: &'static str,
     /// Its group there; a line stands between groups.
     pub group: u8,
@@ -210,9 +205,9 @@ pub static MENUS: &[Item] = {
         item("View", 2, C::Arrange(Layout::Teach), "Layout: Teach", "arrange tabs preset lecture", None),
         item("View", 2, C::Arrange(Layout::Engineer), "Layout: Engineer", "arrange tabs preset bearing", None),
         item("View", 2, C::Arrange(Layout::ModelReduction), "Layout: Model reduction", "arrange tabs preset", None),
-        item("View", 3, C::LightTheme, "Light theme", "colours colors mode", None),
-        item("View", 3, C::DarkTheme, "Dark theme", "colours colors mode", None),
-        item("View", 3, C::SystemTheme, "System theme", "colours colors mode", None),
+        item("View", 3, C::Theme(ThemePreference::Light), "Light theme", "colours colors mode", None),
+        item("View", 3, C::Theme(ThemePreference::Dark), "Dark theme", "colours colors mode", None),
+        item("View", 3, C::Theme(ThemePreference::System), "System theme", "colours colors mode", None),
         item("View", 4, C::LargerText, "Larger text", "zoom font size scale", Some((CTRL, Key::Plus))),
         item("View", 4, C::SmallerText, "Smaller text", "zoom font size scale", Some((CTRL, Key::Minus))),
         item("View", 4, C::NormalText, "Normal text", "zoom font size scale", Some((CTRL, Key::Num0))),

@@ -6,7 +6,7 @@ use super::command::Command;
 use super::controls::Entries;
 use super::display::Thresholds;
 use super::document::{Document, Edit};
-use crate::app::tabs::transient::TransientView;
+use crate::app::tabs::transient::TransientRuns;
 use std::path::Path;
 
 /// What is shown: to be looked at, not to be changed.
@@ -17,7 +17,7 @@ pub struct Context<'a> {
     /// What came of it.
     pub answers: &'a Answers,
     /// Transient runs.
-    pub transient: &'a TransientView,
+    pub transient: &'a TransientRuns,
     /// What was refused, by the names of fields.
     pub entries: &'a Entries,
     /// Whether tabs say why, for teaching.

@@ -89,9 +89,10 @@ impl Explorer {
                 front.into_iter().for_each(|tab| self.desk.lock(tab, locked));
             }
             Command::LockAxesOf(tab) => desk.lock(tab, !desk.locked.contains(&tab)),
-            Command::LightTheme => self.set_theme(ctx, ThemePreference::Light),
-            Command::DarkTheme => self.set_theme(ctx, ThemePreference::Dark),
-            Command::SystemTheme => self.set_theme(ctx, ThemePreference::System),
+            Command::Theme(theme) => {
+                desk.display.theme = theme;
+                ctx.set_theme(theme);
+            }
             Command::LightPresentation => desk.display.light_presentation = !desk.display.light_presentation,
             Command::LargerText => self.set_zoom(self.desk.display.zoom * 1.1),
             Command::SmallerText => self.set_zoom(self.desk.display.zoom / 1.1),
@@ -134,7 +135,7 @@ impl Explorer {
             }
             Command::Keyboard => self.help.manual.open_at("keyboard.md"),
             Command::About => self.help.about = true,
-            Command::InTime(command) => desk.transient.execute(ctx, desk.answers.store(), command),
+            Command::Transient(command) => desk.transient.execute(ctx, desk.answers.store(), command),
             Command::CompareModels => desk.tabs.training.work.compare(ctx, &desk.answers, &desk.document),
             Command::Training(command) => desk.tabs.training.work.execute(ctx, &mut desk.answers, command),
             Command::Edit(edit, field) => desk.edit(edit, field),
@@ -188,11 +189,6 @@ impl Explorer {
             front.into_iter().for_each(|tab| self.desk.lock(tab, true));
             self.desk.fit_plots = true;
         }
-    }
-
-    fn set_theme(&mut self, ctx: &Context, theme: ThemePreference) {
-        self.desk.display.theme = theme;
-        ctx.set_theme(theme);
     }
 
     fn set_zoom(&mut self, zoom: f32) {

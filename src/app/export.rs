@@ -116,28 +116,21 @@ pub fn profile_across(picture: &Picture, x: f64) -> String {
     csv(&comments, &["Y", "P", "H", "y_m", "p_pa", "h_m"], rows)
 }
 
-/// The rows of the read-outs: name, dimensionless value, value with unit.
-pub fn readouts(answers: &Answers) -> Vec<(&'static str, String, String)> {
-    let Some(picture) = answers.picture() else { return Vec::new() };
-    let (scalars, scale, p_h) =
-        (&picture.solution.scalars, picture.key.point.film_scale_m(), picture.key.point.hertz().pressure_pa);
-    vec![
-        ("H_c", numbers::significant(scalars.h_c), numbers::length(scalars.h_c * scale)),
-        ("H_min", numbers::significant(scalars.h_min), numbers::length(scalars.h_min * scale)),
-        ("P_max", numbers::significant(scalars.p_max), numbers::pressure(scalars.p_max * p_h)),
-        ("traction", numbers::significant(picture.traction), String::new()),
-    ]
-}
-
 /// The read-outs as a tab-separated table for a clipboard.
 pub fn readouts_table(answers: &Answers) -> String {
     let mut out = String::from("quantity\tdimensionless\tdimensional\n");
-    if let Some(picture) = answers.picture() {
-        let moes = picture.key.point.moes();
-        let _ok = writeln!(out, "M\t{}\t\nL\t{}\t", numbers::significant(moes.m), numbers::significant(moes.l));
-    }
-    for (name, value, unit) in readouts(answers) {
-        let _ok = writeln!(out, "{name}\t{value}\t{}", unit.replace(numbers::THIN, " "));
+    let Some(picture) = answers.picture() else { return out };
+    let (moes, s) = (picture.key.point.moes(), &picture.solution.scalars);
+    let rows = [
+        ("M", moes.m, String::new()),
+        ("L", moes.l, String::new()),
+        ("H_c", s.h_c, numbers::length(picture.central_film_m())),
+        ("H_min", s.h_min, numbers::length(picture.minimum_film_m())),
+        ("P_max", s.p_max, numbers::pressure(picture.largest_pressure_pa())),
+        ("traction", picture.traction, String::new()),
+    ];
+    for (name, value, unit) in rows {
+        let _ok = writeln!(out, "{name}\t{}\t{}", numbers::significant(value), unit.replace(numbers::THIN, " "));
     }
     out
 }

@@ -15,7 +15,6 @@ use std::sync::Arc;
 /// A model and its truncation: what a study judges, and by which it knows later whether it is out of date.
 #[derive(Clone, Debug)]
 pub struct InUse {
-    /// The model.
     pub model: Arc<ReducedModel>,
     pressure_loss: Option<f64>,
     /// Set where the deformation goes through its basis.

@@ -47,7 +47,6 @@ impl LoadCasesWindow {
         self.open
     }
 
-    /// Opens it.
     pub fn open(&mut self) {
         self.open = true;
     }

@@ -9,7 +9,6 @@ pub enum Notice {
     Done(String),
     /// Worth knowing.
     Short(String),
-    /// Wrong.
     Wrong(String),
 }
 

@@ -15,7 +15,6 @@ macro_rules! identities {
             /// All tabs in their order.
             pub const ALL: &[Self] = &[$(Self::$tab,)*];
 
-            /// Returns the title.
             pub fn title(self) -> &'static str {
                 match self {
                     $(Self::$tab => $title,)*

@@ -24,7 +24,6 @@ const LIVE_PATIENCE: Duration = Duration::from_millis(400);
 pub struct Solved {
     /// The solution.
     pub reduced: ReducedSolution,
-    /// Its fields.
     pub fields: Solution,
     /// Seconds that the solve alone took.
     pub wall_s: f64,

@@ -8,7 +8,6 @@ use crate::app::command::Command;
 use crate::app::tabs::traction::sweep;
 use crate::app::units::Units;
 use crate::solver::physics::contact::ContactKind;
-use egui::ThemePreference;
 
 const NO_PICTURE: &str = "There is no picture yet";
 const RUNS_ALREADY: &str = "It runs already";
@@ -24,9 +23,7 @@ impl Desk {
             Command::SiUnits => Some(self.display.units == Units::Si),
             Command::LockAxes => Some(!self.locked.is_empty()),
             Command::Presentation => Some(self.presentation.is_some()),
-            Command::LightTheme => Some(theme == ThemePreference::Light),
-            Command::DarkTheme => Some(theme == ThemePreference::Dark),
-            Command::SystemTheme => Some(theme == ThemePreference::System),
+            Command::Theme(wanted) => Some(theme == *wanted),
             _ => None,
         }
     }

@@ -19,7 +19,7 @@ use crate::app::presentation::Presentation;
 use crate::app::sheets::Sheets;
 use crate::app::tab::Tab;
 use crate::app::tabs::all::Tabs;
-use crate::app::tabs::transient::TransientView;
+use crate::app::tabs::transient::TransientRuns;
 use crate::engine::job::{Standing, Wake};
 use crate::engine::{Store, Workbench};
 use crate::solver::discrete::grid::PointGridSpec;
@@ -44,8 +44,7 @@ pub struct Desk {
     /// Whether laws and constants of the lubricant are edited, though it may still have a name.
     pub own_lubricant: bool,
     /// Transient runs, which several tabs show.
-    pub transient: TransientView,
-    /// The tabs.
+    pub transient: TransientRuns,
     pub tabs: Tabs,
     /// Plots that leave as figures.
     pub figures: Figures,
@@ -78,7 +77,7 @@ impl Desk {
             display: Display::default(),
             entries: Entries::default(),
             own_lubricant: false,
-            transient: TransientView::default(),
+            transient: TransientRuns::default(),
             tabs: Tabs::default(),
             figures: Figures::default(),
             load_cases: LoadCasesWindow::default(),

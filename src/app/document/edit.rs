@@ -16,7 +16,6 @@ use crate::solver::training::TrainingSpec;
 pub enum Edit {
     /// M and L.
     Moes(Moes),
-    /// One quantity.
     Quantity(Quantity, f64),
     /// One quantity that was typed in SI units and stays.
     Typed(Quantity, f64),

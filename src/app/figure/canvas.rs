@@ -252,7 +252,6 @@ impl<'p, 'a> Canvas<'p, 'a> {
         self.recording
     }
 
-    /// A line.
     pub fn line(&mut self, mut line: Line<'a>) {
         if let Some(recording) = &mut self.recording {
             line.initialize(self.plot.plot_bounds().range_x());
@@ -312,7 +311,6 @@ impl<'p, 'a> Canvas<'p, 'a> {
         self.plot.span(span);
     }
 
-    /// Bars.
     pub fn bar_chart(&mut self, bars: BarChart) {
         if let Some(recording) = &mut self.recording {
             recording.bands(self.plot, &bars);

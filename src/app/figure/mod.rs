@@ -2,10 +2,12 @@
 
 mod canvas;
 mod dialog;
+mod settings;
 mod sitting;
 mod texture;
 
 pub use canvas::{Axis, Canvas, Recording};
-pub use dialog::{FigureSettings, Figures};
+pub use dialog::Figures;
+pub use settings::FigureSettings;
 pub use sitting::{enter, pixels, scale};
 pub use texture::Texture;

@@ -13,7 +13,6 @@ pub struct Sitting {
     pub on: bool,
     /// The tab that is drawn now.
     pub tab: Option<Tab>,
-    /// The charts.
     pub charts: Vec<(Tab, Chart)>,
 }
 

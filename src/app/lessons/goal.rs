@@ -30,7 +30,6 @@ pub struct OnScreen {
     pub point: OperatingPoint,
     /// Its NPR, the lubricant's own where it has none.
     pub plateau_ratio: f64,
-    /// Its lubricant.
     pub lubricant: Lubricant,
     /// Tabs that are seen.
     pub tabs: Vec<Tab>,
@@ -85,7 +84,6 @@ impl Goal {
         if let Self::Tab(tab) = self { Some(*tab) } else { None }
     }
 
-    /// Whether it holds.
     pub fn holds(&self, screen: &OnScreen) -> bool {
         match self {
             Self::Between(quantity, from, to) => {

@@ -19,9 +19,7 @@ use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, 
 /// A lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lesson {
-    /// Its title.
     pub title: String,
-    /// What it is about.
     pub about: String,
     /// The contact it starts from.
     pub point: OperatingPoint,
@@ -34,7 +32,6 @@ pub struct Lesson {
 /// A step of a lesson.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Step {
-    /// Its title.
     pub title: String,
     /// What is to be done, and why.
     pub text: String,

@@ -47,7 +47,6 @@ impl Palette {
         self.open.is_some()
     }
 
-    /// Opens it.
     pub fn open(&mut self, ctx: &Context) {
         let former_focus = ctx.memory(|memory| memory.focused());
         self.open = Some(Open { query: String::new(), chosen: 0, former_focus, fresh: true });

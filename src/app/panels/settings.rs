@@ -25,16 +25,12 @@ const THRESHOLDS: [(&str, &str, &str); 2] = [
 ];
 const PERCENT: f64 = 0.01;
 
-const THEMES: [(ThemePreference, &str, Command); 3] = [
-    (ThemePreference::System, "As the system", Command::SystemTheme),
-    (ThemePreference::Light, "Light", Command::LightTheme),
-    (ThemePreference::Dark, "Dark", Command::DarkTheme),
-];
+const THEMES: [(ThemePreference, &str); 3] =
+    [(ThemePreference::System, "As the system"), (ThemePreference::Light, "Light"), (ThemePreference::Dark, "Dark")];
 
 /// The window, open or closed.
 #[derive(Default)]
 pub struct Settings {
-    /// Whether it is open.
     pub open: bool,
     entries: Entries,
 }
@@ -90,9 +86,9 @@ impl Settings {
 fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {
     ui.horizontal(|ui| {
         row_name(ui, name_and_symbol(ui, "Colours", "", ""), "Light, dark, or as the system has it");
-        for (theme, name, command) in THEMES {
+        for (theme, name) in THEMES {
             if ui.selectable_label(display.theme == theme, name).clicked() {
-                commands.push(command);
+                commands.push(Command::Theme(theme));
             }
         }
     });

@@ -89,7 +89,6 @@ pub fn few_decade_marks(input: GridInput, most: f64) -> Vec<GridMark> {
     (first..=last).map(|k| GridMark { value: k as f64 * stride, step_size: stride }).collect()
 }
 
-/// Label of a decade.
 pub fn decade_label(mark: GridMark) -> String {
     match mark.value.round() as i32 {
         e @ -3..=4 => tick(10f64.powi(e)),

@@ -29,7 +29,6 @@ impl CutLine {
         self.grip.is_held(ui)
     }
 
-    /// Draws it.
     pub fn draw(&self, plot: &mut Canvas<'_, '_>, color: Color32) {
         let line = VLine::new("", self.at).id("cut line").color(color).width(1.2);
         plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));

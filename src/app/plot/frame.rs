@@ -22,11 +22,11 @@ pub struct PlotFrame<'a> {
 
 /// Settings of the toolkit's plot that are handed on.
 macro_rules! handed_on {
-    ($($name:ident($argument:ident: $kind:ty);)*) => {
+    ($($name:ident($($argument:ident: $kind:ty),*);)*) => {
         $(
             #[doc = concat!("The same as `Plot::", stringify!($name), "`.")]
-            pub fn $name(mut self, $argument: $kind) -> Self {
-                self.plot = self.plot.$name($argument);
+            pub fn $name(mut self, $($argument: $kind),*) -> Self {
+                self.plot = self.plot.$name($($argument),*);
                 self
             }
         )*
@@ -48,8 +48,14 @@ impl<'a> PlotFrame<'a> {
         allow_drag(on: bool);
         allow_zoom(on: bool);
         auto_bounds(on: Vec2b);
+        default_x_bounds(from: f64, to: f64);
+        default_y_bounds(from: f64, to: f64);
         include_x(x: f64);
         include_y(y: f64);
+        label_formatter(words: impl Fn(&HoverPosition<'_>) -> Option<String> + 'a);
+        link_axis(group: Id, link: Vec2b);
+        link_cursor(group: Id, link: Vec2b);
+        reset();
         set_margin_fraction(fraction: Vec2);
         show_x(show: bool);
         show_y(show: bool);
@@ -61,42 +67,6 @@ impl<'a> PlotFrame<'a> {
     pub fn data_aspect(mut self, aspect: f32) -> Self {
         self.plot = self.plot.data_aspect(aspect);
         self.equal = true;
-        self
-    }
-
-    /// The same as `Plot::default_x_bounds`.
-    pub fn default_x_bounds(mut self, from: f64, to: f64) -> Self {
-        self.plot = self.plot.default_x_bounds(from, to);
-        self
-    }
-
-    /// The same as `Plot::default_y_bounds`.
-    pub fn default_y_bounds(mut self, from: f64, to: f64) -> Self {
-        self.plot = self.plot.default_y_bounds(from, to);
-        self
-    }
-
-    /// The same as `Plot::link_axis`.
-    pub fn link_axis(mut self, group: Id, link: Vec2b) -> Self {
-        self.plot = self.plot.link_axis(group, link);
-        self
-    }
-
-    /// The same as `Plot::link_cursor`.
-    pub fn link_cursor(mut self, group: Id, link: Vec2b) -> Self {
-        self.plot = self.plot.link_cursor(group, link);
-        self
-    }
-
-    /// The same as `Plot::label_formatter`.
-    pub fn label_formatter(mut self, words: impl Fn(&HoverPosition<'_>) -> Option<String> + 'a) -> Self {
-        self.plot = self.plot.label_formatter(words);
-        self
-    }
-
-    /// Fits it to its data in this frame.
-    pub fn reset(mut self) -> Self {
-        self.plot = self.plot.reset();
         self
     }
 

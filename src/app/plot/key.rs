@@ -20,7 +20,6 @@ const MARK: f32 = 12.0;
 /// How a curve or a mark looks, with its width or radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sample {
-    /// A line.
     Line(f32),
     /// A dashed line.
     Dashed(f32),
@@ -32,7 +31,6 @@ pub enum Sample {
     Up(f32),
     /// A triangle that points downwards.
     Down(f32),
-    /// A cross.
     Cross(f32),
 }
 

@@ -59,7 +59,6 @@ impl Place {
         });
     }
 
-    /// A window there.
     pub fn window(&self) -> egui::ViewportBuilder {
         let window = egui::ViewportBuilder::default()
             .with_inner_size([self.size.0, self.size.1])

@@ -33,7 +33,6 @@ impl Shown {
         }
     }
 
-    /// Restores it.
     pub fn restore(self, desk: &mut Desk) {
         desk.tabs.restore(&self.tabs);
         desk.display = self.display;

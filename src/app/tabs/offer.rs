@@ -1,4 +1,4 @@
-//! What can be taken away from a tab: one menu at the same place of each.
+//! Exports of a tab: one menu at the same place of each.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
@@ -9,7 +9,7 @@ use crate::app::tab::Tab;
 use crate::engine::arrays::{Array, npz};
 use egui::{Button, Ui};
 
-/// Something to take away, by what makes it; nothing makes what is not there yet.
+/// An export with its name and a function that makes it. `None` if there is nothing to export yet.
 pub struct Offer<'a> {
     name: &'static str,
     tip: &'static str,

@@ -41,7 +41,6 @@ impl JobKind {
 pub enum GridChoice {
     /// A reduced model's own grid.
     Existing(ContactGrid),
-    /// A specification.
     Spec(GridSpec),
 }
 
@@ -71,7 +70,6 @@ impl GridChoice {
 /// A full solve that is wanted.
 #[derive(Clone)]
 pub struct FullSolve {
-    /// What for.
     pub kind: JobKind,
     /// What to solve.
     pub key: Key,

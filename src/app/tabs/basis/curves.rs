@@ -15,7 +15,6 @@ pub struct Shown {
     pub first_mode: usize,
     /// The tolerance that is being dragged.
     pub dragging: Option<Field>,
-    /// The curves.
     pub curves: Option<Curves>,
 }
 

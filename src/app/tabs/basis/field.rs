@@ -10,15 +10,12 @@ pub const TRUNCATION: &str = "truncation";
 /// Which of the two bases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Field {
-    /// Pressure.
     #[default]
     Pressure,
-    /// Deformation.
     Deformation,
 }
 
 impl Field {
-    /// Returns its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pressure => "Pressure",

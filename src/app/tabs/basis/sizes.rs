@@ -44,7 +44,6 @@ impl Sizes {
         self.work.standing()
     }
 
-    /// Stops it.
     pub fn stop(&self) {
         self.work.stop();
     }

@@ -10,7 +10,6 @@ pub enum Shown {
     /// Film thickness.
     #[default]
     Film,
-    /// Pressure.
     Pressure,
     /// Interference of light in the film.
     Interferogram,
@@ -22,7 +21,6 @@ impl Shown {
     /// All of them in their order.
     pub const ALL: [Self; 4] = [Self::Film, Self::Pressure, Self::Interferogram, Self::Temperature];
 
-    /// Returns its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Film => "Film map",

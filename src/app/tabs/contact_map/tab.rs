@@ -15,7 +15,7 @@ use crate::app::plot::cut_line::{self, snapped};
 use crate::app::plot::grip::Grip;
 use crate::app::plot::{axes, color_bar};
 use crate::app::purpose::{Purpose, Written};
-use crate::app::tabs::transient::{InTimeCommand, shared, space_time};
+use crate::app::tabs::transient::{TransientCommand, shared, space_time};
 use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, faded};
 use crate::app::units::Scales;
@@ -74,7 +74,7 @@ impl ContactMap {
             self.over_time.ui(ui, context, size.y - 4.0)
         });
         let wanted = shown.inner;
-        commands.extend(wanted.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+        commands.extend(wanted.map(|time| Command::Transient(TransientCommand::GoTo(time))));
         shared::player(ui, context.transient, commands);
     }
 

@@ -43,7 +43,6 @@ impl FilmShear {
         }
     }
 
-    /// What it is.
     pub fn tip(self) -> &'static str {
         match self {
             Self::Off => "Pressure and film only",

@@ -35,11 +35,9 @@ pub enum Kind {
 
 /// A line of the chart in (log10 M, log10 L).
 pub struct ChartLine {
-    /// What it is.
     pub kind: Kind,
     /// The film number of a contour; which boundary it is.
     pub value: Option<f64>,
-    /// Its points.
     pub points: Vec<PlotPoint>,
 }
 

@@ -45,7 +45,6 @@ impl Trail {
         self.points.drain(..last);
     }
 
-    /// Draws it.
     pub fn draw<'a>(&'a self, plot: &mut Canvas<'_, 'a>, color: Color32) {
         let each = self.points.len().div_ceil(SHADES).max(1);
         let parts = self.points.len().div_ceil(each);

@@ -26,7 +26,6 @@ const RUN_TIP: &str = "Answers the question of the open scene here, as “ehl-ex
 /// What is shown of a study.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum ResultsChoice {
-    /// Its charts.
     Charts,
     /// A table, by its name.
     Table(String),

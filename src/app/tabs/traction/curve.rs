@@ -15,7 +15,6 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A sweep by the reduced model.
 pub struct Curve {
-    /// The sweep.
     pub sweep: Sweep,
     /// What drew it.
     pub served: Served,

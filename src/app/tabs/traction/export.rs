@@ -1,6 +1,6 @@
 //! Traction and film along a quantity for other programs.
 
-use super::sweeps::TractionView;
+use super::sweeps::Sweeps;
 use crate::app::document::Key;
 use crate::app::export as tables;
 use crate::app::tabs::traction::{Companion, Sample, Served, Sweep};
@@ -20,7 +20,7 @@ fn notes(sweep: &Sweep) -> impl Iterator<Item = String> {
 }
 
 /// The first contact of the curve that is drawn, or else of the full solutions, and what is to be said below it.
-pub fn parameters(view: &TractionView) -> Option<(&Key, Vec<String>)> {
+pub fn parameters(view: &Sweeps) -> Option<(&Key, Vec<String>)> {
     match (&view.curve, &view.markers) {
         (Some(curve), _) => Some((&curve.sweep.base, notes(&curve.sweep).chain(untrained(&curve.served)).collect())),
         (None, markers) => markers.as_ref().map(|markers| (&markers.sweep.base, notes(&markers.sweep).collect())),
@@ -38,7 +38,7 @@ fn described(sweep: &Sweep) -> String {
 }
 
 /// The curve and the full solutions, told apart by the column `full`; `None` where there is neither.
-pub fn csv(view: &TractionView) -> Option<String> {
+pub fn csv(view: &Sweeps) -> Option<String> {
     let companion =
         view.curve.iter().map(|curve| &curve.sweep).chain(view.markers.iter().map(|markers| &markers.sweep));
     let companion = companion.filter_map(Sweep::companion).next().unwrap_or(Companion::Newtonian);

@@ -221,7 +221,6 @@ impl Against {
         }
     }
 
-    /// What it is.
     pub fn tip(self) -> &'static str {
         match self {
             Self::SlideToRoll => "SRR = (u₂ − u₁)/u_m in percent (3.25)",

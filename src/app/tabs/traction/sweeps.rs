@@ -1,4 +1,4 @@
-//! Traction and film along one quantity: a curve by the reduced model that follows the other sliders, and full solutions on request.
+//! Traction and film thickness along one quantity: a curve by the reduced model and full solutions.
 
 use super::curve::Curve;
 use super::served::{self, Served};
@@ -18,24 +18,23 @@ use serde::{Deserialize, Serialize};
 
 /// Contacts of a curve by the reduced model.
 pub const CURVE: usize = 41;
-/// Full solutions that are set on it: every fourth of its contacts.
+/// Full solutions on the curve: every fourth of its contacts.
 const MARKERS: usize = 11;
 /// Full solutions of a line contact that are the curve where no model draws one.
 const FULL_CURVE: usize = 21;
 
 /// Full solutions along a sweep.
 pub struct Markers {
-    /// The sweep.
     pub sweep: Sweep,
-    /// What has been solved so far.
+    /// Solved contacts so far.
     pub samples: Vec<Sample>,
     /// Some contacts of its companion.
     companions: Vec<Sample>,
-    /// How many are asked for.
+    /// Number of contacts that were asked for.
     wanted: usize,
-    /// Contacts that are left out: the solver did not converge.
+    /// Number of contacts without convergence. They are left out.
     failed: usize,
-    /// Whether nobody asked for them: they end with what they were begun for.
+    /// True if they started by themselves. They stop when another sweep is shown.
     by_themselves: bool,
 }
 
@@ -45,7 +44,6 @@ pub enum SlideView {
     /// 0 to 10 %, where traction rises.
     #[default]
     Near,
-    /// All of it.
     Whole,
     /// All of it, equal ways for equal ratios.
     Logarithmic,
@@ -60,7 +58,7 @@ impl SlideView {
     ];
 }
 
-/// How the tab shows it; not part of the document.
+/// Settings of the tab; not part of the document.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Choices {
@@ -84,9 +82,9 @@ impl Choices {
     }
 }
 
-/// What the tab knows.
+/// The curve and the full solutions of the tab.
 #[derive(Default)]
-pub struct TractionView {
+pub struct Sweeps {
     /// The last curve by the reduced model.
     pub curve: Option<Curve>,
     /// Full solutions.
@@ -98,8 +96,8 @@ pub struct TractionView {
     wanted: Option<(Sweep, Served)>,
 }
 
-impl TractionView {
-    /// Takes in what came since the last frame.
+impl Sweeps {
+    /// Receives the results since the last frame.
     pub fn receive(&mut self) {
         if let Some(curve) = self.live.finished() {
             self.curve = Some(curve);
@@ -121,15 +119,15 @@ impl TractionView {
         }
     }
 
-    /// Whether the curve that is drawn is the one that was asked for last.
+    /// Returns true if the curve is the one that was asked for last.
     pub fn curve_is_current(&self) -> bool {
         matches!((&self.curve, &self.wanted), (Some(curve), Some((sweep, served)))
             if curve.sweep == *sweep && curve.served == *served)
     }
 }
 
-impl TractionView {
-    /// Whether the curve of a sweep has been asked for.
+impl Sweeps {
+    /// Returns true if the curve of a sweep has been asked for.
     pub fn is_asked(&self, sweep: &Sweep, served: &Served) -> bool {
         self.wanted.as_ref().is_some_and(|(wanted, by)| wanted == sweep && by == served)
     }
@@ -142,18 +140,18 @@ impl TractionView {
         }
     }
 
-    /// Whether full solutions of a sweep were begun, be they at an end or not.
+    /// Returns true if full solutions of a sweep were started.
     pub fn has_markers_of(&self, sweep: &Sweep) -> bool {
         self.markers.as_ref().is_some_and(|markers| markers.sweep == *sweep)
     }
 
-    /// Whether full solutions run that nobody asked for and that belong to another sweep.
+    /// Returns true if full solutions of another sweep run that started by themselves.
     pub fn fills_another(&self, sweep: &Sweep) -> bool {
         let another = |markers: &Markers| markers.by_themselves && markers.sweep != *sweep;
         self.full.job().is_some_and(|job| !job.stopping()) && self.markers.as_ref().is_some_and(another)
     }
 
-    /// How far the curve is that follows the sliders.
+    /// Returns the progress of the curve.
     pub fn following(&self) -> Option<Standing> {
         self.live.standing()
     }
@@ -164,8 +162,8 @@ impl TractionView {
         self.beside.stop();
     }
 
-    /// Solves contacts of the sweep through a document's contact in full, one from the other: on the grid of the model where one draws the
-    /// curve, so that both can be compared.
+    /// Solves contacts of the sweep through the document's contact in full, each from its neighbour. If a model draws the
+    /// curve, its grid is used, so that both can be compared.
     pub fn start_markers(
         &mut self,
         ctx: &Context,
@@ -201,7 +199,7 @@ impl TractionView {
     }
 }
 
-/// What goes to a place on the axis of the curve.
+/// Returns the edit that moves the contact to a place on the axis of the curve.
 pub fn edit_along(document: &Document, choices: &Choices, place: f64) -> Edit {
     let value = numbers::rounded(choices.against.value(&document.point, place), 3);
     match choices.against.varied() {

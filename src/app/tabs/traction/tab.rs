@@ -9,7 +9,7 @@ use crate::app::document::Document;
 use crate::app::refusal::Refusal;
 use crate::engine::job::Standing;
 
-use super::sweeps::{Choices, Markers, SlideView, TractionView};
+use super::sweeps::{Choices, Markers, SlideView, Sweeps};
 use crate::app::answers::REST_S;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -30,7 +30,7 @@ pub struct Traction {
     /// What is drawn, and how.
     pub choices: Choices,
     /// Curve and full solutions.
-    pub sweeps: TractionView,
+    pub sweeps: Sweeps,
     stress_met: Option<(Arc<Solution>, f64)>,
 }
 
@@ -102,7 +102,7 @@ impl View for Traction {
         let there = view.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
             || view.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
         let tip = "The curve and the full solutions, every contact with its traction and films";
-        let text = |view: &&TractionView| export::csv(view).unwrap_or_default();
+        let text = |view: &&Sweeps| export::csv(view).unwrap_or_default();
         vec![Offer::table("Curve as CSV…", tip, there.then_some(view), text)]
     }
 
@@ -144,7 +144,7 @@ impl Traction {
 /// Solves contacts along the curve in full once the sliders rest, if no model was trained for it.
 fn fill(
     ui: &Ui,
-    sweeps: &mut TractionView,
+    sweeps: &mut Sweeps,
     context: &Context<'_>,
     choices: &Choices,
     (sweep, served): (&Sweep, &Result<Served, Refusal>),
@@ -177,7 +177,7 @@ impl<'a> ShownSweep<'a> {
     fn of(
         ui: &Ui,
         context: &Context<'_>,
-        view: &'a TractionView,
+        view: &'a Sweeps,
         (sweep, served): (&Sweep, &Result<Served, Refusal>),
     ) -> Self {
         let varied = sweep.varied;
@@ -223,7 +223,7 @@ const WHY_FLUID: &str = "Pressure in the contact lets the viscosity rise by many
 
 fn toolbar(
     ui: &mut Ui,
-    (choices, sweeps): (&mut Choices, &TractionView),
+    (choices, sweeps): (&mut Choices, &Sweeps),
     context: &Context<'_>,
     commands: &mut Commands,
     there: bool,
@@ -285,7 +285,7 @@ const STATUS_LINES: f32 = 3.0;
 fn status(
     ui: &mut Ui,
     context: &Context<'_>,
-    sweeps: &TractionView,
+    sweeps: &Sweeps,
     swept: (&Sweep, &Choices),
     served: &Result<Served, Refusal>,
 ) {
@@ -301,7 +301,7 @@ fn status(
 fn said(
     ui: &mut Ui,
     context: &Context<'_>,
-    view: &TractionView,
+    view: &Sweeps,
     (sweep, choices): (&Sweep, &Choices),
     served: &Result<Served, Refusal>,
 ) {
@@ -372,7 +372,7 @@ fn left_out_ui(ui: &mut Ui, failed: usize) {
 }
 
 /// Traction here, the largest of the curve, and how far full solutions lie from it.
-fn summary(context: &Context<'_>, view: &TractionView, sweep: &Sweep) -> String {
+fn summary(context: &Context<'_>, view: &Sweeps, sweep: &Sweep) -> String {
     let mut parts = Vec::new();
     let here = context.answers.picture().filter(|_| context.answers.picture_is_current());
     if let Some(picture) = here.filter(|picture| picture.unphysical.is_none()) {

@@ -23,7 +23,6 @@ const SEED: u64 = 31;
 pub struct ModelScore {
     /// What it is called beside the others.
     pub name: String,
-    /// The model.
     pub model: Arc<ReducedModel>,
     found: Findings,
     tests: Vec<Tested>,
@@ -121,7 +120,6 @@ impl Comparison {
         self.work.standing()
     }
 
-    /// Stops it.
     pub fn stop(&self) {
         self.work.stop();
     }

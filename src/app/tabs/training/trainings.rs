@@ -1,4 +1,4 @@
-//! Training reduced models from the window: what runs, what it left, and what becomes of it.
+//! Training of reduced models: running job, unfinished training, trained model.
 
 use super::presets;
 use super::worker::{self, Files, Found, Made, Running};
@@ -23,26 +23,26 @@ use std::sync::Arc;
 const FILE: &str = "unfinished.training";
 const MODEL_FILE: &str = "trained.rom";
 
-/// What can be asked for when there is a training or what came of one.
+/// Changes of a training or of its model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrainingCommand {
     /// Stop what runs.
     Stop,
-    /// Go on with the unfinished training.
+    /// Resume the unfinished training.
     Resume,
-    /// Forget the unfinished training, also on disk.
+    /// Delete the unfinished training, also on disk.
     Discard,
-    /// Forget the model that was made, also on disk.
+    /// Delete the trained model, also on disk.
     ThrowAway,
-    /// Put the model that was made in use.
+    /// Use the trained model.
     UseMade,
-    /// Put the model in use that was before.
+    /// Use the previous model.
     UseFormer,
     /// Leave a model of a file, by its place, out of the comparison.
     LeaveOut(usize),
 }
 
-/// What the window knows about trainings.
+/// Trainings of this session and their results.
 #[derive(Default)]
 pub struct Training {
     job: Option<Running>,
@@ -55,15 +55,15 @@ pub struct Training {
     pub unfinished: Option<Box<TrainingState>>,
     /// Whether a former session left it: then it is not replaced unasked.
     pub left_behind: bool,
-    /// The last model made.
+    /// Last trained model.
     pub made: Option<Made>,
-    /// The model that was in use before it.
+    /// Model that was in use before it.
     pub former: Option<Arc<ReducedModel>>,
     /// Models of files that others are compared with, by the names of these.
     pub beside: Vec<(String, Arc<ReducedModel>)>,
     /// All of them side by side.
     pub comparison: Option<Comparison>,
-    /// How the last job ended.
+    /// Messages about the last job.
     pub notices: Vec<Notice>,
     files: Option<Files>,
 }
@@ -81,7 +81,7 @@ impl Training {
         }
     }
 
-    /// What another training would replace, each a sentence.
+    /// Returns what another training would replace, each as a sentence.
     pub fn replaced(&self) -> Vec<String> {
         let unfinished = self.unfinished.iter().map(|state| {
             format!(
@@ -93,7 +93,7 @@ impl Training {
         unfinished.chain(self.unsaved()).collect()
     }
 
-    /// What is lost when the window closes, each a sentence: what no folder keeps.
+    /// Returns what is lost when the window closes, each as a sentence.
     pub fn unkept(&self) -> Vec<String> {
         let folder = self.files.is_some();
         let runs = self.job.is_some().then(|| "A training runs, and no folder keeps its full solutions.".to_owned());
@@ -105,13 +105,13 @@ impl Training {
         in_memory.chain(model).collect()
     }
 
-    /// The model that was made and not saved, in a sentence.
+    /// Returns a sentence about a trained model that is not saved.
     pub fn unsaved(&self) -> Option<String> {
         let made = self.made.as_ref().filter(|made| !made.saved)?;
         Some(format!("The model “{}” was trained and is not saved.", made.model.title))
     }
 
-    /// Takes in that a model was written to a file.
+    /// Notes that a model was written to a file.
     pub fn saved(&mut self, bytes: &Arc<Vec<u8>>) {
         if let Some(made) = self.made.as_mut().filter(|made| Arc::ptr_eq(&made.bytes, bytes)) {
             made.saved = true;
@@ -131,12 +131,12 @@ impl Training {
         }
     }
 
-    /// The training that runs.
+    /// Returns the running training.
     pub fn job(&self) -> Option<&Running> {
         self.job.as_ref()
     }
 
-    /// How far the work is: a training, a look for one, a comparison.
+    /// Returns the progress of a training, of the look for an unfinished one, or of a comparison.
     pub fn standing(&self) -> Option<Standing> {
         let trains = self.job.as_ref().map(|running| running.job.standing());
         trains.or_else(|| self.looking.standing()).or_else(|| self.comparison.as_ref()?.standing())
@@ -154,7 +154,7 @@ impl Training {
         }
     }
 
-    /// Does what was asked for.
+    /// Executes a command.
     pub fn execute(&mut self, ctx: &Context, answers: &mut Answers, command: TrainingCommand) {
         match command {
             TrainingCommand::Stop => self.stop(),
@@ -186,12 +186,12 @@ impl Training {
         }
     }
 
-    /// Whether the model that was made is in use.
+    /// Returns true if the trained model is in use.
     pub fn uses_made(&self, answers: &Answers) -> bool {
         self.made.as_ref().is_some_and(|made| answers.models().contains(&made.model))
     }
 
-    /// Takes in the model of a file for comparisons; it does not come into use.
+    /// Adds the model of a file to the comparison; it is not used for the picture.
     ///
     /// # Errors
     /// A sentence when it cannot be read.
@@ -236,7 +236,7 @@ impl Training {
         models
     }
 
-    /// Begins to compare all models that can be.
+    /// Starts the comparison of all comparable models.
     pub fn compare(&mut self, ctx: &Context, answers: &Answers, document: &Document) {
         let models = self.comparable(answers, document);
         let Some(spec) = self.compared_spec(document).filter(|_| models.len() > 1) else { return };
@@ -246,7 +246,7 @@ impl Training {
         }
     }
 
-    /// Trains on from a state.
+    /// Continues a training.
     fn run(&mut self, ctx: &Context, state: TrainingState) {
         self.chart = Arc::new(Chart::of(&state));
         self.spec = Some(Box::new(state.spec.clone()));
@@ -278,7 +278,7 @@ impl Training {
         self.comparison.iter().for_each(Comparison::stop);
     }
 
-    /// Takes in what came since the last frame.
+    /// Receives the results since the last frame.
     pub fn receive(&mut self) {
         let (mut found, mut left) = (None, None);
         self.looking.receive(|what| match what {

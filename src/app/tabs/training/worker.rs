@@ -45,7 +45,6 @@ pub struct Trained {
 /// A model with the content of its file.
 #[derive(Clone)]
 pub struct Made {
-    /// The model.
     pub model: Arc<ReducedModel>,
     /// What is written when it is saved.
     pub bytes: Arc<Vec<u8>>,

@@ -1,6 +1,6 @@
 //! How the contact in time on the screen stands: live by models, checked in full, or not there yet.
 
-use super::runs::TransientView;
+use super::runs::TransientRuns;
 use crate::app::badge::{Kind, pill};
 use crate::app::context::Context;
 use crate::app::display::Thresholds;
@@ -33,7 +33,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     pill(ui, kind, [title, &detail, &format!("{why}{grid}")], "Trust in the contact in time");
 }
 
-fn verdict(view: &TransientView, thresholds: Thresholds) -> Verdict {
+fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
     let make = |kind, title, detail: String, why| Verdict { kind, title, detail, why };
     let live = view.runs.iter().any(|run| run.replayed);
     let standing = view.work.standing();
@@ -72,7 +72,7 @@ fn verdict(view: &TransientView, thresholds: Thresholds) -> Verdict {
 }
 
 /// What each model errs by, as far as that is known.
-fn errors(view: &TransientView) -> String {
+fn errors(view: &TransientRuns) -> String {
     let said = |run: &Run| {
         let name = match run.by {
             MarchedBy::Full => return None,

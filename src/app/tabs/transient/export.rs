@@ -1,6 +1,6 @@
 //! Contacts in time for other programs: the series of all runs, and their profiles at the moment that is looked at.
 
-use super::runs::TransientView;
+use super::runs::TransientRuns;
 use crate::app::tabs::transient::{Run, Setup, method};
 use crate::app::{export, numbers};
 use crate::solver::discrete::grid::GridSpec;
@@ -10,7 +10,7 @@ use crate::solver::full::transient::{Inputs, Signal};
 type Block = (String, Vec<Vec<Option<f64>>>);
 
 /// All moments of every run with their SI twins, each run in columns of its own.
-pub fn series(view: &TransientView) -> Option<String> {
+pub fn series(view: &TransientRuns) -> Option<String> {
     const COLUMNS: [&str; 15] = [
         "T",
         "R_over_ref",
@@ -43,7 +43,7 @@ pub fn series(view: &TransientView) -> Option<String> {
 }
 
 /// P and H of every run at the moment that is looked at, in the scales of the reference contact and in SI units.
-pub fn profiles(view: &TransientView) -> Option<String> {
+pub fn profiles(view: &TransientRuns) -> Option<String> {
     const COLUMNS: [&str; 6] = ["X", "P", "H", "x_m", "p_pa", "h_m"];
     let setup = view.setup.as_ref()?;
     let (hertz, film) = (setup.point.hertz(), setup.point.film_scale_m());

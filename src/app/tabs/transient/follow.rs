@@ -1,8 +1,8 @@
-//! How contacts in time follow the document while a tab shows them: models that are there replay at once, and when the
-//! hands rest the full system checks them and trains them anew.
+//! How transient runs follow the document while a tab shows them. Existing models replay at once. When the sliders are
+//! idle, the full system checks the models and trains them again.
 
 use super::linearised::NumberStudy;
-use super::runs::{TransientView, insert};
+use super::runs::{TransientRuns, insert};
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::wake::wake;
 use crate::engine::job::Background;
@@ -14,37 +14,36 @@ use crate::solver::physics::contact::OperatingPoint;
 use egui::Context;
 use std::sync::Arc;
 
-/// Seconds for which nothing must change before the full system is asked.
+/// Idle seconds before the full system starts.
 const REST_S: f64 = 0.25;
 /// Reference loads, over that of a model's training, at which it is still replayed.
 const LOADS: (f64, f64) = (0.7, 1.4);
 
-/// Models, and the set-up they were made of.
+/// Models and the set-up they were trained with.
 type Kept = (Arc<Setup>, Vec<Model>);
 
-/// What is followed, and what answers at once.
+/// Set-up that is followed, and the models that replay it.
 #[derive(Default)]
 pub struct Following {
-    /// What was wanted last.
+    /// Set-up that was asked for last.
     asked: Option<Arc<Setup>>,
-    /// When, on the window's clock.
+    /// Time of that request on the window's clock \[s\].
     asked_at: f64,
-    /// Whether the full system is still to be asked.
+    /// True if the full system is still to be run.
     due: bool,
-    /// Whether the present runs were asked for by hand: nothing but a hand stops them.
+    /// True if the present runs were started by hand. Only the user stops these.
     by_hand: bool,
-    /// The models that were made last, and of what.
+    /// Models that were trained last, with their set-up.
     kept: Option<Kept>,
     pub(super) replay: Background<StudyRow>,
     /// Whether the models that were replayed are those that the question under way would make.
     last: bool,
-    /// What is replayed.
     replaying: Option<Arc<Setup>>,
     runs: Vec<Run>,
 }
 
 impl Following {
-    /// Keeps a model.
+    /// Stores a model.
     pub(super) fn keep(&mut self, setup: Option<&Arc<Setup>>, model: Model) {
         let Some(setup) = setup else { return };
         match &mut self.kept {
@@ -53,12 +52,12 @@ impl Following {
         }
     }
 
-    /// The present runs were asked for by hand.
+    /// Notes that the present runs were started by hand.
     pub(super) fn by_hand(&mut self, setup: &Arc<Setup>) {
         *self = Self { asked: Some(Arc::clone(setup)), by_hand: true, kept: self.kept.take(), ..Self::default() };
     }
 
-    /// Nothing more is asked until something changes.
+    /// Cancels pending requests until the document changes.
     pub(super) fn rest(&mut self) {
         self.due = false;
         (self.replay, self.replaying) = (Background::default(), None);
@@ -69,7 +68,7 @@ impl Following {
         self.last
     }
 
-    /// The model of a frame that a run is by.
+    /// Returns the model of a frame by which a run was computed.
     pub(super) fn model(&self, by: MarchedBy, frame: Frame) -> Option<&Model> {
         model(self.kept.as_ref(), by, frame)
     }
@@ -104,28 +103,28 @@ fn means(study: &TransientStudy) -> TransientStudy {
     TransientStudy { inputs: Inputs::default(), duration: 1.0, window: None, ..study.clone() }
 }
 
-impl TransientView {
-    /// Whether what is on the screen is what the tabs want.
+impl TransientRuns {
+    /// Returns true if the runs on the screen are those that the tabs asked for.
     pub fn is_current(&self) -> bool {
         self.following.asked.is_none() || self.setup == self.following.asked
     }
 
-    /// Whether it is wanted already.
+    /// Returns true if a set-up has already been asked for.
     pub fn follows(&self, wanted: &Setup) -> bool {
         self.following.asked.as_deref() == Some(wanted)
     }
 
-    /// Whether something is about to be computed unasked.
+    /// Returns true if a run or a replay is about to start by itself.
     pub fn waits(&self) -> bool {
         self.following.due || self.following.replaying.is_some()
     }
 
-    /// Whether runs that somebody asked for are under way.
+    /// Returns true while runs are computed that were started by hand.
     pub fn runs_by_hand(&self) -> bool {
         self.following.by_hand && self.work.job().is_some()
     }
 
-    /// What the models that are on the screen learned.
+    /// Returns the training inputs of the models on the screen.
     pub fn trained_by(&self) -> Option<Vec<Drive>> {
         let (setup, _) = self.following.kept.as_ref()?;
         let study = &setup.study;
@@ -133,7 +132,7 @@ impl TransientView {
         Some(if study.trainings.is_empty() { own() } else { study.trainings.clone() })
     }
 
-    /// Follows what a tab wants to be shown.
+    /// Follows the set-up that a tab shows.
     pub(super) fn follow(&mut self, ctx: &Context, store: &Store, wanted: Setup) {
         if self.follows(&wanted) || self.runs_by_hand() {
             return;
@@ -173,7 +172,7 @@ impl TransientView {
         }
     }
 
-    /// Takes in what was replayed, and shows it once it is whole.
+    /// Receives replayed runs and shows them when they are complete.
     pub(super) fn receive_replayed(&mut self, store: &Store) {
         let Following { replay, replaying, runs, kept, asked, .. } = &mut self.following;
         replay.receive(|row| {
@@ -213,7 +212,7 @@ impl TransientView {
         }
     }
 
-    /// Asks the full system once the hands rest. Called last in every frame.
+    /// Starts the full system when the sliders are idle. Called last in every frame.
     pub fn settle(&mut self, ctx: &Context, store: &Store) {
         if !self.following.due {
             return;

@@ -16,7 +16,6 @@ use std::sync::Arc;
 
 /// A linearised model with what is shown of it.
 pub struct Linearised {
-    /// The model.
     pub model: Arc<TpwlModel>,
     /// Scalars of its training trajectories.
     pub trainings: Vec<Vec<Moment>>,
@@ -106,7 +105,6 @@ pub struct NumberRow {
     pub selection: Selection,
     /// Operating points it chose.
     pub points: usize,
-    /// Weights.
     pub weighting: Weighting,
     /// Relative L2 difference of H_c from the full run; none where the march ended early.
     pub difference: Option<f64>,
@@ -119,7 +117,6 @@ pub struct NumberRow {
 pub struct NumberStudy {
     /// What has come of it.
     pub rows: Vec<NumberRow>,
-    /// Its work.
     pub work: Background<NumberRow>,
     of: Option<Arc<TpwlModel>>,
 }

@@ -23,7 +23,7 @@ mod tab;
 mod tpwl;
 
 pub use run::Run;
-pub use runs::{InTimeCommand, TransientView};
+pub use runs::{TransientCommand, TransientRuns};
 pub use setup::{Setup, model_in_use};
 pub use tab::Transient;
 pub use tpwl::Tpwl;

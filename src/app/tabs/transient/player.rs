@@ -26,7 +26,6 @@ impl Player {
         self.end
     }
 
-    /// Whether it is played.
     pub fn playing(&self) -> bool {
         self.playing
     }

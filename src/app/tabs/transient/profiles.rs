@@ -1,6 +1,6 @@
 //! Pressure and film of every run at the moment that is looked at.
 
-use super::runs::TransientView;
+use super::runs::TransientRuns;
 use crate::app::figure::Canvas;
 use crate::app::numbers;
 use crate::app::plot::axes;
@@ -17,7 +17,7 @@ use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints};
 const X_RANGE: (f64, f64) = (-2.2, 1.6);
 
 /// Both plots, each as high as given.
-pub fn ui(ui: &mut Ui, view: &TransientView, fit: bool, height: f32) {
+pub fn ui(ui: &mut Ui, view: &TransientRuns, fit: bool, height: f32) {
     let palette = Palette::of(ui);
     let most = |quantity: Quantity| {
         let values = view.runs.iter().flat_map(|run| &run.trajectory.moments).map(|moment| moment.value(quantity));
@@ -82,7 +82,7 @@ fn hertz(plot: &mut Canvas<'_, '_>, moment: &Moment, palette: &Palette) {
 
 fn curves(
     plot: &mut Canvas<'_, '_>,
-    view: &TransientView,
+    view: &TransientRuns,
     time: f64,
     (color, palette): (Color32, &Palette),
     of: impl Fn((f64, f64, f64)) -> PlotPoint,

@@ -1,4 +1,4 @@
-//! One method in one frame: what has come of it, and what it cost.
+//! Transient run: one method in one frame.
 
 use crate::app::tabs::transient::method;
 use crate::app::tabs::transient::projection::FieldErrors;
@@ -13,35 +13,35 @@ use std::sync::Arc;
 /// Times are those of moments: rounding must not show the one before.
 const ROUNDING: f64 = 1e-12;
 
-/// One method in one frame, as far as it has come.
+/// One method in one frame, as far as it has been computed.
 pub struct Run {
-    /// How its steps are solved.
+    /// Method that solves its steps.
     pub by: MarchedBy,
-    /// What has come of it; how it ended counts once it has.
+    /// Computed trajectory. Its `ended` is valid once the run has ended.
     pub trajectory: Trajectory,
     /// Seconds that each moment took.
     pub seconds: Vec<f64>,
     /// Whether it has ended.
     pub ended: bool,
-    /// What a reduced model is made of.
+    /// Size of its reduced model.
     pub model: Option<ModelSize>,
-    /// Greatest relative difference of H_c from [`super::runs::TransientView::reference_of`] it, once it has ended.
+    /// Greatest relative difference of H_c from [`super::runs::TransientRuns::reference_of`] it, once it has ended.
     pub difference: Option<f64>,
-    /// What each step of a linearised model drew on; once it has ended.
+    /// Operating points used by each step of a linearised model; set when it has ended.
     pub record: Option<TpwlRecord>,
-    /// What the grid costs the film of a full run at the worst of some moments, and when that is; once it has ended.
+    /// Time and value of the largest discretisation error of a full run among sampled moments; set when it has ended.
     pub grid_cost: Option<(f64, GridCost)>,
-    /// The linearised model that it is by, where it is.
+    /// Its linearised model, if it has one.
     pub linearised: Option<Arc<TpwlModel>>,
-    /// The reduced model that it is by, where it is.
+    /// Its reduced model, if it has one.
     pub reduced: Option<Arc<TrajectoryModel>>,
-    /// How far its pressure lies from the full one, and how near its basis could come; once both have ended.
+    /// Pressure errors of the run and of the projection on its basis; set when the run and its reference have ended.
     pub field_errors: Option<FieldErrors>,
-    /// Whether it is by a model that was made for a former set-up.
+    /// True if its model was trained for a previous set-up.
     pub replayed: bool,
 }
 
-/// What a reduced model is made of, and what it took.
+/// Size of a reduced model and time of its training.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelSize {
     /// Pressure modes.
@@ -67,7 +67,7 @@ impl Run {
         method::run_name(self.by, self.frame())
     }
 
-    /// A run of which nothing is known yet, by a model where it is by one.
+    /// Creates an empty run of a method, with its model if it has one.
     pub fn begun(by: MarchedBy, trajectory: Trajectory, model: Option<&Model>) -> Self {
         let linearised = model.and_then(|model| match &model.kind {
             Kind::Linearised { model, .. } => Some(Arc::clone(model)),

@@ -1,4 +1,4 @@
-//! Contacts in time from the window: what was asked, what has come of it so far, and the moment that is looked at.
+//! Transient runs: what was asked, what has been computed so far, and the moment that is shown.
 
 use super::player::Player;
 use super::run::Run;
@@ -17,16 +17,16 @@ use crate::solver::reduced::tpwl::Weighting;
 use egui::Context;
 use std::sync::Arc;
 
-/// What can be asked of contacts in time.
+/// Changes of transient runs.
 #[derive(Clone, Debug, PartialEq)]
-pub enum InTimeCommand {
-    /// Run this one.
+pub enum TransientCommand {
+    /// Run a set-up from the beginning.
     Run(Box<Setup>),
-    /// Show this one: at once by models that are there, in full when the hands rest.
+    /// Show a set-up: at once by existing models, in full when the sliders are idle.
     Follow(Box<Setup>),
     /// Stop the runs, and the study of their linearised model.
     Stop,
-    /// Look at the moment T, and stay there.
+    /// Show the moment T and stop playing.
     GoTo(f64),
     /// Play from the present moment on, or pause.
     TogglePlay,
@@ -38,33 +38,33 @@ pub enum InTimeCommand {
     StopNumber,
 }
 
-/// What the window knows of contacts in time.
+/// Transient runs and the moment that is shown. Several tabs read them.
 #[derive(Default)]
-pub struct TransientView {
-    /// What the runs belong to.
+pub struct TransientRuns {
+    /// Set-up of the runs.
     pub setup: Option<Arc<Setup>>,
-    /// The runs, in their order; the first is what the others are compared with.
+    /// Runs in their order. The others are compared with the first.
     pub runs: Vec<Run>,
-    /// The linearised model of the runs, with what is shown of it.
+    /// Linearised model of the runs.
     pub linearised: Option<Linearised>,
-    /// How many operating points it takes.
+    /// Study of the number of operating points.
     pub number: NumberStudy,
-    /// What runs, and why there is nothing or no more.
+    /// Running job, and why the last one ended early.
     pub work: Background<StudyRow>,
-    /// Seconds and moments of the marches that the models of the last frame are trained by, where they are others.
+    /// Seconds and moments of the training marches of the last frame, if these are not the runs themselves.
     trained: Option<(f64, Vec<Vec<Moment>>)>,
-    /// The run that rows go to.
+    /// Run that receives the rows.
     filled: Filled,
-    /// What the job under way runs, until its first row.
+    /// Set-up of the running job until its first row arrives.
     pub(super) next: Option<Arc<Setup>>,
     pub(super) following: Following,
     looking: Background<OtherRule>,
-    /// Why a model could not be had of a run.
+    /// Why a model could not be made from a run.
     pub notes: Vec<String>,
-    /// The moment that is looked at.
+    /// Moment that is shown.
     pub player: Player,
     pub(super) ctx: Option<Context>,
-    /// Counts the starts: plots of new results forget how the former ones were zoomed.
+    /// Number of starts. Plots of new results do not keep the zoom of the previous ones.
     pub generation: u64,
 }
 
@@ -74,14 +74,14 @@ enum Filled {
     /// None yet.
     #[default]
     None,
-    /// The one of this place.
+    /// Run at this place in the list.
     Shown(usize),
-    /// One that takes the place of a replayed one once it has ended.
+    /// Run that replaces a replayed one when it has ended.
     Behind(Box<Run>),
 }
 
-impl TransientView {
-    /// Takes in what came since the last frame.
+impl TransientRuns {
+    /// Receives the results since the last frame.
     pub fn receive(&mut self, store: &Store) {
         self.number.receive();
         let (mut rows, works) = (Vec::new(), self.work.job().is_some());
@@ -107,7 +107,7 @@ impl TransientView {
         self.player.reached(reached);
     }
 
-    /// The work has ended: what it had begun stays as it is.
+    /// Ends the job. The run that was computed keeps its results.
     pub(super) fn end(&mut self) {
         let stopped = self.work.message.is_none();
         if let Some(run) = self.filled().filter(|run| stopped && !run.ended) {
@@ -171,8 +171,8 @@ impl TransientView {
         }
     }
 
-    /// Lets runs of another set-up take the place of those on the screen. Replayed ones of the same stay until their
-    /// betters come.
+    /// Replaces the runs by those of another set-up. Replayed runs of the same set-up stay until full results
+    /// arrive.
     fn replace(&mut self, setup: Arc<Setup>) {
         let (same, last) = (self.setup.as_ref() == Some(&setup), self.following.models_are_last());
         let follows =
@@ -208,17 +208,18 @@ impl TransientView {
         }));
     }
 
-    /// How far the runs are.
+    /// Returns the progress of the runs.
     pub fn standing(&self) -> Option<Standing> {
         self.work.standing().or_else(|| self.looking.standing())
     }
 
-    /// How far models are that are replayed.
+    /// Returns the progress of replayed models.
     pub fn replaying(&self) -> Option<Standing> {
         self.following.replay.standing()
     }
 
-    /// What a run is compared with: a model with the full system in its frame, a full one with the first; `None` for the first itself.
+    /// Returns the run that a run is compared with: for a model the full run in its frame, for a full run the first one.
+    /// `None` for the first run.
     pub fn reference_of(&self, k: usize) -> Option<&Run> {
         let (run, earlier) = (self.runs.get(k)?, self.runs.get(..k)?);
         match run.by {
@@ -240,7 +241,7 @@ impl TransientView {
         Some(run.trajectory.difference(&reference.trajectory, Quantity::CentralFilm, whole)?.0)
     }
 
-    /// The runs of linearised models, by their weightings.
+    /// Returns the runs of linearised models with their weightings.
     pub fn linearised_runs(&self) -> impl Iterator<Item = (Weighting, &Run)> {
         self.runs.iter().filter_map(|run| match run.by {
             MarchedBy::Linearised(weighting) => Some((weighting, run)),
@@ -248,37 +249,37 @@ impl TransientView {
         })
     }
 
-    /// Those of the linearised model that is looked into.
+    /// Returns the runs of one linearised model with their weightings.
     pub fn runs_of<'a>(&'a self, linearised: &'a Linearised) -> impl Iterator<Item = (Weighting, &'a Run)> {
         let own = |run: &Run| run.linearised.as_ref().is_some_and(|model| Arc::ptr_eq(model, &linearised.model));
         self.linearised_runs().filter(move |(_, run)| own(run))
     }
 
-    /// The full run that the linearised ones are compared with.
+    /// Returns the full run that the linearised runs are compared with.
     pub fn reference_of_linearised(&self) -> Option<&Run> {
         let first = self.runs.iter().position(|run| matches!(run.by, MarchedBy::Linearised(_)))?;
         self.reference_of(first)
     }
 
-    /// Does what was asked for.
-    pub fn execute(&mut self, ctx: &Context, store: &Store, command: InTimeCommand) {
+    /// Executes a command.
+    pub fn execute(&mut self, ctx: &Context, store: &Store, command: TransientCommand) {
         match command {
-            InTimeCommand::Run(setup) => self.start(ctx, store, *setup),
-            InTimeCommand::Follow(setup) => self.follow(ctx, store, *setup),
-            InTimeCommand::Stop => self.stop(),
-            InTimeCommand::GoTo(time) => self.player.go_to(time),
-            InTimeCommand::TogglePlay => self.player.toggle(),
-            InTimeCommand::PlayOn(seconds) => {
+            TransientCommand::Run(setup) => self.start(ctx, store, *setup),
+            TransientCommand::Follow(setup) => self.follow(ctx, store, *setup),
+            TransientCommand::Stop => self.stop(),
+            TransientCommand::GoTo(time) => self.player.go_to(time),
+            TransientCommand::TogglePlay => self.player.toggle(),
+            TransientCommand::PlayOn(seconds) => {
                 let duration = self.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
                 self.player.advance(seconds, duration);
             }
-            InTimeCommand::StudyNumber => {
+            TransientCommand::StudyNumber => {
                 if let (Some(linearised), Some(full)) = (&self.linearised, self.reference_of_linearised()) {
                     let (model, full) = (Arc::clone(&linearised.model), full.without_fields());
                     self.number.start(ctx, model, full);
                 }
             }
-            InTimeCommand::StopNumber => self.number.work.stop(),
+            TransientCommand::StopNumber => self.number.work.stop(),
         }
     }
 
@@ -289,7 +290,7 @@ impl TransientView {
         self.number.work.stop();
     }
 
-    /// Runs a contact in time from the beginning, unless it is refused.
+    /// Runs a set-up from the beginning, unless it is refused.
     pub fn start(&mut self, ctx: &Context, store: &Store, setup: Setup) {
         let setup = Arc::new(setup);
         if self.begin(ctx, store, &setup, setup.question()) {
@@ -304,7 +305,7 @@ impl TransientView {
         }
     }
 
-    /// Begins a question about a set-up; whether it is not refused.
+    /// Starts a study of a set-up. Returns false if the set-up is refused.
     pub(super) fn begin(&mut self, ctx: &Context, store: &Store, setup: &Arc<Setup>, question: Scene) -> bool {
         self.ctx = Some(ctx.clone());
         if let Err(error) = setup.study.own_march(setup.point, setup.lubricant, Frame::Fixed).problem() {
@@ -319,7 +320,7 @@ impl TransientView {
     }
 }
 
-/// Lays a run behind those of its frame that are told before it; where it lies then.
+/// Inserts a run after the runs of its frame that precede it; returns its place.
 pub fn insert(runs: &mut Vec<Run>, run: Run) -> usize {
     let rank = |by: MarchedBy| match by {
         MarchedBy::Full => 0,

@@ -1,6 +1,6 @@
 //! Central pressure and film against time, and how far runs lie apart.
 
-use super::runs::TransientView;
+use super::runs::TransientRuns;
 use crate::app::document::input::Input;
 use crate::app::figure::Canvas;
 use crate::app::plot::axes;
@@ -16,7 +16,7 @@ use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
 
 /// The line of a run: the frame by dashes; a linearised model broad and pale, the reduced model thick, the full one
 /// thin over them, the first of full ones alone thick.
-pub fn style(view: &TransientView, k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
+pub fn style(view: &TransientRuns, k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
     let Some(run) = view.runs.get(k) else { return (color, 1.0, LineStyle::Solid) };
     let dashes = match run.frame() {
         _ if run.by == MarchedBy::Linearised(Weighting::Dissertation) => LineStyle::dashed_dense(),
@@ -35,7 +35,7 @@ pub fn style(view: &TransientView, k: usize, color: Color32, palette: &Palette) 
 }
 
 /// The runs as they are drawn, thick ones first: a thin line stays visible over a thick one.
-pub fn drawn(view: &TransientView) -> impl Iterator<Item = (usize, &Run)> {
+pub fn drawn(view: &TransientRuns) -> impl Iterator<Item = (usize, &Run)> {
     let of = |wanted: fn(MarchedBy) -> bool| view.runs.iter().enumerate().filter(move |(_, run)| wanted(run.by));
     of(|by| matches!(by, MarchedBy::Linearised(_)))
         .chain(of(|by| by == MarchedBy::Reduced))
@@ -63,7 +63,7 @@ pub struct Along {
 impl Along {
     /// The plot with what it may show over it, above another with the same axis or not; returns the time that was
     /// clicked at.
-    pub fn ui(&mut self, ui: &mut Ui, view: &TransientView, height: f32, above: bool) -> Option<f64> {
+    pub fn ui(&mut self, ui: &mut Ui, view: &TransientRuns, height: f32, above: bool) -> Option<f64> {
         let below = if above { "" } else { "{T}" };
         let palette = Palette::of(ui);
         ui.horizontal_wrapped(|ui| {
@@ -97,7 +97,7 @@ impl Along {
 
     /// How far runs lie from what they are compared with, against time: their central film, or the whole pressure where
     /// that is looked at and a reduced run is there; returns the time that was clicked at.
-    pub fn deviation(&self, ui: &mut Ui, view: &TransientView, height: f32) -> Option<f64> {
+    pub fn deviation(&self, ui: &mut Ui, view: &TransientRuns, height: f32) -> Option<f64> {
         let known = |run: &Run| run.field_errors.as_ref().is_some_and(|errors| !errors.least.is_empty());
         if self.against != Against::Pressure || !view.runs.iter().any(known) {
             return deviation(ui, view, height);
@@ -124,7 +124,7 @@ impl Along {
 }
 
 /// How far runs lie from what they are compared with, against time; returns the time that was clicked at.
-pub fn deviation(ui: &mut Ui, view: &TransientView, height: f32) -> Option<f64> {
+pub fn deviation(ui: &mut Ui, view: &TransientRuns, height: f32) -> Option<f64> {
     let known = |run: &Run| run.by != MarchedBy::Full && !run.trajectory.moments.is_empty();
     let known = view.runs.iter().any(known) || view.runs.iter().filter(|run| run.by == MarchedBy::Full).count() > 1;
     if !known || !view.runs.iter().any(|run| run.by == MarchedBy::Full) {
@@ -138,7 +138,7 @@ pub fn deviation(ui: &mut Ui, view: &TransientView, height: f32) -> Option<f64> 
 }
 
 /// Film, pressure and inputs on one axis, in percent of their starts.
-fn together(ui: &mut Ui, view: &TransientView, height: f32, below: &str) -> Option<f64> {
+fn together(ui: &mut Ui, view: &TransientRuns, height: f32, below: &str) -> Option<f64> {
     let palette = Palette::of(ui);
     let looks = [(Quantity::CentralFilm, palette.film), (Quantity::CentralPressure, palette.pressure)];
     let shown = axes::show(linked(ui, view, "together", height, (below, "Change / %")), ui, TOGETHER, |plot| {
@@ -179,7 +179,7 @@ fn together(ui: &mut Ui, view: &TransientView, height: f32, below: &str) -> Opti
 const TOGETHER: &str = "Film, pressure and inputs against time";
 
 /// A plot over the duration whose axis of time is that of its neighbours.
-fn linked<'a>(ui: &Ui, view: &TransientView, name: &str, height: f32, titles: (&str, &str)) -> PlotFrame<'a> {
+fn linked<'a>(ui: &Ui, view: &TransientRuns, name: &str, height: f32, titles: (&str, &str)) -> PlotFrame<'a> {
     let duration = view.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
     let group = Id::unique(("transient", view.generation));
     let columns = marks(ui.available_width());
@@ -197,7 +197,7 @@ fn linked<'a>(ui: &Ui, view: &TransientView, name: &str, height: f32, titles: (&
 }
 
 /// The moment that is looked at as a line; returns the time that was clicked at.
-fn now(plot: &mut Canvas<'_, '_>, view: &TransientView, palette: &Palette) -> Option<f64> {
+fn now(plot: &mut Canvas<'_, '_>, view: &TransientRuns, palette: &Palette) -> Option<f64> {
     let now = VLine::new("", view.player.time()).id("now").color(palette.accent).width(1.0);
     plot.vline(now.allow_hover(false));
     plot.response().clicked().then(|| plot.pointer_coordinate()).flatten().map(|at| at.x)
@@ -215,7 +215,7 @@ impl LinkedPlot {
     fn show(
         &self,
         ui: &mut Ui,
-        view: &TransientView,
+        view: &TransientRuns,
         height: f32,
         titles: (&str, &str),
         deviation: bool,

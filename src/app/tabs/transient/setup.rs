@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 pub struct Setup {
     /// The reference contact.
     pub point: OperatingPoint,
-    /// Its lubricant.
     pub lubricant: Lubricant,
     /// What varies, how long, and how it is followed.
     pub study: TransientStudy,

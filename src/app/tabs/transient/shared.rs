@@ -1,8 +1,7 @@
-//! What the tabs of contacts in time share: their form, the button that runs them, how far they are, and the moment
-//! that is looked at.
+//! Parts that the transient tabs share: form, run button, status line and time bar.
 
 use super::export;
-use super::runs::{InTimeCommand, TransientView};
+use super::runs::{TransientCommand, TransientRuns};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{either_button, named, sentence, standing_ui};
@@ -22,8 +21,8 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, FontId, Label, ScrollArea, Slider, TextStyle, Ui};
 use std::sync::Arc;
 
-/// A form over the contact in time of the document, refused under a name of its own; returns the field that was changed
-/// last.
+/// Shows a form of the document's transient study; returns the field that was changed last. `name` is the name of the
+/// message if a change is refused.
 pub fn edit(
     ui: &mut Ui,
     (name, last): (&'static str, LastField),
@@ -39,16 +38,16 @@ pub fn edit(
     form.ask(edit, "Frames", commands)
 }
 
-/// Lets the contact in time follow the document: called by every tab that shows it.
+/// Lets the transient runs follow the document. Every tab that shows them calls it.
 pub fn follow(context: &Context<'_>, commands: &mut Commands) {
     let wanted = Setup::of(context.document, context.file);
     if !context.transient.follows(&wanted) && !context.transient.runs_by_hand() {
-        commands.push(Command::InTime(InTimeCommand::Follow(Box::new(wanted))));
+        commands.push(Command::Transient(TransientCommand::Follow(Box::new(wanted))));
     }
 }
 
-/// What stands where there are no contacts in time: why, and a roller with one click where that helps.
-pub fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Commands) {
+/// Says why there are no transient runs of this contact, with a button that changes to a roller if that helps.
+fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Commands) {
     ui.weak(sentence(why));
     let tip = "A line contact with the same quantities";
     if context.document.point.kind == ContactKind::Point
@@ -58,23 +57,23 @@ pub fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut C
     }
 }
 
-/// Whether something is computed or about to be, unasked.
+/// Returns true if runs are computed or are about to start by themselves.
 pub fn is_coming(context: &Context<'_>) -> bool {
     let view = context.transient;
     let wanted = Setup::of(context.document, context.file);
     view.standing().is_some() || view.waits() || !view.follows(&wanted)
 }
 
-/// Draws the rest grey where it belongs to a former set-up.
+/// Draws the rest grey if it belongs to a previous set-up.
 pub fn grey_where_stale(ui: &mut Ui, context: &Context<'_>, name: &'static str) {
     let view = context.transient;
     let Some(setup) = &view.setup else { return };
-    if drawn::is_grey(ui.ctx(), name, Owner::InTime(Arc::clone(setup)), context) {
+    if drawn::is_grey(ui.ctx(), name, Owner::Transient(Arc::clone(setup)), context) {
         drawn::fade(ui, is_coming(context));
     }
 }
 
-/// The runs, started or stopped.
+/// Button that starts or stops the runs.
 pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let view = context.transient;
     let runs = view.runs_by_hand();
@@ -85,7 +84,7 @@ pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     };
     if either_button(ui, ["Run in time", "Stop"], runs).on_hover_text(tip).clicked() {
         let setup = || Box::new(Setup::of(context.document, context.file));
-        commands.push(Command::InTime(if runs { InTimeCommand::Stop } else { InTimeCommand::Run(setup()) }));
+        commands.push(Command::Transient(if runs { TransientCommand::Stop } else { TransientCommand::Run(setup()) }));
     }
 }
 
@@ -113,7 +112,7 @@ pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoItera
     });
 }
 
-/// What there is to say of contacts in time, the worst first.
+/// Returns the messages about the runs, the worst first.
 fn sentences<'a>(
     context: &'a Context<'_>,
     refused: impl IntoIterator<Item = &'a str>,
@@ -152,23 +151,39 @@ fn sentences<'a>(
     said
 }
 
-/// Pictures that scroll where they have to, and under them the moment that is looked at, always in sight.
-pub fn over_the_time_bar(
+/// Shows a tab: its form, if it has a width, and beside it pictures that scroll if necessary, above the time bar.
+pub fn page<T>(
     ui: &mut Ui,
-    name: &str,
-    context: &Context<'_>,
-    commands: &mut Commands,
-    pictures: impl FnOnce(&mut Ui, &mut Commands),
+    tab: &mut T,
+    (name, form_width): (&str, Option<f32>),
+    (context, commands): (&Context<'_>, &mut Commands),
+    form: impl FnOnce(&mut T, &mut Ui, &mut Commands),
+    pictures: impl FnOnce(&mut T, &mut Ui, &mut Commands),
 ) {
-    ui.vertical(|ui| {
-        // Wide rows of the pictures do not widen the bar.
-        let width = ui.available_width();
-        let height = (ui.available_height() - TIME_BAR).max(TIME_BAR);
-        let area = ScrollArea::vertical().id_salt(name).auto_shrink(false).max_height(height);
-        area.show(ui, |ui| pictures(ui, commands));
-        ui.scope(|ui| {
-            ui.set_max_width(width);
-            player(ui, context.transient, commands);
+    if let Some(why) = context.document.no_transient() {
+        elsewhere(ui, context, why, commands);
+        return;
+    }
+    follow(context, commands);
+    ui.horizontal_top(|ui| {
+        if let Some(width) = form_width {
+            ui.vertical(|ui| {
+                ui.set_width(width);
+                let area = ScrollArea::vertical().id_salt(format!("{name} form")).auto_shrink(false);
+                area.show(ui, |ui| form(tab, ui, commands));
+            });
+            ui.separator();
+        }
+        ui.vertical(|ui| {
+            // Wide rows of the pictures do not widen the bar.
+            let width = ui.available_width();
+            let height = (ui.available_height() - TIME_BAR).max(TIME_BAR);
+            let area = ScrollArea::vertical().id_salt(name).auto_shrink(false).max_height(height);
+            area.show(ui, |ui| pictures(tab, ui, commands));
+            ui.scope(|ui| {
+                ui.set_max_width(width);
+                player(ui, context.transient, commands);
+            });
         });
     });
 }
@@ -176,19 +191,19 @@ pub fn over_the_time_bar(
 /// Height of the time bar with the room above it.
 const TIME_BAR: f32 = 32.0;
 
-/// The moment that is looked at: a slider over what was computed, and a button that plays it.
-pub fn player(ui: &mut Ui, view: &TransientView, commands: &mut Commands) {
+/// Time bar: a slider over the computed moments, and a button that plays them.
+pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
     let Some(setup) = &view.setup else { return };
     let playing = view.player.playing();
-    let mut ask = |command| commands.push(Command::InTime(command));
+    let mut ask = |command| commands.push(Command::Transient(command));
     if playing {
         let seconds = ui.input(|i| i.stable_dt).min(0.1);
-        ask(InTimeCommand::PlayOn(f64::from(seconds)));
+        ask(TransientCommand::PlayOn(f64::from(seconds)));
     }
     ui.horizontal(|ui| {
         let (name, tip) = if playing { ("Pause", "Stand still here") } else { ("Play", "Play the profiles in time") };
         if ui.button(name).on_hover_text(tip).clicked() {
-            ask(InTimeCommand::TogglePlay);
+            ask(TransientCommand::TogglePlay);
         }
         let mut time = view.player.time();
         let text =
@@ -199,7 +214,7 @@ pub fn player(ui: &mut Ui, view: &TransientView, commands: &mut Commands) {
         let response = ui.add(Slider::new(&mut time, 0.0..=view.player.end().max(f64::MIN_POSITIVE)).show_value(false));
         let response = named(ui, response, "Time T");
         if response.changed() {
-            ask(InTimeCommand::GoTo(time));
+            ask(TransientCommand::GoTo(time));
         }
         let tip =
             "The moment whose profiles are shown, in units of a/u_m of the reference contact (2.22) and on the clock";
@@ -221,8 +236,8 @@ const COSTS: f32 = 330.0;
 /// Width of the moment in numbers.
 const TIME: f32 = 120.0;
 
-/// What a step costs by each method.
-fn costs(view: &TransientView) -> String {
+/// Returns the time per step of each method, as text.
+fn costs(view: &TransientRuns) -> String {
     let Some(first) = view.runs.first().map(Run::frame) else { return String::new() };
     let own = || view.runs.iter().filter(|run| run.frame() == first);
     let full = own().find(|run| run.by == MarchedBy::Full).and_then(Run::seconds_per_step);
@@ -240,13 +255,13 @@ fn costs(view: &TransientView) -> String {
     own().filter_map(said).collect::<Vec<_>>().join("   ")
 }
 
-/// How many times faster, in brackets.
+/// Returns a speed-up in brackets.
 pub fn faster(times: f64) -> String {
     format!(" (×{}{})", numbers::THIN, numbers::digits(times, 2))
 }
 
 /// Returns the contact and the inputs of the runs on the screen, for the caption of a figure.
-pub fn caption(view: &TransientView) -> Option<String> {
+pub fn caption(view: &TransientRuns) -> Option<String> {
     let setup = view.setup.as_ref()?;
     Some(format!("{}; {}", caption::contact(&setup.point, &setup.lubricant), export::inputs(setup)))
 }

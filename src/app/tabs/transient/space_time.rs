@@ -1,7 +1,7 @@
 //! Film or pressure of a line contact over space and time: X across, T upwards. A drag goes to the moment under the
 //! pointer.
 
-use super::runs::TransientView;
+use super::runs::TransientRuns;
 use crate::app::context::Context;
 use crate::app::figure::Texture;
 use crate::app::plot::{axes, color_bar, color_map};
@@ -184,7 +184,7 @@ fn resample(nodes: impl Iterator<Item = (f64, f64)>, values: &mut Vec<f32>) {
 }
 
 /// The run that is shown: the one that has come farthest, of these the first.
-fn shown(view: &TransientView) -> Option<&Run> {
+fn shown(view: &TransientRuns) -> Option<&Run> {
     let reached = view.runs.iter().map(Run::reached).fold(0.0, f64::max);
     view.runs.iter().find(|run| run.reached() >= reached && run.trajectory.states.len() > 1)
 }
@@ -250,7 +250,7 @@ impl SpaceTime {
         }
     }
 
-    fn plot(&self, ui: &mut Ui, view: &TransientView, (setup, run): (&Setup, &Run), height: f32) -> Option<f64> {
+    fn plot(&self, ui: &mut Ui, view: &TransientRuns, (setup, run): (&Setup, &Run), height: f32) -> Option<f64> {
         let texture = self.texture.as_ref()?.shown(ui.ctx());
         let (end, duration) = (self.samples.end(), setup.study.duration);
         let symbol = self.field.symbol().trim_matches(['{', '}']);

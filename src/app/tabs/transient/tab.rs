@@ -1,6 +1,6 @@
 //! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
 
-use super::runs::{InTimeCommand, TransientView};
+use super::runs::{TransientCommand, TransientRuns};
 use super::{badge, cost, dials, form, profiles};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -9,7 +9,7 @@ use crate::app::tabs::transient::space_time::{self, SpaceTime};
 use crate::app::tabs::transient::{export, series, shared};
 use crate::app::tabs::{About, Offer, View, view};
 use crate::engine::job::Standing;
-use egui::{ScrollArea, Ui};
+use egui::Ui;
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 300.0;
@@ -44,32 +44,19 @@ impl View for Transient {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        if let Some(why) = context.document.no_transient() {
-            shared::elsewhere(ui, context, why, commands);
-            return;
-        }
-        shared::follow(context, commands);
-        ui.horizontal_top(|ui| {
-            if self.form {
-                ui.vertical(|ui| {
-                    ui.set_width(FORM_WIDTH);
-                    let area = ScrollArea::vertical().id_salt("transient form").auto_shrink(false);
-                    area.show(ui, |ui| form::ui(ui, &mut self.last, context, commands));
-                });
-                ui.separator();
-            }
-            shared::over_the_time_bar(ui, "transient", context, commands, |ui, commands| {
-                self.results(ui, context, commands);
-            });
-        });
+        let page = ("transient", self.form.then_some(FORM_WIDTH));
+        let form = |tab: &mut Self, ui: &mut Ui, commands: &mut Commands| {
+            form::ui(ui, &mut tab.last, context, commands);
+        };
+        shared::page(ui, self, page, (context, commands), form, |tab, ui, commands| tab.results(ui, context, commands));
     }
 
     fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
         let view = context.transient;
         let there = view.runs.iter().any(|run| !run.trajectory.moments.is_empty()).then_some(view);
-        type Text = fn(&TransientView) -> Option<String>;
+        type Text = fn(&TransientRuns) -> Option<String>;
         let table = |name, tip, text: Text| {
-            Offer::table(name, tip, there, move |view: &&TransientView| text(view).unwrap_or_default())
+            Offer::table(name, tip, there, move |view: &&TransientRuns| text(view).unwrap_or_default())
         };
         let tip = "All moments of every run with their SI twins, each run in columns of its own";
         vec![
@@ -116,7 +103,7 @@ impl Transient {
             });
             wanted
         });
-        commands.extend(wanted.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+        commands.extend(wanted.inner.map(|time| Command::Transient(TransientCommand::GoTo(time))));
     }
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {

@@ -4,7 +4,7 @@
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{RangeSlider, choice};
 use crate::app::document::Edit;
-use crate::app::tabs::transient::TransientView;
+use crate::app::tabs::transient::TransientRuns;
 use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
 use crate::app::tabs::transient::reach::beyond;
 use crate::app::theme::{Palette, rich};
@@ -65,7 +65,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 }
 
 /// What to do beyond what was trained: the reduced model solves the nonlinear equations, but its modes are trained ones.
-fn advice(view: &TransientView) -> &'static str {
+fn advice(view: &TransientRuns) -> &'static str {
     let error = |of: fn(MarchedBy) -> bool| view.runs.iter().find(|run| of(run.by)).and_then(|run| run.difference);
     let reduced = error(|by| by == MarchedBy::Reduced);
     let linearised = error(|by| matches!(by, MarchedBy::Linearised(_)));

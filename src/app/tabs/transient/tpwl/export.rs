@@ -2,7 +2,7 @@
 
 use super::shown::ShownModel;
 use crate::app::export;
-use crate::app::tabs::transient::TransientView;
+use crate::app::tabs::transient::TransientRuns;
 use crate::app::tabs::transient::export::describe;
 use crate::app::tabs::transient::linearised::{Linearised, NumberRow};
 use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name, word};
@@ -99,7 +99,7 @@ pub fn weights(shown: &ShownModel<'_>) -> String {
 
 /// The model as arrays, with `weights_1` of the dual Taylor form and `weights_2` of (4.29): for every step (`times_1`,
 /// `times_2`) what each operating point counts.
-pub fn arrays(view: &TransientView, linearised: &Linearised) -> Vec<Array> {
+pub fn arrays(view: &TransientRuns, linearised: &Linearised) -> Vec<Array> {
     let model = &linearised.model;
     let mut arrays = model_arrays::of_linearised(model);
     for (weighting, run) in view.runs_of(linearised) {
@@ -122,7 +122,7 @@ pub fn arrays(view: &TransientView, linearised: &Linearised) -> Vec<Array> {
 }
 
 /// The study of numbers.
-pub fn numbers(view: &TransientView) -> String {
+pub fn numbers(view: &TransientRuns) -> String {
     let mut lines = view.setup.as_ref().map_or_else(Vec::new, |setup| describe(setup));
     let names = RULES.map(|rule| rule_name(rule).0).join(", 2 ");
     let words = WEIGHTINGS.map(|weighting| word(MarchedBy::Linearised(weighting))).join(", 2 ");

@@ -4,7 +4,7 @@ use crate::app::context::Context;
 use crate::app::numbers;
 use crate::app::tabs::transient::linearised::{Linearised, PointNow};
 use crate::app::tabs::transient::method::{WEIGHTINGS, weighting_name};
-use crate::app::tabs::transient::{Run, TransientView};
+use crate::app::tabs::transient::{Run, TransientRuns};
 use crate::app::theme::Palette;
 use crate::solver::full::transient::Quantity;
 use crate::solver::reduced::tpwl::Weighting;
@@ -36,10 +36,9 @@ impl Default for Choices {
 
 /// What all pictures of one frame share.
 pub struct ShownModel<'a> {
-    pub(super) view: &'a TransientView,
+    pub(super) view: &'a TransientRuns,
     pub(super) choices: &'a Choices,
     pub(super) linearised: &'a Linearised,
-    /// Its runs.
     pub(super) runs: Vec<(Weighting, &'a Run)>,
     /// Its points at the moment that is looked at.
     pub(super) points: Vec<PointNow>,

@@ -10,14 +10,14 @@ use crate::app::document::Edit;
 use crate::app::drawn;
 use crate::app::form::LastField;
 use crate::app::tabs::transient::linearised::Linearised;
-use crate::app::tabs::transient::{InTimeCommand, badge, methods, shared};
+use crate::app::tabs::transient::{TransientCommand, badge, methods, shared};
 use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::Palette;
 use crate::engine::job::Standing;
 use crate::scene::LinearisedTransient;
 use crate::solver::full::transient::Quantity;
 
-use egui::{Grid, ScrollArea, Ui};
+use egui::{Grid, Ui};
 
 /// Width of the settings.
 const FORM_WIDTH: f32 = 296.0;
@@ -47,11 +47,12 @@ impl Tpwl {
         let Some(linearised) = &view.linearised else { return };
         let compared = view.reference_of_linearised().is_some_and(|full| full.ended) && !view.waits();
         if compared && view.is_current() && view.standing().is_none() && !view.number.is_of(&linearised.model) {
-            commands.push(Command::InTime(InTimeCommand::StudyNumber));
+            commands.push(Command::Transient(TransientCommand::StudyNumber));
         }
     }
 
     fn results(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        self.fill_numbers(context, commands);
         let (top, height) = (ui.cursor().top(), ui.available_height());
         self.buttons(ui, context, commands);
         ui.horizontal_wrapped(|ui| {
@@ -77,7 +78,7 @@ impl Tpwl {
             pictures::all(ui, &ShownModel::new(Palette::of(ui), &self.choices, context, linearised), &mut sorting, rest)
         });
         self.sorting = sorting;
-        commands.extend(pictures.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
+        commands.extend(pictures.inner.map(|time| Command::Transient(TransientCommand::GoTo(time))));
     }
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
@@ -96,9 +97,9 @@ impl Tpwl {
             let button = ui.add_enabled_ui(runs || ready, |ui| either_button(ui, names, runs)).inner;
             if button.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
                 if runs {
-                    commands.push(Command::InTime(InTimeCommand::StopNumber));
+                    commands.push(Command::Transient(TransientCommand::StopNumber));
                 } else if view.reference_of_linearised().is_some() {
-                    commands.push(Command::InTime(InTimeCommand::StudyNumber));
+                    commands.push(Command::Transient(TransientCommand::StudyNumber));
                 }
             }
         });
@@ -183,25 +184,9 @@ impl View for Tpwl {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        if let Some(why) = context.document.no_transient() {
-            shared::elsewhere(ui, context, why, commands);
-            return;
-        }
-        shared::follow(context, commands);
-        self.fill_numbers(context, commands);
-        ui.horizontal_top(|ui| {
-            if self.form {
-                ui.vertical(|ui| {
-                    ui.set_width(FORM_WIDTH);
-                    let area = ScrollArea::vertical().id_salt("tpwl form").auto_shrink(false);
-                    area.show(ui, |ui| self.form_ui(ui, context, commands));
-                });
-                ui.separator();
-            }
-            shared::over_the_time_bar(ui, "tpwl", context, commands, |ui, commands| {
-                self.results(ui, context, commands);
-            });
-        });
+        let page = ("tpwl", self.form.then_some(FORM_WIDTH));
+        let form = |tab: &mut Self, ui: &mut Ui, commands: &mut Commands| tab.form_ui(ui, context, commands);
+        shared::page(ui, self, page, (context, commands), form, |tab, ui, commands| tab.results(ui, context, commands));
     }
 
     fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
