@@ -1,16 +1,20 @@
 //! EHL Explorer: elastohydrodynamic contacts, solved in full and by reduced models, on the screen and headless.
 //!
-//! Imports point one way: `app` and [`cli`] use [`engine`], which uses [`scene`], which uses [`solver`].
+//! Imports point one way: `app` and [`cli`] use [`engine`], which uses [`scene`], which uses [`solver`]. All of them stand
+//! on [`host`].
 //!
 //! * [`solver`] is the core: physics, the discrete equations, full and reduced systems, training.
 //! * [`scene`] is the experiment as a document: read, check, write; [`scene::study`] has one file for each question.
 //! * [`engine`] owns what is expensive and shared: grids, solvers, models and their files, jobs, the speed table.
-//! * [`cli`] holds the commands.
-//! * `app` is the explorer on the screen; without the feature `desktop` it is left out, for programs that only solve.
+//! * [`host`] owns the clock, the threads and the pool for parallel work.
+//! * [`cli`] holds the commands, `app` is the explorer on the screen; without the feature `desktop` both are left out, for
+//!   programs that only solve.
 
 #[cfg(feature = "desktop")]
 pub mod app;
+#[cfg(feature = "desktop")]
 pub mod cli;
 pub mod engine;
+pub mod host;
 pub mod scene;
 pub mod solver;

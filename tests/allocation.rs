@@ -2,21 +2,20 @@
 #![cfg(test)]
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
-use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::embedded;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{
     self, Frame, Inputs, Interpolation, Keep, Marching, Moment, Signal, Transient, TransientObserver, march,
 };
 use ehl_explorer::solver::observer::Observer;
+use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity, Scale};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Scheme};
-use ehl_explorer::solver::training::{
-    OilRange, Plan, Range, TrainingSpec, TrajectoryTraining, Windows, train, train_trajectories,
-};
+use ehl_explorer::solver::training::{Plan, TrainingSpec, TrajectoryTraining, Windows, train, train_trajectories};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::{Arc, Mutex};
@@ -64,6 +63,10 @@ fn allocations_of_a_solve(
     allocations() - before
 }
 
+fn space<const N: usize>(axes: [(Quantity, (f64, f64)); N]) -> ParameterSpace {
+    ParameterSpace::of(axes.map(|(quantity, ends)| Axis::new(quantity, ends)))
+}
+
 #[test]
 fn more_online_iterations_do_not_allocate_more() {
     let newtonian = si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap();
@@ -78,13 +81,9 @@ fn more_online_iterations_do_not_allocate_more() {
     let thinning = OperatingPoint { sliding, ..si_from_moes(&request).unwrap() };
     let ruptured = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let trained = |scheme| {
-        let range = Range::Moes {
-            m: (35.0, 45.0),
-            l: (9.0, 11.0),
-            alpha: (5e-9, 20e-9),
-            max_hertz_pressure: 3.2e9,
-            viscosity: 0.01,
-        };
+        let range = space([(Quantity::M, (35.0, 45.0)), (Quantity::L, (9.0, 11.0)), (Quantity::Alpha, (5e-9, 20e-9))])
+            .limited([(Quantity::HertzPressure, (0.0, 3.2e9))])
+            .fixing([(Quantity::Viscosity, 0.01)]);
         let (coarse, plan) =
             (GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }, Plan::FarthestPoint { snapshots: 16 });
         let spec = TrainingSpec::new(range, (10.0, 100.0), coarse, plan);
@@ -92,18 +91,17 @@ fn more_online_iterations_do_not_allocate_more() {
         Arc::new(train(&spec, &()).unwrap())
     };
     let oils = {
-        let range = OilRange {
-            m: (35.0, 45.0),
-            l: (9.0, 11.0),
-            alpha: (12e-9, 24e-9),
-            viscosity: (0.01, 0.1),
-            exponent: (0.4, 0.8),
-            hertz_pressure: (0.4e9, 3.2e9),
-            thinnest_film: 0.0,
-            radius_ratio: (1.0, 1.0),
-        };
+        let m = (35.0, 45.0);
+        let mut range = space([
+            (Quantity::M, m),
+            (Quantity::L, (9.0, 11.0)),
+            (Quantity::Alpha, (12e-9, 24e-9)),
+            (Quantity::Viscosity, (0.01, 0.1)),
+        ])
+        .limited([(Quantity::HertzPressure, (0.4e9, 3.2e9)), (Quantity::RoelandsExponent, (0.4, 0.8))]);
+        range.axes[1].scale = Scale::Log;
         let grid = GridSpec::Graded { nodes: 240, domain: (-6.0, 1.9), registered: true };
-        let spec = TrainingSpec::new(Range::Oils(range), range.m, grid, Plan::FarthestPoint { snapshots: 40 });
+        let spec = TrainingSpec::new(range, m, grid, Plan::FarthestPoint { snapshots: 40 });
         let windows = Windows::Anchored {
             count: 2,
             modes: 12,
@@ -118,8 +116,8 @@ fn more_online_iterations_do_not_allocate_more() {
     let oiled = OperatingPoint { viscosity_pa_s: 0.03, alpha_per_pa: 18e-9, ..newtonian };
     for (model, point, lubricant) in [
         (oils, oiled, ruptured),
-        (Embedded::Line.model().unwrap(), newtonian, Lubricant::default()),
-        (Embedded::ThinningLine.model().unwrap(), thinning, SQUALANE_PIP),
+        (embedded("line").unwrap(), newtonian, Lubricant::default()),
+        (embedded("line_shear").unwrap(), thinning, SQUALANE_PIP),
         (trained(Scheme::Galerkin), newtonian, ruptured),
         (trained(Scheme::LeastSquares { weighted: true }), newtonian, ruptured),
         (trained(Scheme::Gnat { weighted: true }), newtonian, ruptured),

@@ -8,8 +8,9 @@ use crate::app::controls::{described, named, sentence};
 use crate::app::display::Thresholds;
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
+use crate::engine::Warning;
 use crate::solver::full::GridCost;
-use crate::solver::reduced::{ErrorEstimate, STANDS_IN};
+use crate::solver::reduced::ErrorEstimate;
 use egui::{Align, Color32, CornerRadius, Frame, Label, Layout, Margin, RichText, Stroke, Ui, vec2};
 
 /// What the badge says.
@@ -57,19 +58,18 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         () => "full solution",
     };
     // Of a picture that is still another contact's nothing is said here.
-    let unresolved = answers.current_picture().and_then(|picture| picture.unresolved.as_ref());
-    let of_grid = unresolved.map_or_else(String::new, |why| format!("{} ", sentence(why)));
+    let warned = answers.current_picture().map_or_else(String::new, Picture::warned);
     match (picture.origin, answers.passed_over()) {
         (_, Some(PassedOver::Outside(why))) => make(
             "Outside the reduced model",
             format!("{full}: {why}"),
-            format!("{of_grid}The picture is a converged full solution; a reduced model never extrapolates here"),
+            format!("{warned}The picture is a converged full solution; a reduced model never extrapolates here"),
             Kind::Warning,
         ),
         (_, Some(PassedOver::Failed(why))) => make(
             "Reduced model failed",
             full.to_owned(),
-            format!("{}. {of_grid}The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
+            format!("{}. {warned}The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
             Kind::Warning,
         ),
         (_, Some(PassedOver::Reading)) => make(
@@ -91,14 +91,14 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
             Kind::Neutral,
         ),
         (Origin::Full, _) => match &picture.unresolved {
-            Some(warning) => {
+            Some(_) => {
                 let title = if picture.costly_grid { "Grid does not do" } else { "Side lobes unresolved" };
-                make(title, format!("full solution on {}", grid(picture)), warning.clone(), Kind::Warning)
+                make(title, format!("full solution on {}", grid(picture)), warned, Kind::Warning)
             }
             None => make(
                 "Verified",
                 if picture.has_plane() { format!("full solution on {}", grid(picture)) } else { full.to_owned() },
-                "No reduced model is loaded for this contact: the picture itself is a converged full solution".to_owned(),
+                format!("{warned}No reduced model is loaded for this contact: the picture itself is a converged full solution"),
                 Kind::Verified,
             ),
         },
@@ -117,12 +117,13 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                     };
                     let grid_cost = grid_cost.filter(|cost| *cost > thresholds.far_off);
                     let why = format!(
-                        "True errors against a full solution on the same grid. {of_grid}{}{how}",
+                        "True errors against a full solution on the same grid. {warned}{}{how}",
                         promised(c, error)
                     );
                     make(title, with_grid(c.describe(), grid_cost), why, kind)
                 }
                 _ => {
+                    let neighbour = Warning::NeighbouringModel.to_string();
                     let (detail, meaning) = match error {
                         Some(e) => (
                             format!(
@@ -133,9 +134,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                             "Calibrated bounds: 99 of 100 random contacts of the trained range err by less. They count \
                              against a full solution on the same grid",
                         ),
-                        None if stands_in => {
-                            ("no error bound: a window beside its own answers".to_owned(), STANDS_IN)
-                        }
+                        None if stands_in => ("no error bound: a window beside its own answers".to_owned(), neighbour.as_str()),
                         None => (
                             format!("no error bound, residual {{e_f}} {}", numbers::small(residual_estimate)),
                             "The model was not calibrated as it is used here (fewer modes, or an older training). e_f of \
@@ -148,7 +147,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                     };
                     let doubtful = answers.verify_failure().is_some() || picture.costly_grid || stands_in;
                     let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
-                    make("Reduced model", with_grid(detail, grid_cost), format!("{} {of_grid}{next}. {how}", sentence(meaning)), kind)
+                    make("Reduced model", with_grid(detail, grid_cost), format!("{} {warned}{next}. {how}", sentence(meaning)), kind)
                 }
             }
         }

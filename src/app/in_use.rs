@@ -7,9 +7,10 @@ use crate::app::refusal::Refusal;
 use crate::engine::job::Job;
 use crate::engine::{Store, Workbench};
 use crate::scene::{At, Grid, Method, ModelSource, Scene, Study, StudyRow, View};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{OperatingPoint, Sliding};
 use crate::solver::reduced::{ReducedModel, ReducedOptions};
-use crate::solver::training::{Range, random_points};
+use crate::solver::training::random_points;
 use std::sync::Arc;
 
 /// A model and its truncation: what a study judges, and by which it knows later whether it is out of date.
@@ -54,12 +55,9 @@ impl InUse {
         window.map_or_else(ReducedOptions::default, |window| self.method().options(window))
     }
 
-    /// What the model was trained for: the range of its training where it knows it, else the intervals it declares.
-    pub fn trained_range(&self) -> Range {
-        match Scene::from_ron(&self.model.scene).map(|scene| scene.study) {
-            Ok(Study::Training(spec)) => spec.range,
-            _ => Range::from(&self.model.domain),
-        }
+    /// Returns the space that the model covers.
+    pub fn trained_range(&self) -> ParameterSpace {
+        self.model.domain.space.clone()
     }
 
     /// A question about it, with a contact of the range that it was trained for; in full on its own grid.

@@ -36,6 +36,7 @@ const PAGES: &[Page] = pages![
     "trust.md",
     "programs.md",
     "files.md",
+    "model_file.md",
     "physics.md",
     "accuracy.md",
     "speed.md",

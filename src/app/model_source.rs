@@ -1,91 +1,95 @@
-//! Where the explorer's reduced models come from: one for each kind of contact and each fluid, or none.
+//! The reduced models that the explorer uses: those of the program, some of which are read when they are first needed, and
+//! the user's own in place of others.
 
-use crate::engine::{Embedded, Store};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
-use crate::solver::reduced::ReducedModel;
+use crate::engine::registry::{alike, best, loads_in_common};
+use crate::engine::{Store, catalogue};
+use crate::host::pool::on_all_cores;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::reduced::{Domain, ReducedModel};
 use rayon::prelude::*;
-use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
-/// The models that are read when they are first asked for: not everybody has ellipses, light balls, heat or oils that thin.
-const LATE: [Embedded; 7] = [
-    Embedded::LightCircle,
-    Embedded::Ellipse,
-    Embedded::HeatedLine,
-    Embedded::HeatedCircle,
-    Embedded::EyringLine,
-    Embedded::EyringCircle,
-    Embedded::LightEyringCircle,
-];
+/// Models that are read at the start; few users need the others.
+const FIRST: [&str; 4] = ["line", "line_shear", "point", "point_shear"];
 
-/// The reduced models in use. Where there is none for a contact and its fluid, the full solver draws the pictures.
+/// A model in use, or one of the program that is read when it is first needed.
+#[derive(Clone)]
+enum Known {
+    Read(Arc<ReducedModel>),
+    /// Its name and what it covers.
+    Later(&'static str, &'static Domain),
+}
+
+impl Known {
+    fn domain(&self) -> &Domain {
+        match self {
+            Self::Read(model) => &model.domain,
+            Self::Later(_, domain) => domain,
+        }
+    }
+
+    fn model(&self) -> Option<&Arc<ReducedModel>> {
+        match self {
+            Self::Read(model) => Some(model),
+            Self::Later(..) => None,
+        }
+    }
+}
+
+/// The reduced models in use. Where there is none for a contact, the full solver computes the pictures.
 #[derive(Clone, Default)]
 pub struct Models {
-    models: Vec<Arc<ReducedModel>>,
-    /// Those of the program that are read only when they are first asked for.
-    late: Vec<Embedded>,
+    known: Vec<Known>,
 }
 
 impl Models {
-    /// The models embedded in the program, some of them later. Without them (a damaged build) the full solver draws
-    /// the pictures.
+    /// The models of the program, some of them read later. Without them (a damaged build) the full solver computes the
+    /// pictures.
     pub fn embedded(store: &Store) -> Self {
-        let (late, first): (Vec<_>, Vec<_>) = Embedded::ALL.into_iter().partition(|which| LATE.contains(which));
         // Operators are computed as a model is read: all of them at once, for the window waits.
-        Self { models: first.par_iter().filter_map(|&which| store.embedded(which).ok()).collect(), late }
-    }
-
-    /// The model that has to be read before a contact can be served; only once.
-    pub fn late_for(&mut self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<Embedded> {
-        let wanted = Embedded::of(point, lubricant);
-        let place = self.late.iter().position(|late| *late == wanted)?;
-        Some(self.late.swap_remove(place))
+        let read = || FIRST.par_iter().filter_map(|name| store.embedded(name).ok()).map(Known::Read).collect();
+        let mut known: Vec<Known> = on_all_cores(read);
+        let later = catalogue().iter().filter(|entry| !FIRST.contains(&entry.name));
+        known.extend(later.map(|entry| Known::Later(entry.name, &entry.domain)));
+        Self { known }
     }
 
     /// Only this model, or none.
     pub fn only(model: Option<Arc<ReducedModel>>) -> Self {
-        Self { models: model.into_iter().collect(), late: Vec::new() }
+        Self { known: model.into_iter().map(Known::Read).collect() }
     }
 
-    /// The model that serves a contact with a fluid: one of its shape and of this very fluid, else one of another fluid
-    /// that thins under shear as little or as much, else one of circles; what it was trained for it says itself.
+    /// Returns the name of the model that has to be read before a contact can be served; only once.
+    pub fn late_for(&mut self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<&'static str> {
+        let all = self.known.iter().enumerate().map(|(place, known)| (place, known.domain()));
+        let place = best(all, point, lubricant)?;
+        match self.known.get(place) {
+            Some(Known::Later(name, _)) => {
+                let name = *name;
+                self.known.remove(place);
+                Some(name)
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns the model that serves a contact with a lubricant, of those that have been read.
     pub fn of(&self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
-        let (ellipse, m) = (point.radius_ratio() != 1.0, point.moes().m);
-        let round = || self.shaped(point.kind, false, lubricant, m);
-        self.shaped(point.kind, ellipse, lubricant, m).or_else(|| ellipse.then(round).flatten())
+        best(self.read().map(|model| (model, &model.domain)), point, lubricant)
     }
 
-    /// The model of a kind of contact, elliptical or not, with a fluid; with heat one that knows heat, where there is one.
-    /// Of several that differ in M alone it is the one that knows this load number, or comes nearest to it.
-    pub fn shaped(
-        &self,
-        kind: ContactKind,
-        ellipse: bool,
-        lubricant: &Lubricant,
-        m: f64,
-    ) -> Option<&Arc<ReducedModel>> {
-        let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
-        let akin = |model: &&Arc<ReducedModel>| thins(&model.domain.lubricant) == thins(lubricant);
-        let of_law = |model: &&Arc<ReducedModel>| law(&model.domain.lubricant) == law(lubricant);
-        let own = |model: &&Arc<ReducedModel>| model.domain.is_of(lubricant);
-        let shaped = |model: &&Arc<ReducedModel>| model.contact() == kind && model.of_ellipses() == ellipse;
-        let warm = |model: &&Arc<ReducedModel>| model.domain.heat.is_some();
-        let alike = || self.models.iter().filter(shaped).filter(akin);
-        let cold = || alike().filter(|model| !warm(model));
-        let wanted = lubricant.heat.is_some();
-        nearest(m, self.models.iter().filter(shaped).filter(own))
-            .or_else(|| nearest(m, alike().filter(|model| warm(model) && wanted)))
-            .or_else(|| nearest(m, cold().filter(of_law)))
-            .or_else(|| nearest(m, cold()))
+    /// Returns the model in use that a model would take the place of.
+    pub fn counterpart(&self, domain: &Domain) -> Option<&Arc<ReducedModel>> {
+        self.place(domain).and_then(|place| self.known[place].model())
     }
 
-    /// Puts a model in place of the one of its kind of contact, fluid and loads, which is returned.
+    /// Puts a model in place of the one of its kind of contact, lubricant and loads, which is returned.
     pub fn put(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
-        match self.place(&model) {
-            Some(place) => Some(std::mem::replace(&mut self.models[place], model)),
+        match self.place(&model.domain) {
+            Some(place) => std::mem::replace(&mut self.known[place], Known::Read(model)).model().cloned(),
             None => {
-                self.models.push(model);
+                self.known.push(Known::Read(model));
                 None
             }
         }
@@ -93,50 +97,35 @@ impl Models {
 
     /// Takes a model away.
     pub fn remove(&mut self, model: &Arc<ReducedModel>) {
-        self.models.retain(|other| !Arc::ptr_eq(other, model));
+        self.known.retain(|known| known.model().is_none_or(|other| !Arc::ptr_eq(other, model)));
     }
 
-    /// Whether contacts of a model's kind and loads, with a fluid like its own, have one.
+    /// True if contacts of a model's kind and loads, with a lubricant like its own, have one in use.
     pub fn serves(&self, model: &ReducedModel) -> bool {
-        let kind = |model: &ReducedModel| {
-            let laws = &model.domain.lubricant;
-            (model.contact(), model.of_ellipses(), law(laws), laws.heat.is_some())
-        };
-        self.models.iter().any(|known| kind(known) == kind(model) && in_common(known, model) > 0.0)
+        self.read().any(|known| alike(&known.domain, &model.domain))
     }
 
-    /// Whether a model is among them.
+    /// True if a model is in use.
     pub fn contains(&self, model: &Arc<ReducedModel>) -> bool {
-        self.models.iter().any(|other| Arc::ptr_eq(other, model))
+        self.read().any(|other| Arc::ptr_eq(other, model))
     }
 
-    /// The place of the model that another one is to replace: of its kind of contact and fluid the one with which it has
+    fn read(&self) -> impl Iterator<Item = &Arc<ReducedModel>> {
+        self.known.iter().filter_map(Known::model)
+    }
+
+    /// The place of the model that another one is to replace: of its kind of contact and lubricant the one with which it has
     /// most loads in common.
-    fn place(&self, wanted: &ReducedModel) -> Option<usize> {
-        let shape = |model: &ReducedModel| (model.contact(), model.of_ellipses());
-        let alike =
-            |model: &ReducedModel| shape(model) == shape(wanted) && model.domain.is_of(&wanted.domain.lubricant);
-        let shared = |place: &usize| in_common(&self.models[*place], wanted);
-        let places = (0..self.models.len()).filter(|place| alike(&self.models[*place]) && shared(place) > 0.0);
+    fn place(&self, wanted: &Domain) -> Option<usize> {
+        let same = |domain: &Domain| {
+            domain.contact == wanted.contact
+                && domain.space.of_ellipses() == wanted.space.of_ellipses()
+                && domain.is_of(&wanted.lubricant)
+        };
+        let shared = |place: &usize| loads_in_common(self.known[*place].domain(), wanted);
+        let places = (0..self.known.len()).filter(|place| same(self.known[*place].domain()) && shared(place) > 0.0);
         places.max_by(|a, b| shared(a).total_cmp(&shared(b)))
     }
-}
-
-/// Of several models the first that knows a load number, or else comes nearest to it.
-fn nearest<'a>(m: f64, models: impl Iterator<Item = &'a Arc<ReducedModel>>) -> Option<&'a Arc<ReducedModel>> {
-    let beyond = |model: &ReducedModel| (model.domain.m.0 / m).max(m / model.domain.m.1).max(1.0);
-    models.min_by(|a, b| beyond(a).total_cmp(&beyond(b)))
-}
-
-/// The loads that two models have in common, in ln M.
-fn in_common(a: &ReducedModel, b: &ReducedModel) -> f64 {
-    let (a, b) = (a.domain.m, b.domain.m);
-    (a.1.min(b.1) / a.0.max(b.0)).ln()
-}
-
-/// Which law of shear a lubricant has, whatever its constants.
-fn law(lubricant: &Lubricant) -> Discriminant<ShearLaw> {
-    discriminant(&lubricant.shear)
 }
 
 #[cfg(test)]
@@ -145,8 +134,9 @@ mod tests {
     use crate::app::document::{Document, Shape};
     use crate::scene::named_lubricant::{SQUALANE_PIP, by_name};
     use crate::solver::full::Problem;
-    use crate::solver::physics::contact::{MoesRequest, Quantity, Sliding, si_from_moes};
-    use crate::solver::physics::lubricant::{Heat, LimitingStress, ViscosityLaw};
+    use crate::solver::parameters::Quantity;
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, Sliding, si_from_moes};
+    use crate::solver::physics::lubricant::{Heat, LimitingStress, ShearLaw, ViscosityLaw};
     use crate::solver::reduced::Trust;
 
     fn line() -> OperatingPoint {
@@ -158,7 +148,8 @@ mod tests {
         let models = Models::embedded(&Store::default());
         let of = |lubricant: &Lubricant| models.of(&line(), lubricant).unwrap();
         let (newtonian, thinning) = (of(&Lubricant::default()), of(&SQUALANE_PIP));
-        assert!(newtonian.domain.sliding.is_none() && thinning.domain.sliding.is_some());
+        let plateau = |model: &ReducedModel| model.domain.space.varies(Quantity::NewtonianPlateauRatio);
+        assert!(!plateau(newtonian) && plateau(thinning));
         let barus = Lubricant { viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
         assert!(Arc::ptr_eq(of(&barus), newtonian));
         assert!(Arc::ptr_eq(of(&by_name("pao-650").unwrap().laws), thinning));
@@ -210,15 +201,16 @@ mod tests {
         let oil = Lubricant::default();
         let heavy = Arc::clone(models.of(&ball(50.0), &oil).unwrap());
         assert_eq!(models.late_for(&ball(50.0), &oil), None);
-        assert_eq!(models.late_for(&ball(6.0), &oil), Some(Embedded::LightCircle));
+        assert_eq!(models.late_for(&ball(6.0), &oil), Some("point_light"));
         assert!(Arc::ptr_eq(models.of(&ball(6.0), &oil).unwrap(), &heavy), "until it is there");
-        let light = store.embedded(Embedded::LightCircle).unwrap();
+        let light = store.embedded("point_light").unwrap();
         assert!(!models.serves(&light) && models.put(Arc::clone(&light)).is_none() && models.serves(&light));
         for (m, wanted) in [(2.0, &light), (6.0, &light), (12.5, &heavy), (900.0, &heavy)] {
             assert!(Arc::ptr_eq(models.of(&ball(m), &oil).unwrap(), wanted), "M = {m}");
         }
         let mut own = ReducedModel::clone(&heavy);
-        (own.domain.m, own.domain.lubricant) = ((4.0, 20.0), light.domain.lubricant);
+        own.domain.space.axis_mut(Quantity::M).unwrap().ends = (4.0, 20.0);
+        own.domain.lubricant = light.domain.lubricant;
         let own = Arc::new(own);
         let former = models.put(Arc::clone(&own)).unwrap();
         assert!(Arc::ptr_eq(&former, &light) && Arc::ptr_eq(models.of(&ball(6.0), &oil).unwrap(), &own));
@@ -235,9 +227,9 @@ mod tests {
         ball.set_shape(Shape::Ball).unwrap();
         let light = si_from_moes(&MoesRequest::new(ContactKind::Point, 6.0, 5.0)).unwrap();
         let homes = [
-            (Document::default().point, Embedded::EyringLine),
-            (ball.point, Embedded::EyringCircle),
-            (light, Embedded::LightEyringCircle),
+            (Document::default().point, "line_sliding"),
+            (ball.point, "point_sliding"),
+            (light, "point_light_sliding"),
         ];
         for (home, wanted) in homes {
             assert_eq!(models.late_for(&home, &oil), Some(wanted));
@@ -259,8 +251,8 @@ mod tests {
         let cold = Document::default().lubricant;
         let warm = Lubricant { heat: Some(Heat::default()), ..cold };
         assert_eq!(models.late_for(&line(), &cold), None);
-        assert_eq!(models.late_for(&line(), &warm), Some(Embedded::HeatedLine));
-        let heated = store.embedded(Embedded::HeatedLine).unwrap();
+        assert_eq!(models.late_for(&line(), &warm), Some("line_heat"));
+        let heated = store.embedded("line_heat").unwrap();
         let isothermal = Arc::clone(models.of(&line(), &warm).unwrap());
         assert!(!models.serves(&heated) && models.serves(&isothermal));
         assert!(models.put(Arc::clone(&heated)).is_none() && models.serves(&heated));
@@ -269,8 +261,8 @@ mod tests {
         // The contacts that the explorer opens with are among those they were trained for.
         let mut ball = Document::default();
         ball.set_shape(Shape::Ball).unwrap();
-        assert_eq!(models.late_for(&ball.point, &warm), Some(Embedded::HeatedCircle));
-        let of_balls = store.embedded(Embedded::HeatedCircle).unwrap();
+        assert_eq!(models.late_for(&ball.point, &warm), Some("point_heat"));
+        let of_balls = store.embedded("point_heat").unwrap();
         for (model, home) in [(&heated, Document::default().point), (&of_balls, ball.point)] {
             for srr in [0.0, 0.1, 1.0] {
                 let sliding = Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: None };

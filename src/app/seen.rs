@@ -1,9 +1,11 @@
 //! What the window shows and does, for those who look at it from outside: the tests.
 
+use super::answers::PassedOver;
 use super::tab::Tab;
 use super::{Explorer, badge, panels};
 use crate::scene::Table;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 
 impl Explorer {
@@ -61,6 +63,18 @@ impl Explorer {
     /// What the trust badge says after its first words; symbols stand in braces.
     pub fn badge_detail(&self) -> String {
         badge::verdict(&self.desk.answers, self.desk.display.thresholds).detail
+    }
+
+    /// Whether a reduced model was trained for the contact, and what a reader must know of its picture, one sentence each;
+    /// `None` until the picture is there.
+    pub fn trust(&self) -> Option<(bool, Vec<String>)> {
+        let answers = &self.desk.answers;
+        let said = answers.current_picture()?.warnings.iter().map(ToString::to_string);
+        match answers.passed_over() {
+            None => Some((true, said.collect())),
+            Some(PassedOver::Outside(why)) => Some((false, std::iter::once(why.clone()).chain(said).collect())),
+            Some(_) => None,
+        }
     }
 
     /// Whether a computation runs or waits.

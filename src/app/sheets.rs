@@ -8,7 +8,7 @@ use super::wake::wake;
 use crate::app::refusal::Refusal;
 use crate::engine::job::{Background, Job, Standing};
 use crate::engine::{EngineError, Workbench};
-use crate::scene::{ContactResult, Method, ModelSource, Request, Sheet, Solved, answer_or_full};
+use crate::scene::{Method, Sheet, answer_or_full};
 use crate::solver::reduced::Trust;
 use egui::Context;
 use std::sync::Arc;
@@ -56,39 +56,27 @@ impl Form {
 impl Sheets {
     /// Begins the sheet of the contact of a document.
     pub fn begin(&mut self, ctx: &Context, (document, answers): (&Document, &Answers), form: Form) {
-        let key = document.key();
-        let request = Request {
-            point: key.point,
-            lubricant: key.lubricant,
-            grid: document.grid,
-            grid_model: ModelSource::Embedded,
-        };
+        let (key, grid) = (document.key(), document.grid);
         let mut bench = Workbench::on(answers.store(), "");
         let mut methods = vec![Method::Full];
         if let Some(in_use) = answers.in_use(document).filter(|_| answers.trust(document) == Some(Trust::Trained)) {
             methods.push(in_use.method());
             bench = bench.using(&in_use.model);
         }
-        let (title, bodies) = (document.title.clone(), document.view.bodies.filter(|_| document.bodies_count()));
+        let (title, bodies) = (document.title.clone(), document.bodies_in_force());
         self.work.run(Job::start("Results sheet", wake(ctx), move |reporter| {
             let mut solve = || -> Result<Purpose, EngineError> {
                 let mut answers = Vec::new();
                 for (k, method) in methods.iter().enumerate() {
                     reporter.stage(&format!("solving, {}", method.name()), k, methods.len());
-                    answers.push(answer_or_full(&mut bench, &request, method, reporter)?);
+                    answers.push(answer_or_full(&mut bench, &key.request(grid, method.clone()), reporter)?);
                 }
-                let results: Vec<ContactResult> = answers.iter().map(ContactResult::from).collect();
-                let solved: Vec<Solved<'_>> = results
-                    .iter()
-                    .zip(&answers)
-                    .map(|(result, answer)| Solved { result, solution: answer.result() })
-                    .collect();
-                Ok(form.write(Sheet::new(&title, &solved, bodies.as_ref())))
+                Ok(form.write(Sheet::new(&title, &answers, bodies.as_ref())))
             };
             match solve() {
                 Ok(purpose) => reporter.send(purpose),
                 Err(error) if error.cancelled() || reporter.cancelled() => {}
-                Err(error) => return Err(error.to_string()),
+                Err(error) => return Err(error.to_string().into()),
             }
             Ok(())
         }));

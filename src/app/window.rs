@@ -1,6 +1,7 @@
 //! The native window.
 
 use crate::app::explorer::Explorer;
+use crate::app::refusal::Refusal;
 use std::path::PathBuf;
 
 /// By which the system knows the window, and the session its folder.
@@ -10,7 +11,7 @@ const APP_ID: &str = "ehl-explorer";
 ///
 /// # Errors
 /// One sentence when the scene cannot be read or there is no display.
-pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
+pub fn run(scene: Option<PathBuf>) -> Result<(), Refusal> {
     let mut explorer = Explorer::with_embedded_models();
     if let Some(folder) = eframe::storage_dir(APP_ID) {
         explorer.lessons.look_in(&folder.join("lessons"));
@@ -18,7 +19,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     }
     if let Some(path) = &scene {
         let of_the_session = explorer.desk.files.notice.take();
-        explorer.open_scene(path).map_err(|why| why.to_string())?;
+        explorer.open_scene(path)?;
         let files = &mut explorer.desk.files;
         files.notice = of_the_session.or_else(|| files.notice.take());
     }
@@ -42,9 +43,9 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
     .map_err(|error| {
         let error = error.to_string();
         let reason = error.rsplit(": ").next().unwrap_or(&error).trim_end_matches('.');
-        format!(
+        Refusal::new(format!(
             "no window can be opened here ({reason}); without a display use the headless commands \
              `ehl-explorer solve`, `ehl-explorer run` or `ehl-explorer bench`"
-        )
+        ))
     })
 }

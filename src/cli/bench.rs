@@ -1,7 +1,8 @@
 //! `bench`: the speed table.
 
 use super::failure::Failure;
-use super::{Verdict, output};
+use super::output;
+use super::verdict::Verdict;
 use crate::engine::bench;
 use clap::Args;
 use std::fmt::Write;

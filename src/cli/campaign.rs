@@ -1,13 +1,14 @@
 //! `campaign`: a scene's work in shards.
 
-use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use super::run::describe;
+use super::verdict::Verdict;
+use crate::engine::campaign::compute::{Done, compute};
 use crate::engine::campaign::merge::{Merged, Whole, merge};
 use crate::engine::campaign::plan::plan;
-use crate::engine::campaign::shard::{Done, compute};
 use crate::engine::campaign::{CampaignError, Folder, local};
+use crate::host::pool::cores;
 use clap::{Args, Subcommand, ValueEnum};
 use serde::Serialize;
 use std::num::NonZero;
@@ -163,7 +164,6 @@ fn merged(path: &Path) -> Result<Verdict, Failure> {
 
 fn run_here(args: &RunArgs) -> Result<Verdict, Failure> {
     let Place::Local = args.on;
-    let cores = || std::thread::available_parallelism().map_or(1, NonZero::get);
     let workers = args.workers.map_or_else(cores, |workers| usize::from(workers.get()));
     let program = std::env::current_exe()
         .map_err(|reason| Failure::Request(format!("the program's own file cannot be found: {reason}")))?;

@@ -1,13 +1,14 @@
 //! `cases`: a table of load cases.
 
-use super::Verdict;
 use super::failure::Failure;
-use super::options::MethodName;
+use super::options::choices;
 use super::output::{self, ProgressLine};
-use crate::engine::{ContactResult, Workbench};
+use super::verdict::Verdict;
+use crate::engine::Workbench;
 use crate::scene::study::load_cases::{LoadCases, Row};
 use crate::scene::{
-    CaseTable, Grid, Method, ModelSource, Scene, Study, StudyObserver, StudyRow, atomic_file, run_scene,
+    CaseTable, Field, Grid, Method, ModelSource, ResultJson, Scene, Study, StudyObserver, StudyRow, atomic_file,
+    run_scene,
 };
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
@@ -19,13 +20,12 @@ use std::sync::{Mutex, PoisonError};
 /// Options of `cases`.
 #[derive(Debug, Args)]
 pub struct CasesArgs {
-    /// The table: a line of titles, then a contact a line. Columns are name, contact, lubricant, oil, temperature, radius,
-    /// speed, load, modulus, viscosity, alpha, M, L, srr, npr; a unit stands in a title, as `load [N/mm]`, or in a cell
-    #[arg(value_name = "TABLE.csv")]
+    /// The table
+    #[arg(value_name = "TABLE.csv", help = table_help())]
     table: PathBuf,
     /// How each is solved; full,reduced for both
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "full")]
-    method: Vec<MethodName>,
+    #[arg(long, value_parser = choices(Field::Method), value_delimiter = ',', default_value = "full")]
+    method: Vec<String>,
     /// Reduced model to use (default: the embedded one of the kind of contact)
     #[arg(long, value_name = "FILE")]
     rom: Option<PathBuf>,
@@ -37,15 +37,20 @@ pub struct CasesArgs {
     json: bool,
 }
 
+fn table_help() -> String {
+    format!(
+        "The table: a line of titles, then a contact a line. Columns are name and those of the flags of `solve`: {}; a \
+         unit stands in a title, as `load [N/mm]`, or in a cell",
+        CaseTable::accepted()
+    )
+}
+
 /// Runs the command: bad lines are named, all others solved.
 pub fn run(args: &CasesArgs) -> Result<Verdict, Failure> {
     let source = || args.rom.clone().map_or(ModelSource::Embedded, ModelSource::File);
-    let method = |name: &MethodName| match name {
-        MethodName::Full => Method::Full,
-        MethodName::Reduced => Method::reduced(source()),
-    };
+    let method = |name: &String| if name == "reduced" { Method::reduced(source()) } else { Method::Full };
     let methods: Vec<Method> = args.method.iter().map(method).collect();
-    if args.rom.is_some() && !args.method.contains(&MethodName::Reduced) {
+    if args.rom.is_some() && methods.iter().all(|method| *method == Method::Full) {
         return Err(Failure::Request("--rom has no effect here; add --method reduced".to_owned()));
     }
     let study = Study::LoadCases(LoadCases { cases: CaseTable::File(args.table.clone()), methods });
@@ -83,7 +88,7 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<&'a str>,
     #[serde(flatten)]
-    result: Option<&'a ContactResult>,
+    result: Option<ResultJson<'a>>,
 }
 
 fn print(row: &Row) -> Result<(), Failure> {
@@ -91,7 +96,9 @@ fn print(row: &Row) -> Result<(), Failure> {
     let line = Line { line: *line, name, refused: None, result: None };
     match results {
         Err(why) => output::print_json(&Line { refused: Some(why), ..line }),
-        Ok(results) => results.iter().try_for_each(|result| output::print_json(&Line { result: Some(result), ..line })),
+        Ok(results) => {
+            results.iter().try_for_each(|result| output::print_json(&Line { result: Some(result.json()), ..line }))
+        }
     }
 }
 

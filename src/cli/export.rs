@@ -1,7 +1,8 @@
 //! `export`: a reduced model as other programs take it.
 
 use super::failure::Failure;
-use super::{Verdict, output};
+use super::output;
+use super::verdict::Verdict;
 use crate::engine::coupled::{Pressed, fmu};
 use crate::engine::{EngineError, SavedModel};
 use crate::scene::atomic_file;
@@ -62,7 +63,8 @@ pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     }
     let library = library(args.library.as_deref())?;
     let pressed = if args.approach { Pressed::Approach } else { Pressed::Load };
-    let archive = fmu::archive(&model, content, pressed, library).map_err(Failure::Request)?;
+    let archive =
+        fmu::archive(&model, content, pressed, library).map_err(|refused| Failure::Request(refused.to_string()))?;
     atomic_file::replace(&args.out, &archive)?;
     let megabytes = archive.len() as f64 / 1e6;
     output::print(&format!("{}: {megabytes:.1} MB, for {}\n", args.out.display(), fmu::library_place()))?;

@@ -1,8 +1,8 @@
 //! Why a command gives no result, each as one sentence.
 
 use crate::engine::EngineError;
-use crate::scene::SceneFileError;
 use crate::scene::atomic_file::WriteError;
+use crate::scene::{Refusal, SceneFileError, Words};
 
 /// Why a command stops.
 #[derive(Debug, thiserror::Error)]
@@ -46,4 +46,19 @@ impl From<std::io::Error> for Failure {
     fn from(error: std::io::Error) -> Self {
         if error.kind() == std::io::ErrorKind::BrokenPipe { Self::ReaderLeft } else { Self::Output(error) }
     }
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Self::Request(refusal.in_words(Words::Flags))
+    }
+}
+
+/// The first paragraph of clap's message, on one line.
+pub fn usage(error: &clap::Error) -> Failure {
+    let text = error.render().to_string();
+    let paragraph: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let sentence = paragraph.join(" ");
+    let sentence = sentence.strip_prefix("error: ").unwrap_or(&sentence);
+    Failure::Request(format!("{sentence}; --help lists what is accepted"))
 }

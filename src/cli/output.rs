@@ -1,13 +1,14 @@
 //! Standard output and standard error without panics: a reader that leaves ends the program quietly.
 
 use super::failure::Failure;
+use crate::host::clock::Stopwatch;
 use crate::scene::StudyObserver;
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Prints text as it is.
 pub fn print(text: &str) -> Result<(), Failure> {
@@ -34,14 +35,14 @@ pub fn complain(sentence: &str) {
 pub struct ProgressLine {
     terminal: bool,
     stages: bool,
-    state: Mutex<(String, Instant)>,
+    /// The stage shown last, and since when.
+    state: Mutex<(String, Option<Stopwatch>)>,
 }
 
 impl ProgressLine {
     /// A quiet start; with `stages` a line per stage where standard error is no terminal.
     pub fn new(stages: bool) -> Self {
-        let past = Instant::now().checked_sub(Duration::from_secs(1)).unwrap_or_else(Instant::now);
-        Self { terminal: io::stderr().is_terminal(), stages, state: Mutex::new((String::new(), past)) }
+        Self { terminal: io::stderr().is_terminal(), stages, state: Mutex::default() }
     }
 
     /// Clears the line.
@@ -60,7 +61,7 @@ impl Observer for ProgressLine {
     fn progress(&self, progress: Progress) {
         let Ok(mut state) = self.state.lock() else { return };
         let new_stage = state.0 != progress.stage;
-        if !new_stage && state.1.elapsed() < Duration::from_millis(100) {
+        if !new_stage && state.1.is_some_and(|shown| shown.elapsed() < Duration::from_millis(100)) {
             return;
         }
         let Progress { stage, done, total } = progress;
@@ -69,6 +70,6 @@ impl Observer for ProgressLine {
         } else if new_stage && self.stages {
             let _ = writeln!(io::stderr(), "{stage} ({total})");
         }
-        *state = (stage, Instant::now());
+        *state = (stage, Some(Stopwatch::start()));
     }
 }

@@ -1,8 +1,8 @@
 //! `run`: scenes, held against their expectations.
 
-use super::Verdict;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
+use super::verdict::Verdict;
 use crate::engine::results::day_of;
 use crate::engine::table::Number;
 use crate::engine::{EngineError, SceneOutcome, Store, Workbench, model_file, run_scene};
@@ -76,8 +76,9 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     Ok(verdict)
 }
 
-fn day(text: &str) -> Result<Date, String> {
-    day_of(text).ok_or_else(|| "a day is written as year, month and day: 2026-11-29".to_owned())
+fn day(text: &str) -> Result<Date, Failure> {
+    let accepted = "a day is written as year, month and day: 2026-11-29";
+    day_of(text).ok_or_else(|| Failure::Request(accepted.to_owned()))
 }
 
 /// Makes the folder of outcomes where one is wanted.

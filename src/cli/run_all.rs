@@ -1,11 +1,14 @@
 //! `run --all`: every scene below a folder, and the page of what came of them.
 
-use super::Verdict;
 use super::failure::Failure;
 use super::output;
 use super::run::{RunArgs, keep_model, make_out, outcome_of, stem, tell};
+use super::verdict::Verdict;
 use crate::engine::results::{Entry, PAGE, SceneFile, entries_of, page, scenes_below, summary};
-use crate::engine::{Store, job::guarded};
+use crate::engine::{
+    Store,
+    job::{JobError, guarded},
+};
 use crate::scene::atomic_file;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -76,7 +79,7 @@ fn serves(entry: &Entry, file: &SceneFile, args: &RunArgs) -> bool {
 
 fn entry_of(file: &SceneFile, args: &RunArgs, store: &Store, all: &[PathBuf]) -> Result<Entry, Failure> {
     let ran = guarded(|| outcome_of(&file.path, &file.scene, store));
-    let outcome = ran.and_then(|outcome| outcome.map_err(|refused| refused.to_string()));
+    let outcome = ran.map_err(JobError::from).and_then(|outcome| outcome.map_err(JobError::failed));
     match &outcome {
         Ok(outcome) => {
             if let Some(out) = &args.out {
@@ -97,7 +100,7 @@ fn entry_of(file: &SceneFile, args: &RunArgs, store: &Store, all: &[PathBuf]) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use time::{Duration, OffsetDateTime};
+    use time::Duration;
 
     /// A scene of one contact at M = 10, L = 5, which expects a film above `least`.
     fn scene(quick: bool, method: &str, least: f64) -> String {
@@ -143,7 +146,7 @@ mod tests {
             page.contains("3 scenes with 3 expectations: 2 fall short") && page.contains("| kept | ok |"),
             "{page}"
         );
-        let since = OffsetDateTime::now_utc().date().saturating_add(Duration::days(2));
+        let since = crate::host::clock::today().saturating_add(Duration::days(2));
         run(&RunArgs { since: Some(since), ..args(false, true) }).unwrap();
         assert!(std::fs::read_to_string(scenes.join(PAGE)).unwrap().contains(film));
         // Of a scene that is another now nothing is, unless it runs; what is not asked for stays as it is.

@@ -2,9 +2,11 @@
 
 use super::failure::Failure;
 use super::options::PointOptions;
-use super::{Verdict, output};
+use super::output;
+use super::verdict::Verdict;
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
-use crate::scene::{Method, Sheet, Solved, answer_or_full, atomic_file};
+use crate::host::clock::Stopwatch;
+use crate::scene::{Method, ResultJson, Sheet, answer_or_full, atomic_file};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::Rises;
 use crate::solver::observer::{NewtonStep, Observer};
@@ -15,7 +17,6 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
 
 /// Values with nine decimals: what they are called here, and in a result.
 const DIMENSIONLESS: [(&str, &str); 8] = [
@@ -71,8 +72,8 @@ pub struct SolveArgs {
 
 /// Runs the command.
 pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
-    let (request, method) = args.point.request()?;
-    if args.accuracy && (request.point.kind == ContactKind::Line || method != Method::Full) {
+    let request = args.point.0.request()?;
+    if args.accuracy && (request.point.kind == ContactKind::Line || request.method != Method::Full) {
         return Err(Failure::Request(
             "--accuracy belongs to full solutions of point contacts; add --contact point, or leave it out".to_owned(),
         ));
@@ -84,40 +85,39 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
         return Err(Failure::Request(sentence));
     }
     let mut workbench = Workbench::new("");
-    let progress = Progress { begin: Instant::now(), next: AtomicUsize::new(2) };
-    let answer = answer_or_full(&mut workbench, &request, &method, &progress)?;
+    let progress = Progress { begin: Stopwatch::start(), next: AtomicUsize::new(2) };
+    let answer = answer_or_full(&mut workbench, &request, &progress)?;
     type Fields = fn(&Solution) -> Table;
     let files: [(&Option<PathBuf>, Fields); 2] = [
         (&args.profiles, |solution| profile_table("profiles", solution)),
         (&args.film_shear, |solution| film_shear_table("film_shear", solution)),
     ];
     for (path, fields) in files.into_iter().filter_map(|(path, fields)| Some((path.as_ref()?, fields))) {
-        match answer.result() {
+        match answer.fields() {
             Some(solution) => atomic_file::replace(path, fields(solution).to_csv().as_bytes())?,
             None => output::complain(&format!("{} is not written: the solve did not converge", path.display())),
         }
     }
-    let mut report = Report { result: ContactResult::from(&answer), accuracy: None };
-    if args.accuracy && answer.converged {
+    let mut report = Report { result: answer.result.json(), accuracy: None };
+    if args.accuracy && answer.result.converged {
         report.accuracy = Some(workbench.grid_accuracy(&answer, &progress)?);
     }
     if let Some(path) = &args.sheet {
-        let solved = Solved { result: &report.result, solution: answer.result() };
         let kind = request.point.kind.name();
         let title = format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""));
-        atomic_file::replace_all(&Sheet::new(&title, &[solved], None).files(path))?;
+        atomic_file::replace_all(&Sheet::new(&title, std::slice::from_ref(&answer), None).files(path))?;
     }
     if args.json {
         output::print_json(&report)?;
     } else {
-        output::print(&describe(&report))?;
+        output::print(&describe(&answer.result, report.accuracy.as_ref()))?;
     }
-    Ok(if answer.converged { Verdict::Done } else { Verdict::FellShort })
+    Ok(if answer.result.converged { Verdict::Done } else { Verdict::FellShort })
 }
 
 /// Says on standard error how a solve goes on, from the second second on.
 struct Progress {
-    begin: Instant,
+    begin: Stopwatch,
     /// The second in which it speaks next.
     next: AtomicUsize,
 }
@@ -125,7 +125,7 @@ struct Progress {
 impl Observer for Progress {
     fn newton_step(&self, step: &NewtonStep) {
         let NewtonStep { iteration, step, .. } = step;
-        let seconds = self.begin.elapsed().as_secs_f64();
+        let seconds = self.begin.seconds();
         if seconds >= self.next.load(Ordering::Relaxed) as f64 {
             self.next.store((1.3 * seconds) as usize + 2, Ordering::Relaxed);
             output::complain(&format!("{seconds:.0} s: Newton step {iteration}, the last of size {step:.1e}"));
@@ -137,15 +137,15 @@ impl TrainingObserver for Progress {}
 
 /// A result, with what the grid of a point contact costs where that was asked for.
 #[derive(Serialize)]
-struct Report {
+struct Report<'a> {
     #[serde(flatten)]
-    result: ContactResult,
+    result: ResultJson<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<GridAccuracy>,
 }
 
 /// The report for people.
-fn describe(Report { result, accuracy }: &Report) -> String {
+fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         // Writing to a string cannot fail.
@@ -155,7 +155,7 @@ fn describe(Report { result, accuracy }: &Report) -> String {
     line("method", format!("{}, {} contact", result.method, point.kind.name()));
     line("converged", if result.converged { "yes" } else { "no" }.to_owned());
     if !result.warnings.is_empty() {
-        line("warning", result.warnings.join("; "));
+        line("warning", result.warning());
     }
     line("R", format!("{:.6e} m", point.radius_m));
     if let Some(radius_y_m) = point.radius_y_m {

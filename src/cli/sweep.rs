@@ -1,15 +1,11 @@
 //! `sweep`: the same along one or two varied options.
 
-use super::Verdict;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output::{self, ProgressLine};
-use crate::engine::{CONTACT_COLUMNS, ContactResult, Request, Table, Workbench, result_columns};
-use crate::scene::check::MAX_POINTS;
-use crate::scene::{Bench, Method, Steps, atomic_file};
-use crate::solver::full::Solution;
-use crate::solver::observer::Progress;
-use crate::solver::training::TrainingObserver;
+use super::verdict::Verdict;
+use crate::engine::{ContactResult, Workbench};
+use crate::scene::{ContactSweep, Swept, Varied, atomic_file};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -18,7 +14,7 @@ use std::path::PathBuf;
 pub struct SweepArgs {
     /// What is varied, once or twice; NAME is a numeric option, as moes-m or speed. With :log for a constant ratio, with
     /// :graded:HALF for half of the values up to HALF and ever wider steps, as srr=0:1:41:graded:0.05
-    #[arg(value_name = "NAME=FROM:TO:N[:log|:graded:HALF]", required = true, num_args = 1..=2, value_parser = varied)]
+    #[arg(value_name = "NAME=FROM:TO:N[:log|:graded:HALF]", required = true, num_args = 1..=2)]
     varied: Vec<Varied>,
     #[command(flatten)]
     point: PointOptions,
@@ -30,156 +26,22 @@ pub struct SweepArgs {
     json: bool,
 }
 
-/// One varied option and the values it takes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Varied {
-    /// Its name without the leading dashes, as [`PointOptions::set`] knows it.
-    pub name: String,
-    /// Its values.
-    pub steps: Steps,
-}
-
-impl std::str::FromStr for Varied {
-    type Err = String;
-
-    /// Reads `NAME=FROM:TO:N[:log|:graded:HALF]`.
-    fn from_str(text: &str) -> Result<Self, String> {
-        varied(text)
-    }
-}
-
-fn varied(text: &str) -> Result<Varied, String> {
-    let shape = "write NAME=FROM:TO:N, as in moes-m=10:100:19, with :log for a constant ratio or :graded:HALF for half \
-                 of the values up to HALF";
-    let (name, range) = text.split_once('=').ok_or(shape)?;
-    let parts: Vec<&str> = range.split(':').collect();
-    let (ends, log, half) = match parts.as_slice() {
-        [from, to, n] => ((*from, *to, *n), false, None),
-        [from, to, n, "log"] => ((*from, *to, *n), true, None),
-        [from, to, n, "graded", half] => ((*from, *to, *n), false, Some(*half)),
-        _ => return Err(shape.to_owned()),
-    };
-    let number = |text: &str| text.parse::<f64>().map_err(|_| format!("`{text}` is no number; {shape}"));
-    let (from, to) = (number(ends.0)?, number(ends.1)?);
-    let n: usize = ends.2.parse().map_err(|_| format!("`{}` is no count; {shape}", ends.2))?;
-    if !(from.is_finite() && to.is_finite()) {
-        return Err(format!("{from} to {to} is no finite range; {shape}"));
-    }
-    if !(1..=MAX_POINTS).contains(&n) {
-        return Err(format!("{n} values are asked for; between 1 and {MAX_POINTS} are accepted"));
-    }
-    if log && !(from > 0.0 && to > 0.0) {
-        return Err("a constant ratio needs positive ends; leave out :log".to_owned());
-    }
-    let steps = match half.map(number).transpose()? {
-        Some(half) => {
-            Steps::check_grading(from, half, to)?;
-            Steps::Graded { from, half, to, n }
-        }
-        None if log => Steps::Log { from, to, n },
-        None => Steps::Linear { from, to, n },
-    };
-    Ok(Varied { name: name.to_owned(), steps })
-}
-
 /// Runs the command: all requests are checked before the first is solved.
 pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
-    let sweep = Sweep::new(&args.varied, &args.point)?;
+    let sweep = ContactSweep::new(&args.varied, &args.point.0)?;
     let (progress, total) = (ProgressLine::new(false), sweep.points.len());
-    let tell = |result: &ContactResult| if args.json { output::print_json(result) } else { Ok(()) };
-    let Swept { table, failures, doubtful, worst } = sweep.solve(&mut Workbench::new(""), &progress, tell)?;
+    let tell = |result: &ContactResult| if args.json { output::print_json(&result.json()) } else { Ok(()) };
+    let Swept { table, failures, warnings } = sweep.solve(&mut Workbench::new(""), &progress, tell)?;
     progress.finish();
     match &args.csv {
         Some(path) => atomic_file::replace(path, table.to_csv().as_bytes())?,
         None if !args.json => output::print(&table.to_csv())?,
         None => {}
     }
-    if doubtful > 0 {
-        output::complain(&format!("the grid does not do for {doubtful} of {total} points; the last of them: {worst}"));
-    }
+    warnings.iter().for_each(|warning| output::complain(warning));
     if failures > 0 {
         output::complain(&format!("{failures} of {total} points did not converge; their scalars are left empty"));
         return Ok(Verdict::FellShort);
     }
     Ok(Verdict::Done)
-}
-
-/// Contacts along one or two varied options, checked and not yet solved.
-pub struct Sweep {
-    names: Vec<String>,
-    points: Vec<Point>,
-}
-
-/// The varied values of a contact, and the contact.
-type Point = (Vec<f64>, Request, Method);
-
-/// What a sweep gave.
-pub struct Swept {
-    /// A row for each contact: varied values, the contact, its result; NaN where it did not converge.
-    pub table: Table,
-    /// How many did not converge.
-    pub failures: usize,
-    /// For how many the grid does not do.
-    pub doubtful: usize,
-    /// What is to be said of the last of them.
-    pub worst: String,
-}
-
-impl Sweep {
-    /// The contacts that options describe when some of them are varied, the last one fastest.
-    ///
-    /// # Errors
-    /// When one of them is refused, or there are too many.
-    pub fn new(varied: &[Varied], options: &PointOptions) -> Result<Self, Failure> {
-        let product = varied.iter().try_fold(1usize, |product, v| product.checked_mul(v.steps.len()));
-        if product.is_none_or(|points| points > MAX_POINTS) {
-            return Err(Failure::Request(format!("the sweep has too many points; at most {MAX_POINTS} are accepted")));
-        }
-        let point = |values: Vec<f64>| {
-            let mut options = options.clone();
-            for (axis, &value) in varied.iter().zip(&values) {
-                options.set(&axis.name, value)?;
-            }
-            let (request, method) = options.request()?;
-            Ok((values, request, method))
-        };
-        let tuples = Steps::combinations(varied.iter().map(|axis| &axis.steps));
-        let points = tuples.into_iter().map(point).collect::<Result<_, Failure>>()?;
-        Ok(Self { names: varied.iter().map(|v| v.name.clone()).collect(), points })
-    }
-
-    /// Solves them, each from its neighbour; `tell` is shown each result.
-    ///
-    /// # Errors
-    /// When one is refused, the observer cancels, or `tell` refuses to hear more.
-    pub fn solve(
-        self,
-        bench: &mut dyn Bench,
-        observer: &dyn TrainingObserver,
-        mut tell: impl FnMut(&ContactResult) -> Result<(), Failure>,
-    ) -> Result<Swept, Failure> {
-        let heat = self.points.iter().any(|(_, request, _)| request.lubricant.heat.is_some());
-        let columns = [&CONTACT_COLUMNS[..], &result_columns(heat)].concat();
-        let titles: Vec<&str> = self.names.iter().map(String::as_str).chain(columns.iter().copied()).collect();
-        let table = Table::new("sweep", &titles);
-        let mut swept = Swept { table, failures: 0, doubtful: 0, worst: String::new() };
-        let (mut former, total) = (None, self.points.len());
-        for (i, (values, request, method)) in self.points.into_iter().enumerate() {
-            observer.progress(Progress { stage: "sweep".to_owned(), done: i, total });
-            let answer = bench.answer(&request, &method, former.as_ref(), observer)?;
-            let result = ContactResult::from(&answer);
-            tell(&result)?;
-            swept.table.rows.push(values.into_iter().chain(result.row(&columns)).collect());
-            if answer.converged {
-                if let Some(warning) = answer.solution.as_ref().and_then(Solution::grid_warning) {
-                    swept.doubtful += 1;
-                    swept.worst = warning;
-                }
-                former = answer.solution;
-            } else {
-                swept.failures += 1;
-            }
-        }
-        Ok(swept)
-    }
 }

@@ -2,14 +2,13 @@
 //! written, so that the same command goes on where a killed one stopped.
 
 use super::failure::Failure;
-use super::options::CavitationName;
+use super::options::choices;
 use super::output::{self, ProgressLine};
-use super::{Verdict, info};
+use super::verdict::Verdict;
 use crate::engine::model_file::ModelFileError;
 use crate::engine::training_file::{self, TrainingKeeper};
-use crate::engine::{EngineError, Workbench, model_file, trajectory_file};
-use crate::scene::Scene;
-use crate::solver::physics::lubricant::Cavitation;
+use crate::engine::{EngineError, SavedModel, Workbench, model_file, model_text};
+use crate::scene::{ContactSpec, Field, Scene};
 use crate::solver::training::{Observer, Progress, TrainingObserver, TrainingState, train_resumable};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -25,14 +24,18 @@ pub struct TrainArgs {
     #[arg(long, value_name = "FILE.rom")]
     out: PathBuf,
     /// How films rupture, in place of what the scene says
-    #[arg(long, value_enum)]
-    cavitation: Option<CavitationName>,
+    #[arg(long, value_parser = choices(Field::Cavitation))]
+    cavitation: Option<String>,
 }
 
 /// Runs the command.
 pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     let mut scene = Scene::read(&args.scene)?;
-    scene.cavitation = args.cavitation.map_or(scene.cavitation, Cavitation::from);
+    if let Some(word) = &args.cavitation {
+        let mut stated = ContactSpec::default();
+        stated.read_si(Field::Cavitation, word)?;
+        scene.cavitation = stated.cavitation.unwrap_or_default();
+    }
     if scene.trains_in_time() {
         check_out(&args.out)?;
         return in_time(&scene, args);
@@ -74,7 +77,7 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
         }
     }
     watch.keeper.discard().map_err(EngineError::from)?;
-    output::print(&info::describe(&model))?;
+    output::print(&model_text::describe(&model))?;
     Ok(Verdict::Done)
 }
 
@@ -111,8 +114,9 @@ fn in_time(scene: &Scene, args: &TrainArgs) -> Result<Verdict, Failure> {
     let trained = scene.train_in_time(&mut Workbench::new(folder), &progress);
     progress.finish();
     let model = Arc::new(trained?);
-    let written = write(&args.out, |path| trajectory_file::write(&model, path))?;
-    output::print(&info::describe_in_time(&model))?;
+    let saved = SavedModel::InTime(Arc::clone(&model));
+    let written = write(&args.out, |path| saved.write(path))?;
+    output::print(&model_text::describe_in_time(&model))?;
     Ok(written)
 }
 

@@ -8,22 +8,24 @@ pub use heat::HEAT_BASELINE;
 
 use super::model_file::ModelFileError;
 use super::store::Store;
-use super::{Embedded, EngineError, median, percentile};
+use super::{EngineError, median, percentile};
+use crate::host::clock::Stopwatch;
+use crate::scene::named_lubricant;
 use crate::scene::study::transient::{Timed, timed_march};
-use crate::scene::{QuantityBox, named_lubricant};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::dense::{dense_kernel, dense_newton};
 use crate::solver::full::transient::{FullMarch, Inputs, Keep, Marching, Signal, Trajectory, Transient};
 use crate::solver::full::{FullSolver, PointSolver, Problem, Solution, SolveError, SolveOptions, Start};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::parameters::{ParameterSpace, Quantity, distance};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw, Sliding};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::ReducedMarch;
-use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, distance, traction_curve};
-use crate::solver::training::{LocalBases, Range, TrajectoryTraining, random_points, train_trajectories};
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, traction_curve};
+use crate::solver::training::{LocalBases, TrajectoryTraining, random_points, train_trajectories};
 use serde::Serialize;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the
 /// dissertation has it.
@@ -99,7 +101,7 @@ pub struct Bench {
 /// When a solver refuses a point of the box, which it never should.
 pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let size = usize::from(quick);
-    let points = random_points(&Range::Box(QuantityBox::TABLE_3_1), ContactKind::Line, REDUCED_POINTS[size], SEED);
+    let points = random_points(&ParameterSpace::table_3_1(), ContactKind::Line, REDUCED_POINTS[size], SEED);
     let lubricant = Lubricant::default();
     let mut solver = FullSolver::new(GridSpec::DISSERTATION)?;
     let mut bench = Bench::default();
@@ -135,7 +137,7 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let shear = shear_problems(ContactKind::Point, POINT_POINTS[size])?;
     let mut rows = point_rows(size, &shear)?;
     if let Some(mut online) = bench.online("point/reduced", ContactKind::Point, ShearLaw::Newtonian) {
-        let range = Range::Box(QuantityBox::TABLE_3_4);
+        let range = ParameterSpace::table_3_4();
         let points = random_points(&range, ContactKind::Point, REDUCED_POINTS[size], SEED);
         let names = ["point/reduced", "point/reduced/fields", "point/reduced/1e-3"];
         rows.extend(reduced_rows(names, &mut online, (&points, lubricant), POINT_BUDGET[size])?);
@@ -171,14 +173,22 @@ impl Bench {
 
     /// What solves with the embedded model of a row; a note where there is none.
     fn online(&mut self, row: &str, kind: ContactKind, shear: ShearLaw) -> Option<Online> {
-        let model = self.model(row, Embedded::of_kind(kind, shear));
+        let name = match (kind, shear) {
+            (ContactKind::Line, ShearLaw::Newtonian) => "line",
+            (ContactKind::Line, ShearLaw::Eyring { .. }) => "line_sliding",
+            (ContactKind::Line, _) => "line_shear",
+            (ContactKind::Point, ShearLaw::Newtonian) => "point",
+            (ContactKind::Point, ShearLaw::Eyring { .. }) => "point_sliding",
+            (ContactKind::Point, _) => "point_shear",
+        };
+        let model = self.model(row, name);
         model.map(|model| Online::new(model, ReducedOptions::default()))
     }
 
     /// The embedded model of a row; a note where there is none.
-    fn model(&mut self, row: &str, which: Embedded) -> Option<Arc<ReducedModel>> {
+    fn model(&mut self, row: &str, name: &str) -> Option<Arc<ReducedModel>> {
         let missing = |reason: &ModelFileError| self.notes.push(format!("{row} is missing: {reason}"));
-        Store::default().embedded(which).inspect_err(missing).ok()
+        Store::default().embedded(name).inspect_err(missing).ok()
     }
 
     /// Adds rows that are compared with the first of them.
@@ -203,7 +213,7 @@ impl Bench {
 
 /// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
 fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, EngineError> {
-    let range = Range::Box(QuantityBox::TABLE_3_4);
+    let range = ParameterSpace::table_3_4();
     let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
     let newtonian = |point: &OperatingPoint| Problem::new(point, Lubricant::default());
     let newtonian = points.iter().map(newtonian).collect::<Result<Vec<_>, _>>()?;
@@ -370,14 +380,14 @@ fn timed<T>(
     items: impl IntoIterator<Item = T>,
     mut solve: impl FnMut(T) -> Result<bool, EngineError>,
 ) -> Result<Timing, EngineError> {
-    let (begun, mut timing) = (Instant::now(), Timing::new(name));
+    let (begun, mut timing) = (Stopwatch::start(), Timing::new(name));
     for item in items {
         if begun.elapsed() > budget && timing.seconds.len() >= least {
             break;
         }
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let converged = solve(item)?;
-        timing.seconds.push(clock.elapsed().as_secs_f64());
+        timing.seconds.push(clock.seconds());
         timing.failures += usize::from(!converged);
     }
     Ok(timing)

@@ -5,7 +5,7 @@
 
 use std::io::{self, Read};
 use std::path::Path;
-use xxhash_rust::xxh3::{Xxh3, xxh3_64};
+use xxhash_rust::xxh3::Xxh3;
 
 /// Bytes before the hash.
 const BEFORE_HASH: usize = 20;
@@ -16,12 +16,8 @@ pub(super) const HEADER: usize = 28;
 pub(super) struct Format {
     /// What every file of the kind begins with.
     pub magic: &'static [u8; 8],
-    /// The version that is written.
+    /// The version that is written and read.
     pub version: u32,
-    /// The oldest version that is read.
-    pub oldest: u32,
-    /// The version from which the header is under the hash, and not the payload alone.
-    pub whole_hash: u32,
     /// Largest payload that is read \[bytes\].
     pub max_payload: u64,
 }
@@ -31,10 +27,8 @@ pub(super) struct Format {
 pub(super) enum Flaw {
     /// Another kind of file.
     Foreign,
-    /// A newer version.
-    Newer { found: u32 },
-    /// An older version.
-    Older { found: u32 },
+    /// Another version.
+    OtherVersion { found: u32 },
     /// Fewer bytes than announced.
     Truncated { found: u64, wanted: u64 },
     /// More bytes announced than any such file has.
@@ -77,19 +71,18 @@ impl Format {
 
     /// The payload of a file's content.
     pub fn open<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], Flaw> {
+        let payload = self.payload(bytes)?;
+        let own = hash(bytes.get(..BEFORE_HASH).unwrap_or_default(), payload);
+        let whole = bytes.len() == HEADER + payload.len();
+        if whole && hash_of(bytes) == own { Ok(payload) } else { Err(Flaw::Changed) }
+    }
+
+    /// The same without a look at the hash.
+    pub fn payload<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], Flaw> {
         let announced = self.announced(bytes)?;
         let rest = bytes.get(HEADER..).unwrap_or_default();
         let cut = Flaw::Truncated { found: bytes.len() as u64, wanted: announced + HEADER as u64 };
-        let payload = usize::try_from(announced).ok().and_then(|length| rest.get(..length)).ok_or(cut)?;
-        let own = match version(bytes) {
-            found if found < self.whole_hash => xxh3_64(payload),
-            _ => hash(bytes.get(..BEFORE_HASH).unwrap_or_default(), payload),
-        };
-        if rest.len() == payload.len() && u64_at(bytes, BEFORE_HASH) == Some(own) {
-            Ok(payload)
-        } else {
-            Err(Flaw::Changed)
-        }
+        usize::try_from(announced).ok().and_then(|length| rest.get(..length)).ok_or(cut)
     }
 
     /// Reads a whole file. Its announced size is checked before anything is allocated.
@@ -115,12 +108,9 @@ impl Format {
         if bytes.len() < HEADER {
             return Err(Flaw::Truncated { found: bytes.len() as u64, wanted: HEADER as u64 });
         }
-        let found = version(bytes);
-        if found > self.version {
-            return Err(Flaw::Newer { found });
-        }
-        if found < self.oldest {
-            return Err(Flaw::Older { found });
+        let found = u64_at(bytes, 8).unwrap_or_default() as u32;
+        if found != self.version {
+            return Err(Flaw::OtherVersion { found });
         }
         let announced = u64_at(bytes, 12).unwrap_or_default();
         if announced > self.max_payload {
@@ -137,9 +127,9 @@ fn hash(before: &[u8], payload: &[u8]) -> u64 {
     hash.digest()
 }
 
-/// The version that a file's content says it has.
-pub(super) fn version(bytes: &[u8]) -> u32 {
-    u64_at(bytes, 8).unwrap_or_default() as u32
+/// The hash that a file's content says it has.
+pub(super) fn hash_of(bytes: &[u8]) -> u64 {
+    u64_at(bytes, BEFORE_HASH).unwrap_or_default()
 }
 
 fn u64_at(bytes: &[u8], at: usize) -> Option<u64> {

@@ -1,149 +1,71 @@
-//! The reduced models that are part of the program.
+//! The reduced models that are part of the program, with a catalogue of what they cover.
 
-use super::model_file::{self, ModelFileError};
-use super::trajectory_file;
+use super::rom::{self, Catalogue, ModelFileError};
 use crate::solver::observer::Observer;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
-use crate::solver::reduced::ReducedModel;
 use crate::solver::reduced::transient::TrajectoryModel;
-use std::sync::{Arc, OnceLock};
+use crate::solver::reduced::{Domain, ReducedModel};
+use std::sync::{Arc, LazyLock, OnceLock};
 
-/// One of them, by what it is for. Each is trained by a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Embedded {
-    /// Line contacts of Newtonian lubricants: `scenes/training/line_oils.ron`.
-    Line,
-    /// Line contacts of lubricants that thin under shear: `scenes/training/embedded_shear_model.ron`.
-    ThinningLine,
-    /// Circular contacts: `scenes/training/point_oils.ron`.
-    Circle,
-    /// Circular contacts under so small a load that films reach far: `scenes/training/point_light_oils.ron`.
-    LightCircle,
-    /// Circular contacts of lubricants that thin under shear: `scenes/training/embedded_point_shear_model.ron`.
-    ThinningCircle,
-    /// Elliptical contacts: `scenes/training/embedded_ellipse_model.ron`.
-    Ellipse,
-    /// Line contacts of oils with heat: `scenes/training/line_heat.ron`.
-    HeatedLine,
-    /// Circular contacts of oils with heat: `scenes/training/point_heat.ron`.
-    HeatedCircle,
-    /// Line contacts of oils that thin by Eyring's law: `scenes/training/line_sliding_oils.ron`.
-    EyringLine,
-    /// Circular contacts of oils that thin by Eyring's law: `scenes/training/point_sliding_oils.ron`.
-    EyringCircle,
-    /// Those under so small a load that films reach far: `scenes/training/point_light_sliding_oils.ron`.
-    LightEyringCircle,
+/// The steady models by name, each with the content of its file. Scenes in `scenes/training` train them.
+const MODELS: [(&str, &[u8]); 11] = [
+    ("line", include_bytes!("../../assets/line.rom")),
+    ("line_shear", include_bytes!("../../assets/line_shear.rom")),
+    ("point", include_bytes!("../../assets/point.rom")),
+    ("point_light", include_bytes!("../../assets/point_light.rom")),
+    ("point_shear", include_bytes!("../../assets/point_shear.rom")),
+    ("ellipse", include_bytes!("../../assets/ellipse.rom")),
+    ("line_heat", include_bytes!("../../assets/line_heat.rom")),
+    ("point_heat", include_bytes!("../../assets/point_heat.rom")),
+    ("line_sliding", include_bytes!("../../assets/line_sliding.rom")),
+    ("point_sliding", include_bytes!("../../assets/point_sliding.rom")),
+    ("point_light_sliding", include_bytes!("../../assets/point_light_sliding.rom")),
+];
+
+/// A model of the program in the catalogue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Name of the model and of its file.
+    pub name: &'static str,
+    /// Contacts it covers.
+    pub domain: Domain,
 }
 
-/// The load number below which circles have a model of their own: there films reach beyond the domain of the other one.
-const LIGHT: f64 = 12.0;
-
-impl Embedded {
-    /// All of them.
-    pub const ALL: [Self; 11] = [
-        Self::Line,
-        Self::ThinningLine,
-        Self::Circle,
-        Self::LightCircle,
-        Self::ThinningCircle,
-        Self::Ellipse,
-        Self::HeatedLine,
-        Self::HeatedCircle,
-        Self::EyringLine,
-        Self::EyringCircle,
-        Self::LightEyringCircle,
-    ];
-
-    /// The one of a kind of contact, circular where it is one of points, and of a lubricant that thins under shear by
-    /// such a law.
-    pub fn of_kind(kind: ContactKind, shear: ShearLaw) -> Self {
-        match (kind, shear) {
-            (ContactKind::Line, ShearLaw::Newtonian) => Self::Line,
-            (ContactKind::Line, ShearLaw::Eyring { .. }) => Self::EyringLine,
-            (ContactKind::Line, ShearLaw::Carreau { .. } | ShearLaw::Ellis { .. }) => Self::ThinningLine,
-            (ContactKind::Point, ShearLaw::Newtonian) => Self::Circle,
-            (ContactKind::Point, ShearLaw::Eyring { .. }) => Self::EyringCircle,
-            (ContactKind::Point, ShearLaw::Carreau { .. } | ShearLaw::Ellis { .. }) => Self::ThinningCircle,
-        }
-    }
-
-    /// The one of films with heat of a kind of contact, circular where it is one of points.
-    pub fn with_heat(kind: ContactKind) -> Self {
-        match kind {
-            ContactKind::Line => Self::HeatedLine,
-            ContactKind::Point => Self::HeatedCircle,
-        }
-    }
-
-    /// The one that serves a contact. Ellipses of lubricants that thin under shear have none, nor have ellipses with heat:
-    /// they get that of circles, which says so; as do contacts with heat whose lubricants thin.
-    pub fn of(point: &OperatingPoint, lubricant: &Lubricant) -> Self {
-        if lubricant.heat.is_some() {
-            return Self::with_heat(point.kind);
-        }
-        match Self::of_kind(point.kind, lubricant.shear) {
-            Self::Circle if point.radius_ratio() != 1.0 => Self::Ellipse,
-            of_kind if point.radius_ratio() != 1.0 => of_kind,
-            of_kind => of_kind.under_load(point.moes().m),
-        }
-    }
-
-    /// The one of its kind that knows contacts of such a load number.
-    pub fn under_load(self, m: f64) -> Self {
-        match self {
-            Self::Circle | Self::LightCircle if m < LIGHT => Self::LightCircle,
-            Self::Circle | Self::LightCircle => Self::Circle,
-            Self::EyringCircle | Self::LightEyringCircle if m < LIGHT => Self::LightEyringCircle,
-            Self::EyringCircle | Self::LightEyringCircle => Self::EyringCircle,
-            of_all => of_all,
-        }
-    }
-
-    /// The content of its file.
-    pub fn bytes(self) -> &'static [u8] {
-        match self {
-            Self::Line => include_bytes!("../../assets/line.rom"),
-            Self::ThinningLine => include_bytes!("../../assets/line_shear.rom"),
-            Self::Circle => include_bytes!("../../assets/point.rom"),
-            Self::LightCircle => include_bytes!("../../assets/point_light.rom"),
-            Self::ThinningCircle => include_bytes!("../../assets/point_shear.rom"),
-            Self::Ellipse => include_bytes!("../../assets/ellipse.rom"),
-            Self::HeatedLine => include_bytes!("../../assets/line_heat.rom"),
-            Self::HeatedCircle => include_bytes!("../../assets/point_heat.rom"),
-            Self::EyringLine => include_bytes!("../../assets/line_sliding.rom"),
-            Self::EyringCircle => include_bytes!("../../assets/point_sliding.rom"),
-            Self::LightEyringCircle => include_bytes!("../../assets/point_light_sliding.rom"),
-        }
-    }
-
-    /// The model. That its parts belong together was proved when it was tested, and is not proved anew.
-    ///
-    /// # Errors
-    /// When the program was built with a damaged asset.
-    pub fn model(self) -> Result<Arc<ReducedModel>, ModelFileError> {
-        self.model_watched(&())
-    }
-
-    /// The same while an observer watches.
-    ///
-    /// # Errors
-    /// As [`Self::model`], and when the observer cancels.
-    pub(super) fn model_watched(self, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
-        model_file::from_own_bytes(self.bytes(), observer).map(Arc::new)
-    }
+/// Returns the catalogue of the steady models, from the directories of their files; a damaged one is left out.
+pub fn catalogue() -> &'static [Entry] {
+    static CATALOGUE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+        let entry = |(name, bytes)| Some(Entry { name, domain: Catalogue::of(bytes).ok()?.domain });
+        MODELS.into_iter().filter_map(entry).collect()
+    });
+    &CATALOGUE
 }
 
-/// Whether a model's file would be, byte for byte, one of these.
-pub(super) fn is_embedded(model: &ReducedModel) -> bool {
-    model_file::to_bytes(model).is_ok_and(|bytes| Embedded::ALL.iter().any(|of| of.bytes() == bytes))
+/// Returns the content of the file of a model; `None` for an unknown name.
+pub fn bytes_of(name: &str) -> Option<&'static [u8]> {
+    MODELS.iter().find(|(known, _)| *known == name).map(|(_, bytes)| *bytes)
+}
+
+/// Reads a model of the program. That its parts belong together was checked when it was tested, and is not checked again.
+///
+/// # Errors
+/// For an unknown name, and when the program was built with a damaged asset.
+pub fn embedded(name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
+    embedded_watched(name, &())
+}
+
+/// The same while an observer watches.
+///
+/// # Errors
+/// As [`embedded`], and when the observer cancels.
+pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
+    let bytes = bytes_of(name).ok_or(ModelFileError::Foreign)?;
+    rom::from_own_bytes(bytes, observer)?.stationary()
 }
 
 /// The content of the file of the model in time.
 const LINE_IN_TIME: &[u8] = include_bytes!("../../assets/line_in_time.rom");
 
-/// The model in time of line contacts whose load breathes: `scenes/training/line_in_time.ron`. It is read once, and what
-/// it was trained for is asked with every picture.
+/// The model in time of line contacts whose load varies: `scenes/training/line_in_time.ron`. It is read once: every picture
+/// needs what it was trained for.
 ///
 /// # Errors
 /// When the program was built with a damaged asset.
@@ -152,68 +74,41 @@ pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
     if let Some(model) = MODEL.get() {
         return Ok(Arc::clone(model));
     }
-    let read = trajectory_file::from_own_bytes(LINE_IN_TIME)?;
+    let read = rom::from_own_bytes(LINE_IN_TIME, &())?.in_time()?;
     Ok(Arc::clone(MODEL.get_or_init(|| read)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::named_lubricant::SQUALANE_PIP;
-    use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
-    use crate::solver::physics::lubricant::Heat;
+    use crate::engine::{SavedModel, model_file};
 
     #[test]
     fn the_parts_of_every_model_belong_together() {
-        for embedded in Embedded::ALL {
-            let read = model_file::from_bytes(embedded.bytes()).unwrap_or_else(|why| panic!("{embedded:?}: {why}"));
-            assert!(!read.windows.is_empty() && read.contact() == embedded.model().unwrap().contact());
+        for (name, bytes) in MODELS {
+            let read = model_file::from_bytes(bytes).unwrap_or_else(|why| panic!("{name}: {why}"));
+            assert!(!read.windows.is_empty() && read.domain == embedded(name).unwrap().domain);
         }
     }
 
     #[test]
-    fn a_model_of_the_program_is_known_by_its_bytes_and_another_is_not() {
-        let mut model = ReducedModel::clone(&Embedded::LightCircle.model().unwrap());
-        assert!(is_embedded(&model));
-        model.title.push('.');
-        assert!(!is_embedded(&model));
+    fn the_catalogue_has_every_model() {
+        assert_eq!(catalogue().len(), MODELS.len());
+        for entry in catalogue() {
+            assert_eq!(entry.domain, embedded(entry.name).unwrap().domain, "{}", entry.name);
+        }
     }
 
     #[test]
-    fn the_parts_of_the_model_in_time_belong_together_and_it_survives_a_round_trip() {
-        let read = trajectory_file::from_bytes(LINE_IN_TIME).unwrap();
+    fn the_parts_of_the_transient_model_belong_together_and_it_survives_a_round_trip() {
+        let read = SavedModel::from_bytes(LINE_IN_TIME).unwrap().in_time().unwrap();
         assert_eq!(read.domain, line_in_time().unwrap().domain);
-        assert!(trajectory_file::to_bytes(&read).unwrap() == LINE_IN_TIME);
+        assert!(SavedModel::InTime(read).to_bytes().unwrap() == LINE_IN_TIME);
     }
 
     #[test]
     fn all_files_together_are_small() {
-        let sizes = Embedded::ALL.map(|which| which.bytes().len());
-        let all = sizes.iter().sum::<usize>() + LINE_IN_TIME.len();
-        assert!(all < 25_000_000, "{all} bytes: {sizes:?} and {}", LINE_IN_TIME.len());
-    }
-
-    #[test]
-    fn a_contact_is_served_by_the_model_of_its_shape_and_fluid() {
-        let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, 50.0, 5.0)).unwrap();
-        let ellipse = Quantity::RadiusRatio.at(&circle, 2.0);
-        let oil = Lubricant::default();
-        assert_eq!([circle, ellipse].map(|point| Embedded::of(&point, &oil)), [Embedded::Circle, Embedded::Ellipse]);
-        let light = si_from_moes(&MoesRequest::new(ContactKind::Point, 6.0, 5.0)).unwrap();
-        assert_eq!(Embedded::of(&light, &oil), Embedded::LightCircle);
-        let equal = Quantity::RadiusRatio.at(&circle, 1.0);
-        assert_eq!(Embedded::of(&equal, &oil), Embedded::Circle);
-        assert_eq!(Embedded::of(&ellipse, &SQUALANE_PIP), Embedded::ThinningCircle);
-        let line = si_from_moes(&MoesRequest::new(ContactKind::Line, 50.0, 5.0)).unwrap();
-        assert_eq!(Embedded::of(&line, &SQUALANE_PIP), Embedded::ThinningLine);
-        let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..oil };
-        let of_eyring = [line, circle, ellipse, light].map(|point| Embedded::of(&point, &eyring));
-        let wanted =
-            [Embedded::EyringLine, Embedded::EyringCircle, Embedded::EyringCircle, Embedded::LightEyringCircle];
-        assert_eq!(of_eyring, wanted);
-        let warm = Lubricant { heat: Some(Heat::default()), ..oil };
-        let [of_line, of_circle, of_ellipse] = [line, circle, ellipse].map(|point| Embedded::of(&point, &warm));
-        assert_eq!([of_line, of_circle], [Embedded::HeatedLine, Embedded::HeatedCircle]);
-        assert_eq!(of_ellipse, of_circle, "it says that it knows circles only");
+        let all = MODELS.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() + LINE_IN_TIME.len();
+        assert!(all < 28_800_000 && bytes_of("line").unwrap().len() < 3_100_000, "{all} bytes");
     }
 }

@@ -58,12 +58,12 @@ impl Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<GridAccuracy, EngineError> {
         let none = |why: &str| EngineError::Study(format!("the grid's error cannot be estimated: {why}"));
-        let solution = answer.result().ok_or_else(|| none("the solve did not converge"))?;
+        let solution = answer.fields().ok_or_else(|| none("the solve did not converge"))?;
         let spec = solution.mesh.plane();
         let spec = spec.ok_or_else(|| none("only full solutions of point contacts have one"))?;
         let request = Request { grid: Grid::Plane(second_grid(spec)), ..answer.request.clone() };
-        let second = self.answer(&request, &answer.method, Some(solution), observer)?;
-        let second = second.result().ok_or_else(|| none("the solve on the second grid did not converge"))?;
+        let second = self.answer(&request, Some(solution), observer)?;
+        let second = second.fields().ok_or_else(|| none("the solve on the second grid did not converge"))?;
         GridAccuracy::of(solution, second).ok_or_else(|| none("both grids do not belong together"))
     }
 }

@@ -1,13 +1,14 @@
 //! The bench: what is expensive and shared, jobs, files, and headless experiments.
 //!
-//! * [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves: it is the bench of studies.
+//! * [`answer()`] turns a request into an answer; [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves: it is the bench of studies.
 //! * [`run_scene`] answers a scene's question.
-//! * [`mod@bench`] is the speed table, [`model_file`] and [`trajectory_file`] the `.rom` format,
-//!   [`training_file`] keeps unfinished trainings.
+//! * [`mod@bench`] is the speed table, [`SavedModel`] reads and writes `.rom` files, [`training_file`] keeps unfinished
+//!   trainings.
 //! * [`campaign`] cuts a scene's work into shards for many processes and machines.
 
 #![warn(clippy::indexing_slicing)]
 
+mod answer;
 mod archive;
 pub mod arrays;
 pub mod bench;
@@ -15,25 +16,23 @@ pub mod campaign;
 mod checked_file;
 pub mod coupled;
 mod embedded;
+pub mod former;
 mod grid_accuracy;
 pub mod job;
 pub mod model_arrays;
 pub mod model_file;
-mod packed;
+pub mod model_text;
+pub mod registry;
 pub mod results;
-mod saved_model;
+mod rom;
 mod store;
-mod stored_heat;
-mod stored_matrix;
-mod stored_model;
-mod stored_trajectories;
 pub mod training_file;
-pub mod trajectory_file;
 mod workbench;
 
-pub use embedded::{Embedded, line_in_time};
+pub use answer::{Solver, answer};
+pub use embedded::{Entry, bytes_of, catalogue, embedded, line_in_time};
 pub use grid_accuracy::GridAccuracy;
-pub use saved_model::SavedModel;
+pub use rom::{Catalogue, ModelKind, SavedModel};
 pub use store::Store;
 pub use workbench::Workbench;
 
@@ -43,3 +42,4 @@ pub use crate::scene::{
     Table, Verdict, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns, run_scene,
     table,
 };
+pub use crate::solver::warning::Warning;

@@ -129,11 +129,11 @@ fn stacked<'a>(name: String, matrices: impl Iterator<Item = &'a Mat<f64>>) -> Ar
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Embedded;
+    use crate::engine::embedded;
 
     #[test]
     fn a_basis_leaves_whole_and_orthonormal() {
-        let model = Embedded::Line.model().unwrap();
+        let model = embedded("line").unwrap();
         let arrays = of_model(&model);
         let of = |name: &str| arrays.iter().find(|array| array.name == name).unwrap();
         let (modes, weights) = (of("window_1_pressure_modes"), of("window_1_weights"));

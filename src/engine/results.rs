@@ -5,11 +5,13 @@
 
 use super::SceneOutcome;
 use super::table::significant;
+use crate::host::clock::today;
 use crate::scene::{Scene, SceneFileError, Verdict};
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
+use time::Date;
 use time::format_description::well_known::Iso8601;
-use time::{Date, OffsetDateTime};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// Name of the page in the folder of the scenes.
@@ -74,8 +76,8 @@ pub struct Entry {
 
 impl Entry {
     /// What is to be said of a scene that ran today, or of one that could not, with the reason.
-    pub fn new(file: &SceneFile, outcome: &Result<SceneOutcome, String>) -> Self {
-        let (place, hash, day) = (file.place.clone(), hash(&file.scene), OffsetDateTime::now_utc().date());
+    pub fn new(file: &SceneFile, outcome: &Result<SceneOutcome, impl Display>) -> Self {
+        let (place, hash, day) = (file.place.clone(), hash(&file.scene), today());
         let mut entry = Self { place, hash, day, expectations: 0, short: 0, rows: String::new() };
         match outcome {
             Ok(outcome) => {
@@ -94,7 +96,7 @@ impl Entry {
                     entry.push(file, "every solve converges", converged, outcome.passed());
                 }
             }
-            Err(why) => entry.push(file, "it runs", why, false),
+            Err(why) => entry.push(file, "it runs", &why.to_string(), false),
         }
         entry
     }
@@ -254,17 +256,21 @@ mod tests {
         SceneOutcome { verdicts, ..SceneOutcome::default() }
     }
 
+    fn entry(file: &SceneFile, outcome: SceneOutcome) -> Entry {
+        Entry::new(file, &Ok::<_, String>(outcome))
+    }
+
     fn record(entries: impl IntoIterator<Item = Entry>) -> BTreeMap<String, Entry> {
         entries.into_iter().map(|entry| (entry.place.clone(), entry)).collect()
     }
 
     #[test]
     fn a_page_has_a_table_for_each_folder_and_says_what_falls_short_or_has_not_run() {
-        let refused: Result<SceneOutcome, String> = Err("no such model".to_owned());
+        let refused: Result<SceneOutcome, _> = Err("no such model");
         let files = ["line/b.ron", "line/c.ron", "time/a.ron", "time/later.ron"].map(file);
         let entries = record([
-            Entry::new(&files[2], &Ok(outcome(false))),
-            Entry::new(&files[0], &Ok(outcome(true))),
+            entry(&files[2], outcome(false)),
+            entry(&files[0], outcome(true)),
             Entry::new(&files[1], &refused),
         ]);
         let page = page(&files, &entries);
@@ -288,14 +294,11 @@ mod tests {
     fn a_page_gives_its_entries_back_and_each_belongs_to_its_own_scene_only() {
         let mut several = outcome(true);
         several.verdicts.extend(outcome(false).verdicts);
-        let (mut titled, refused) = (file("line/b.ron"), Err("a | b".to_owned()));
+        let (mut titled, refused) = (file("line/b.ron"), Err("a | b"));
         titled.scene.title = "a | b ](c) [d".to_owned();
         let files = [titled, file("line/c.ron"), file("time/a.ron"), file("time/later.ron")];
-        let entries = record([
-            Entry::new(&files[0], &Ok(several)),
-            Entry::new(&files[1], &refused),
-            Entry::new(&files[2], &Ok(outcome(true))),
-        ]);
+        let entries =
+            record([entry(&files[0], several), Entry::new(&files[1], &refused), entry(&files[2], outcome(true))]);
         let first = page(&files, &entries);
         let read = entries_of(&first);
         assert_eq!(read, entries);

@@ -1,8 +1,9 @@
 //! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their
 //! operators.
 
-use super::model_file::{self, ModelFileError};
-use super::{Embedded, EngineError, trajectory_file};
+use super::rom::{ModelFileError, SavedModel};
+use super::{EngineError, embedded, model_file};
+use crate::host::clock::FileTime;
 use crate::scene::Scene;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::full::ContactSolver;
@@ -13,7 +14,6 @@ use crate::solver::reduced::{Online, ReducedModel, ReducedOptions};
 use crate::solver::training::{TrainingObserver, TrainingSpec, train};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::SystemTime;
 
 /// Grids and idle full solvers of line contacts kept at a time; the least recently used goes first.
 const KEPT_LINES: usize = 6;
@@ -42,9 +42,9 @@ struct Shelves {
 #[derive(Clone, PartialEq)]
 enum Origin {
     /// It is part of the program.
-    Embedded(Embedded),
+    Embedded(String),
     /// A file as it was at a time, and its size.
-    File(PathBuf, Option<SystemTime>, u64),
+    File(PathBuf, Option<FileTime>, u64),
     /// Trained.
     Training(Box<TrainingSpec>),
     /// Trained in time.
@@ -88,21 +88,21 @@ impl Store {
         keep(&self.0.online, online, |_| true, KEPT_ONLINE);
     }
 
-    /// A reduced model of the program.
+    /// Returns a reduced model of the program by its name.
     ///
     /// # Errors
-    /// When the program was built with a damaged one.
-    pub fn embedded(&self, which: Embedded) -> Result<Arc<ReducedModel>, ModelFileError> {
-        self.embedded_watched(which, &())
+    /// For an unknown name, and when the program was built with a damaged one.
+    pub fn embedded(&self, name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
+        self.embedded_watched(name, &())
     }
 
     /// The same while an observer watches: reading takes a tenth of a second and more.
     pub(super) fn embedded_watched(
         &self,
-        which: Embedded,
+        name: &str,
         observer: &dyn Observer,
     ) -> Result<Arc<ReducedModel>, ModelFileError> {
-        made_once(&self.0.models, Origin::Embedded(which), || which.model_watched(observer))
+        made_once(&self.0.models, Origin::Embedded(name.to_owned()), || embedded::embedded_watched(name, observer))
     }
 
     /// The reduced model of a file; read again where the file was changed.
@@ -119,7 +119,7 @@ impl Store {
         path: &Path,
         observer: &dyn Observer,
     ) -> Result<Arc<ReducedModel>, EngineError> {
-        let read = || model_file::read_watched(path, observer).map(Arc::new);
+        let read = || model_file::read_watched(path, observer);
         made_once(&self.0.models, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
     }
 
@@ -128,7 +128,7 @@ impl Store {
     /// # Errors
     /// When it cannot be read.
     pub fn trajectory_model_of_file(&self, path: &Path) -> Result<Arc<TrajectoryModel>, EngineError> {
-        let read = || trajectory_file::read(path);
+        let read = || SavedModel::read(path)?.in_time();
         made_once(&self.0.in_time, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
     }
 
@@ -224,12 +224,11 @@ fn take<T>(shelf: &Mutex<Vec<T>>, wanted: impl Fn(&T) -> bool) -> Option<T> {
 /// Puts a thing on its shelf, where the oldest of the same sort gives way.
 fn keep<T>(shelf: &Mutex<Vec<T>>, thing: T, same_sort: impl Fn(&T) -> bool, most: usize) {
     let mut shelf = lock(shelf);
-    if shelf.iter().filter(|other| same_sort(other)).count() >= most
-        && let Some(oldest) = shelf.iter().position(same_sort)
-    {
-        shelf.remove(oldest);
-    }
+    let full = shelf.iter().filter(|other| same_sort(other)).count() >= most;
+    let oldest = shelf.iter().position(same_sort).filter(|_| full).map(|place| shelf.remove(place));
     shelf.push(thing);
+    // To free it takes long: others may use the shelf meanwhile, and a forked process finds it open.
+    drop((shelf, oldest));
 }
 
 #[cfg(test)]
@@ -277,8 +276,8 @@ mod tests {
     #[test]
     fn a_model_is_read_once_and_its_operators_are_handed_on() {
         let store = Store::default();
-        let model = store.embedded(Embedded::Line).unwrap();
-        assert!(Arc::ptr_eq(&store.embedded(Embedded::Line).unwrap(), &model));
+        let model = store.embedded("line").unwrap();
+        assert!(Arc::ptr_eq(&store.embedded("line").unwrap(), &model));
         let options = ReducedOptions::default();
         let online = store.online(&model, options);
         store.give_back(online);

@@ -7,7 +7,6 @@
 
 use super::EngineError;
 use super::checked_file::{Flaw, Format, Unreadable};
-use super::stored_heat::StoredHeat;
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
 use crate::solver::training::{TrainingSpec, TrainingState, Windows};
@@ -21,10 +20,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-const VERSION: u32 = 13;
+const VERSION: u32 = 14;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
-const FORMAT: Format =
-    Format { magic: b"EHLTRN\r\n", version: VERSION, oldest: VERSION, whole_hash: VERSION, max_payload: 2 << 30 };
+const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, max_payload: 2 << 30 };
 /// The program's own version.
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
@@ -100,7 +98,7 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
     let flawed = |flaw| {
         refused(match flaw {
             Flaw::Foreign => "it is another kind of file".to_owned(),
-            Flaw::Newer { found } | Flaw::Older { found } => {
+            Flaw::OtherVersion { found } => {
                 format!("its format has version {found}, this program reads version {VERSION}")
             }
             Flaw::Truncated { found, wanted } => format!("it is cut off: {found} of {wanted} bytes are there"),
@@ -121,9 +119,11 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
             "it was begun by version {program} of the program, and this is version {PROGRAM}, whose solutions and choices may differ"
         )));
     }
-    let (mut state, cavitation, heat): (TrainingState, Cavitation, Option<StoredHeat>) =
+    let (mut state, cavitation, heat): (TrainingState, Cavitation, String) =
         postcard::from_bytes(payload).map_err(undecoded)?;
-    state.spec = state.spec.under(cavitation).heated(heat.map(Heat::from));
+    let heat: Option<Heat> =
+        serde_json::from_str(&heat).map_err(|_| refused("its content cannot be decoded".to_owned()))?;
+    state.spec = state.spec.under(cavitation).heated(heat);
     if is_sound(&state) { Ok(state) } else { Err(refused("its content contradicts itself".to_owned())) }
 }
 
@@ -172,10 +172,11 @@ pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError
 }
 
 fn write_as(program: &str, state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
-    // The laws of a lubricant are written without the way its film ruptures and without heat.
+    // The laws of a lubricant are written without its cavitation and without heat. Heat leaves fields out, so it is text.
     let Lubricant { cavitation, heat, .. } = state.spec.lubricant;
-    let encoded = postcard::to_allocvec(&(program, state, cavitation, heat.map(StoredHeat::from)))
-        .map_err(|_| TrainingFileError::Refused { path: path.to_owned(), what: "it cannot be encoded".to_owned() })?;
+    let refused = || TrainingFileError::Refused { path: path.to_owned(), what: "it cannot be encoded".to_owned() };
+    let heat = serde_json::to_string(&heat).map_err(|_| refused())?;
+    let encoded = postcard::to_allocvec(&(program, state, cavitation, heat)).map_err(|_| refused())?;
     Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
 }
 

@@ -1,6 +1,6 @@
 //! What a sweep varies, and the values it takes.
 
-use crate::solver::physics::contact::Quantity;
+use crate::solver::parameters::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// One varied quantity.
@@ -54,6 +54,17 @@ pub enum Steps {
 /// A graded spacing that ends so far from where half of its values lie has no sensible steps left.
 const MOST_GRADING: f64 = 1e6;
 
+/// Ends and middle of a graded spacing that makes no sense.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "half of the values up to {half} do not fit between {from} and {to}; a value nearer to {from} than to {to} is accepted"
+)]
+pub struct GradingError {
+    from: f64,
+    half: f64,
+    to: f64,
+}
+
 impl Steps {
     /// How many values there are.
     pub fn len(&self) -> usize {
@@ -71,16 +82,13 @@ impl Steps {
     /// Ends and middle of a graded spacing that makes no sense.
     ///
     /// # Errors
-    /// A sentence.
-    pub fn check_grading(from: f64, half: f64, to: f64) -> Result<(), String> {
+    /// When half of the values do not fit there.
+    pub fn check_grading(from: f64, half: f64, to: f64) -> Result<(), GradingError> {
         let ratio = (to - from) / (half - from);
         if ratio > 2.0 && ratio <= MOST_GRADING {
             return Ok(());
         }
-        Err(format!(
-            "half of the values up to {half} do not fit between {from} and {to}; a value nearer to {from} than to {to} \
-             is accepted"
-        ))
+        Err(GradingError { from, half, to })
     }
 
     /// All combinations of the values of several, the last one fastest.
@@ -144,7 +152,10 @@ mod tests {
         for (from, half, to) in
             [(0.0, 0.5, 1.0), (0.0, 0.0, 1.0), (0.0, -0.1, 1.0), (0.0, f64::NAN, 1.0), (1.0, 1.1, 0.0)]
         {
-            assert!(Steps::check_grading(from, half, to).unwrap_err().contains("is accepted"), "{from} {half} {to}");
+            assert!(
+                Steps::check_grading(from, half, to).unwrap_err().to_string().contains("is accepted"),
+                "{from} {half} {to}"
+            );
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::method::Method;
 use crate::solver::limits::Refused;
-use crate::solver::training::{QuantityBox, Range};
+use crate::solver::parameters::ParameterSpace;
 
 pub(super) use crate::solver::limits::{count, interval, number};
 
@@ -20,12 +20,8 @@ pub(super) fn refuse(field: impl Into<String>, problem: impl Into<String>) -> Re
     Refused::new(field, problem)
 }
 
-pub(super) fn quantity_box(field: &str, range: &QuantityBox) -> Checked {
+pub(super) fn space(field: &str, range: &ParameterSpace) -> Checked {
     range.check().map_err(|refused| refused.within(field))
-}
-
-pub(super) fn test_range(range: &Range) -> Checked {
-    range.check().map_err(|refused| refused.within("study.range"))
 }
 
 pub(super) fn methods(field: &str, methods: &[Method]) -> Checked {

@@ -1,43 +1,50 @@
 //! The result of one contact as people, tables, expectations and other programs see it.
 
-use super::bench::{Answer, ReducedFacts};
-use super::stored_result;
-use super::table::Table;
+use super::answer::Request;
 use crate::solver::full::heat::{Rises, Temperatures};
-use crate::solver::full::{GridCost, Scalars, Shear, Solution};
+use crate::solver::full::{GridCost, Scalars, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use crate::solver::reduced::{ErrorEstimate, ModelSize};
+use crate::solver::warning::Warning;
+use serde::ser::{SerializeMap, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, de};
 
-/// One contact's result. Written as JSON it is the object of `solve --json`; what does not apply is absent. Formats for
-/// programs alone keep every bit of it.
-#[derive(Clone, Debug, PartialEq)]
+/// A word of the program's own; by another name, since serde would borrow a `&str`.
+type Word = &'static str;
+
+/// Words that stand in results.
+const WORDS: [Word; 5] = ["full", "reduced", "uniform", "graded", "model"];
+
+/// One contact's result; what does not apply is absent. [`ContactResult::json`] is the object of `solve --json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactResult {
     /// The operating point.
     pub point: OperatingPoint,
     /// `full` or `reduced`.
-    pub method: &'static str,
+    #[serde(deserialize_with = "word")]
+    pub method: Word,
     /// Whether the solve converged; without that there are no scalars.
     pub converged: bool,
-    /// What a reader must know, one sentence each.
-    pub warnings: Vec<String>,
+    /// What a reader must know.
+    pub warnings: Vec<Warning>,
     /// `uniform`, `graded` or `model`.
-    pub grid: &'static str,
+    #[serde(deserialize_with = "word")]
+    pub grid: Word,
     /// Nodes along X and across, both ends counted.
     pub nodes: (usize, usize),
     /// Unknowns iterated on.
     pub dofs: usize,
-    /// What the grid of a full solution costs H_c.
+    /// Discretisation error of H_c of a full solution.
     pub grid_cost: Option<GridCost>,
-    /// A sentence where that is more than a few percent.
-    pub grid_warning: Option<String>,
-    /// How the film ruptures.
+    /// The law of cavitation; of a reduced model the one that it was trained with.
     pub cavitation: Cavitation,
     /// Where a supplied film fills the gap, X on the axis; none where it is flooded.
     pub meniscus: Option<f64>,
     /// Dimensionless scalars of the solution.
     pub scalars: Option<Scalars>,
-    /// Traction coefficient (3.41).
+    /// Traction coefficient (3.41) over the whole domain; of a reduced model by its own quadrature, to which its bound
+    /// belongs.
     pub traction: Option<f64>,
     /// ½∫h dp: N/m of a line contact, N of a point contact, where there are fields.
     pub rolling_resistance: Option<f64>,
@@ -55,8 +62,38 @@ pub struct ContactResult {
     pub reduced: Option<ReducedFacts>,
 }
 
+/// What a solve took.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Nodes of the grid along X and across, both ends counted.
+    pub nodes: (usize, usize),
+    /// Unknowns that were iterated on.
+    pub dofs: usize,
+    /// Newton steps.
+    pub newton_iterations: usize,
+    /// Krylov iterations of a full solve.
+    pub linear_iterations: Option<usize>,
+    /// Seconds of the solve alone.
+    pub wall_s: f64,
+}
+
+/// What a reduced solve adds to its result.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReducedFacts {
+    /// Modes that were used, and sampled rows.
+    pub size: ModelSize,
+    /// The local model that answers, from 0.
+    pub window: usize,
+    /// Whether the model was trained for the contact; a warning says why not.
+    pub trained: bool,
+    /// e_f^I, (3.15); `None` without convergence.
+    pub residual_estimate: Option<f64>,
+    /// Calibrated errors, where the model has them.
+    pub error: Option<ErrorEstimate>,
+}
+
 /// What a solve with heat adds to its result.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeatFacts {
     /// Rises at X = 0.
     pub central: Rises,
@@ -78,7 +115,7 @@ impl From<&Temperatures> for HeatFacts {
 }
 
 /// One named value of a result.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
     /// Yes or no; 1 and 0 in tables.
@@ -89,16 +126,19 @@ pub enum Value {
     Number(f64),
     /// Words, which are in no table.
     Text(String),
+    /// Objects, which are in no table.
+    List(Vec<serde_json::Value>),
 }
 
 type Get = fn(&ContactResult) -> Option<Value>;
 
 /// Every value by its name, with a dot where it lies in a group, in the order of the JSON object.
-const VALUES: [(&str, Get); 61] = [
+const VALUES: [(&str, Get); 62] = [
     ("contact", |r| text(r.point.kind.name())),
     ("method", |r| text(r.method)),
     ("converged", |r| Some(Value::Truth(r.converged))),
-    ("warning", |r| (!r.warnings.is_empty()).then(|| Value::Text(r.warnings.join("; ")))),
+    ("warning", |r| (!r.warnings.is_empty()).then(|| Value::Text(r.warning()))),
+    ("warnings", |r| (!r.warnings.is_empty()).then(|| Value::List(r.warnings.iter().map(Warning::to_json).collect()))),
     ("si.radius", |r| number(r.point.radius_m)),
     ("si.radius_y", |r| number(r.point.radius_y_m.unwrap_or(r.point.radius_m)).filter(|_| is_point(r))),
     ("si.speed", |r| number(r.point.speed_m_per_s)),
@@ -185,7 +225,7 @@ pub const CONTACT_COLUMNS: [&str; 10] = [
 ];
 
 /// What tables hold of a result.
-pub const RESULT_COLUMNS: [&str; 21] = [
+pub const RESULT_COLUMNS: [&str; 22] = [
     "converged",
     "H_c",
     "H_min",
@@ -202,6 +242,7 @@ pub const RESULT_COLUMNS: [&str; 21] = [
     "residual_norm",
     "newton_iterations",
     "linear_iterations",
+    "reduced.trained",
     "reduced.residual_estimate",
     "reduced.h_c_error_bound",
     "reduced.h_min_error_bound",
@@ -225,31 +266,10 @@ pub fn result_columns(heat: bool) -> Vec<&'static str> {
     [&RESULT_COLUMNS[..], if heat { &HEAT_COLUMNS } else { &[] }].concat()
 }
 
-impl From<&Answer> for ContactResult {
-    fn from(answer: &Answer) -> Self {
-        Self {
-            point: answer.request.point,
-            method: answer.method.name(),
-            converged: answer.converged,
-            warnings: answer.warnings.clone(),
-            grid: if answer.reduced.is_some() { "model" } else { answer.request.grid.kind() },
-            nodes: (answer.nodes, answer.nodes_across),
-            dofs: answer.dofs,
-            grid_cost: answer.result().and_then(|solution| solution.grid_cost),
-            grid_warning: answer.result().and_then(Solution::grid_warning),
-            scalars: answer.result().map(|solution| solution.scalars),
-            cavitation: answer.cavitation(),
-            meniscus: answer.result().and_then(Solution::meniscus),
-            traction: answer.traction(),
-            rolling_resistance: answer.result().map(Solution::rolling_resistance),
-            residual_norm: answer.solution.as_ref().map(|solution| solution.report.residual_norm),
-            newton_iterations: answer.newton_iterations,
-            linear_iterations: answer.linear_iterations,
-            wall_s: answer.wall_s,
-            heat: answer.result().and_then(|solution| solution.heat.as_deref()).map(HeatFacts::from),
-            reduced: answer.reduced.clone(),
-        }
-    }
+fn word<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Word, D::Error> {
+    let read = String::deserialize(deserializer)?;
+    let known = WORDS.into_iter().find(|word| *word == read);
+    known.ok_or_else(|| de::Error::custom(format!("`{read}` is no word of a result")))
 }
 
 impl Value {
@@ -258,12 +278,48 @@ impl Value {
             Self::Truth(truth) => Some(f64::from(u8::from(truth))),
             Self::Count(count) => Some(count as f64),
             Self::Number(number) => Some(number),
-            Self::Text(_) => None,
+            Self::Text(_) | Self::List(_) => None,
         }
     }
 }
 
 impl ContactResult {
+    /// The result of a request whose solve ended with a solution, converged or not, or with none; without warnings.
+    /// A reduced model may bring its own traction coefficient and law of cavitation.
+    pub fn new(
+        request: &Request,
+        solution: Option<&Solution>,
+        reduced: Option<(ReducedFacts, Cavitation, Option<f64>)>,
+        effort: Effort,
+    ) -> Self {
+        let Request { point, lubricant, grid, method, .. } = request;
+        let Effort { nodes, dofs, newton_iterations, linear_iterations, wall_s } = effort;
+        let converged = solution.filter(|solution| solution.converged());
+        let slides = point.sliding.slide_to_roll_ratio != 0.0;
+        let by_model = reduced.as_ref().and_then(|(.., traction)| *traction).filter(|_| slides);
+        Self {
+            point: *point,
+            method: method.name(),
+            converged: converged.is_some(),
+            warnings: Vec::new(),
+            grid: if reduced.is_some() { "model" } else { grid.kind() },
+            nodes,
+            dofs,
+            grid_cost: converged.and_then(|solution| solution.grid_cost),
+            cavitation: reduced.as_ref().map_or(lubricant.cavitation, |(_, own, _)| *own),
+            meniscus: converged.and_then(Solution::meniscus),
+            scalars: converged.map(|solution| solution.scalars),
+            traction: converged.map(|solution| by_model.unwrap_or_else(|| solution.traction_coefficient())),
+            rolling_resistance: converged.map(Solution::rolling_resistance),
+            residual_norm: solution.map(|solution| solution.report.residual_norm),
+            newton_iterations,
+            linear_iterations,
+            wall_s,
+            heat: converged.and_then(|solution| solution.heat.as_deref()).map(HeatFacts::from),
+            reduced: reduced.map(|(facts, ..)| facts),
+        }
+    }
+
     /// The number of a name; none where the result has no such number.
     pub fn value(&self, name: &str) -> Option<f64> {
         VALUES.iter().find(|(own, _)| *own == name).and_then(|(_, get)| get(self)?.as_number())
@@ -286,7 +342,28 @@ impl ContactResult {
     pub fn untrained(&self) -> bool {
         self.reduced.as_ref().is_some_and(|facts| !facts.trained)
     }
+
+    /// Its warnings as one sentence; empty without any.
+    pub fn warning(&self) -> String {
+        Warning::joined(&self.warnings)
+    }
+
+    /// The warnings of one contact's results by several methods as one sentence, each once.
+    pub fn warning_of_all(results: &[Self]) -> String {
+        let mut warnings: Vec<&Warning> = results.iter().flat_map(|result| &result.warnings).collect();
+        warnings.dedup();
+        Warning::joined(warnings)
+    }
+
+    /// The object of `solve --json`.
+    pub fn json(&self) -> ResultJson<'_> {
+        ResultJson(self)
+    }
 }
+
+/// A result as the object of `solve --json`: what does not apply is absent.
+#[derive(Clone, Copy)]
+pub struct ResultJson<'a>(&'a ContactResult);
 
 /// Values of one group, without its name.
 struct Group<'a>(&'a [(&'static str, Value)]);
@@ -297,13 +374,10 @@ impl Serialize for Group<'_> {
     }
 }
 
-impl Serialize for ContactResult {
+impl Serialize for ResultJson<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        if !serializer.is_human_readable() {
-            return stored_result::Fields::serialize(self, serializer);
-        }
         let group = |name: &'static str| name.split_once('.').map(|(group, _)| group);
-        let values: Vec<(&str, Value)> = VALUES.iter().filter_map(|(name, get)| Some((*name, get(self)?))).collect();
+        let values: Vec<(&str, Value)> = VALUES.iter().filter_map(|(name, get)| Some((*name, get(self.0)?))).collect();
         let mut map = serializer.serialize_map(None)?;
         for values in values.chunk_by(|a, b| group(a.0).is_some() && group(a.0) == group(b.0)) {
             match (values, values.first().and_then(|value| group(value.0))) {
@@ -313,49 +387,4 @@ impl Serialize for ContactResult {
         }
         map.end()
     }
-}
-
-/// The fields of a solution at its nodes: X, Y, P, H and their SI twins, λ or θ where it has one, and the rises of
-/// temperature at mid-film and of both surfaces where heat was computed.
-pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
-    let mut columns = vec!["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"];
-    if !solution.multiplier.is_empty() {
-        columns.push("lambda");
-    }
-    if !solution.fraction.is_empty() {
-        columns.push("theta");
-    }
-    let heat = solution.heat.as_deref();
-    if heat.is_some() {
-        columns.extend(["mid_film_rise_k", "surface_1_rise_k", "surface_2_rise_k"]);
-    }
-    let mut table = Table::new(name, &columns);
-    let hertz = solution.problem.point.hertz();
-    let (a, b, film_scale) = (hertz.half_width_m, hertz.half_length_m, solution.problem.point.film_scale_m());
-    let row = |(x, y, p, h)| vec![x, y, p, h, x * a, y * b, p * hertz.pressure_pa, h * film_scale];
-    table.rows.extend(solution.nodes().map(row));
-    for (row, value) in table.rows.iter_mut().zip(solution.multipliers().chain(solution.fractions())) {
-        row.push(value);
-    }
-    for (row, at) in table.rows.iter_mut().zip(heat.iter().flat_map(|heat| heat.rises())) {
-        row.push(at.mid_film_k);
-        row.extend(at.surfaces_k);
-    }
-    table
-}
-
-/// Heights Z at which [`film_shear_table`] looks.
-const HEIGHTS: usize = 11;
-
-/// Shear across the film in the plane Y = 0: X, Z = z/h, the stress τ_zx and the shear rate ∂u/∂z.
-pub fn film_shear_table(name: impl Into<String>, solution: &Solution) -> Table {
-    let mut table = Table::new(name, &["X", "Z", "tau_zx_pa", "rate_per_s"]);
-    let heights: [f64; HEIGHTS] = std::array::from_fn(|k| k as f64 / (HEIGHTS - 1) as f64);
-    let field = solution.shear_field(&heights);
-    for (k, height) in heights.into_iter().enumerate() {
-        let places = solution.profile().zip(field.chunks_exact(HEIGHTS));
-        let row = |(x, shear): (f64, &Shear)| vec![x, height, shear.stress_pa, shear.rate_per_s];
-        table.rows.extend(places.filter_map(|((x, ..), at)| Some((x, at.get(k)?))).map(row));
-    }
-    table
 }

@@ -1,9 +1,9 @@
 //! What a study is about: the facts of its scene, without the question itself.
 
+use super::answer::Request;
 use super::at::At;
-use super::bench::Request;
 use super::grid::Grid;
-use super::method::ModelSource;
+use super::method::{Method, ModelSource};
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 
@@ -35,7 +35,7 @@ impl Experiment {
         self.at.with_alpha_of(&self.lubricant).point(self.contact)
     }
 
-    /// The same as something to be solved, with its sliding.
+    /// The same as something to be solved in full, with its sliding.
     ///
     /// # Errors
     /// As [`point`](Self::point).
@@ -45,6 +45,12 @@ impl Experiment {
 
     /// Another contact of the same lubricant on the same grid.
     pub fn request_at(&self, point: OperatingPoint) -> Request {
-        Request { point, lubricant: self.lubricant, grid: self.grid, grid_model: self.grid_model.clone() }
+        Request {
+            point,
+            lubricant: self.lubricant,
+            grid: self.grid,
+            grid_model: self.grid_model.clone(),
+            method: Method::Full,
+        }
     }
 }

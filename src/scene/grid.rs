@@ -42,6 +42,16 @@ pub enum Grid {
     Model,
 }
 
+impl From<GridSpec> for Grid {
+    fn from(spec: GridSpec) -> Self {
+        match spec {
+            GridSpec::Uniform { dx, domain } => Self::Uniform { dx, domain },
+            GridSpec::Graded { nodes, domain, registered } => Self::GradedNodes { nodes, domain, registered },
+            GridSpec::Plane(spec) => Self::Plane(spec),
+        }
+    }
+}
+
 impl Grid {
     /// The dissertation's grid: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };

@@ -4,8 +4,10 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use crate::solver::physics::lubricant::{
     Cavitation, DensityLaw, Doolittle, FreeVolumeHeat, LimitingStress, Lubricant, OilHeat, ShearLaw, Tait, ViscosityLaw,
 };
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A lubricant with its name and one line about it.
+/// A lubricant with its name and one line about it; in files its name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NamedLubricant {
     /// The word on the command line.
@@ -150,6 +152,18 @@ pub static NAMED: [NamedLubricant; 6] = [
     },
 ];
 
+impl Serialize for NamedLubricant {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
+impl<'de> Deserialize<'de> for NamedLubricant {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        by_name(&String::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
+}
+
 impl NamedLubricant {
     /// The contact in which its source studies it, in pure rolling; `None` for laws that go with any contact.
     pub fn studied_contact(&self, kind: ContactKind) -> Option<OperatingPoint> {
@@ -175,14 +189,17 @@ pub fn of_laws(laws: &Lubricant) -> Option<&'static NamedLubricant> {
     NAMED.iter().find(same).or_else(|| NAMED.iter().find(film))
 }
 
+/// There is no lubricant of a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no lubricant of that name; accepted are {}", NAMED.map(|lubricant| lubricant.name).join(", "))]
+pub struct UnknownLubricant;
+
 /// The lubricant of a name.
 ///
 /// # Errors
-/// With a sentence that lists the accepted names.
-pub fn by_name(name: &str) -> Result<NamedLubricant, String> {
-    let accepted = || NAMED.map(|lubricant| lubricant.name).join(", ");
-    let found = NAMED.iter().find(|lubricant| lubricant.name == name).copied();
-    found.ok_or_else(|| format!("there is no lubricant of that name; accepted are {}", accepted()))
+/// When there is none; the sentence lists the accepted names.
+pub fn by_name(name: &str) -> Result<NamedLubricant, UnknownLubricant> {
+    NAMED.iter().find(|lubricant| lubricant.name == name).copied().ok_or(UnknownLubricant)
 }
 
 #[cfg(test)]

@@ -1,13 +1,13 @@
 //! Many contacts on all cores, full and reduced. Every solve starts afresh, so that neither order nor threads matter.
 
 use super::error::RunError;
+use crate::host::pool::map_with;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Solution, Start};
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, ReducedSolution};
-use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -59,24 +59,20 @@ pub(super) fn full_solutions_told(
     // A full solution may take seconds: each is news.
     let (stage, total) = ("full solutions to compare with", contacts.len());
     let count = Count { stage, done: AtomicUsize::new(0), total, every: 1, observer };
-    contacts
-        .par_iter()
-        .enumerate()
-        .map_init(Vec::<ContactSolver>::new, |solvers, (i, (point, lubricant))| {
-            let grid = grid(point);
-            let known = solvers.iter().position(|solver| solver.grid_spec() == grid.spec());
-            let known = known.map(|place| solvers.swap_remove(place));
-            let mut solver = known.unwrap_or_else(|| ContactSolver::on(&grid));
-            let solution = solver.solve(point, *lubricant, Start::Cold, observer);
-            let solution = solution.map(|solution| solver.judged(solution));
-            solvers.push(solver);
-            let solution = solution?;
-            count.one_more()?;
-            let solution = Some(solution).filter(Solution::converged);
-            tell(i, solution.as_ref());
-            Ok(solution)
-        })
-        .collect()
+    map_with(contacts, Vec::<ContactSolver>::new, |solvers, i, (point, lubricant)| {
+        let grid = grid(point);
+        let known = solvers.iter().position(|solver| solver.grid_spec() == grid.spec());
+        let known = known.map(|place| solvers.swap_remove(place));
+        let mut solver = known.unwrap_or_else(|| ContactSolver::on(&grid));
+        let solution = solver.solve(point, *lubricant, Start::Cold, observer);
+        let solution = solution.map(|solution| solver.judged(solution));
+        solvers.push(solver);
+        let solution = solution?;
+        count.one_more()?;
+        let solution = Some(solution).filter(Solution::converged);
+        tell(i, solution.as_ref());
+        Ok(solution)
+    })
 }
 
 /// Reduced solutions with their fields where `fields` wants them by the point's index, none where the iteration does
@@ -91,10 +87,11 @@ pub(super) fn reduced_solutions(
 ) -> Result<Vec<Option<Reduced>>, RunError> {
     let (stage, total) = ("reduced solutions", points.len());
     let count = Count { stage, done: AtomicUsize::new(0), total, every: REPORT_EVERY, observer };
-    let parts: Vec<Vec<Option<Reduced>>> = points
-        .par_chunks(CHUNK)
-        .enumerate()
-        .map(|(chunk, points)| {
+    let chunks: Vec<&[OperatingPoint]> = points.chunks(CHUNK).collect();
+    let parts = map_with(
+        &chunks,
+        || (),
+        |(), chunk, points| -> Result<Vec<_>, RunError> {
             let mut online = Online::new(Arc::clone(model), options);
             let solve = |(i, point): (usize, &OperatingPoint)| {
                 count.one_more()?;
@@ -110,8 +107,8 @@ pub(super) fn reduced_solutions(
                 }
             };
             points.iter().enumerate().map(solve).collect()
-        })
-        .collect::<Result<_, RunError>>()?;
+        },
+    )?;
     Ok(parts.into_iter().flatten().collect())
 }
 

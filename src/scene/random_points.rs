@@ -2,15 +2,16 @@
 
 use super::error::RunError;
 use crate::solver::observer::Observer;
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::training::{Range, random_points_while};
+use crate::solver::training::random_points_while;
 
 /// Exactly `n` random points of a range for one kind of contact, the same ones for the same seed.
 ///
 /// # Errors
 /// When the range holds hardly any admissible point, or the observer cancels.
 pub(super) fn all_random_points(
-    range: &Range,
+    range: &ParameterSpace,
     kind: ContactKind,
     n: usize,
     seed: u64,
@@ -32,10 +33,12 @@ pub(super) fn all_random_points(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::parameters::{Axis, Quantity};
 
     #[test]
     fn a_range_with_hardly_any_point_is_refused_in_a_sentence() {
-        let none = Range::Realisation { m: (500.0, 500.0), l: (20.0, 20.0), max_hertz_pressure: 1e6 };
+        let none = ParameterSpace::of([Axis::new(Quantity::M, (500.0, 500.0)), Axis::new(Quantity::L, (20.0, 20.0))])
+            .limited([(Quantity::HertzPressure, (0.0, 1e6))]);
         let sentence = all_random_points(&none, ContactKind::Line, 3, 1, &()).unwrap_err().to_string();
         assert!(sentence.contains("only 0 of 3"), "{sentence}");
     }

@@ -5,10 +5,10 @@ use super::error::RunError;
 use super::expectation::Expectation;
 use super::outcome::SceneOutcome;
 use super::{Scene, StudyObserver, StudyRow};
+use crate::host::clock::Stopwatch;
 use crate::solver::observer::{NewtonStep, Observer, Progress};
 use crate::solver::training::{TrainingObserver, TrainingState};
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
 
 /// Answers a scene's question and holds its expectations against the answer.
 ///
@@ -17,11 +17,11 @@ use std::time::Instant;
 /// expectations that fall short are part of the outcome.
 pub fn run_scene(scene: &Scene, bench: &mut dyn Bench, observer: &dyn StudyObserver) -> Result<SceneOutcome, RunError> {
     scene.check()?;
-    let (clock, experiment) = (Instant::now(), scene.experiment());
+    let (clock, experiment) = (Stopwatch::start(), scene.experiment());
     let kept = Kept { observer, rows: Mutex::default() };
     scene.study.run(&experiment, bench, &kept)?;
     let rows = kept.rows.into_inner().unwrap_or_else(PoisonError::into_inner);
-    Ok(scene.outcome(&rows, clock.elapsed().as_secs_f64()))
+    Ok(scene.outcome(&rows, clock.seconds()))
 }
 
 impl Scene {

@@ -1,9 +1,14 @@
 //! Everything of a scene is checked before anything is computed from it.
 
 use super::check::{Checked, number, refuse};
-use super::{Expectation, Scene, SceneError, View, Within, grid};
+use super::document::Scene;
+use super::error::SceneError;
+use super::expectation::{Expectation, Within};
+use super::grid;
+use super::view::View;
 use crate::solver::limits::plain;
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 
 impl Scene {
@@ -71,7 +76,8 @@ fn expectation(index: usize, entry: &Expectation) -> Checked {
 mod tests {
     use super::*;
     use crate::scene::study::{error_split, grid_study, point, sweep, trajectory};
-    use crate::scene::{At, Axis, Contacts, Grid, Method, QuantityBox, Steps, Study};
+    use crate::scene::{At, Axis, Contacts, Grid, Method, Steps, Study};
+    use crate::solver::parameters::ParameterSpace;
     use crate::solver::physics::lubricant::{Cavitation, Heat};
 
     #[test]
@@ -113,14 +119,10 @@ mod tests {
             compare_on_model_grid: true,
         });
         assert!(message(Scene { study: alone, ..good.clone() }).contains("study.compare_on_model_grid"));
-        let range = QuantityBox { load: (2.0, f64::NAN), ..QuantityBox::TABLE_3_1 };
-        let study = Study::Trajectory(trajectory::Trajectory {
-            range: Some(range),
-            through: None,
-            points: 10,
-            methods: vec![Method::Full],
-        });
-        assert!(message(Scene { study, ..good.clone() }).contains("study.range.load.1"));
+        let mut range = ParameterSpace::table_3_1();
+        range.axis_mut(Quantity::Load).unwrap().ends = (2.0, f64::NAN);
+        let study = Study::Trajectory(trajectory::Trajectory { range, points: 10, methods: vec![Method::Full] });
+        assert!(message(Scene { study, ..good.clone() }).contains("study.range.axes.Load.1"));
         let study = Study::ErrorSplit(error_split::ErrorSplitStudy { contacts: Contacts::Here, method: Method::Full });
         assert!(message(Scene { study, ..good.clone() }).contains("study.method"));
         let study = Study::GridStudy(grid_study::GridStudy { dx: vec![0.02, 0.01, 0.004] });

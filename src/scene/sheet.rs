@@ -1,30 +1,22 @@
 //! A sheet of one contact for the file: inputs with units, results, how they were checked, published formulas beside
 //! them, and what wrote it. As Markdown, HTML with figures, and CSV.
 
+use super::answer::Answer;
 use super::chart::{Chart, ChartAxis, Marks};
 use super::chart_page::Page;
 use super::contact_result::ContactResult;
 use super::drawing::escaped;
 use super::regimes::{self, Regime};
 use super::table::{quoted, significant};
-use crate::solver::full::Solution;
+use crate::solver::physics::bodies::{Bodies, film_regime};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, FilmShape};
-use crate::solver::physics::engineering::{Bodies, film_regime, largest_shear};
+use crate::solver::physics::engineering::largest_shear;
 use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Digits of the sheet's numbers for people; its CSV has all.
 const DIGITS: i32 = 5;
-
-/// A contact with its solution, by one method.
-#[derive(Clone, Copy, Debug)]
-pub struct Solved<'a> {
-    /// Scalars and how they were obtained.
-    pub result: &'a ContactResult,
-    /// Fields; none without convergence.
-    pub solution: Option<&'a Solution>,
-}
 
 /// A sheet.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,15 +87,15 @@ impl Part {
 impl Sheet {
     /// The sheet of one contact by one or more methods, the one that counts first. Of bodies, where they are known, the
     /// roughness says how the film compares with it.
-    pub fn new(title: &str, solved: &[Solved<'_>], bodies: Option<&Bodies>) -> Self {
+    pub fn new(title: &str, solved: &[Answer], bodies: Option<&Bodies>) -> Self {
         let mut parts = Vec::new();
         let mut figures = Vec::new();
         if let Some(first) = solved.first() {
-            parts.push(inputs(first));
+            parts.push(inputs(first, bodies));
             parts.push(results(first, bodies));
             parts.extend(solved.iter().map(verification));
             parts.extend(difference(solved));
-            parts.extend(formulas(first.result));
+            parts.extend(formulas(&first.result));
             figures = pictures(solved);
         }
         parts.push(program());
@@ -216,7 +208,7 @@ impl Value {
     }
 }
 
-fn inputs(solved: &Solved<'_>) -> Part {
+fn inputs(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     let point = &solved.result.point;
     let mut part = Part::new("Contact");
     let (kind, load) = match point.kind {
@@ -229,9 +221,13 @@ fn inputs(solved: &Solved<'_>) -> Part {
     part.number("Load w", point.load, load);
     part.number("Entrainment speed u_m", point.speed_m_per_s, "m/s");
     part.number("Slide-to-roll ratio SRR", point.sliding.slide_to_roll_ratio, "");
+    for (number, body) in (1..).zip(bodies.iter().flat_map(|bodies| bodies.0)) {
+        let material = body.material().map_or("", |material| material.name);
+        part.said(&format!("Speed of body {number}"), body.speed_m_per_s, "m/s", material);
+    }
     part.number("Viscosity at ambient pressure η₀", point.viscosity_pa_s, "Pa·s");
     part.number("Pressure–viscosity coefficient α", point.alpha_per_pa, "1/Pa");
-    if let Some(solution) = solved.solution {
+    if let Some(solution) = solved.fields() {
         part.words("Laws of the lubricant", solution.problem.lubricant.describe());
     }
     part.number("Load number M", point.moes().m, "");
@@ -241,8 +237,8 @@ fn inputs(solved: &Solved<'_>) -> Part {
     part
 }
 
-fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
-    let result = solved.result;
+fn results(solved: &Answer, bodies: Option<&Bodies>) -> Part {
+    let result = &solved.result;
     let (point, hertz) = (&result.point, result.point.hertz());
     let value = |name: &str| result.value(name);
     let mut part = Part::new("Results");
@@ -272,7 +268,11 @@ fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     {
         part.said("Film ratio λ", ratio, "", film_regime(ratio));
     }
-    let shear = largest_shear(point, bodies.map_or(0.3, |bodies| bodies.0.poisson));
+    for (name, key) in [("mid-film", "mid_film"), ("body 1", "surface_1"), ("body 2", "surface_2")] {
+        let rise = value(&format!("heat.{key}_rise_k"));
+        part.said(&format!("Temperature rise of {name}"), rise, "K", "at X = 0, above the inlet");
+    }
+    let shear = largest_shear(point, bodies.map_or(0.3, |bodies| bodies.0[0].poisson));
     let depth = shear.depth_over_half_width * hertz.half_width_m;
     part.said(
         "Largest shear under the surface",
@@ -286,8 +286,8 @@ fn results(solved: &Solved<'_>, bodies: Option<&Bodies>) -> Part {
     part
 }
 
-fn verification(solved: &Solved<'_>) -> Part {
-    let result = solved.result;
+fn verification(solved: &Answer) -> Part {
+    let result = &solved.result;
     let mut part = Part::new(&format!("How it was solved: {}", result.method));
     part.words("Converged", if result.converged { "yes" } else { "no" });
     let nodes = match result.nodes {
@@ -313,13 +313,13 @@ fn verification(solved: &Solved<'_>) -> Part {
         }
     }
     for warning in &result.warnings {
-        part.words("Warning", warning);
+        part.words("Warning", warning.to_string());
     }
     part
 }
 
 /// How far the other methods lie from the first one.
-fn difference(solved: &[Solved<'_>]) -> Option<Part> {
+fn difference(solved: &[Answer]) -> Option<Part> {
     let (first, others) = solved.split_first()?;
     let mut part = Part::new("Methods compared");
     for other in others {
@@ -352,12 +352,12 @@ fn formulas(result: &ContactResult) -> Option<Part> {
 }
 
 /// Pressure and film in the plane Y = 0, in SI units, and the chart of regimes.
-fn pictures(solved: &[Solved<'_>]) -> Vec<Chart> {
+fn pictures(solved: &[Answer]) -> Vec<Chart> {
     let x = || ChartAxis::linear("x [mm]");
     let mut pressure = Chart::new("Pressure", x(), ChartAxis::linear("p [GPa]"));
     let mut film = Chart::new("Film", x(), ChartAxis::linear("h [µm]"));
-    for Solved { result, solution } in solved {
-        let Some(solution) = solution else { continue };
+    for (answer, solution) in solved.iter().filter_map(|answer| Some((answer, answer.fields()?))) {
+        let result = &answer.result;
         let (hertz, scale) = (result.point.hertz(), result.point.film_scale_m());
         let near = || solution.profile().filter(|(x, ..)| (-2.0..=1.5).contains(x));
         let mm = 1e3 * hertz.half_width_m;

@@ -13,8 +13,10 @@ pub struct Table {
     pub rows: Vec<Vec<f64>>,
     /// What each row is called, where rows have names; `run` prints such a table.
     pub labels: Vec<String>,
-    /// What is to be said of each row, where there is anything: the last column.
+    /// Words on each row, if there are any: the last column.
     pub remarks: Vec<String>,
+    /// Title of that column; `remark` if it is empty.
+    pub remarks_title: &'static str,
 }
 
 /// A number of a row, by its name.
@@ -41,8 +43,7 @@ impl Table {
     /// column, remarks the last.
     pub fn to_csv(&self) -> String {
         let named = (!self.labels.is_empty()).then_some("name");
-        let said = (!self.remarks.is_empty()).then_some("remark");
-        let titles = named.into_iter().chain(self.columns.iter().map(String::as_str)).chain(said);
+        let titles = named.into_iter().chain(self.columns.iter().map(String::as_str)).chain(self.remarks_title());
         let mut text = titles.map(quoted).collect::<Vec<_>>().join(",");
         text.push('\n');
         for (k, row) in self.rows.iter().enumerate() {
@@ -53,6 +54,12 @@ impl Table {
             text.push('\n');
         }
         text
+    }
+
+    /// Title of the remarks, if there are any.
+    pub fn remarks_title(&self) -> Option<&'static str> {
+        let title = if self.remarks_title.is_empty() { "remark" } else { self.remarks_title };
+        (!self.remarks.is_empty()).then_some(title)
     }
 
     /// As columns for people, numbers with three digits, each line behind `indent`.

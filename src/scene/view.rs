@@ -1,8 +1,9 @@
 //! What the explorer keeps with a scene so that nothing is lost when it is saved and opened again.
 
-use super::is_default;
-use crate::solver::physics::contact::Quantity;
-use crate::solver::physics::engineering::{Bodies, Oil};
+use super::written::is_default;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::bodies::Bodies;
+use crate::solver::physics::engineering::Oil;
 use serde::{Deserialize, Serialize};
 
 /// How the explorer edits a scene: what follows when a slider moves, and how the reduced model is truncated. Running a

@@ -79,3 +79,13 @@ pub fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Res
     }
     Ok(())
 }
+
+/// Four significant digits without trailing zeros.
+pub fn digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 12) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}

@@ -3,6 +3,7 @@
 //! There is one [`Observer`] for everything that takes long. What tells more than this has a trait of its own on top of
 //! it: a march its moments, a training its state, a study its rows.
 
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Watches a computation, from all of its threads. Every method has a default, so `()` watches nothing.
@@ -24,7 +25,7 @@ pub trait Observer: Sync {
 }
 
 /// What one Newton step did.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NewtonStep {
     /// Count from 1, over all attempts of the solve.
     pub iteration: usize,
@@ -35,7 +36,7 @@ pub struct NewtonStep {
 }
 
 /// How far long work is.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
     /// What is being done, for people.
     pub stage: String,

@@ -10,14 +10,16 @@ use std::time::{Duration, Instant};
 /// Cold full point contacts on a grid of few nodes, of some hundredths of a second each.
 const SCENE: &str = "Scene(version: 1, title: \"balls\", contact: Point, \
     grid: Plane(dx: 0.04, dy: 0.1, domain: (-3.0, 1.5, -1.5)), \
-    study: RandomTest(range: Box(radius: (10e-3, 12e-3), speed: (1.0, 3.0), load: (20.0, 60.0), alpha: (8e-9, 11e-9), \
-    modulus: 231e9, viscosity: 0.01), tests: 60, seed: 3, method: Full), \
+    study: RandomTest(range: (axes: {Radius: (10e-3, 12e-3, Linear), Speed: (1.0, 3.0, Linear), \
+    Load: (20.0, 60.0, Linear), Alpha: (8e-9, 11e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), tests: 60, seed: 3, method: Full), \
     expect: [(name: \"tests\", value: 60, within: Absolute(0), from: \"as many as are asked for\")])";
 
 /// Five full solutions, then a round for each that the search adds.
 const ADAPTIVE: &str = "Scene(version: 1, title: \"adaptive\", study: Training(title: \"t\", \
-    range: Box(radius: (3e-3, 4e-3), speed: (2.0, 4.0), load: (2e5, 4e5), alpha: (8e-9, 12e-9), modulus: 231e9, \
-    viscosity: 0.01), plan: Adaptive(start: 5, indicator: Correction, tolerances: [1e-7], successes: 16, \
+    range: (axes: {Radius: (3e-3, 4e-3, Linear), Speed: (2.0, 4.0, Linear), \
+    Load: (2e5, 4e5, Linear), Alpha: (8e-9, 12e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), plan: Adaptive(start: 5, indicator: Correction, tolerances: [1e-7], successes: 16, \
     local_sigma: 0.2, local_successes: 0, vicinity: 2, limit: 8), windows: Given([(m: (1.0, 500.0), \
     grid: Graded(nodes: 240, domain: (-6.0, 1.9), registered: true))]), pressure_loss: 1e-6, deformation_loss: 1e-6, \
     rows_per_mode: 2.0, evidence: 0, seed: 5))";
@@ -138,8 +140,9 @@ fn a_model_of_another_version_is_refused_by_its_own_name_before_anything_is_writ
     std::fs::write(scratch.join("former.rom"), model).unwrap();
     scratch.write(
         "scene.ron",
-        "Scene(version: 1, title: \"lines\", study: RandomTest(range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), \
-         load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, viscosity: 0.01), tests: 4, seed: 3, \
+        "Scene(version: 1, title: \"lines\", study: RandomTest(range: (axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear), \
+    Load: (1e5, 5e5, Linear), Alpha: (5e-9, 20e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), tests: 4, seed: 3, \
          method: Reduced(model: File(\"former.rom\"))))",
     );
     let document = scratch.write("campaign.txt", "(version: 1, scene: \"scene.ron\", shard: Pieces(2))");

@@ -242,7 +242,7 @@ fn a_grid_that_does_not_do_is_said_and_the_default_one_does() {
     );
     assert!(own["grid"]["truncation_error"].as_f64().unwrap() > 0.1);
     let sweep = program(&["sweep", "m=10:200:2", "--moes-l", "5", "--dx", "0.05"]);
-    assert!(String::from_utf8_lossy(&sweep.stderr).contains("the grid does not do for"));
+    assert!(String::from_utf8_lossy(&sweep.stderr).contains("H_c is off by about"));
     for contact in ["line", "point"] {
         assert_refused(&["solve", "--contact", contact, "--moes-m", "9e4", "--moes-l", "0.1"], "too thin");
     }

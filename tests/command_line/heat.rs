@@ -26,13 +26,13 @@ fn a_contact_with_heat_tells_its_temperatures_and_writes_them() {
     let eyring = ["--shear", "eyring", "--shear-stress", "6e6", "--profiles", profiles.to_str().unwrap()];
     let warm = json(&program(&[&CONTACT[..], &SLIDING, &eyring].concat()));
     let heat = |name: &str| warm["heat"][name].as_f64().unwrap();
-    // An independent solver, extrapolated to vanishing spacings.
+    // An independent solver, extrapolated to vanishing spacings; its body 1 is the faster one.
     for (found, wanted, within) in [
         (warm["H_c"].as_f64().unwrap(), 0.0744185, 3e-3),
         (warm["traction"].as_f64().unwrap(), 0.0327481, 1e-2),
         (heat("mid_film_rise_k"), 22.7812, 1e-2),
-        (heat("surface_1_rise_k"), 12.4927, 1e-2),
-        (heat("surface_2_rise_k"), 14.7274, 1e-2),
+        (heat("surface_1_rise_k"), 14.7274, 1e-2),
+        (heat("surface_2_rise_k"), 12.4927, 1e-2),
     ] {
         assert!((found / wanted - 1.0).abs() < within, "{found} {wanted}");
     }
@@ -54,6 +54,29 @@ fn glass_keeps_the_heat_and_a_limit_makes_less_of_it() {
     assert!(steel["traction"].as_f64().unwrap() < 0.025);
 }
 
+/// A glass disc and a steel ball by their elastic and thermal constants; the disc is the slower one.
+#[test]
+fn exchanged_bodies_that_slide_the_other_way_are_the_same_contact() {
+    let oil = ["--radius=0.0127", "--speed=0.74", "--load=1e5", "--viscosity=0.05", "--alpha=1.8e-8", "--heat"];
+    let solve =
+        |bodies: [&str; 7]| json(&program(&[&["solve", "--grid=graded", "--json"], &oil[..], &bodies].concat()));
+    let disc = ["--e1=81e9", "--nu1=0.21", "--e2=210e9", "--nu2=0.3", "--body1=glass", "--body2=steel", "--srr=0.5"];
+    let other = ["--e2=81e9", "--nu2=0.21", "--e1=210e9", "--nu1=0.3", "--body2=glass", "--body1=steel", "--srr=-0.5"];
+    let [disc, other] = [disc, other].map(solve);
+    let close = |a: &serde_json::Value, b: &serde_json::Value, sign: f64| {
+        let [a, b] = [a, b].map(|value| value.as_f64().unwrap());
+        assert!((sign * b / a - 1.0).abs() < 1e-6, "{a} {b}");
+    };
+    close(&disc["H_c"], &other["H_c"], 1.0);
+    close(&disc["traction"], &other["traction"], -1.0);
+    assert!(disc["traction"].as_f64().unwrap() > 0.0);
+    let [heat, exchanged] = [&disc["heat"], &other["heat"]];
+    close(&heat["mid_film_rise_k"], &exchanged["mid_film_rise_k"], 1.0);
+    close(&heat["surface_1_rise_k"], &exchanged["surface_2_rise_k"], 1.0);
+    close(&heat["surface_2_rise_k"], &exchanged["surface_1_rise_k"], 1.0);
+    assert!(heat["surface_1_rise_k"].as_f64() > heat["surface_2_rise_k"].as_f64(), "{heat}");
+}
+
 /// A small training with heat around the contact.
 const TRAINING: &str = "Scene(
     version: 1,
@@ -61,8 +84,9 @@ const TRAINING: &str = "Scene(
     heat: (inlet_temperature: 313.15),
     study: Training(
         title: \"Line contacts with heat\",
-        range: Heated(m: (18.0, 26.0), l: (9.0, 11.0), srr: (0.0, 0.5), radius: 0.01, modulus: 231e9, viscosity: 0.02,
-            alpha: 1.8e-8, max_hertz_pressure: 1.6e9),
+        range: (axes: {M: (18.0, 26.0), L: (9.0, 11.0), SlideToRollRatio: (0.0, 0.5)},
+            limits: {HertzPressure: (0.0, 1.6e9)},
+            fixed: {Radius: 0.01, Modulus: 231e9, Viscosity: 0.02, Alpha: 1.8e-8}),
         lubricant: (limiting_stress: (ambient: 5e6, slope: 0.05, eyring: 5e6)),
         plan: FarthestPoint(snapshots: 40),
         windows: Given([(m: (18.0, 26.0), grid: Graded(nodes: 280, domain: (-10.0, 2.0), registered: true))]),
@@ -102,7 +126,7 @@ fn a_model_that_was_trained_with_heat_answers_and_says_what_it_does_not_know() {
     let cold = json(&program(&[&CONTACT[..], &["--lubricant", "mineral-oil", "--json"], &reduced].concat()));
     assert!(cold["warning"].as_str().unwrap().contains("trained with heat"));
     let info = String::from_utf8(program(&["info", &rom]).stdout).unwrap();
-    assert!(info.contains("heat: SRR 0…0.5, R 10.000 mm"), "{info}");
+    assert!(info.contains("varies: M 18…26, L 9…11, SRR 0…0.5\n") && info.contains("fixes: R 10 mm, "), "{info}");
 }
 
 #[test]
@@ -139,8 +163,22 @@ fn the_programs_model_of_lines_knows_warm_inlets_other_bodies_and_other_limits()
         let [a, b] = [&own, &full].map(|object| object["heat"]["mid_film_rise_k"].as_f64().unwrap());
         assert!((a / b - 1.0).abs() < 1e-2 && a > 1.0, "{a} {b}");
     }
+    // Exchanged bodies that slide the other way are the same contact.
+    let one = solve(&["--body1", "silicon-nitride"], "reduced");
+    let mut words = [&CONTACT[..], &oil, &["--body2", "silicon-nitride", "--method", "reduced"]].concat();
+    words.iter_mut().filter(|word| **word == "0.3").for_each(|word| *word = "-0.3");
+    let other = json(&program(&words));
+    for (sign, a, b) in [
+        (1.0, &one["H_c"], &other["H_c"]),
+        (-1.0, &one["traction"], &other["traction"]),
+        (1.0, &one["heat"]["surface_1_rise_k"], &other["heat"]["surface_2_rise_k"]),
+        (1.0, &one["heat"]["surface_2_rise_k"], &other["heat"]["surface_1_rise_k"]),
+    ] {
+        let [a, b] = [a, b].map(|value| value.as_f64().unwrap());
+        assert!((sign * b / a - 1.0).abs() < 1e-6, "{a} {b}");
+    }
     let hot = solve(&["--inlet-temperature", "420"], "reduced");
-    assert!(hot["warning"].as_str().unwrap().contains("inlet’s temperature = 420 K lies outside"), "{hot}");
+    assert!(hot["warning"].as_str().unwrap().contains("the inlet temperature = 420 K lies outside"), "{hot}");
 }
 
 #[test]

@@ -80,10 +80,10 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
 
     // Where one of the other kind is wanted both are named.
     let solve = ["solve", "--moes-m", "40", "--moes-l", "10", "--method", "reduced", "--rom", word(&model)];
-    assert_refused(&solve, "is a reduced model in time");
+    assert_refused(&solve, "is a transient reduced model");
     let stationary = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/line.rom");
     let wrong = scene(&format!("reduced: (model: File(\"{stationary}\"))"));
-    assert_refused(&["run", word(&folder.write("wrong.ron", &wrong))], "of stationary contacts");
+    assert_refused(&["run", word(&folder.write("wrong.ron", &wrong))], "of steady contacts");
     let moving = scene("frames: [ArbitraryLagrangianEulerian], reduced: (model: File(\"breathes.rom\"))");
     assert_refused(&["run", word(&folder.write("moving.ron", &moving))], "frames: [Fixed]");
     let unit = folder.join("a.fmu");

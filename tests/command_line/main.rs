@@ -9,6 +9,8 @@ mod commands;
 mod ellipses;
 mod heat;
 mod in_time;
+mod interfaces;
+mod load_cases;
 mod readme;
 mod refused;
 mod run_and_train;

@@ -95,7 +95,7 @@ fn bad_scenes_are_refused_with_one_sentence() {
     assert_refused(&["run", &good, &no_model], "no_model.ron: the reduced model");
     let loud = write("loud.ron", "Scene(version: 1, title: \"\\u{1b}[2J\", study: Point(methods: [Full]))");
     assert_refused(&["run", &loud], "control characters");
-    let grid = "Training((title: \"x\", grid: Hexagonal, range: Box((load: (1.0, 2.0)))))";
+    let grid = "Training((title: \"x\", grid: Hexagonal, range: (axes: {Load: (1.0, 2.0)})))";
     let grid = write("grid.ron", &format!("Scene(version: 1, title: \"x\", study: {grid})"));
     let told = String::from_utf8(program(&["run", &grid]).stderr).unwrap();
     assert!(!told.contains("Written"), "{told}");

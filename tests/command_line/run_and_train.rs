@@ -36,7 +36,9 @@ fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
 /// A training that takes about a second on an idle core, by the automatic algorithm.
 const SMALL_TRAINING: &str = "Scene(version: 1, title: \"small\", study: Training(
     title: \"small\",
-    range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, viscosity: 0.01),
+    range: (axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear),
+        Load: (1e5, 5e5, Linear), Alpha: (5e-9, 20e-9, Linear)},
+        fixed: {Modulus: 231e9, Viscosity: 0.01}),
     plan: Adaptive(start: 20, indicator: Correction, tolerances: [1e-2, 1e-3], successes: 32, local_sigma: 0.1,
         local_successes: 8, vicinity: 4, limit: 32),
     windows: Given([(m: (5.0, 200.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),

@@ -5,4 +5,5 @@ pub mod cases;
 pub mod processor_time;
 pub mod scene_files;
 pub mod scratch;
+pub mod six_contacts;
 pub mod stop_after;

@@ -4,18 +4,18 @@ use crate::common::cases::cases;
 use crate::common::scene_files;
 use crate::common::scratch::Scratch;
 use crate::{alone, most_bytes, spoil};
-use ehl_explorer::engine::{Embedded, model_file, training_file, trajectory_file};
+use ehl_explorer::engine::{SavedModel, embedded, model_file, training_file};
 use ehl_explorer::scene::Scene;
-use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::transient::{self, Inputs, Keep, Signal, Transient};
+use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint};
 use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::training::{
-    Plan, Range, Search, Solved, TrainingSpec, TrainingState, TrajectoryTraining, WindowSpec, WindowState,
-    train_trajectories,
+    Plan, Search, Solved, TrainingSpec, TrainingState, TrajectoryTraining, WindowSpec, WindowState, train_trajectories,
 };
 use fastrand::Rng;
+use std::sync::Arc;
 
 /// Most bytes that reading a damaged file may take.
 const MOST_BYTES: usize = 200_000_000;
@@ -56,17 +56,23 @@ fn damaged_scenes_are_refused_in_a_sentence_or_mean_what_they_say() {
     println!("{read} of the damaged scenes are scenes");
 }
 
+/// A model file that is damaged anywhere, or in the text of its directory.
+fn spoiled_model(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
+    if rng.bool() { spoil::payload(rng, whole) } else { spoil::directory(rng, whole) }
+}
+
 #[test]
 fn damaged_models_are_refused_in_a_sentence_or_solve_their_own_snapshots() {
     let _alone = alone();
     let mut rng = Rng::with_seed(2);
     for (contact, cases) in [(ContactKind::Line, cases(150, 19_000)), (ContactKind::Point, cases(10, 1000))] {
-        let model = Embedded::of_kind(contact, SQUALANE_PIP.shear).model().unwrap();
+        let thinning = if contact == ContactKind::Line { "line_shear" } else { "point_shear" };
+        let model = embedded(thinning).unwrap();
         let whole = model_file::to_bytes(&model).unwrap();
         drop(model);
         let mut read = 0;
         for case in 0..cases {
-            let spoiled = spoil::payload(&mut rng, &whole);
+            let spoiled = spoiled_model(&mut rng, &whole);
             let mut refusal = |spoiled: &[u8]| match model_file::from_bytes(spoiled) {
                 Ok(_) => {
                     read += 1;
@@ -89,7 +95,7 @@ fn model_in_time(cavitation: Cavitation) -> Vec<u8> {
     let trajectory = transient::solve(grid, &Transient { keep: Keep::Every(1), lubricant, ..own }, &()).unwrap();
     let settings = TrajectoryTraining { loss: 1e-4, ..TrajectoryTraining::default() };
     let model = train_trajectories(&grid.line().unwrap(), &[trajectory], &settings, &()).unwrap();
-    trajectory_file::to_bytes(&model).unwrap()
+    SavedModel::InTime(Arc::new(model)).to_bytes().unwrap()
 }
 
 #[test]
@@ -98,11 +104,11 @@ fn damaged_models_in_time_are_refused_in_a_sentence_or_rest_where_their_training
     let mut rng = Rng::with_seed(4);
     for cavitation in [Cavitation::Penalty, Cavitation::Complementarity] {
         let whole = model_in_time(cavitation);
-        assert!(trajectory_file::from_bytes(&whole).is_ok());
+        assert!(SavedModel::from_bytes(&whole).is_ok());
         let (mut read, count) = (0, cases(400, 10_000));
         for case in 0..count {
-            let spoiled = spoil::payload(&mut rng, &whole);
-            let mut refusal = || match trajectory_file::from_bytes(&spoiled) {
+            let spoiled = spoiled_model(&mut rng, &whole);
+            let mut refusal = || match SavedModel::from_bytes(&spoiled) {
                 Ok(_) => {
                     read += 1;
                     None
@@ -117,8 +123,10 @@ fn damaged_models_in_time_are_refused_in_a_sentence_or_rest_where_their_training
 
 /// A training of which one contact is solved and one is to be.
 fn training() -> TrainingState {
-    let range =
-        Range::Moes { m: (10.0, 20.0), l: (2.0, 3.0), alpha: (1e-8, 2e-8), max_hertz_pressure: 3e9, viscosity: 0.01 };
+    let axes = [(Quantity::M, (10.0, 20.0)), (Quantity::L, (2.0, 3.0)), (Quantity::Alpha, (1e-8, 2e-8))];
+    let range = ParameterSpace::of(axes.map(|(quantity, ends)| Axis::new(quantity, ends)))
+        .limited([(Quantity::HertzPressure, (0.0, 3e9))])
+        .fixing([(Quantity::Viscosity, 0.01)]);
     let (grid, plan) = (GridSpec::EXPLORER, Plan::FarthestPoint { snapshots: 8 });
     let spec = TrainingSpec::new(range, (10.0, 20.0), grid, plan);
     let point = OperatingPoint::TABLE_2_1;

@@ -80,6 +80,19 @@ pub fn payload(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
     bytes
 }
 
+/// A model file with one to four places of its directory changed, and its length, that of the file and the hash made to
+/// fit again.
+pub fn directory(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
+    let (header, rest) = whole.split_at(HEADER);
+    let (length, rest) = rest.split_first_chunk().unwrap();
+    let (directory, arrays) = rest.split_at(u64::from_le_bytes(*length) as usize);
+    let directory = text(rng, std::str::from_utf8(directory).unwrap());
+    let length = (directory.len() as u64).to_le_bytes();
+    let mut bytes = [header, &length, directory.as_bytes(), arrays].concat();
+    mend(&mut bytes);
+    bytes
+}
+
 fn mend(bytes: &mut [u8]) {
     let length = (bytes.len() - HEADER) as u64;
     bytes[12..BEFORE_HASH].copy_from_slice(&length.to_le_bytes());

@@ -6,6 +6,7 @@ mod common;
 
 mod cancel;
 mod plans;
+mod points;
 mod repository;
 mod sampling;
 mod transient;

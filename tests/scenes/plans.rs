@@ -4,18 +4,15 @@ use crate::common::scratch::Scratch;
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::study::plan_comparison::PlanComparison;
 use ehl_explorer::scene::study::tolerance_study::ToleranceStudy;
-use ehl_explorer::scene::{ComparedPlan, OnlineScheme, QuantityBox, Scene, Study};
+use ehl_explorer::scene::{ComparedPlan, OnlineScheme, Scene, Study};
 use ehl_explorer::solver::discrete::grid::GridSpec;
-use ehl_explorer::solver::training::{Indicator, Plan, Range, TrainingSpec};
+use ehl_explorer::solver::parameters::ParameterSpace;
+use ehl_explorer::solver::training::{Indicator, Plan, TrainingSpec};
 use std::path::{Path, PathBuf};
 
-const BOX: QuantityBox = QuantityBox {
-    radius: (2e-3, 3e-3),
-    speed: (3.0, 5.0),
-    load: (1e5, 2e5),
-    alpha: (6e-9, 10e-9),
-    ..QuantityBox::TABLE_3_1
-};
+fn corner() -> ParameterSpace {
+    ParameterSpace::si_box([(2e-3, 3e-3), (3.0, 5.0), (1e5, 2e5), (6e-9, 10e-9)], 231e9, 0.01)
+}
 
 /// A folder with scenes of small trainings.
 struct Folder(Scratch);
@@ -28,7 +25,7 @@ impl Folder {
     fn training(&self, name: &str, plan: Plan) -> PathBuf {
         let mut scene = Scene::at_moes(40.0, 10.0);
         let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
-        let spec = TrainingSpec::new(Range::Box(BOX), (1.0, 500.0), grid, plan);
+        let spec = TrainingSpec::new(corner(), (1.0, 500.0), grid, plan);
         scene.study = Study::Training(TrainingSpec { title: name.to_owned(), evidence: 0, seed: 3, ..spec });
         let file = format!("{name}.ron");
         self.0.write(&file, &scene.to_ron().unwrap());
@@ -58,7 +55,7 @@ fn plans_are_compared_side_by_side() {
     let corners = folder.training("corners", Plan::Grid { nodes: [2, 2, 2, 2] });
     let study = Study::PlanComparison(PlanComparison {
         plans: vec![plan("wide", &wide, 0.0), plan("corners", &corners, 1.0)],
-        range: BOX,
+        range: corner(),
         tests: 300,
         seed: 7,
         compare: 40,
@@ -89,7 +86,7 @@ fn a_cut_training_is_the_training_with_that_tolerance() {
     let study = |training: &Path| {
         Study::ToleranceStudy(ToleranceStudy {
             training: training.to_owned(),
-            range: BOX,
+            range: corner(),
             points: 11,
             tests: 100,
             seed: 5,
@@ -114,7 +111,7 @@ fn the_dissertations_own_indicator_trains_a_model() {
     let training = folder.training("own", adaptive(Indicator::Dissertation, vec![10.0, 1.0]));
     let study = Study::ToleranceStudy(ToleranceStudy {
         training,
-        range: BOX,
+        range: corner(),
         points: 11,
         tests: 100,
         seed: 5,
@@ -130,7 +127,8 @@ fn a_tolerance_study_of_another_plan_is_refused() {
     let folder = Folder::new("refused");
     let training = folder.training("grid", Plan::Grid { nodes: [2, 2, 2, 2] });
     let online = OnlineScheme::Explorer;
-    let study = Study::ToleranceStudy(ToleranceStudy { training, range: BOX, points: 11, tests: 10, seed: 5, online });
+    let study =
+        Study::ToleranceStudy(ToleranceStudy { training, range: corner(), points: 11, tests: 10, seed: 5, online });
     let scene = Scene { study, ..Scene::at_moes(40.0, 10.0) };
     let error = run_scene(&scene, &mut Workbench::new(&*folder.0), &()).unwrap_err().to_string();
     assert!(error.contains("adaptive"), "{error}");

@@ -163,7 +163,7 @@ impl StudyObserver for Rows {
 
 #[test]
 fn rows_that_were_told_say_what_the_outcome_says() {
-    let study = "RandomTest(range: Realisation(m: (5.0, 200.0), l: (2.0, 12.0), max_hertz_pressure: 3.2e9), \
+    let study = "RandomTest(range: (axes: {M: (5.0, 200.0), L: (2.0, 12.0)}, limits: {HertzPressure: (0.0, 3.2e9)}), \
                  tests: 40, seed: 3, method: Reduced(pressure_loss: 1e-4), compare: 2)";
     let sweep = "Sweep(over: [(vary: M, values: Log(from: 10.0, to: 40.0, n: 3))], methods: [Reduced()])";
     for (study, streamed) in [(study, 42), (sweep, 3)] {

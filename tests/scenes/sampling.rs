@@ -8,7 +8,9 @@ const TRAINING: &str = "Scene(
     version: 1, title: \"small\", source: \"test\", contact: Point,
     study: Training(
         title: \"small\",
-        range: Box(radius: (10e-3, 11e-3), speed: (2.0, 3.0), load: (30.0, 45.0), alpha: (8e-9, 11e-9), modulus: 231e9, viscosity: 0.01),
+        range: (axes: {Radius: (10e-3, 11e-3, Linear), Speed: (2.0, 3.0, Linear),
+            Load: (30.0, 45.0, Linear), Alpha: (8e-9, 11e-9, Linear)},
+            fixed: {Modulus: 231e9, Viscosity: 0.01}),
         plan: FarthestPoint(snapshots: 20),
         windows: Given([(m: (1.0, 2000.0), grid: Plane(dx: 0.06, dy: 0.1, domain: (-2.7, 1.5, -1.5)))]),
         pressure_loss: 1e-4, deformation_loss: 1e-3, sampling: All, rows_per_mode: 3.0, penalty: 1e5, evidence: 0, seed: 2,
@@ -25,7 +27,9 @@ const COMPARISON: &str = "Scene(
             (name: \"q_deim\", sampling: QDeim, rows_per_mode: 4.0, penalty: 1e5),
             (name: \"cubature\", sampling: Cubature, rows_per_mode: 3.0, penalty: 1e5),
         ],
-        range: (radius: (10e-3, 11e-3), speed: (2.0, 3.0), load: (30.0, 45.0), alpha: (8e-9, 11e-9), modulus: 231e9, viscosity: 0.01),
+        range: (axes: {Radius: (10e-3, 11e-3, Linear), Speed: (2.0, 3.0, Linear),
+            Load: (30.0, 45.0, Linear), Alpha: (8e-9, 11e-9, Linear)},
+            fixed: {Modulus: 231e9, Viscosity: 0.01}),
         tests: 20, seed: 3, compare: 8,
     ),
 )";
@@ -56,7 +60,8 @@ fn a_cubature_of_few_rows_does_what_all_rows_do() {
 fn a_range_with_too_few_contacts_is_refused_in_a_sentence() {
     let folder = Scratch::new("few");
     folder.write("training.ron", TRAINING);
-    let scene = Scene::from_ron(&COMPARISON.replace("load: (30.0, 45.0)", "load: (1e9, 1e10)")).unwrap();
+    let scene =
+        Scene::from_ron(&COMPARISON.replace("Load: (30.0, 45.0, Linear)", "Load: (1e9, 1e10, Linear)")).unwrap();
     let sentence = run_scene(&scene, &mut Workbench::new(&*folder), &()).unwrap_err().to_string();
     assert!(sentence.contains("hardly any point") && sentence.contains("of 20 were found"), "{sentence}");
 }

@@ -5,11 +5,11 @@ use crate::common::stop_after::assert_stops;
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{PointSolver, Start, Termination};
 use ehl_explorer::solver::observer::Observer;
+use ehl_explorer::solver::parameters::ParameterSpace;
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
 use ehl_explorer::solver::reduced::Sampling;
 use ehl_explorer::solver::training::{
-    Indicator, Plan, Progress, QuantityBox, Range, TrainingError, TrainingObserver, TrainingSpec, TrainingState,
-    train_resumable,
+    Indicator, Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, train_resumable,
 };
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -25,7 +25,7 @@ fn spec(sampling: Sampling) -> TrainingSpec {
         vicinity: 8,
         limit: 120,
     };
-    let (range, grid) = (Range::Box(QuantityBox::TABLE_3_1), GridSpec::EXPLORER);
+    let (range, grid) = (ParameterSpace::table_3_1(), GridSpec::EXPLORER);
     let spec = TrainingSpec::new(range, (5.0, 200.0), grid, plan);
     TrainingSpec { pressure_loss: 1e-7, sampling, evidence: 300, ..spec }
 }

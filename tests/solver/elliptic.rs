@@ -4,7 +4,8 @@ use crate::contacts::{at, solved};
 use ehl_explorer::solver::discrete::elasticity::PointScratch;
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Problem, Start};
-use ehl_explorer::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint, Quantity};
+use ehl_explorer::solver::parameters::Quantity;
+use ehl_explorer::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
 use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw, Sliding};
 
 const COARSE: PointGridSpec = PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0));

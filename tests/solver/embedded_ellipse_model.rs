@@ -1,22 +1,24 @@
 //! The embedded reduced model of elliptical contacts against full solutions on its own grids.
 
-use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::embedded;
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Quantity, si_from_moes};
+use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
+use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, Trust};
-use ehl_explorer::solver::training::{Range, random_points};
+use ehl_explorer::solver::training::random_points;
 
 fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
-    let range =
-        Range::Ellipses { m: (10.0, 300.0), l: (2.0, 12.0), radius_ratio: (0.5, 8.0), max_hertz_pressure: 3.2e9 };
+    let axes = [(Quantity::M, (10.0, 300.0)), (Quantity::L, (2.0, 12.0)), (Quantity::RadiusRatio, (0.5, 8.0))];
+    let range = ParameterSpace::of(axes.map(|(quantity, ends)| Axis::new(quantity, ends)))
+        .limited([(Quantity::HertzPressure, (0.0, 3.2e9))]);
     random_points(&range, ContactKind::Point, count, seed)
 }
 
 /// One model for all of this: its operators take a second.
 #[test]
 fn random_ellipses_of_its_range_are_solved_near_full_solutions_and_pass_from_shape_to_shape() {
-    let mut online = Online::new(Embedded::Ellipse.model().unwrap(), ReducedOptions::default());
+    let mut online = Online::new(embedded("ellipse").unwrap(), ReducedOptions::default());
     for point in points(300, 51) {
         online.forget();
         let solved = online.solve(&point, Lubricant::default()).unwrap_or_else(|e| panic!("{:?}: {e}", point.moes()));

@@ -1,19 +1,20 @@
 //! The embedded reduced model of point contacts against full solutions on its own grid.
 
-use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::embedded;
 use ehl_explorer::engine::{median, percentile};
 use ehl_explorer::solver::full::{ContactSolver, Start};
+use ehl_explorer::solver::parameters::ParameterSpace;
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::{Cavitation, Lubricant};
 use ehl_explorer::solver::reduced::{Online, ReducedError, ReducedOptions, Trust};
-use ehl_explorer::solver::training::{QuantityBox, Range, random_points};
+use ehl_explorer::solver::training::random_points;
 
 fn online() -> Online {
-    Online::new(Embedded::Circle.model().unwrap(), ReducedOptions::default())
+    Online::new(embedded("point").unwrap(), ReducedOptions::default())
 }
 
 fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
-    random_points(&Range::Box(QuantityBox::TABLE_3_4), ContactKind::Point, count, seed)
+    random_points(&ParameterSpace::table_3_4(), ContactKind::Point, count, seed)
 }
 
 #[test]
@@ -59,10 +60,10 @@ fn its_films_lie_near_full_solutions() {
 
 #[test]
 fn films_of_light_contacts_lie_near_full_solutions_and_meet_those_of_heavier_ones() {
-    let mut light = Online::new(Embedded::LightCircle.model().unwrap(), ReducedOptions::default());
+    let mut light = Online::new(embedded("point_light").unwrap(), ReducedOptions::default());
     let oil = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let mut solver = ContactSolver::on(&light.model.windows[0].grid);
-    for point in random_points(&Range::from(&light.model.domain), ContactKind::Point, 8, 43) {
+    for point in random_points(&light.model.domain.space, ContactKind::Point, 8, 43) {
         let full = solver.solve(&point, oil, Start::Cold, &()).unwrap();
         let solved = light.solve(&point, oil).unwrap();
         assert!(full.converged() && solved.trust == Trust::Trained, "{:?}", point.moes());

@@ -3,21 +3,22 @@
 
 use crate::common::scene_files;
 use crate::shear_models;
-use crate::shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
+use crate::shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors, narrowed};
 use ehl_explorer::scene::named_lubricant::{SQUALANE_PIP, by_name};
 use ehl_explorer::scene::study::dimensions::Dimensions;
 use ehl_explorer::scene::study::sweep::Sweep;
 use ehl_explorer::scene::{Axis, Steps, Study};
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Start};
+use ehl_explorer::solver::parameters::{ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust};
-use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec, train};
+use ehl_explorer::solver::training::{Plan, TrainingSpec, train};
 use std::sync::Arc;
 
 const POINT: ContactKind = ContactKind::Point;
 
-fn range() -> SlidingRange {
+fn range() -> ParameterSpace {
     shear_models::range(POINT)
 }
 
@@ -25,7 +26,7 @@ fn online() -> Online {
     shear_models::online(POINT)
 }
 
-fn points(range: SlidingRange, count: usize, seed: u64) -> Vec<OperatingPoint> {
+fn points(range: &ParameterSpace, count: usize, seed: u64) -> Vec<OperatingPoint> {
     shear_models::points(POINT, range, count, seed)
 }
 
@@ -55,23 +56,23 @@ fn greatest_errors(online: &mut Online, points: &[OperatingPoint], compared: usi
 
 #[test]
 fn it_solves_its_range_and_agrees_with_full_solutions() {
-    let [h_c, h_min, traction] = greatest_errors(&mut online(), &points(range(), 80, 78), 6);
+    let [h_c, h_min, traction] = greatest_errors(&mut online(), &points(&range(), 80, 78), 6);
     assert!(h_c < 5e-3 && h_min < 2e-2 && traction < 5e-3, "{h_c:.1e} {h_min:.1e} {traction:.1e}");
 }
 
 #[test]
 fn it_is_mirrored_by_the_sliding_and_newtonian_at_a_plateau_of_one() {
     // Starts differ, and the iteration ends with steps below 1e-5.
-    assert_mirrored(online(), points(range(), 1, 3)[0], 1e-5);
+    assert_mirrored(online(), points(&range(), 1, 3)[0], 1e-5);
 }
 
 #[test]
 fn what_it_was_not_trained_for_is_said() {
-    let base = points(range(), 1, 3)[0];
+    let base = points(&range(), 1, 3)[0];
     // M and L of its range, but more pressure than it was trained for.
-    let SlidingRange { m: (_, m), l: (_, l), .. } = range();
-    let heaviest = SlidingRange { m: (0.9 * m, m), l: (0.9 * l, l), max_hertz_pressure: None, ..range() };
-    let heavy = points(heaviest, 1, 3)[0];
+    let [m, l] = [Quantity::M, Quantity::L].map(|own| range().axis(own).unwrap().ends.1);
+    let heaviest = narrowed(range(), [(Quantity::M, (0.9 * m, m)), (Quantity::L, (0.9 * l, l))]);
+    let heavy = points(&ParameterSpace { limits: Vec::new(), ..heaviest }, 1, 3)[0];
     let further = [(OperatingPoint { load: 1e3 * base.load, ..base }, "M ="), (heavy, "p_H")];
     assert_limits_are_said(&online(), base, &further);
 }
@@ -93,7 +94,11 @@ fn another_lubricant_is_solved_with_its_own_equations_and_said_to_be_another() {
     };
     let mut online = online();
     let solved = online.solve(&point, pao.laws).unwrap();
-    assert!(matches!(&solved.trust, Trust::Outside(why) if why.contains("lubricant")), "{:?}", solved.trust);
+    assert!(
+        matches!(&solved.trust, Trust::Outside(why) if why.to_string().contains("lubricant")),
+        "{:?}",
+        solved.trust
+    );
     let reduced = online.reconstruct(&solved).unwrap();
     let grid = online.model.windows[0].grid.clone();
     let full = ContactSolver::on(&grid).solve(&point, pao.laws, Start::Cold, &()).unwrap();
@@ -110,8 +115,10 @@ fn its_file_keeps_what_a_shear_thinning_lubricant_adds() {
     assert_file_keeps_everything(POINT);
 }
 
-fn small() -> (SlidingRange, TrainingSpec) {
-    let range = SlidingRange { m: (30.0, 45.0), l: (7.0, 9.0), npr: (0.2, 0.5), ..range() };
+fn small() -> (ParameterSpace, TrainingSpec) {
+    let m = (30.0, 45.0);
+    let ends = [(Quantity::M, m), (Quantity::L, (7.0, 9.0)), (Quantity::NewtonianPlateauRatio, (0.2, 0.5))];
+    let range = narrowed(range(), ends);
     let grid = GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)));
     let plan = Plan::FarthestPoint { snapshots: 28 };
     let spec = TrainingSpec {
@@ -124,7 +131,7 @@ fn small() -> (SlidingRange, TrainingSpec) {
         positive_modes: true,
         evidence: 0,
         seed: 4,
-        ..TrainingSpec::new(Range::Sliding(range), range.m, grid, plan)
+        ..TrainingSpec::new(range.clone(), m, grid, plan)
     };
     (range, spec)
 }
@@ -135,9 +142,9 @@ fn training_makes_such_a_model() {
     let model = train(&spec, &()).unwrap();
     let ReducedModel { windows, domain, .. } = &model;
     assert!(windows[0].sampled_rows.len() <= 3 * windows[0].pressure.count());
-    assert_eq!(domain.max_hertz_pressure_pa, range.highest_pressure(POINT));
+    assert_eq!(domain.highest_pressure_pa(), range.interval(Quantity::HertzPressure, POINT).unwrap().1);
     let [h_c, h_min, traction] =
-        greatest_errors(&mut Online::new(Arc::new(model), ReducedOptions::default()), &points(range, 40, 11), 8);
+        greatest_errors(&mut Online::new(Arc::new(model), ReducedOptions::default()), &points(&range, 40, 11), 8);
     assert!(h_c < 5e-3 && h_min < 1e-2 && traction < 5e-3, "{h_c:.1e} {h_min:.1e} {traction:.1e}");
 }
 

@@ -9,10 +9,11 @@ use ehl_explorer::scene::study::sweep::Sweep;
 use ehl_explorer::scene::{Method, Study};
 use ehl_explorer::solver::discrete::grid::GridSpec;
 use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Quantity, Sliding};
+use ehl_explorer::solver::parameters::Quantity;
+use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use ehl_explorer::solver::reduced::{ErrorMeasures, Norm, Online, ReducedOptions, Trust, traction_curve};
-use ehl_explorer::solver::training::{Plan, Range, SlidingRange, TrainingSpec};
+use ehl_explorer::solver::training::{Plan, TrainingSpec};
 
 const LINE: ContactKind = ContactKind::Line;
 
@@ -21,7 +22,7 @@ fn online() -> Online {
 }
 
 fn points(count: usize) -> Vec<OperatingPoint> {
-    shear_models::points(LINE, shear_models::range(LINE), count, 77)
+    shear_models::points(LINE, &shear_models::range(LINE), count, 77)
 }
 
 #[test]
@@ -98,7 +99,7 @@ fn its_traction_without_fields_is_that_of_its_fields() {
 fn its_residual_is_measured_with_nodes_that_thin() {
     for kind in [LINE, ContactKind::Point] {
         let mut online = shear_models::online(kind);
-        for point in shear_models::points(kind, shear_models::range(kind), 6, 5) {
+        for point in shear_models::points(kind, &shear_models::range(kind), 6, 5) {
             let solved = online.solve(&point, SQUALANE_PIP).unwrap();
             let fields = online.reconstruct(&solved).unwrap();
             let window = &online.model.windows[solved.window];
@@ -172,9 +173,11 @@ fn its_file_keeps_what_a_shear_thinning_lubricant_adds() {
 #[test]
 fn a_range_with_sliding_needs_a_lubricant_that_feels_it() {
     let spec = |lubricant: Lubricant, alpha: f64| {
-        let range = SlidingRange { m: (10.0, 20.0), l: (6.0, 8.0), alpha, ..shear_models::range(LINE) };
+        let (m, own) = ((10.0, 20.0), shear_models::range(LINE));
+        let mut range = shear_models::narrowed(own, [(Quantity::M, m), (Quantity::L, (6.0, 8.0))]);
+        range.fixed.iter_mut().filter(|(own, _)| *own == Quantity::Alpha).for_each(|(_, value)| *value = alpha);
         let (grid, plan) = (GridSpec::EXPLORER, Plan::FarthestPoint { snapshots: 10 });
-        TrainingSpec { lubricant, ..TrainingSpec::new(Range::Sliding(range), range.m, grid, plan) }
+        TrainingSpec { lubricant, ..TrainingSpec::new(range, m, grid, plan) }
     };
     let sentence = |spec: TrainingSpec| spec.check().unwrap_err().to_string();
     assert!(sentence(spec(Lubricant::default(), 2e-8)).contains("no shear constants"));

@@ -1,20 +1,20 @@
 //! The embedded models of contacts of oils that thin by Eyring's law.
 
-use ehl_explorer::engine::Embedded;
+use ehl_explorer::engine::embedded;
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, ReducedSolution, Trust};
-use ehl_explorer::solver::training::{Range, random_points};
+use ehl_explorer::solver::training::random_points;
 
 /// Tractions below this are those of contacts that hardly slide.
 const SMALL: f64 = 1e-4;
 
 /// Asserts that films and tractions of some contacts of a model's whole range are those of full solutions on its grid.
-fn lie_near_full_solutions(which: Embedded, contacts: usize) {
-    let model = which.model().unwrap();
+fn lie_near_full_solutions(name: &str, contacts: usize) {
+    let model = embedded(name).unwrap();
     let (kind, laws) = (model.contact(), model.domain.lubricant);
     let mut solver = ContactSolver::on(&model.windows[0].grid);
     let mut online = Online::new(model.clone(), ReducedOptions::default());
-    for point in random_points(&Range::from(&model.domain), kind, contacts, 47) {
+    for point in random_points(&model.domain.space, kind, contacts, 47) {
         let (full, solved) =
             (solver.solve(&point, laws, Start::Cold, &()).unwrap(), online.solve(&point, laws).unwrap());
         assert!(full.converged() && solved.trust == Trust::Trained, "{:?}", point.moes());
@@ -33,20 +33,20 @@ fn lie_near_full_solutions(which: Embedded, contacts: usize) {
 
 #[test]
 fn films_and_tractions_of_sliding_lines_lie_near_full_solutions_from_the_lightest_to_the_heaviest() {
-    lie_near_full_solutions(Embedded::EyringLine, 24);
+    lie_near_full_solutions("line_sliding", 24);
 }
 
 #[test]
 fn films_and_tractions_of_sliding_balls_lie_near_full_solutions_from_m_3_on() {
-    lie_near_full_solutions(Embedded::LightEyringCircle, 4);
-    lie_near_full_solutions(Embedded::EyringCircle, 3);
+    lie_near_full_solutions("point_light_sliding", 4);
+    lie_near_full_solutions("point_sliding", 3);
 }
 
 #[test]
 fn contacts_that_end_at_a_larger_step_have_the_same_films_and_tractions_in_fewer_steps() {
-    let model = Embedded::EyringCircle.model().unwrap();
+    let model = embedded("point_sliding").unwrap();
     let laws = model.domain.lubricant;
-    let points = random_points(&Range::from(&model.domain), model.contact(), 40, 48);
+    let points = random_points(&model.domain.space, model.contact(), 40, 48);
     let solved = [1e-3, ReducedOptions::default().tolerance].map(|tolerance| {
         let mut online = Online::new(model.clone(), ReducedOptions { tolerance, ..ReducedOptions::default() });
         points.iter().map(|point| online.solve(point, laws).unwrap()).collect::<Vec<_>>()

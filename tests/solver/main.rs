@@ -23,4 +23,5 @@ mod rebuilt;
 mod saved_again;
 mod shear_models;
 mod shear_thinning;
+mod stored_answers;
 mod transient_reference;

@@ -1,9 +1,9 @@
 //! Full solutions of point contacts against independent ones on the same grid, and the corners of the dissertation's
 //! box.
 
-use ehl_explorer::scene::QuantityBox;
 use ehl_explorer::solver::discrete::grid::PointGridSpec;
 use ehl_explorer::solver::full::{PointSolver, Start};
+use ehl_explorer::solver::parameters::ParameterSpace;
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use serde_json::Value;
@@ -57,8 +57,10 @@ fn full_solutions_agree_with_independent_ones_on_301_by_41_nodes() {
 #[test]
 fn the_corners_of_the_corrected_box_of_table_3_4_converge_from_a_cold_start() {
     let mut solver = PointSolver::new(PointGridSpec { dx: 0.04, ..PointGridSpec::DISSERTATION }).unwrap();
-    for corner in 0..16 {
-        let point = QuantityBox::TABLE_3_4.at(ContactKind::Point, std::array::from_fn(|k| f64::from(corner >> k & 1)));
+    let table = ParameterSpace::table_3_4();
+    assert_eq!(table.corners().count(), 16);
+    for corner in table.corners() {
+        let point = table.at(ContactKind::Point, &corner).unwrap();
         let solution = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(solution.converged(), "{:?}: {:?}", point.moes(), solution.report.termination);
     }

@@ -4,8 +4,7 @@
 
 use crate::common::cases::{cases, long};
 use ehl_explorer::engine::Workbench;
-use ehl_explorer::scene::bench::{Bench, Request, answer_or_full};
-use ehl_explorer::scene::{Grid, Method, ModelSource};
+use ehl_explorer::scene::{Bench, Grid, Method, ModelSource, Request, answer_or_full};
 use ehl_explorer::solver::discrete::grid::{GridSpec, MAX_GRADED_NODES, PointGridSpec};
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::observer::{NewtonStep, Observer};
@@ -163,28 +162,28 @@ fn no_point_contact_is_wrong_in_silence() {
 fn reduced(kind: ContactKind, seed: u64, cases: usize, (m, l): ((f64, f64), (f64, f64))) {
     let mut rng = Rng::with_seed(seed);
     let mut bench = Workbench::new("");
-    let method = Method::Reduced { model: ModelSource::Embedded, pressure_loss: None, deformation_loss: None };
     let mut counts: BTreeMap<&'static str, usize> = BTreeMap::new();
     for _ in 0..cases {
         let (m, l) = (between(&mut rng, m.0, m.1), between(&mut rng, l.0, l.1));
         let Ok(point) = si_from_moes(&MoesRequest::new(kind, m, l)) else { continue };
         let lubricant = Lubricant::default();
-        let request = Request { point, lubricant, grid: Grid::Model, grid_model: ModelSource::Embedded };
-        let Ok(answer) = answer_or_full(&mut bench, &request, &method, &()) else {
+        let (grid, grid_model, method) = (Grid::Model, ModelSource::Embedded, Method::EMBEDDED);
+        let request = Request { point, lubricant, grid, grid_model, method };
+        let Ok(answer) = answer_or_full(&mut bench, &request, &()) else {
             *counts.entry("refused").or_default() += 1;
             continue;
         };
-        let Some(own) = answer.result() else {
+        let Some(own) = answer.fields() else {
             *counts.entry("not converged").or_default() += 1;
             continue;
         };
         assert!(own.film.iter().all(|h| *h > 0.0), "M {m}, L {l}: a film below zero is shown as converged");
-        let what = match (answer.warnings.is_empty(), answer.reduced.is_some()) {
+        let what = match (answer.result.warnings.is_empty(), answer.result.reduced.is_some()) {
             (false, true) => "reduced with a warning",
             (false, false) => "handed over",
             (true, _) => {
-                let full = bench.answer(&request, &Method::Full, None, &()).unwrap();
-                let truth = full.result().expect("the reference converges").scalars.h_c;
+                let full = bench.answer(&Request { method: Method::Full, ..request }, None, &()).unwrap();
+                let truth = full.fields().expect("the reference converges").scalars.h_c;
                 let error = (own.scalars.h_c / truth - 1.0).abs();
                 assert!(error < 0.1, "M {m}, L {l}: H_c off by {error:.3} without a word");
                 "right without a word"

@@ -4,8 +4,9 @@ use crate::common::scene_files;
 use ehl_explorer::engine::model_file::to_bytes;
 use ehl_explorer::scene::Study;
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
+use ehl_explorer::solver::parameters::Quantity;
 use ehl_explorer::solver::physics::contact::ContactKind;
-use ehl_explorer::solver::training::{Plan, Range, TrainingSpec, Windows, train};
+use ehl_explorer::solver::training::{Plan, TrainingSpec, Windows, train};
 
 /// The training of an embedded model with fewer full solutions, on a coarser grid.
 fn small(scene: &str) -> TrainingSpec {
@@ -18,13 +19,16 @@ fn small(scene: &str) -> TrainingSpec {
         }
         plan => panic!("{plan:?}"),
     }
-    match &mut spec.range {
-        Range::Moes { m, .. } => *m = (20.0, 60.0),
-        Range::Oils(range) => (range.m, range.l) = ((20.0, 60.0), (5.0, 10.0)),
-        Range::Box(range) => {
-            (range.radius, range.speed, range.load) = ((10e-3, 11e-3), (2.0, 3.0), (30.0, 45.0));
-        }
-        _ => {}
+    let (si_box, oils) = (spec.range.is_si_box(), spec.range.varies_lubricant());
+    for axis in &mut spec.range.axes {
+        axis.ends = match axis.quantity {
+            Quantity::M => (20.0, 60.0),
+            Quantity::L if oils => (5.0, 10.0),
+            Quantity::Radius if si_box => (10e-3, 11e-3),
+            Quantity::Speed if si_box => (2.0, 3.0),
+            Quantity::Load if si_box => (30.0, 45.0),
+            _ => axis.ends,
+        };
     }
     match &mut spec.windows {
         Windows::Automatic { modes } => *modes = 12,

@@ -1,33 +1,47 @@
 //! The embedded models of shear-thinning contacts: what the tests of both have in common.
 
 use crate::common::scene_files;
-use ehl_explorer::engine::Embedded;
+
+use ehl_explorer::engine::embedded;
 use ehl_explorer::engine::model_file::{from_bytes, to_bytes};
 use ehl_explorer::scene::Study;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::full::{Problem, Solution};
+use ehl_explorer::solver::parameters::{ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
-use ehl_explorer::solver::physics::lubricant::ShearLaw;
 use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
-use ehl_explorer::solver::training::{Range, SlidingRange, TrainingSpec, random_points};
+use ehl_explorer::solver::training::{TrainingSpec, random_points};
 
 /// What the model of a kind of contact was trained for, as its scene says.
-pub fn range(kind: ContactKind) -> SlidingRange {
+pub fn range(kind: ContactKind) -> ParameterSpace {
     let name = if kind == ContactKind::Line { "embedded_shear_model" } else { "embedded_point_shear_model" };
     match scene_files::read(name).study {
-        Study::Training(TrainingSpec { range: Range::Sliding(range), .. }) => range,
+        Study::Training(TrainingSpec { range, .. }) if range.varies(Quantity::NewtonianPlateauRatio) => range,
         other => panic!("{name} trains no range with sliding: {other:?}"),
     }
 }
 
 /// Random contacts of a range.
-pub fn points(kind: ContactKind, range: SlidingRange, count: usize, seed: u64) -> Vec<OperatingPoint> {
-    random_points(&Range::Sliding(range), kind, count, seed)
+pub fn points(kind: ContactKind, range: &ParameterSpace, count: usize, seed: u64) -> Vec<OperatingPoint> {
+    random_points(range, kind, count, seed)
+}
+
+/// A range with other intervals of some of its axes.
+pub fn narrowed<const N: usize>(mut range: ParameterSpace, ends: [(Quantity, (f64, f64)); N]) -> ParameterSpace {
+    ends.iter().for_each(|(quantity, ends)| range.axis_mut(*quantity).unwrap().ends = *ends);
+    range
+}
+
+fn thinning(kind: ContactKind) -> &'static str {
+    match kind {
+        ContactKind::Line => "line_shear",
+        ContactKind::Point => "point_shear",
+    }
 }
 
 /// The embedded model.
 pub fn online(kind: ContactKind) -> Online {
-    Online::new(Embedded::of_kind(kind, SQUALANE_PIP.shear).model().unwrap(), ReducedOptions::default())
+    Online::new(embedded(thinning(kind)).unwrap(), ReducedOptions::default())
 }
 
 /// Relative errors of H_c, H_min and a traction coefficient; that of the traction is zero where nothing slides.
@@ -62,13 +76,12 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
     let common = [
         (OperatingPoint { sliding: sliding(1.5, 0.5), ..base }, "SRR"),
         (OperatingPoint { sliding: sliding(0.5, 0.1), ..base }, "NPR"),
-        (OperatingPoint { modulus_pa: 2.0 * base.modulus_pa, ..base }, "modulus"),
+        (OperatingPoint { modulus_pa: 2.0 * base.modulus_pa, ..base }, "E'"),
     ];
     for (point, word) in common.iter().chain(further) {
-        assert!(matches!(trust(point), Trust::Outside(why) if why.contains(word)), "{word}");
+        assert!(matches!(trust(point), Trust::Outside(why) if why.to_string().contains(word)), "{word}");
     }
-    let mut newtonian =
-        Online::new(Embedded::of_kind(base.kind, ShearLaw::Newtonian).model().unwrap(), ReducedOptions::default());
+    let mut newtonian = Online::new(embedded(base.kind.name()).unwrap(), ReducedOptions::default());
     let refused = newtonian.solve(&OperatingPoint { sliding: sliding(0.5, 0.3), ..base }, SQUALANE_PIP);
     assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
 }
@@ -76,12 +89,12 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
 /// Asserts that a file keeps all of the model.
 pub fn assert_file_keeps_everything(kind: ContactKind) {
     // As the present version keeps it: the file may be of a former one.
-    let model = from_bytes(&to_bytes(&Embedded::of_kind(kind, SQUALANE_PIP.shear).model().unwrap()).unwrap()).unwrap();
+    let model = from_bytes(&to_bytes(&embedded(thinning(kind)).unwrap()).unwrap()).unwrap();
     let bytes = to_bytes(&model).unwrap();
     let again = from_bytes(&bytes).unwrap();
     assert_eq!(again.domain, model.domain);
     let (own, kept) = (&model.windows[0], &again.windows[0]);
-    assert!(kept.snapshots == own.snapshots && again.domain.sliding.is_some());
+    assert!(kept.snapshots == own.snapshots && again.domain.space.varies(Quantity::NewtonianPlateauRatio));
     assert!(kept.pressure.basis().modes == own.pressure.basis().modes);
     assert!(kept.traction == own.traction && kept.traction.is_some());
     // What was not measured is no number, and equals nothing: the bytes below tell more.

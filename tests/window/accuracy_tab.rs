@@ -6,14 +6,13 @@ use crate::driver::{Table, Window, choose, click, export, set, shows, undo, wait
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{Embedded, SceneOutcome, Workbench, run_scene};
+use ehl_explorer::engine::{SceneOutcome, Workbench, embedded, run_scene};
 use ehl_explorer::scene::{Grid, Scene, Study};
-use ehl_explorer::solver::training::Range;
 use std::time::Duration;
 
 /// The Accuracy tab at one of its views, over a settled picture.
 fn open(view: &str) -> Window {
-    let explorer = Explorer::new(Some(Embedded::Line.model().unwrap())).without_system_dialogs();
+    let explorer = Explorer::new(Some(embedded("line").unwrap())).without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
     wait(&mut harness, "verification", |h| h.state().badge() == "Verified" && !h.state().busy());
     click(&mut harness, "Accuracy");
@@ -120,15 +119,16 @@ fn the_failure_map_counts_and_its_worst_case_is_a_click_away() {
     let table = exported(&mut harness, "Random tests as CSV…", "map.csv");
     assert_eq!(table.len(), 4 + 200);
     assert!(table[3].starts_with("M,L,R_m"));
-    let model = Embedded::Line.model().unwrap();
+    let model = embedded("line").unwrap();
     let mut scene = Scene::from_ron(
         "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), cavitation: Complementarity, \
-        study: RandomTest(range: Box(radius: (2e-3, 3e-3), speed: (3.0, 5.0), load: (1e5, 2e5), \
-        alpha: (6e-9, 10e-9), modulus: 231e9, viscosity: 0.01), tests: 200, seed: 1, method: Reduced(), compare: 10))",
+        study: RandomTest(range: (axes: {Radius: (2e-3, 3e-3, Linear), Speed: (3.0, 5.0, Linear), \
+        Load: (1e5, 2e5, Linear), Alpha: (6e-9, 10e-9, Linear)}, \
+        fixed: {Modulus: 231e9, Viscosity: 0.01}), tests: 200, seed: 1, method: Reduced(), compare: 10))",
     )
     .unwrap();
     let Study::RandomTest(test) = &mut scene.study else { panic!() };
-    test.range = Range::from(&model.domain);
+    test.range = model.domain.space.clone();
     let outcome = run_scene(&scene, &mut Workbench::new(""), &()).unwrap();
     assert_same(
         &table,
@@ -184,9 +184,9 @@ fn the_trajectory_is_followed_in_both_ranges() {
     assert!(shows(&harness, "11 of 11 contacts through Table 3.1’s box, 0 failures"));
     let table = exported(&mut harness, "Trajectory as CSV…", "along.csv");
     assert_eq!(table.len(), 3 + 11);
-    let range = "radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), modulus: 231e9, \
-        viscosity: 0.01";
-    let outcome = headless(&format!("Trajectory(range: ({range}), points: 11, methods: [Reduced(), Full])"));
+    let range = "(axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear), Load: (1e5, 5e5, Linear), \
+        Alpha: (5e-9, 20e-9, Linear)}, fixed: {Modulus: 231e9, Viscosity: 0.01})";
+    let outcome = headless(&format!("Trajectory(range: {range}, points: 11, methods: [Reduced(), Full])"));
     assert_same(&table, &outcome, &[("H_c", "reduced.H_c"), ("H_c_full", "full.H_c")]);
     harness.get_by_label("Film along the trajectory");
     harness.get_by_label("Error along the trajectory");

@@ -5,9 +5,9 @@ use crate::driver::{Window, click, shows, wait_until, wait_within, window};
 use crate::results_tab::timeless;
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
+use ehl_explorer::engine::campaign::compute::{Done, compute};
 use ehl_explorer::engine::campaign::merge::{Merged, merge};
 use ehl_explorer::engine::campaign::plan::plan;
-use ehl_explorer::engine::campaign::shard::{Done, compute};
 use ehl_explorer::engine::campaign::{Folder, local};
 use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::Scene;
@@ -18,8 +18,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 const SCENE: &str = "Scene(version: 1, title: \"Balls in pieces\", contact: Point, \
     grid: Plane(dx: 0.04, dy: 0.1, domain: (-3.0, 1.5, -1.5)), \
-    study: RandomTest(range: Box(radius: (10e-3, 11e-3), speed: (2.0, 3.0), load: (30.0, 45.0), alpha: (8e-9, 11e-9), \
-    modulus: 231e9, viscosity: 0.01), tests: 12, seed: 3, method: Full), \
+    study: RandomTest(range: (axes: {Radius: (10e-3, 11e-3, Linear), Speed: (2.0, 3.0, Linear), \
+    Load: (30.0, 45.0, Linear), Alpha: (8e-9, 11e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), tests: 12, seed: 3, method: Full), \
     expect: [(name: \"tests\", value: 12, within: Absolute(0), from: \"as many as are asked for\")])";
 
 fn planned(scratch: &Scratch) -> Folder {

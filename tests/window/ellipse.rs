@@ -7,7 +7,8 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::solver::physics::contact::{OperatingPoint, Quantity};
+use ehl_explorer::solver::parameters::Quantity;
+use ehl_explorer::solver::physics::contact::OperatingPoint;
 
 const RATIO: &str = "Ratio of radii R_y/R";
 

@@ -7,8 +7,10 @@ use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::scene::named_lubricant::MINERAL_OIL;
 use ehl_explorer::solver::discrete::grid::GridSpec;
-use ehl_explorer::solver::full::{ContactSolver, Start};
-use ehl_explorer::solver::physics::contact::Quantity;
+use ehl_explorer::solver::full::{ContactSolver, Problem, Start};
+use ehl_explorer::solver::parameters::Quantity;
+use ehl_explorer::solver::physics::bodies::Material;
+use ehl_explorer::solver::physics::contact::reduced_modulus;
 
 fn window() -> Window {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
@@ -124,4 +126,25 @@ fn two_bodies_give_the_contact_and_say_when_they_no_longer_do() {
     assert!(shows(&harness, "no longer these bodies"));
     click(&mut harness, "Take the bodies’ values");
     assert!((harness.state().point().radius_m - 0.0125).abs() < 1e-12);
+}
+
+#[test]
+fn a_glass_disc_that_is_entered_as_body_1_is_body_1_with_heat() {
+    let mut harness = window();
+    click(&mut harness, "Two bodies");
+    choose(&mut harness, "Material of body 1", "Glass");
+    enter(&mut harness, "Speed of body 1", "0.5");
+    enter(&mut harness, "Speed of body 2", "1.5");
+    click(&mut harness, "Heat");
+    harness.run_steps(2);
+    let (point, laws) = (harness.state().point(), harness.state().lubricant());
+    let heat = Problem::new(&point, laws).unwrap().heat.unwrap();
+    assert_eq!(heat.heat.bodies, [Material::GLASS.heat, Material::STEEL.heat]);
+    for (own, entered) in heat.speeds.into_iter().zip([0.5, 1.5]) {
+        assert!((own * point.speed_m_per_s - entered).abs() < 1e-12, "{own}");
+    }
+    // A material that is chosen beside Heat is the body's.
+    choose(&mut harness, "Body 2", "Glass");
+    let glass = reduced_modulus(81e9, 0.21, 81e9, 0.21).unwrap();
+    assert!((harness.state().point().modulus_pa / glass - 1.0).abs() < 1e-12);
 }

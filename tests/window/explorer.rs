@@ -6,7 +6,7 @@ use crate::driver::{Window, assert_cheap, click, export, give_path, press, rest,
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{Embedded, model_file};
+use ehl_explorer::engine::{embedded, model_file};
 use ehl_explorer::scene::{Scene, Study};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
 use ehl_explorer::solver::reduced::ReducedModel;
@@ -183,7 +183,7 @@ fn a_dragged_frame_of_the_embedded_model_is_cheap() {
 
 #[test]
 fn a_reduced_answer_that_is_late_is_drawn_when_it_comes_and_what_there_was_is_grey_until_then() {
-    let explorer = Explorer::new(Some(Embedded::Line.model().unwrap())).without_system_dialogs();
+    let explorer = Explorer::new(Some(embedded("line").unwrap())).without_system_dialogs();
     let mut harness = crate::driver::impatient_window(explorer.waiting_for_answers(Duration::ZERO), [1280.0, 800.0]);
     let arrived = |app: &Explorer| app.central_film().is_some();
     wait(&mut harness, "the first picture", arrived);
@@ -238,7 +238,7 @@ fn the_badge_estimates_first_and_knows_later() {
 
 #[test]
 fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() {
-    let mut model = ReducedModel::clone(&Embedded::Line.model().unwrap());
+    let mut model = ReducedModel::clone(&embedded("line").unwrap());
     let window = |m: f64| model.window_for(&si_from_moes(&MoesRequest::new(ContactKind::Line, m, 10.0)).unwrap());
     let (own, beyond) = (window(100.0), (1..40).map(|k| 100.0 / 1.05f64.powi(k)).find(|m| window(*m) != window(100.0)));
     // Equations that are all zero have no solution: but one window has none.
@@ -261,7 +261,7 @@ fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() 
     assert!(detail.starts_with("{H_c} within") && why.starts_with("Calibrated bounds"), "{detail}; {why}");
     let (detail, why) = promised(beyond.unwrap());
     assert!(detail.starts_with("no error bound: a window beside its own answers"), "{detail}");
-    assert!(why.starts_with("The window of the reduced model that this contact belongs to"), "{why}");
+    assert!(why.starts_with("The local model that this contact belongs to"), "{why}");
     assert!(!why.contains(".."), "{why}");
     wait(&mut harness, "verification", |app| ["Verified", "Roughly right", "Far off"].contains(&app.badge().as_str()));
 }
@@ -343,13 +343,14 @@ fn a_whole_drag_is_one_step_back() {
 }
 
 fn open_embedded() -> Window {
-    open_with(Some(Embedded::Line.model().unwrap()))
+    open_with(Some(embedded("line").unwrap()))
 }
 
 /// A training of the middle of the sliders: enough for every view of a model.
 const SMALL_MODEL: &str = "Scene(version: 1, title: \"Small model\", study: Training(
     title: \"Small model\",
-    range: Moes(m: (20.0, 100.0), l: (5.0, 14.0), alpha: (8e-9, 20e-9), max_hertz_pressure: 3.2e9, viscosity: 0.01),
+    range: (axes: {M: (20.0, 100.0), L: (5.0, 14.0), Alpha: (8e-9, 20e-9)}, limits: {HertzPressure: (0.0, 3.2e9)},
+        fixed: {Viscosity: 0.01}),
     plan: FarthestPoint(snapshots: 40),
     windows: Given([(m: (20.0, 100.0), grid: Graded(nodes: 400, domain: (-8.0, 1.9), registered: true))]),
     pressure_loss: 1e-7, deformation_loss: 1e-8, rows_per_mode: 2.0, evidence: 0, seed: 1,

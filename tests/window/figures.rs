@@ -9,13 +9,13 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{Embedded, Workbench, run_scene};
+use ehl_explorer::engine::{Workbench, embedded, run_scene};
 use ehl_explorer::scene::{Grid, Scene};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 fn open() -> Window {
-    let explorer = Explorer::new(Some(Embedded::Line.model().unwrap()));
+    let explorer = Explorer::new(Some(embedded("line").unwrap()));
     let mut harness = window(explorer.without_system_dialogs(), [1280.0, 800.0]);
     wait(&mut harness, "the picture and its check", |app| app.central_film().is_some() && !app.busy());
     harness

@@ -17,6 +17,7 @@ mod examples;
 mod explorer;
 mod figures;
 mod heat;
+mod interfaces;
 mod lessons;
 mod presets;
 mod results_tab;

@@ -4,7 +4,7 @@ use crate::common::scratch::Scratch;
 use crate::driver::{Window, assert_cheap, click, give_path, undo, wait};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::engine::{Embedded, model_file, training_file};
+use ehl_explorer::engine::{embedded, model_file, training_file};
 use std::path::Path;
 
 /// A scene with a training of a small box; full solves take about a millisecond.
@@ -12,7 +12,9 @@ fn scene(title: &str, plan: &str) -> String {
     format!(
         "Scene(version: 1, title: \"{title}\", at: Moes(m: 20, l: 5), study: Training(
             title: \"{title}\",
-            range: Box(radius: (2e-3, 3e-3), speed: (3.0, 5.0), load: (1e5, 2e5), alpha: (6e-9, 12e-9), modulus: 231e9, viscosity: 0.01),
+            range: (axes: {{Radius: (2e-3, 3e-3, Linear), Speed: (3.0, 5.0, Linear),
+                Load: (1e5, 2e5, Linear), Alpha: (6e-9, 12e-9, Linear)}},
+                fixed: {{Modulus: 231e9, Viscosity: 0.01}}),
             plan: {plan},
             windows: Given([(m: (5.0, 100.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),
             pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,
@@ -31,7 +33,7 @@ fn open(folder: &Path, title: &str, plan: &str) -> Window {
     let nodes = if plan == LONG { "nodes: 500" } else { "nodes: 200" };
     std::fs::write(&path, scene(title, plan).replace("nodes: 200", nodes)).unwrap();
     let mut explorer =
-        Explorer::new(Some(Embedded::Line.model().unwrap())).without_system_dialogs().keeping_trainings_in(folder);
+        Explorer::new(Some(embedded("line").unwrap())).without_system_dialogs().keeping_trainings_in(folder);
     explorer.open_scene(&path).unwrap();
     let mut harness = crate::driver::window(explorer, [1280.0, 1400.0]);
     wait(&mut harness, "the first picture", |app| !app.training() && !app.busy() && app.central_film().is_some());
@@ -155,11 +157,11 @@ fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
     let before = value(&harness, "Radius R from");
     harness.get_by_label("Radius R from").set_value_accesskit(7.0);
     harness.run_steps(2);
-    assert!(harness.query_by_label_contains("`range.radius` runs from 0.007 down to 0.003").is_some());
+    assert!(harness.query_by_label_contains("`range.axes.Radius` runs from 0.007 down to 0.003").is_some());
     assert_eq!(value(&harness, "Radius R from"), before, "what is refused changes nothing");
     harness.get_by_label("Radius R to").set_value_accesskit(4.0);
     harness.run_steps(2);
-    assert!(harness.query_by_label_contains("`range.radius`").is_none());
+    assert!(harness.query_by_label_contains("`range.axes.Radius`").is_none());
     let after = value(&harness, "Radius R to");
     undo(&mut harness);
     assert_ne!(value(&harness, "Radius R to"), after);
@@ -175,8 +177,8 @@ fn a_range_where_full_solves_fail_is_named_and_what_there_is_stays() {
     let folder = Scratch::new("training-tab-failing");
     // A grid far too coarse for the heavy end: somewhere there is no full solution.
     let text = scene("Failing box", "FarthestPoint(snapshots: 60)")
-        .replace("load: (1e5, 2e5)", "load: (1e5, 4e6)")
-        .replace("alpha: (6e-9, 12e-9)", "alpha: (6e-9, 40e-9)")
+        .replace("Load: (1e5, 2e5, Linear)", "Load: (1e5, 4e6, Linear)")
+        .replace("Alpha: (6e-9, 12e-9, Linear)", "Alpha: (6e-9, 40e-9, Linear)")
         .replace("m: (5.0, 100.0)", "m: (5.0, 4000.0)")
         .replace("nodes: 200", "nodes: 61");
     let mut harness = open(&folder, "Failing box", TINY);

@@ -6,7 +6,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect};
 use egui_kittest::kittest::{By, NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
-use ehl_explorer::solver::physics::contact::Quantity;
+use ehl_explorer::solver::parameters::Quantity;
 use fastrand::Rng;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::time::Duration;

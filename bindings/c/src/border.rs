@@ -1,11 +1,21 @@
 //! What crosses the border to C: texts, messages, and never a panic.
 
 use std::ffi::{CStr, c_char};
+use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What some work gives; a panic becomes a sentence.
-pub fn guarded<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the solver stopped unexpectedly".to_owned()))
+/// Why something is refused, as the sentence that crosses the border.
+pub struct Refused(pub String);
+
+impl<E: Display> From<E> for Refused {
+    fn from(reason: E) -> Self {
+        Self(reason.to_string())
+    }
+}
+
+/// The result of some work; a panic becomes a sentence.
+pub fn guarded<T>(work: impl FnOnce() -> Result<T, Refused>) -> Result<T, Refused> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the solver stopped unexpectedly".into()))
 }
 
 /// A text of C; none where it is null or no UTF-8.

@@ -1,6 +1,6 @@
 //! A contact by a reduced model, for C.
 
-use crate::border::{guarded, text_of, write_message};
+use crate::border::{Refused, guarded, text_of, write_message};
 use ehl_explorer::engine::coupled::{Coupled, Inputs, Outputs, Pressed};
 use ehl_explorer::engine::model_file;
 use std::ffi::c_char;
@@ -140,7 +140,7 @@ pub unsafe extern "C" fn ehl_contact_read(
     let made = guarded(|| {
         // SAFETY: the caller's promise.
         let path = unsafe { text_of(path) }.ok_or("the path is no UTF-8 text")?;
-        let model = Arc::new(model_file::read(Path::new(path)).map_err(|error| error.to_string())?);
+        let model = Arc::new(model_file::read(Path::new(path))?);
         let pressed = if by_approach == 0 { Pressed::Load } else { Pressed::Approach };
         let contact = Coupled::new(Arc::clone(&model), pressed)?;
         let inputs = if first.is_null() { None } else { Coupled::first_inputs(&model) };
@@ -156,7 +156,7 @@ pub unsafe extern "C" fn ehl_contact_read(
             unsafe { write_message(message, length, "") };
             Box::into_raw(Box::new(EhlContact(contact)))
         }
-        Err(sentence) => {
+        Err(Refused(sentence)) => {
             // SAFETY: the caller's promise.
             unsafe { write_message(message, length, &sentence) };
             std::ptr::null_mut()
@@ -180,22 +180,22 @@ pub unsafe extern "C" fn ehl_contact_solve(
 ) -> i32 {
     let solved = guarded(|| {
         if contact.is_null() || inputs.is_null() || outputs.is_null() {
-            return Err("contact, inputs and outputs must not be null".to_owned());
+            return Err("contact, inputs and outputs must not be null".into());
         }
         // SAFETY: they are not null; the rest is the caller's promise.
         let (contact, inputs) = unsafe { (&mut *contact, inputs.read()) };
-        contact.0.solve(&inputs.into())
+        Ok(contact.0.solve(&inputs.into())?)
     });
     match solved {
         Ok(solved) => {
             // SAFETY: it is not null, and writable by the caller's promise; so is the message.
             unsafe {
                 outputs.write((&solved).into());
-                write_message(message, length, &solved.warnings.join("; "));
+                write_message(message, length, &solved.warning());
             }
             if solved.warnings.is_empty() { EHL_OK } else { EHL_WARNING }
         }
-        Err(sentence) => {
+        Err(Refused(sentence)) => {
             // SAFETY: the caller's promise.
             unsafe { write_message(message, length, &sentence) };
             EHL_REFUSED

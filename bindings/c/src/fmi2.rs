@@ -7,7 +7,7 @@
 #![allow(clippy::missing_safety_doc, reason = "what a caller promises is in the standard, the same for all of them")]
 #![allow(missing_docs, reason = "the standard documents them")]
 
-use crate::border::{guarded, text_of};
+use crate::border::{Refused, guarded, text_of};
 use crate::instance::{Contact, DISCARD, ERROR, FmiCallbacks, Instance, Kept, OK, State, TOLD, say, shared, truth};
 use ehl_explorer::engine::SavedModel;
 use ehl_explorer::engine::coupled::fmu::{IDENTIFIER, MODEL, REALS, first_inputs, pressed_of};
@@ -44,13 +44,13 @@ fn folder_of(uri: &str) -> Option<PathBuf> {
 }
 
 /// Works with an instance. What is refused is logged and discarded; the instance stays as it was.
-unsafe fn with(component: *mut c_void, work: impl FnOnce(&mut Instance) -> Result<c_int, String>) -> c_int {
+unsafe fn with(component: *mut c_void, work: impl FnOnce(&mut Instance) -> Result<c_int, Refused>) -> c_int {
     // SAFETY: a component is null or one that `fmi2Instantiate` made, used by one thread at a time.
     let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else { return ERROR };
     let before = instance.state.clone();
     match guarded(|| work(instance)) {
         Ok(status) => status,
-        Err(sentence) => {
+        Err(Refused(sentence)) => {
             instance.state = before;
             instance.say(DISCARD, &sentence)
         }
@@ -114,7 +114,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
         callbacks.map_or((None, std::ptr::null_mut()), |callbacks| (callbacks.logger, callbacks.environment));
     let made = guarded(|| {
         if kind != CO_SIMULATION {
-            return Err("this unit is for co-simulation only".to_owned());
+            return Err("this unit is for co-simulation only".into());
         }
         let folder = resources.and_then(folder_of).ok_or("the location of the resources is no URI of a file")?;
         let path = folder.join(MODEL.trim_start_matches("resources/"));
@@ -137,7 +137,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
             let instance = Instance { name, logger, environment, contact, roles, first, state, told: TOLD };
             Box::into_raw(Box::new(instance)).cast()
         }
-        Err(sentence) => {
+        Err(Refused(sentence)) => {
             say(logger, environment, &name, ERROR, &sentence);
             std::ptr::null_mut()
         }
@@ -260,7 +260,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
 
 /// Refuses variables of a type of which the unit has none.
 unsafe fn none_of(component: *mut c_void, count: usize, what: &str) -> c_int {
-    unsafe { with(component, |_| if count == 0 { Ok(OK) } else { Err(format!("there are no {what}")) }) }
+    unsafe { with(component, |_| if count == 0 { Ok(OK) } else { Err(format!("there are no {what}").into()) }) }
 }
 
 #[unsafe(no_mangle)]
@@ -416,7 +416,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     _known_changes: *const f64,
     _unknown_changes: *mut f64,
 ) -> c_int {
-    unsafe { with(component, |_| Err("this unit provides no directional derivatives".to_owned())) }
+    unsafe { with(component, |_| Err("this unit provides no directional derivatives".into())) }
 }
 
 #[unsafe(no_mangle)]
@@ -446,7 +446,7 @@ pub unsafe extern "C" fn fmi2DoStep(component: *mut c_void, time: f64, step: f64
     unsafe {
         with(component, |instance| {
             if !(time.is_finite() && step.is_finite() && step >= 0.0) {
-                return Err(format!("a step of {step} at time {time} cannot be taken"));
+                return Err(format!("a step of {step} at time {time} cannot be taken").into());
             }
             instance.step(time, step)
         })
@@ -455,12 +455,12 @@ pub unsafe extern "C" fn fmi2DoStep(component: *mut c_void, time: f64, step: f64
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(component: *mut c_void) -> c_int {
-    unsafe { with(component, |_| Err("no step is under way: each is done when it returns".to_owned())) }
+    unsafe { with(component, |_| Err("no step is under way: each is done when it returns".into())) }
 }
 
 /// No status is ever pending.
 unsafe fn no_status(component: *mut c_void) -> c_int {
-    unsafe { with(component, |_| Err("no step is under way".to_owned())) }
+    unsafe { with(component, |_| Err("no step is under way".into())) }
 }
 
 #[unsafe(no_mangle)]
@@ -479,7 +479,7 @@ pub unsafe extern "C" fn fmi2GetRealStatus(component: *mut c_void, kind: c_int, 
                 *value = instance.state.time;
                 Ok(OK)
             }
-            _ => Err("only the last successful time is known".to_owned()),
+            _ => Err("only the last successful time is known".into()),
         })
     }
 }

@@ -1,5 +1,6 @@
 //! An instance of a unit: what it is told, what it answers, and what of it can be kept.
 
+use crate::border::Refused;
 use ehl_explorer::engine::SavedModel;
 use ehl_explorer::engine::coupled::fmu::{REALS, Real, Role, TRUTHS, Truth, identity};
 use ehl_explorer::engine::coupled::{Coupled, InTime, InTimeState, Inputs, Outputs, Pressed};
@@ -101,13 +102,13 @@ impl Lent {
 /// Models that instances share, by the identity of their units.
 static MODELS: Mutex<Vec<(String, Lent)>> = Mutex::new(Vec::new());
 
-pub fn shared(bytes: &[u8]) -> Result<SavedModel, String> {
+pub fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
     let name = identity(bytes, Pressed::Load);
     let mut models = MODELS.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(model) = models.iter().find(|(own, _)| *own == name).and_then(|(_, model)| model.upgrade()) {
         return Ok(model);
     }
-    let model = SavedModel::from_bytes(bytes).map_err(|error| error.to_string())?;
+    let model = SavedModel::from_bytes(bytes)?;
     let lent = match &model {
         SavedModel::Stationary(model) => Lent::Stationary(Arc::downgrade(model)),
         SavedModel::InTime(model) => Lent::InTime(Arc::downgrade(model)),
@@ -138,7 +139,7 @@ impl Instance {
     }
 
     /// Makes the outputs follow from the inputs; the status says whether there is a warning.
-    pub fn follow(&mut self) -> Result<c_int, String> {
+    pub fn follow(&mut self) -> Result<c_int, Refused> {
         if self.state.outputs.is_none() {
             let inputs = &self.state.inputs;
             let outputs = match &mut self.contact {
@@ -161,7 +162,7 @@ impl Instance {
     fn take(&mut self, outputs: Outputs) {
         let now = (outputs.trained, outputs.full, outputs.warnings.len());
         let news = now != self.told && !outputs.warnings.is_empty();
-        let sentence = format!("at time {}: {}", self.state.time, outputs.warnings.join("; "));
+        let sentence = format!("at time {}: {}", self.state.time, outputs.warning());
         self.told = now;
         self.state.outputs = Some(outputs);
         if news {
@@ -170,14 +171,14 @@ impl Instance {
     }
 
     /// Takes a step; a contact in time goes on by it, to what the inputs are to be at its end.
-    pub fn step(&mut self, time: f64, step: f64) -> Result<c_int, String> {
+    pub fn step(&mut self, time: f64, step: f64) -> Result<c_int, Refused> {
         let Contact::InTime(contact) = &mut self.contact else {
             self.state.time = time + step;
             return self.follow();
         };
         let (present, room) = (self.state.time, ROUNDING.0 * step + ROUNDING.1 * time.abs());
         if (time - present).abs() > room {
-            return Err(format!("a contact in time goes on from where it is, which is {present}, not {time}"));
+            return Err(format!("a contact in time goes on from where it is, which is {present}, not {time}").into());
         }
         if !contact.has_begun() {
             contact.begin(&self.state.inputs)?;
@@ -201,18 +202,18 @@ impl Instance {
     }
 
     /// Comes back to a state.
-    pub fn come_back(&mut self, kept: &Kept) -> Result<(), String> {
+    pub fn come_back(&mut self, kept: &Kept) -> Result<(), Refused> {
         match (&mut self.contact, &kept.contact) {
             (Contact::Stationary(_), None) => {}
             (Contact::InTime(contact), Some(state)) => contact.restore(state)?,
             (Contact::InTime(contact), None) => contact.reset(),
-            (Contact::Stationary(_), Some(_)) => return Err("this is no state of this unit".to_owned()),
+            (Contact::Stationary(_), Some(_)) => return Err("this is no state of this unit".into()),
         }
         self.state = kept.state.clone();
         Ok(())
     }
 
-    pub fn real(&mut self, reference: c_uint) -> Result<f64, String> {
+    pub fn real(&mut self, reference: c_uint) -> Result<f64, Refused> {
         let (real, role) = self.variable(reference)?;
         if let Some(value) = real.value(role, &self.state.inputs, self.state.outputs.as_ref()) {
             return Ok(value);
@@ -222,13 +223,13 @@ impl Instance {
     }
 
     /// A real variable of this unit, and what it is.
-    fn variable(&self, reference: c_uint) -> Result<(&'static Real, Role), String> {
+    fn variable(&self, reference: c_uint) -> Result<(&'static Real, Role), Refused> {
         let (place, none) = (reference as usize, || format!("there is no real variable {reference}"));
         let role = self.roles.get(place).copied().flatten().ok_or_else(none)?;
         Ok((REALS.get(place).ok_or_else(none)?, role))
     }
 
-    pub fn set_real(&mut self, reference: c_uint, value: f64) -> Result<(), String> {
+    pub fn set_real(&mut self, reference: c_uint, value: f64) -> Result<(), Refused> {
         let mut inputs = self.state.inputs;
         let (real, role) = self.variable(reference)?;
         real.set(role, &mut inputs, value)?;
@@ -243,8 +244,8 @@ impl Instance {
     }
 }
 
-pub fn truth(reference: c_uint) -> Result<&'static Truth, String> {
-    TRUTHS.get(reference as usize).ok_or_else(|| format!("there is no Boolean variable {reference}"))
+pub fn truth(reference: c_uint) -> Result<&'static Truth, Refused> {
+    TRUTHS.get(reference as usize).ok_or_else(|| format!("there is no Boolean variable {reference}").into())
 }
 
 /// What a written state begins with: a word for its form, of a stationary contact and of one in time.
@@ -254,7 +255,7 @@ const FORMS: [&[u8; 8]; 2] = [b"EHLFMU01", b"EHLFMU02"];
 const NUMBERS: usize = 10;
 
 impl Kept {
-    pub fn written(&self, in_time: bool) -> Result<Vec<u8>, String> {
+    pub fn written(&self, in_time: bool) -> Result<Vec<u8>, Refused> {
         let i = &self.state.inputs;
         let numbers: [f64; NUMBERS] = [
             self.state.time,
@@ -279,7 +280,7 @@ impl Kept {
         Ok(written)
     }
 
-    pub fn read(bytes: &[u8], in_time: bool) -> Result<Self, String> {
+    pub fn read(bytes: &[u8], in_time: bool) -> Result<Self, Refused> {
         let none = "this is no state of this unit";
         let (body, rest) = bytes
             .strip_prefix(FORMS[usize::from(in_time)])
@@ -289,14 +290,14 @@ impl Kept {
             (None, false) => (true, None),
             (Some((stepping, [])), true) => (*stepping != 0, None),
             (Some((stepping, contact)), true) => (*stepping != 0, Some(InTimeState::from_bytes(contact)?)),
-            _ => return Err(none.to_owned()),
+            _ => return Err(none.into()),
         };
         let mut numbers = [0.0; NUMBERS];
         for (number, bytes) in numbers.iter_mut().zip(body.as_chunks().0) {
             *number = f64::from_le_bytes(*bytes);
         }
         if !numbers.iter().all(|number| number.is_finite()) {
-            return Err("the state holds a number that is not finite".to_owned());
+            return Err("the state holds a number that is not finite".into());
         }
         let [
             time,

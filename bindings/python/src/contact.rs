@@ -1,11 +1,10 @@
-//! A contact: what is to be solved, in the words of the command line.
+//! A contact: what is to be solved, by keywords.
 
 use crate::STORE;
 use crate::model::Model;
-use crate::work::refused;
-use ehl_explorer::cli::{MethodName, PointOptions};
+use crate::work::{refused, stated};
 use ehl_explorer::engine::Workbench;
-use ehl_explorer::scene::{CaseTable, Grid, Request, Scene};
+use ehl_explorer::scene::{ContactSpec, Field, MethodName, Request, Words};
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
 use pyo3::exceptions::PyTypeError;
@@ -14,87 +13,102 @@ use pyo3::types::{PyBool, PyDict, PyString};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A contact, given by the options of ``ehl-explorer solve`` with ``_`` in place of ``-``.
+/// A contact, given by the options of ``ehl-explorer solve`` with ``_`` in place of ``-``, an ``oil`` of a grade at a
+/// ``temperature`` besides.
 ///
 /// ``Contact(moes_m=40, moes_l=10)``, ``Contact(radius=0.0225, speed=5.04, load=646e3, modulus=287.8e9,
-/// viscosity=4e-3, alpha=22e-9)``; numbers in SI units, ``contact="point"`` for balls and ellipses. It is checked as it is
-/// made and never changes.
+/// viscosity=4e-3, alpha=22e-9)``; numbers in SI units, or texts with a unit as ``radius="12 mm"``; ``contact="point"`` for
+/// balls and ellipses. It is checked as it is made and never changes.
 #[pyclass(frozen, module = "ehl_explorer")]
 pub struct Contact {
-    /// The options.
-    pub options: PointOptions,
-    /// What they ask for.
+    /// What was stated.
+    pub spec: ContactSpec,
+    /// What that asks for.
     pub request: Request,
-    words: String,
+    words: Vec<String>,
 }
 
-/// `--name=value` of a Python value; none where it says nothing.
-fn word(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
-    let name = name.replace('_', "-");
-    if value.is_none() {
-        return Ok(None);
-    }
-    if let Ok(flag) = value.cast::<PyBool>() {
-        return Ok(flag.is_true().then(|| format!("--{name}")));
-    }
-    if value.is_instance_of::<PyString>() {
-        return Ok(Some(format!("--{name}={}", value.extract::<String>()?)));
-    }
-    if let Ok(number) = value.extract::<f64>() {
-        return Ok(Some(format!("--{name}={number:?}")));
-    }
-    if let Ok(numbers) = value.extract::<Vec<f64>>() {
-        let numbers: Vec<String> = numbers.iter().map(|number| format!("{number:?}")).collect();
-        return Ok(Some(format!("--{name}={}", numbers.join(","))));
-    }
-    if let Ok(path) = value.extract::<PathBuf>() {
-        return Ok(Some(format!("--{name}={}", path.display())));
-    }
-    Err(PyTypeError::new_err(format!("{name} must be a number, a text, a truth or some numbers")))
+/// States a field by a Python value.
+fn state(spec: &mut ContactSpec, field: Field, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    let text = if let Ok(truth) = value.cast::<PyBool>() {
+        truth.is_true().to_string()
+    } else if value.is_instance_of::<PyString>() {
+        value.extract::<String>()?
+    } else if let Ok(number) = value.extract::<f64>() {
+        if field.is_number() {
+            spec.set(field, number);
+            return Ok(());
+        }
+        number.to_string()
+    } else if let Ok(numbers) = value.extract::<Vec<f64>>() {
+        numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
+    } else if let Ok(path) = value.extract::<PathBuf>() {
+        path.to_string_lossy().into_owned()
+    } else {
+        let sentence = format!("{} must be a number, a text, a truth or some numbers", Words::Keywords.of(field));
+        return Err(PyTypeError::new_err(sentence));
+    };
+    spec.read(field, &text, "").map_err(|refusal| refused(stated(refusal)))
 }
 
 impl Contact {
-    fn of_words(words: Vec<String>) -> PyResult<Self> {
-        let shown = words.iter().map(|word| word.trim_start_matches('-')).collect::<Vec<_>>().join(", ");
-        let options = PointOptions::from_words(words).map_err(refused)?;
-        let (request, _) = options.request().map_err(refused)?;
-        Ok(Self { options, request, words: shown })
-    }
-
-    fn from_dict(given: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let mut words = Vec::new();
-        for (name, value) in given.into_iter().flatten() {
-            words.extend(word(&name.extract::<String>()?, &value)?);
+    /// The contact of some fields and of keywords, whose fields `field_of` finds.
+    fn of(
+        mut spec: ContactSpec,
+        keywords: Option<&Bound<'_, PyDict>>,
+        field_of: fn(&str) -> Option<Field>,
+    ) -> PyResult<Self> {
+        let mut given = Vec::new();
+        for (name, value) in keywords.into_iter().flatten().filter(|(_, value)| !value.is_none()) {
+            let name: String = name.extract()?;
+            let field = field_of(&name).ok_or_else(|| {
+                let accepted: Vec<_> = Field::of(Words::Keywords).map(|field| field.facts().name).collect();
+                refused(format!("{name}= is no keyword of a contact; accepted are {}", accepted.join(", ").replace('-', "_")))
+            })?;
+            given.push((field, value));
         }
-        Self::of_words(words)
+        // The unit of a load depends on the kind of contact, which is the first field.
+        given.sort_by_key(|(field, _)| *field);
+        given.iter().try_for_each(|(field, value)| state(&mut spec, *field, value))?;
+        let request = spec.request().map_err(|refusal| refused(stated(refusal)))?;
+        let mut words = Vec::new();
+        for &field in Field::ALL {
+            let word = Words::Keywords.of(field);
+            match (spec.number(field), given.iter().find(|(other, _)| *other == field)) {
+                (Some(number), _) => words.push(format!("{word}{number:?}")),
+                (None, Some((_, value))) => words.push(format!("{}={}", field.facts().name, value.repr()?)),
+                (None, None) => {}
+            }
+        }
+        Ok(Self { spec, request, words })
     }
 
-    /// The options with the method and the model that a call asks for: one in memory, or a file's name.
+    /// What a call asks for by its method and its model: one in memory, or a file's name.
     pub fn asked(&self, method: Option<&str>, model: Option<&Bound<'_, PyAny>>) -> PyResult<Asked> {
-        let mut options = self.options.clone();
+        let mut spec = self.spec.clone();
         let method = method.or(model.map(|_| "reduced"));
-        options.method = match method {
-            None => options.method,
-            Some("full") => MethodName::Full,
-            Some("reduced") => MethodName::Reduced,
+        spec.method = match method {
+            None => spec.method,
+            Some("full") => Some(MethodName::Full),
+            Some("reduced") => Some(MethodName::Reduced),
             Some(word) => return Err(refused(format!("`{word}` is no method; accepted are full, reduced"))),
         };
         let model = match model.map(|model| model.cast::<Model>().map_err(|_| model)) {
             None => None,
             Some(Ok(model)) => Some(Arc::clone(&model.get().0)),
             Some(Err(path)) => {
-                options.rom = Some(path.extract()?);
+                spec.rom = Some(path.extract()?);
                 None
             }
         };
-        Ok(Asked { options, model })
+        Ok(Asked { spec, model })
     }
 }
 
 /// What a call asks for.
 pub struct Asked {
     /// The contact and its method.
-    pub options: PointOptions,
+    pub spec: ContactSpec,
     /// A model in memory.
     pub model: Option<Arc<ReducedModel>>,
 }
@@ -120,7 +134,7 @@ impl Contact {
     #[new]
     #[pyo3(signature = (**options))]
     fn new(options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        Self::from_dict(options)
+        Self::of(ContactSpec::default(), options, Field::named)
     }
 
     /// A contact in SI units: R [m], u_m [m/s], load [N/m line, N point], E' [Pa], viscosity [Pa s], alpha [1/Pa].
@@ -135,46 +149,28 @@ impl Contact {
         alpha: Option<f64>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let given = [
-            ("radius", Some(radius)),
-            ("speed", Some(speed)),
-            ("load", Some(load)),
-            ("modulus", modulus),
-            ("viscosity", viscosity),
-            ("alpha", alpha),
-        ];
-        Self::with_numbers(&given, options)
+        let (radius, speed, load) = (Some(radius), Some(speed), Some(load));
+        let spec = ContactSpec { radius, speed, load, modulus, viscosity, alpha, ..ContactSpec::default() };
+        Self::of(spec, options, Field::named)
     }
 
     /// A contact by Moes' numbers M and L; what is given besides is kept, the rest takes its default.
     #[staticmethod]
     #[pyo3(signature = (m, l, **options))]
     fn moes(m: f64, l: f64, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        Self::with_numbers(&[("moes-m", Some(m)), ("moes-l", Some(l))], options)
+        let spec = ContactSpec { moes_m: Some(m), moes_l: Some(l), ..ContactSpec::default() };
+        Self::of(spec, options, Field::named)
     }
 
-    /// A contact as engineers write it, each quantity a number in SI units or a text with its unit: the columns of a
-    /// table of load cases, as ``Contact.engineering(radius="12 mm", speed="3 m/s", load="300 N/mm", modulus="231 GPa",
-    /// oil="ISO VG 68", temperature="60 °C", srr="5 %")``.
+    /// A contact by the columns of a table of load cases, as
+    /// ``Contact.engineering(radius="12 mm", speed="3 m/s", load="300 N/mm", modulus="231 GPa", oil="ISO VG 68",
+    /// temperature="60 °C", srr="5 %")``.
     #[staticmethod]
     #[pyo3(signature = (contact="line", **quantities))]
     fn engineering(contact: &str, quantities: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let (mut titles, mut cells) = (vec!["contact".to_owned()], vec![contact.to_owned()]);
-        for (name, value) in quantities.into_iter().flatten() {
-            titles.push(name.extract::<String>()?.replace('_', "-"));
-            let cell = value.extract::<f64>().map(|number| format!("{number:?}"));
-            cells.push(cell.or_else(|_| value.extract::<String>())?);
-        }
-        let quoted = |cells: &[String]| {
-            cells.iter().map(|cell| format!("\"{}\"", cell.replace('"', "\"\""))).collect::<Vec<_>>().join("\t")
-        };
-        let table = CaseTable::Text(format!("{}\n{}\n", quoted(&titles), quoted(&cells)));
-        let experiment = Scene { grid: Grid::Usual, ..Scene::at_moes(40.0, 10.0) }.experiment();
-        let cases = table.cases(&experiment, &|path| path.to_owned()).map_err(refused)?;
-        let case = cases.into_iter().next().ok_or_else(|| refused("no contact is given"))?;
-        let request = case.request.map_err(refused)?;
-        let named = titles.iter().zip(&cells).find(|(title, _)| title.as_str() == "lubricant");
-        Self::of_words(words_of(&request, named.map(|(_, name)| name.as_str())))
+        let mut spec = ContactSpec::default();
+        spec.read(Field::Contact, contact, "").map_err(|refusal| refused(stated(refusal)))?;
+        Self::of(spec, quantities, Field::titled)
     }
 
     /// Load number M.
@@ -223,32 +219,6 @@ impl Contact {
     }
 
     fn __repr__(&self) -> String {
-        format!("Contact({})", self.words)
+        format!("Contact({})", self.words.join(", "))
     }
-}
-
-impl Contact {
-    fn with_numbers(given: &[(&str, Option<f64>)], options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let mut words: Vec<String> =
-            given.iter().filter_map(|(name, value)| value.map(|value| format!("--{name}={value:?}"))).collect();
-        for (name, value) in options.into_iter().flatten() {
-            words.extend(word(&name.extract::<String>()?, &value)?);
-        }
-        Self::of_words(words)
-    }
-}
-
-/// The words of a contact that is known by its quantities, and by the name of its lubricant where it has one.
-fn words_of(request: &Request, lubricant: Option<&str>) -> Vec<String> {
-    let Request { point, lubricant: laws, .. } = request;
-    let mut words = vec![format!("--contact={}", point.kind.name())];
-    let names = ["radius", "speed", "load", "modulus", "viscosity", "alpha"];
-    let own_alpha = laws.own_coefficient().is_some();
-    let given = names.into_iter().zip(point.quantities()).filter(|(name, _)| *name != "alpha" || !own_alpha);
-    words.extend(given.map(|(name, value)| format!("--{name}={value:?}")));
-    words.extend(point.radius_y_m.map(|radius| format!("--radius-y={radius:?}")));
-    words.push(format!("--srr={:?}", point.sliding.slide_to_roll_ratio));
-    words.extend(point.sliding.newtonian_plateau_ratio.map(|npr| format!("--npr={npr:?}")));
-    words.extend(lubricant.filter(|name| !name.is_empty()).map(|name| format!("--lubricant={name}")));
-    words
 }

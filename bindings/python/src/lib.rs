@@ -1,8 +1,8 @@
 //! The Python module `ehl_explorer._native`: contacts, models, studies and scenes for numpy.
 //!
-//! It is a face of the engine beside the command line and the explorer: words become requests in `ehl_explorer::cli`, so
-//! that everything is refused with the same sentences, and the engine's answers become arrays. What takes long runs
-//! without Python's lock ([`work`]).
+//! It is a face of the engine beside the command line and the explorer: keywords are fields of
+//! `ehl_explorer::scene::ContactSpec`, so that everything is refused as on the command line, in the words of Python, and the
+//! engine's answers become arrays. What takes long runs without Python's lock ([`work`]).
 
 mod contact;
 mod many;

@@ -2,40 +2,36 @@
 
 use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
-use crate::work::{long, refused};
-use ehl_explorer::cli::{Failure, PointOptions};
-use ehl_explorer::engine::{CONTACT_COLUMNS, ContactResult, Workbench, result_columns};
-use ehl_explorer::scene::Bench;
+use crate::work::{long, refused, stated};
+use ehl_explorer::engine::{CONTACT_COLUMNS, EngineError, Workbench, result_columns};
+use ehl_explorer::host::clock::Stopwatch;
+use ehl_explorer::host::pool::on_all_cores;
+use ehl_explorer::scene::{Bench, ContactSpec, Field, Words};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::ScopedJoinHandle;
-use std::time::Instant;
 
 /// Contacts for which a reduced solver is taken at a time; its operators cost as much as a few solves.
 const CHUNK: usize = 128;
 
-/// One contact of many, with its own values of the varied options.
-fn varied(
-    options: &PointOptions,
-    columns: &[(String, &[f64])],
-    k: usize,
-) -> std::result::Result<PointOptions, Failure> {
-    let mut own = options.clone();
-    for (name, values) in columns {
-        own.set(name, values.get(k).copied().unwrap_or(f64::NAN))?;
+/// One contact of many, with its own values of the varied fields.
+fn varied(contact: &ContactSpec, columns: &[(Field, &[f64])], k: usize) -> ContactSpec {
+    let mut own = contact.clone();
+    for (field, values) in columns {
+        own.set(*field, values.get(k).copied().unwrap_or(f64::NAN));
     }
-    Ok(own)
+    own
 }
 
 /// Solves a contact with some of its options varied, a contact for each element of the arrays (float64, shape (n,)),
 /// on all cores. Each is solved afresh, so that neither order nor cores matter.
 ///
-/// A structured array of shape (n,): the contact and its result by the names of ``sweep``'s tables, numbers only; NaN
-/// where a solve did not converge, and ``trained`` where a reduced model was trained for the contact. A contact that
-/// makes no sense refuses all of them by its number.
+/// A structured array of shape (n,): the contact and its result by the names of ``sweep``'s tables, NaN where a solve did
+/// not converge; ``reduced.trained`` is 1 or 0, ``warning`` a text. A contact that makes no sense refuses all of them by
+/// its number.
 #[pyfunction]
 #[pyo3(signature = (contact, columns, method=None, model=None, progress=None))]
 pub fn solve_many<'py>(
@@ -47,41 +43,43 @@ pub fn solve_many<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let asked = contact.asked(method, model)?;
-    let columns = columns.iter().map(|(name, values)| Ok((name.replace('_', "-"), values.as_slice()?)));
-    let columns = columns.collect::<PyResult<Vec<(String, &[f64])>>>()?;
+    let columns = columns.iter().map(|(name, values)| Ok((Field::varied(name).map_err(refused)?, values.as_slice()?)));
+    let columns = columns.collect::<PyResult<Vec<(Field, &[f64])>>>()?;
     let total = columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
-    if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != total) {
-        return Err(refused(format!("`{name}` has {} values, but another option has {total}", values.len())));
+    if let Some((field, values)) = columns.iter().find(|(_, values)| values.len() != total) {
+        let name = Words::Keywords.of(*field);
+        return Err(refused(format!("{name} has {} values, but another option has {total}", values.len())));
     }
-    let first = varied(&asked.options, &columns, 0).map_err(refused)?;
-    let heat = total > 0 && first.request().map_err(refused)?.0.lubricant.heat.is_some();
-    let names = [&CONTACT_COLUMNS[..], &result_columns(heat), &["reduced.trained"]].concat();
-    let Asked { options, model } = asked;
+    let heat = asked.spec.heat == Some(true);
+    let names = [&CONTACT_COLUMNS[..], &result_columns(heat)].concat();
+    let Asked { spec, model } = asked;
     let width = names.len();
-    let numbers = long(py, progress, |watch| {
-        let mut numbers = vec![f64::NAN; width * total];
+    let (numbers, warnings) = long(py, progress, |watch| {
+        let (mut numbers, mut warnings) = (vec![f64::NAN; width * total], vec![String::new(); total]);
         let done = AtomicUsize::new(0);
-        numbers.par_chunks_mut(width * CHUNK).enumerate().try_for_each(|(chunk, rows)| {
+        let chunks = numbers.par_chunks_mut(width * CHUNK).zip(warnings.par_chunks_mut(CHUNK)).enumerate();
+        let solve = |(chunk, (rows, warnings)): (usize, (&mut [f64], &mut [String]))| {
             let mut bench = bench_with(model.as_ref());
-            for (i, row) in rows.chunks_exact_mut(width).enumerate() {
+            for (i, (row, warning)) in rows.chunks_exact_mut(width).zip(&mut *warnings).enumerate() {
                 let k = chunk * CHUNK + i;
-                let at = |error: &dyn std::fmt::Display| Failure::Request(format!("contact {k}: {error}"));
-                let (request, method) =
-                    varied(&options, &columns, k).and_then(|options| options.request()).map_err(|error| at(&error))?;
+                let at = |error: EngineError| match error {
+                    stopped if stopped.cancelled() => stopped,
+                    refused => EngineError::Study(format!("contact {k}: {refused}")),
+                };
+                let request = varied(&spec, &columns, k).request().map_err(|refusal| at(stated(refusal)))?;
                 bench.forget();
-                let answer = bench.answer(&request, &method, None, watch);
-                let answer = answer.map_err(|e| if e.cancelled() { Failure::Stopped } else { at(&e) })?;
-                let result = ContactResult::from(&answer);
+                let result = bench.answer(&request, None, watch).map_err(at)?.result;
+                *warning = result.warning();
                 row.iter_mut().zip(result.row(&names)).for_each(|(place, value)| *place = value);
             }
-            let done = done.fetch_add(rows.len() / width, Ordering::Relaxed) + rows.len() / width;
+            let done = done.fetch_add(warnings.len(), Ordering::Relaxed) + warnings.len();
             watch.progress(Progress { stage: "contacts".to_owned(), done, total });
-            if watch.cancelled() { Err(Failure::Stopped) } else { Ok(()) }
-        })?;
-        Ok(numbers)
+            if watch.cancelled() { Err(EngineError::Cancelled) } else { Ok(()) }
+        };
+        on_all_cores(|| chunks.try_for_each(solve))?;
+        Ok((numbers, warnings))
     })?;
-    let titles: Vec<&str> = names.iter().map(|name| name.strip_prefix("reduced.").unwrap_or(name)).collect();
-    structured(py, &titles, numbers)
+    structured(py, &names, numbers, Some(("warning", &warnings)))
 }
 
 /// Seconds of `runs` solves of a contact without Python between them, each afresh, on the caller's thread; where more
@@ -97,16 +95,16 @@ pub fn measure(
     threads: usize,
 ) -> PyResult<f64> {
     let asked = contact.asked(method, model)?;
-    let (request, method) = asked.options.request().map_err(refused)?;
+    let request = asked.spec.request().map_err(|refusal| refused(stated(refusal)))?;
     let solve = |bench: &mut Workbench, runs: usize| {
         for _ in 0..runs {
             bench.forget();
-            bench.answer(&request, &method, None, &()).map_err(|error| error.to_string())?;
+            bench.answer(&request, None, &()).map_err(|error| error.to_string())?;
         }
         Ok::<_, String>(())
     };
     let seconds = py.detach(|| {
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let work = || solve(&mut asked.bench(), runs.div_ceil(threads.max(1)));
         // One thread is the caller's: that of a call from Python, on the same core and with the same cache.
         let done = if threads <= 1 {
@@ -118,7 +116,7 @@ pub fn measure(
                 ends.try_for_each(|end| end.unwrap_or_else(|_| Err("a solve broke".to_owned())))
             })
         };
-        done.map(|()| clock.elapsed().as_secs_f64())
+        done.map(|()| clock.seconds())
     });
     seconds.map_err(refused)
 }

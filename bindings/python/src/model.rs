@@ -2,9 +2,9 @@
 
 use crate::tables::shaped;
 use crate::work::{long, refused};
-use ehl_explorer::cli::Failure;
-use ehl_explorer::engine::{Embedded, EngineError, model_arrays, model_file};
+use ehl_explorer::engine::{self, EngineError, model_arrays, model_file, model_text};
 use ehl_explorer::scene::Scene;
+use ehl_explorer::solver::parameters::Quantity;
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
 use ehl_explorer::solver::training::train;
@@ -49,15 +49,16 @@ impl Model {
             "point" => ContactKind::Point,
             _ => return Err(refused(format!("`{contact}` is no contact; accepted are line, point"))),
         };
-        let which = match (kind, thinning, heat) {
-            (ContactKind::Line, false, false) => Embedded::Line,
-            (ContactKind::Line, true, false) => Embedded::ThinningLine,
-            (ContactKind::Point, false, false) => Embedded::Circle,
-            (ContactKind::Point, true, false) => Embedded::ThinningCircle,
-            (_, false, true) => Embedded::with_heat(kind),
+        let name = match (kind, thinning, heat) {
+            (ContactKind::Line, false, false) => "line",
+            (ContactKind::Line, true, false) => "line_shear",
+            (ContactKind::Point, false, false) => "point",
+            (ContactKind::Point, true, false) => "point_shear",
+            (ContactKind::Line, false, true) => "line_heat",
+            (ContactKind::Point, false, true) => "point_heat",
             (_, true, true) => return Err(refused("heat is known to the models without thinning only".to_owned())),
         };
-        Ok(Self(py.detach(|| which.model()).map_err(refused)?))
+        Ok(Self(py.detach(|| engine::embedded(name)).map_err(refused)?))
     }
 
     /// Trains a model as a scene describes, given by its text or its file; ``progress(stage, done, total)`` is called
@@ -68,7 +69,7 @@ impl Model {
         let (read, _) = scene_of(scene)?;
         let none = || EngineError::NoTraining { path: scene.extract().unwrap_or_default() };
         let spec = read.training().ok_or_else(|| refused(none()))?;
-        let model = long(py, progress, |watch| train(&spec, watch).map_err(|e| Failure::from(EngineError::from(e))))?;
+        let model = long(py, progress, |watch| train(&spec, watch).map_err(EngineError::from))?;
         Ok(Self(Arc::new(model)))
     }
 
@@ -94,13 +95,12 @@ impl Model {
     #[getter]
     fn domain<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (domain, dict) = (&self.0.domain, PyDict::new(py));
-        let pairs =
-            [("m", domain.m), ("l", domain.l), ("alpha", domain.alpha_per_pa), ("radius_ratio", domain.radius_ratio)];
-        for (name, pair) in pairs {
-            dict.set_item(name, pair)?;
+        for (name, quantity) in [("m", Quantity::M), ("l", Quantity::L), ("alpha", Quantity::Alpha)] {
+            dict.set_item(name, domain.interval(quantity))?;
         }
-        dict.set_item("hertz_pressure", domain.max_hertz_pressure_pa)?;
-        dict.set_item("viscosity", domain.viscosity_pa_s)?;
+        dict.set_item("radius_ratio", domain.space.radius_ratio())?;
+        dict.set_item("hertz_pressure", domain.highest_pressure_pa())?;
+        dict.set_item("viscosity", domain.middle_viscosity_pa_s())?;
         Ok(dict)
     }
 
@@ -115,7 +115,7 @@ impl Model {
 
     /// The same as text, as ``ehl-explorer info`` prints it.
     fn __str__(&self) -> String {
-        ehl_explorer::cli::describe_model(&self.0)
+        model_text::describe(&self.0)
     }
 
     fn __repr__(&self) -> String {

@@ -2,8 +2,7 @@
 
 use crate::contact::Contact;
 use crate::tables::{from_row, shaped};
-use crate::work::{long, refused};
-use ehl_explorer::cli::MethodName;
+use crate::work::{long, refused, stated};
 use ehl_explorer::engine::{Answer, ContactResult};
 use ehl_explorer::scene::answer_or_full;
 use ehl_explorer::solver::full::Solution;
@@ -70,15 +69,14 @@ impl Fields {
 
 impl Result {
     fn of(py: Python<'_>, answer: Answer) -> PyResult<Self> {
-        let result = ContactResult::from(&answer);
-        let solution = answer.solution.filter(|_| answer.converged);
-        let fields = solution.map(|solution| Fields::of(py, solution)).transpose()?;
+        let result = answer.result.clone();
+        let fields = answer.into_fields().map(|solution| Fields::of(py, solution)).transpose()?;
         Ok(Self { result, values: PyOnceLock::new(), fields })
     }
 
     fn values<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyDict>> {
         let values = self.values.get_or_try_init(py, || {
-            let text = serde_json::to_string(&self.result).map_err(refused)?;
+            let text = serde_json::to_string(&self.result.json()).map_err(refused)?;
             let values = py.import("json")?.call_method1("loads", (text,))?;
             Ok::<_, PyErr>(values.cast_into::<PyDict>()?.unbind())
         })?;
@@ -157,7 +155,7 @@ impl Result {
     /// What a reader must know, one sentence each.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.result.warnings.clone()
+        self.result.warnings.iter().map(ToString::to_string).collect()
     }
 
     /// Central film H_c.
@@ -220,15 +218,15 @@ pub fn solve(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Result> {
     let asked = contact.asked(method, model)?;
-    let (request, method) = asked.options.request().map_err(refused)?;
+    let request = asked.spec.request().map_err(|refusal| refused(stated(refusal)))?;
     // A reduced solve is over before a thread has begun, unless the full solver must take over.
-    if asked.options.method == MethodName::Reduced {
+    if request.method.model().is_some() {
         use ehl_explorer::scene::Bench;
-        let answer = py.detach(|| asked.bench().answer(&request, &method, None, &())).map_err(refused)?;
-        if answer.converged {
+        let answer = py.detach(|| asked.bench().answer(&request, None, &())).map_err(refused)?;
+        if answer.result.converged {
             return Result::of(py, answer);
         }
     }
-    let answer = long(py, progress, |watch| Ok(answer_or_full(&mut asked.bench(), &request, &method, watch)?))?;
+    let answer = long(py, progress, |watch| Ok(answer_or_full(&mut asked.bench(), &request, watch)?))?;
     Result::of(py, answer)
 }

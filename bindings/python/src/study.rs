@@ -3,17 +3,16 @@
 use crate::contact::Contact;
 use crate::model::{Model, scene_of};
 use crate::tables::array_of;
-use crate::work::{long, refused};
-use ehl_explorer::cli::{Failure, Sweep, Varied};
+use crate::work::{long, refused, stated};
 use ehl_explorer::engine::{EngineError, SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::study::random_test::RandomTest;
 use ehl_explorer::scene::study::transient::series;
-use ehl_explorer::scene::{At, Grid, Method, Scene, Steps, Study, TransientStudy};
+use ehl_explorer::scene::{At, ContactSweep, Grid, Method, Scene, Steps, Study, TransientStudy, Varied};
 use ehl_explorer::solver::full::transient::{Frame, Inputs, MarchProgress, Signal, TimeStep, Transient, march};
 use ehl_explorer::solver::observer::Observer;
+use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
-use ehl_explorer::solver::training::Range;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
@@ -35,8 +34,10 @@ pub fn sweep<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let asked = contact.asked(method, model)?;
     let varied = varied.iter().map(axis).collect::<PyResult<Vec<Varied>>>()?;
-    let swept =
-        long(py, progress, |watch| Sweep::new(&varied, &asked.options)?.solve(&mut asked.bench(), watch, |_| Ok(())))?;
+    let swept = long(py, progress, |watch| {
+        let sweep = ContactSweep::new(&varied, &asked.spec).map_err(stated)?;
+        sweep.solve(&mut asked.bench(), watch, |_| Ok(()))
+    })?;
     array_of(py, swept.table)
 }
 
@@ -45,7 +46,7 @@ fn axis(given: &Bound<'_, PyAny>) -> PyResult<Varied> {
         return text.parse().map_err(|sentence: String| refused(sentence));
     }
     let (name, values): (String, Vec<f64>) = given.extract()?;
-    Ok(Varied { name: name.replace('_', "-"), steps: Steps::List(values) })
+    Varied::new(&name.replace('_', "-"), Steps::List(values)).map_err(refused)
 }
 
 /// Random contacts of a range, each solved alone, and compared with full solutions at the first ``compare`` of them: the
@@ -78,7 +79,8 @@ pub fn random_test<'py>(
         "reduced" => Method::EMBEDDED,
         _ => return Err(refused(format!("`{method}` is no method; accepted are full, reduced"))),
     };
-    let range = Range::Realisation { m, l, max_hertz_pressure };
+    let range = ParameterSpace::of([Axis::new(Quantity::M, m), Axis::new(Quantity::L, l)])
+        .limited([(Quantity::HertzPressure, (0.0, max_hertz_pressure))]);
     let study = Study::RandomTest(RandomTest { range, tests, seed, method, compare, worst: 0 });
     let scene = Scene { contact: kind, study, grid: Grid::Usual, ..Scene::at_moes(40.0, 10.0) };
     let outcome = outcome(py, &scene, bench_of(model, PathBuf::new())?, progress)?;
@@ -160,7 +162,7 @@ fn by_model<'py>(
         let mut reduced = ReducedMarch::new(&model, &asked).map_err(EngineError::from)?;
         let trajectory = march(&mut reduced, &asked, &observer).map_err(EngineError::from)?;
         if watch.cancelled() {
-            return Err(EngineError::Cancelled.into());
+            return Err(EngineError::Cancelled);
         }
         let outside = model.domain.left_by(&trajectory);
         Ok((trajectory, outside))
@@ -191,8 +193,8 @@ pub fn run<'py>(
     let mut outcome = outcome(py, &scene, bench, progress)?;
     let tables = PyDict::new(py);
     for table in std::mem::take(&mut outcome.tables) {
-        let (name, labels, remarks) = (table.name.clone(), table.labels.clone(), table.remarks.clone());
-        tables.set_item(name, (array_of(py, table)?, labels, remarks))?;
+        let (name, labels) = (table.name.clone(), table.labels.clone());
+        tables.set_item(name, (array_of(py, table)?, labels))?;
     }
     let text = outcome.to_json().to_string();
     Ok((py.import("json")?.call_method1("loads", (text,))?, tables))
@@ -214,7 +216,7 @@ fn outcome(
     mut bench: Workbench,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<SceneOutcome> {
-    long(py, progress, |watch| run_scene(scene, &mut bench, watch).map_err(Failure::from))
+    long(py, progress, |watch| run_scene(scene, &mut bench, watch))
 }
 
 fn first_table(py: Python<'_>, outcome: SceneOutcome) -> PyResult<Bound<'_, PyAny>> {

@@ -1,8 +1,8 @@
 //! Work that takes long: without Python's lock, with progress, and stopped by Ctrl-C.
 
-use ehl_explorer::cli::Failure;
+use ehl_explorer::engine::EngineError;
 use ehl_explorer::engine::job::guarded;
-use ehl_explorer::scene::StudyObserver;
+use ehl_explorer::scene::{Refusal, StudyObserver, Words};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use ehl_explorer::solver::training::TrainingObserver;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -16,6 +16,11 @@ pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A request that is
 
 /// How often Python is asked for signals, and told how far work is.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
+
+/// A contact that is refused, in the words of Python.
+pub fn stated(refusal: Refusal) -> EngineError {
+    EngineError::Study(refusal.in_words(Words::Keywords))
+}
 
 /// The exception of a sentence.
 pub fn refused(sentence: impl ToString) -> PyErr {
@@ -54,7 +59,7 @@ impl StudyObserver for Watch {}
 pub fn long<T: Send>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Watch) -> Result<T, Failure> + Send,
+    work: impl FnOnce(&Watch) -> Result<T, EngineError> + Send,
 ) -> PyResult<T> {
     let watch = Watch::default();
     let (sender, receiver) = channel();
@@ -86,8 +91,10 @@ pub fn long<T: Send>(
     tell(progress, watch.news())?;
     match result {
         Some(Ok(Ok(value))) => Ok(value),
-        Some(Ok(Err(Failure::Stopped))) => Err(PyKeyboardInterrupt::new_err(Failure::Stopped.to_string())),
-        Some(Ok(Err(failure))) => Err(refused(failure)),
+        Some(Ok(Err(error))) if error.cancelled() => {
+            Err(PyKeyboardInterrupt::new_err("the run was stopped before it was done"))
+        }
+        Some(Ok(Err(error))) => Err(refused(error)),
         Some(Err(broken)) => Err(refused(broken)),
         None => Err(refused("the work ended without an answer")),
     }

@@ -60,7 +60,11 @@ def small_training():
         title: "A narrow box",
         study: Training(
             title: "A narrow box",
-            range: Moes(m: (35.0, 45.0), l: (9.0, 11.0), alpha: (14.0e-9, 15.5e-9), max_hertz_pressure: 2e9, viscosity: 0.01),
+            range: (
+                axes: {M: (35.0, 45.0), L: (9.0, 11.0), Alpha: (14.0e-9, 15.5e-9)},
+                limits: {HertzPressure: (0.0, 2e9)},
+                fixed: {Viscosity: 0.01},
+            ),
             lubricant: (viscosity: Roelands, density: DowsonHigginson),
             plan: FarthestPoint(snapshots: 12),
             windows: Given([(m: (35.0, 45.0), grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)))]),

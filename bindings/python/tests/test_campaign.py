@@ -19,13 +19,23 @@ PROGRAM = os.environ.get("EHL_EXPLORER", str(TARGET / "release" / "ehl-explorer"
 
 BALLS = """Scene(version: 1, title: "balls", contact: Point,
     grid: Plane(dx: 0.04, dy: 0.1, domain: (-3.0, 1.5, -1.5)),
-    study: RandomTest(range: Box(radius: (10e-3, 12e-3), speed: (1.0, 3.0), load: (20.0, 60.0), alpha: (8e-9, 11e-9),
-    modulus: 231e9, viscosity: 0.01), tests: 80, seed: 3, method: Full))"""
+    study: RandomTest(range: (
+        axes: {
+            Radius: (10e-3, 12e-3, Linear), Speed: (1.0, 3.0, Linear), Load: (20.0, 60.0, Linear),
+            Alpha: (8e-9, 11e-9, Linear),
+        },
+        fixed: {Modulus: 231e9, Viscosity: 0.01},
+    ), tests: 80, seed: 3, method: Full))"""
 
 # Five full solutions in three shards, then a round for each that the search adds.
 ADAPTIVE = """Scene(version: 1, title: "adaptive", study: Training(title: "t",
-    range: Box(radius: (3e-3, 4e-3), speed: (2.0, 4.0), load: (2e5, 4e5), alpha: (8e-9, 12e-9), modulus: 231e9,
-    viscosity: 0.01), plan: Adaptive(start: 5, indicator: Correction, tolerances: [1e-7], successes: 16,
+    range: (
+        axes: {
+            Radius: (3e-3, 4e-3, Linear), Speed: (2.0, 4.0, Linear), Load: (2e5, 4e5, Linear),
+            Alpha: (8e-9, 12e-9, Linear),
+        },
+        fixed: {Modulus: 231e9, Viscosity: 0.01},
+    ), plan: Adaptive(start: 5, indicator: Correction, tolerances: [1e-7], successes: 16,
     local_sigma: 0.2, local_successes: 0, vicinity: 2, limit: 9),
     windows: Given([(m: (1.0, 500.0), grid: Graded(nodes: 240, domain: (-6.0, 1.9), registered: true))]),
     pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, evidence: 0, seed: 5))"""

@@ -21,6 +21,7 @@ CONTACTS = [
     (dict(moes_m=20, moes_l=5, cavitation="complementarity"), "full"),
     (dict(moes_m=20, moes_l=5, heat=True, srr=0.2), "full"),
     (dict(moes_m=1000, moes_l=30), "reduced"),
+    (dict(moes_m=20, moes_l=5, e1=210e9, nu1=0.3, e2=310e9, nu2=0.27, shear="eyring", shear_stress=5e6, srr=-0.1), "full"),
 ]
 
 
@@ -89,7 +90,7 @@ def run(program, scene, folder):
 @pytest.mark.parametrize("contact, compare", [("Line", 3), ("Point", 0)])
 def test_random_test(contact, compare, program, tmp_path):
     scene = f"""Scene(version: 1, title: "t", contact: {contact}, grid: Usual, study: RandomTest(
-        range: Realisation(m: (20.0, 100.0), l: (5.0, 15.0), max_hertz_pressure: 2e9),
+        range: (axes: {{M: (20.0, 100.0), L: (5.0, 15.0)}}, limits: {{HertzPressure: (0.0, 2e9)}}),
         tests: 40, seed: 7, method: Reduced(model: Embedded), compare: {compare}))"""
     tables = run(program, scene, tmp_path)
     tested = ehl.random_test(
@@ -140,3 +141,31 @@ def test_engineering_inputs_are_those_of_a_table_of_load_cases(program, tmp_path
         for name in ["H_c", "H_min", "h_c_m", "traction"]:
             (column,) = [column for title, column in expected.items() if title.endswith(f".{name}")]
             assert result[name] == column[k], name
+
+
+def test_bodies_heat_shear_inlet_film_and_grid_are_the_same_in_tables_keywords_and_flags(program, solve_json, tmp_path):
+    shared = dict(contact="line", radius="10 mm", speed="2 m/s", load="300 N/mm", viscosity="20 mPa·s", alpha="18 1/GPa")
+    bodies = dict(e1="210 GPa", nu1="0.3", e2="310 GPa", nu2="0.27")
+    warm = dict(heat="yes", srr="30 %", inlet_temperature="60 °C", body2="glass", shear="eyring", shear_stress="6 MPa")
+    starved = dict(cavitation="mass-conserving", supply_film="0.2 µm", dx="0.01")
+    si = {"--radius": 0.01, "--speed": 2, "--load": 3e5, "--viscosity": 0.02, "--alpha": 1.8e-8}
+    si |= {"--e1": 210e9, "--nu1": 0.3, "--e2": 310e9, "--nu2": 0.27}
+    for own, flags in [
+        (
+            warm | dict(grid="graded", domain="-10,2"),
+            ["--heat", "--srr=0.3", "--inlet-temperature=333.15", "--body2=glass", "--shear=eyring", "--shear-stress=6e6"]
+            + ["--grid=graded", "--domain=-10,2"],
+        ),
+        (starved, ["--cavitation=mass-conserving", "--supply-film=2e-7", "--dx=0.01"]),
+    ]:
+        given = shared | bodies | own
+        titles, cells = ";".join(given).replace("_", "-"), ";".join(given.values())
+        (tmp_path / "cases.csv").write_text(f"{titles}\n{cells}\n", encoding="utf-8")
+        expected = table(program("cases", tmp_path / "cases.csv"))
+        solved = solve_json(*(f"{flag}={value!r}" for flag, value in si.items()), *flags)
+        for contact in [ehl.Contact.engineering(**given), ehl.Contact(**given)]:
+            result = ehl.solve(contact)
+            assert without_clock(result.to_dict()) == without_clock(solved)
+            for name in ["H_c", "H_min", "h_c_m", "traction"]:
+                (column,) = [column for title, column in expected.items() if title.endswith(f".{name}")]
+                assert result[name] == column[0], name

@@ -235,9 +235,9 @@ def test_what_makes_no_sense_is_refused_in_a_sentence_and_changes_nothing(path, 
 def test_models_of_both_kinds_are_told_apart(program, model):
     text = program("info", model)
     assert "line contacts in time" in text and "load 0.9" in text and "sampled rows" in text
-    with pytest.raises(ehl.EhlError, match="model in time"):
+    with pytest.raises(ehl.EhlError, match="transient reduced model"):
         ehl.Model.load(model)
-    with pytest.raises(ehl.EhlError, match="stationary contacts"):
+    with pytest.raises(ehl.EhlError, match="steady contacts"):
         ehl.transient(ehl.Contact(**POINT), 0.1, 0.01, model=ROOT / "assets" / "line.rom")
 
 

@@ -3,16 +3,16 @@
 use super::ask::Ask;
 use super::failure::PassedOver;
 use super::jobs::{JobKind, Outcome};
-use super::live::Solved;
 use super::picture::Cuts;
 use crate::app::document::Key;
+use crate::engine::Answer;
 
 /// What happened.
 pub enum Event {
     /// The document asks for something else, at a time \[s\]; and why its reduced model is not even tried, if it is not.
     Asked(Ask, Option<PassedOver>, f64),
     /// The reduced model has answered.
-    Reduced(Ask, Box<Solved>),
+    Reduced(Ask, Box<Answer>),
     /// The reduced solve was cancelled.
     ReducedStopped(Ask),
     /// The reduced model has found no solution; a sentence says why.

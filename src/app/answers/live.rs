@@ -5,29 +5,20 @@
 //! nothing down.
 
 use super::ask::Ask;
-use crate::engine::Store;
 use crate::engine::job::{Ending, Job, Queue, Reporter, Standing, Wake};
-use crate::solver::full::Solution;
-use crate::solver::reduced::{Online, ReducedModel, ReducedSolution};
+use crate::engine::{Answer, Solver, Store, answer};
+use crate::scene::{Grid, Method};
+use crate::solver::reduced::{Online, ReducedModel};
 use std::cell::RefCell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What seems to be at once to a hand.
 const AT_ONCE: Duration = Duration::from_millis(100);
 /// A solve that ran longer than this is given up for a newer one. Were it given up at every movement of the hand, the
 /// picture would stand still.
 const LIVE_PATIENCE: Duration = Duration::from_millis(400);
-
-/// A reduced solution with its fields.
-pub struct Solved {
-    /// The solution.
-    pub reduced: ReducedSolution,
-    pub fields: Solution,
-    /// Seconds that the solve alone took.
-    pub wall_s: f64,
-}
 
 /// Why nothing came of an ask.
 #[derive(Debug)]
@@ -39,13 +30,13 @@ pub enum Unanswered {
 }
 
 /// What came of an ask.
-type Answer = Result<Box<Solved>, Unanswered>;
+type Answered = Result<Box<Answer>, Unanswered>;
 
 struct Running {
     ask: Ask,
-    solved: Option<Box<Solved>>,
+    solved: Option<Box<Answer>>,
     ending: Option<Ending>,
-    job: Job<Box<Solved>>,
+    job: Job<Box<Answer>>,
 }
 
 impl Running {
@@ -57,20 +48,20 @@ impl Running {
     }
 
     /// What came of it, once it has ended.
-    fn answer(&mut self) -> Option<Answer> {
+    fn answer(&mut self) -> Option<Answered> {
         self.receive_within(Duration::ZERO);
         Some(match (self.ending.take()?, self.solved.take()) {
             (Ok(()), Some(solved)) => Ok(solved),
             _ if self.job.stopping() => Err(Unanswered::Stopped),
             (Ok(()), None) => Err(Unanswered::Failed("the reduced solve ended without a result".to_owned())),
-            (Err(why), _) => Err(Unanswered::Failed(why)),
+            (Err(why), _) => Err(Unanswered::Failed(why.to_string())),
         })
     }
 }
 
 /// The reduced solves that wait or run.
 pub struct Live {
-    queue: Queue<(Ask, Arc<ReducedModel>), Box<Solved>>,
+    queue: Queue<(Ask, Arc<ReducedModel>), Box<Answer>>,
     running: Vec<Running>,
     patience: Duration,
 }
@@ -115,7 +106,7 @@ impl Live {
     }
 
     /// What has come since the last call, with what it is for; of those that were given up for a newer one nothing has.
-    pub fn poll(&mut self) -> Vec<(Ask, Answer)> {
+    pub fn poll(&mut self) -> Vec<(Ask, Answered)> {
         let mut answers = Vec::new();
         let mut newer = self.running.len();
         self.running.retain_mut(|running| {
@@ -174,16 +165,13 @@ fn prepared(store: &Store, last: Option<Online>, ask: &Ask, model: Arc<ReducedMo
     }
 }
 
-fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Solved>>) -> Ending {
-    let key = ask.key;
-    // Operators belong to the model and its truncation: the time shown is the solve's alone.
-    online.prepare(&key.point);
-    let begin = Instant::now();
-    let reduced = online.solve_watched(&key.point, key.lubricant, reporter);
-    let wall_s = begin.elapsed().as_secs_f64();
-    let reduced = reduced.map_err(|error| error.to_string())?;
-    let fields = online.reconstruct(&reduced).map_err(|error| error.to_string())?;
-    reporter.send(Box::new(Solved { reduced, fields, wall_s }));
+fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Answer>>) -> Ending {
+    let request = ask.key.request(Grid::Model, Method::EMBEDDED);
+    let answer = answer(&request, Solver::Reduced(online), reporter).map_err(|error| error.to_string())?;
+    if !answer.result.converged {
+        return Err(answer.result.warning().into());
+    }
+    reporter.send(Box::new(answer));
     Ok(())
 }
 
@@ -195,7 +183,7 @@ impl Live {
             while !reporter.cancelled() {
                 std::thread::sleep(Duration::from_millis(1));
             }
-            Err("cancelled".to_owned())
+            Err("cancelled".to_owned().into())
         });
         self.running.push(Running { ask, solved: None, ending: None, job });
     }
@@ -205,10 +193,11 @@ impl Live {
 mod tests {
     use super::*;
     use crate::app::document::Key;
-    use crate::engine::Embedded;
+    use crate::engine::embedded;
     use crate::solver::physics::contact::OperatingPoint;
     use crate::solver::physics::lubricant::Lubricant;
     use crate::solver::reduced::ReducedOptions;
+    use std::time::Instant;
 
     fn ask_at(share_of_speed: f64) -> Ask {
         let speed_m_per_s = share_of_speed * OperatingPoint::TABLE_2_1.speed_m_per_s;
@@ -225,12 +214,13 @@ mod tests {
 
     #[test]
     fn who_waits_has_the_answer_at_once_and_who_does_not_is_called() {
-        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
         let mut live = patient();
         live.submit(&ctx, ask_at(1.0), Arc::clone(&model));
         let (ask, answer) = live.poll().pop().unwrap();
         let at_once = answer.unwrap();
-        assert!(ask == ask_at(1.0) && !live.busy() && at_once.wall_s > 0.0);
+        assert!(ask == ask_at(1.0) && !live.busy() && at_once.result.wall_s > 0.0);
+        assert!(!at_once.result.untrained() && at_once.result.warnings.is_empty());
 
         let called = Arc::new(AtomicBool::new(false));
         let note = Arc::clone(&called);
@@ -253,8 +243,8 @@ mod tests {
             assert!(live.busy() && begin.elapsed() < Duration::from_secs(60));
             std::thread::sleep(Duration::from_millis(1));
         };
-        assert!((later.reduced.h_c / later.fields.scalars.h_c - 1.0).abs() < 1e-9);
-        assert!((later.reduced.h_c / at_once.reduced.h_c - 1.0).abs() < 1e-3);
+        let film = |answer: &Answer| answer.result.scalars.unwrap().h_c;
+        assert!((film(&later) / film(&at_once) - 1.0).abs() < 1e-3);
         while !called.load(Ordering::SeqCst) {
             assert!(begin.elapsed() < Duration::from_secs(60), "nobody is called");
             std::thread::sleep(Duration::from_millis(1));
@@ -263,7 +253,7 @@ mod tests {
 
     #[test]
     fn of_asks_that_wait_the_newest_is_answered_and_of_models_no_longer_in_use_none() {
-        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
         let mut live = patient();
         live.be_patient(Duration::ZERO);
         for k in 0..50 {
@@ -283,7 +273,7 @@ mod tests {
 
     #[test]
     fn a_contact_that_is_refused_comes_back_as_a_sentence() {
-        let (ctx, model) = (egui::Context::default(), Embedded::Line.model().unwrap());
+        let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
         let mut live = patient();
         live.submit(&ctx, ask_at(f64::NAN), model);
         let (_, answer) = live.poll().pop().unwrap();

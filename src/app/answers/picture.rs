@@ -1,9 +1,9 @@
 //! What the plots draw: a solution with its curves ready for the screen, and how two of them compare.
 
-use super::live::Solved;
+use crate::app::controls::sentence;
 use crate::app::document::Key;
 use crate::app::numbers;
-use crate::solver::full::point::resolution_warning;
+use crate::engine::{Answer, ContactResult, Warning};
 use crate::solver::full::{Problem, Solution, TractionDoubt};
 use crate::solver::reduced::ErrorEstimate;
 use egui_plot::PlotPoint;
@@ -46,6 +46,19 @@ pub enum Origin {
     },
     /// By the full solver.
     Full,
+}
+
+impl From<&ContactResult> for Origin {
+    fn from(result: &ContactResult) -> Self {
+        let Some(facts) = &result.reduced else { return Self::Full };
+        Self::Reduced {
+            residual_estimate: facts.residual_estimate.unwrap_or(f64::NAN),
+            error: facts.error,
+            iterations: result.newton_iterations,
+            window: facts.window,
+            stands_in: result.warnings.contains(&Warning::NeighbouringModel),
+        }
+    }
 }
 
 impl Origin {
@@ -94,22 +107,28 @@ pub struct Picture {
     pub meniscus: Option<f64>,
     /// The pressure spike.
     pub spike: Option<(f64, f64)>,
-    /// A sentence where the grid ends too early or is too coarse, or does not resolve the side lobes.
+    /// What a reader must know of it.
+    pub warnings: Vec<Warning>,
+    /// The warnings of its grid as sentences: ends too near, spacing too wide, side lobes unresolved.
     pub unresolved: Option<String>,
     /// Whether its domain or its spacing costs the film too much.
     pub costly_grid: bool,
 }
 
 impl Picture {
-    /// Prepares a converged solution for drawing; `traction` is its coefficient where a reduced model knows it without
-    /// all nodes.
-    pub fn new(key: Key, origin: Origin, solution: Arc<Solution>, cuts: Cuts, traction: Option<f64>) -> Self {
-        let solution = of_contact(solution, &key);
-        let slides = key.point.sliding.slide_to_roll_ratio != 0.0;
-        let traction = traction.filter(|_| slides).unwrap_or_else(|| solution.traction_coefficient());
-        let grid_warning = solution.grid_warning();
+    /// Prepares an answer for drawing as that of a contact with its film; `None` without convergence.
+    pub fn of(key: Key, answer: Answer, cuts: Cuts) -> Option<Self> {
+        let asked = Key { point: answer.request.point, lubricant: answer.request.lubricant };
+        let (origin, traction) = (Origin::from(&answer.result), answer.result.traction?);
+        let warnings = answer.result.warnings.clone();
+        let solution = Arc::new(answer.into_fields()?);
+        let of_nodes = |warning: &&Warning| {
+            matches!(warning, Warning::DiscretisationError { .. } | Warning::DiscretisationErrorUnknown)
+        };
+        let of_grid = |warning: &&Warning| of_nodes(warning) || matches!(warning, Warning::SideLobesUnresolved { .. });
+        let unresolved: Vec<String> = warnings.iter().filter(of_grid).map(Warning::to_string).collect();
         let mut picture = Self {
-            key,
+            key: asked,
             origin,
             cuts,
             pressure: Vec::new(),
@@ -120,25 +139,16 @@ impl Picture {
             rupture: solution.rupture(),
             meniscus: solution.meniscus(),
             spike: solution.spike(),
-            costly_grid: grid_warning.is_some(),
-            unresolved: both(grid_warning, resolution_warning(&solution)),
+            costly_grid: warnings.iter().any(|warning| of_nodes(&warning)),
+            unresolved: (!unresolved.is_empty()).then(|| unresolved.join(". ")),
+            warnings,
             solution,
         };
+        if key != asked {
+            picture.slide(key);
+        }
         picture.draw_curves();
-        picture
-    }
-
-    /// Prepares a reduced solution for drawing.
-    pub fn of_reduced(key: Key, solved: Solved, cuts: Cuts) -> Self {
-        let Solved { reduced, fields, .. } = solved;
-        let origin = Origin::Reduced {
-            residual_estimate: reduced.residual_estimate,
-            error: reduced.error,
-            iterations: reduced.iterations,
-            window: reduced.window,
-            stands_in: reduced.stands_in,
-        };
-        Self::new(key, origin, Arc::new(fields), cuts, reduced.traction)
+        Some(picture)
     }
 
     /// Goes over to a contact with the same film ([`Key::has_film_of`]): only the traction is another one.
@@ -146,7 +156,17 @@ impl Picture {
         self.solution = of_contact(Arc::clone(&self.solution), &key);
         self.key = key;
         self.traction = self.solution.traction_coefficient();
+        let former = self.unphysical.map(Warning::from);
         self.unphysical = self.solution.problem.doubts_traction(self.traction, &self.solution.scalars);
+        self.warnings.retain(|warning| Some(warning) != former.as_ref());
+        self.warnings.extend(self.unphysical.map(Warning::from));
+    }
+
+    /// Its warnings as sentences that end with a space; empty without any.
+    pub fn warned(&self) -> String {
+        let stands_in = |warning: &&Warning| **warning != Warning::NeighbouringModel;
+        let sentences = self.warnings.iter().filter(stands_in).map(|warning| sentence(&warning.to_string()) + " ");
+        sentences.collect()
     }
 
     /// Lays the curves of a point contact elsewhere.
@@ -270,13 +290,5 @@ impl Comparison {
             film: difference(&picture.film, &full.film, b.h_c),
             pressure,
         }
-    }
-}
-
-/// Two warnings one after the other, or the one that there is.
-fn both(first: Option<String>, second: Option<String>) -> Option<String> {
-    match (first, second) {
-        (Some(first), Some(second)) => Some(format!("{first}. {second}")),
-        (first, second) => first.or(second),
     }
 }

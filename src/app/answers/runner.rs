@@ -12,8 +12,9 @@ use crate::app::document::Document;
 use crate::app::in_use::InUse;
 use crate::app::model_source::Models;
 use crate::app::wake::wake;
-use crate::engine::job::{Job, Standing, on_spare_cores};
-use crate::engine::{Embedded, Store};
+use crate::engine::Store;
+use crate::engine::job::{Job, Standing};
+use crate::host::pool::on_spare_cores;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::point::second_grid;
@@ -35,9 +36,9 @@ impl Answers {
     /// solver in a worker. Called once per frame, after the panels.
     pub fn refresh(&mut self, ctx: &Context, document: &Document) {
         if self.work.reading.is_none()
-            && let Some(which) = self.work.models.late_for(&document.point, &document.lubricant)
+            && let Some(name) = self.work.models.late_for(&document.point, &document.lubricant)
         {
-            self.read(ctx, which);
+            self.read(ctx, name);
         }
         let ask = Ask::of(document, &self.work.models);
         if self.asked() != Some(ask) {
@@ -45,7 +46,7 @@ impl Answers {
         }
         for (ask, answer) in self.work.live.poll() {
             let event = match answer {
-                Ok(solved) => Event::Reduced(ask, solved),
+                Ok(answer) => Event::Reduced(ask, answer),
                 Err(Unanswered::Stopped) => Event::ReducedStopped(ask),
                 Err(Unanswered::Failed(why)) => Event::ReducedFailed(ask, why),
             };
@@ -119,21 +120,21 @@ impl Answers {
     /// Returns why the reduced model is not even tried; `None` if it is.
     fn untried(&self, document: &Document) -> Option<PassedOver> {
         let heat = document.lubricant.heat.is_some();
-        let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && model.domain.heat.is_some() == heat;
+        let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && model.domain.heats() == heat;
         let shapes = self.model(document).is_some_and(own);
         match self.trust(document) {
             _ if self.work.reading.is_some() && !shapes => Some(PassedOver::Reading),
             None => Some(PassedOver::NoModel),
-            Some(Trust::Outside(why)) => Some(PassedOver::Outside(why)),
+            Some(Trust::Outside(why)) => Some(PassedOver::Outside(why.to_string())),
             Some(Trust::Trained) => None,
         }
     }
 
     /// Begins to read a model of the program. Until it is there the full solver draws the pictures.
-    fn read(&mut self, ctx: &Context, which: Embedded) {
+    fn read(&mut self, ctx: &Context, name: &'static str) {
         let store = self.work.store.clone();
         self.work.reading = Some(Job::start("Reading a reduced model", wake(ctx), move |reporter| {
-            reporter.send(on_spare_cores(|| store.embedded(which)).map_err(|error| error.to_string())?);
+            reporter.send(on_spare_cores(|| store.embedded(name)).map_err(|error| error.to_string())?);
             Ok(())
         }));
     }
@@ -252,6 +253,7 @@ mod tests {
     use super::*;
     use crate::app::badge::verdict;
     use crate::app::display::Thresholds;
+    use crate::engine::embedded;
     use crate::engine::job::Wake;
     use std::sync::mpsc::channel;
     use std::time::Instant;
@@ -259,7 +261,7 @@ mod tests {
     #[test]
     fn a_reduced_solve_that_is_stopped_says_so_and_no_full_one_follows() {
         let (ctx, document) = (Context::default(), Document::default());
-        let mut answers = Answers::new(Models::only(Embedded::Line.model().ok()), Store::default());
+        let mut answers = Answers::new(Models::only(embedded("line").ok()), Store::default());
         let ask = Ask::of(&document, answers.models());
         assert_eq!(answers.on(Event::Asked(ask, None, 0.0)), Some(Wish::Reduced));
         answers.work.live.endless(ask);
@@ -282,7 +284,7 @@ mod tests {
     #[test]
     fn a_model_is_in_use_as_soon_as_it_is_there_however_long_its_reader_takes_to_end() {
         let mut answers = Answers::new(Models::only(None), Store::default());
-        let model = Embedded::Line.model().unwrap();
+        let model = embedded("line").unwrap();
         let (own, (sent, arrived), (end, ended)) = (Arc::clone(&model), channel(), channel::<()>());
         answers.work.reading = Some(Job::start("Reading", Wake::default(), move |reporter| {
             reporter.send(own);

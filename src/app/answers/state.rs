@@ -5,14 +5,13 @@ use super::event::{Event, Wish};
 use super::failure::{Failure, PassedOver};
 use super::grid_error::GridError;
 use super::jobs::{JobKind, Outcome};
-use super::live::Solved;
 use super::picture::{Comparison, Cuts, Origin, Picture};
 use super::pins::{Pin, Pins};
 use super::times::Times;
 use super::work::Work;
 use crate::app::document::Key;
 use crate::app::model_source::Models;
-use crate::engine::Store;
+use crate::engine::{Answer, Store};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::{Report, Solution, Termination};
 use std::sync::Arc;
@@ -72,7 +71,7 @@ impl Answers {
     pub(super) fn on(&mut self, event: Event) -> Option<Wish> {
         match event {
             Event::Asked(ask, passed_over, now) => return self.ask(ask, passed_over, now),
-            Event::Reduced(ask, solved) => self.reduced(ask, *solved),
+            Event::Reduced(ask, answer) => self.reduced(ask, *answer),
             Event::ReducedStopped(ask) if self.asked == Some(ask) => {
                 let message = "The reduced solve was cancelled".to_owned();
                 self.failure = Some(Failure { key: ask.key, message, report: None, stopped: true });
@@ -144,11 +143,11 @@ impl Answers {
         }
     }
 
-    fn reduced(&mut self, ask: Ask, solved: Solved) {
+    fn reduced(&mut self, ask: Ask, answer: Answer) {
         let present = self.asked == Some(ask);
-        self.reduced_times.add(solved.wall_s);
+        self.reduced_times.add(answer.result.wall_s);
         if present || !self.picture_is_current() {
-            self.picture = Some(Picture::of_reduced(ask.key, solved, self.cuts));
+            self.picture = Picture::of(ask.key, answer, self.cuts);
             let strange = |full: &Picture| full.key == ask.key && self.is_of_another_grid(&ask.key, &full.solution);
             if self.full.as_ref().is_some_and(strange) {
                 self.full = None;
@@ -182,33 +181,33 @@ impl Answers {
     }
 
     /// Notes a converged full solution.
-    fn solved(&mut self, key: Key, solution: Box<Solution>, wall_s: f64) -> Arc<Solution> {
-        self.full_times.add(wall_s);
-        self.last_report = Some((key, solution.report.clone()));
-        Arc::from(solution)
+    fn solved(&mut self, key: Key, answer: &Answer) {
+        self.full_times.add(answer.result.wall_s);
+        self.last_report = report_of(key, answer);
     }
 
     /// Notes a full solve that has ended without a solution.
     fn failed(&mut self, key: Key, outcome: Outcome) -> Failure {
         match outcome {
             Outcome::Failed(message) => Failure { key, message, report: None, stopped: false },
-            Outcome::Solved(solution, _) => {
-                let report = solution.report.clone();
-                self.last_report = Some((key, report.clone()));
-                let message = format!("The full solve {}", report.termination.describe());
-                let stopped = report.termination == Termination::Cancelled;
-                Failure { key, message, report: Some(report), stopped }
+            Outcome::Solved(answer) => {
+                self.last_report = report_of(key, &answer);
+                let report = self.last_report.as_ref().map(|(_, report)| report.clone());
+                let termination = report.as_ref().map_or(Termination::Diverged, |report| report.termination);
+                let message = format!("The full solve {}", termination.describe());
+                Failure { key, message, report, stopped: termination == Termination::Cancelled }
             }
         }
     }
 
     fn live(&mut self, key: Key, outcome: Outcome) {
         let (present, drawn) = (Some(key) == self.key(), self.is_reduced(&key));
-        let solution = match outcome {
-            Outcome::Solved(solution, wall_s) if solution.converged() => self.solved(key, solution, wall_s),
+        let answer = match outcome {
+            Outcome::Solved(answer) if answer.result.converged => answer,
             other if present && !drawn => return self.failure = Some(self.failed(key, other)),
             _ => return,
         };
+        self.solved(key, &answer);
         if present {
             self.failure = None;
         }
@@ -218,27 +217,27 @@ impl Answers {
         if late || drawn || self.is_settled(&key) {
             return;
         }
-        let picture = Picture::new(key, Origin::Full, solution, self.cuts, None);
-        self.full = Some(picture.clone());
-        self.picture = Some(picture);
+        self.full = Picture::of(key, *answer, self.cuts);
+        self.picture.clone_from(&self.full);
         self.comparison = None;
     }
 
     fn verified(&mut self, key: Key, outcome: Outcome) {
         let present = Some(key) == self.key();
-        let solution = match outcome {
-            Outcome::Solved(solution, wall_s) if solution.converged() => self.solved(key, solution, wall_s),
+        let answer = match outcome {
+            Outcome::Solved(answer) if answer.result.converged => answer,
             // A change of the ask cancels it: that is no failure.
             other if present => return self.verify_failure = Some(self.failed(key, other)),
             _ => return,
         };
+        self.solved(key, &answer);
         let reduced = self.is_reduced(&key);
+        let Some(full) = Picture::of(key, *answer, self.cuts) else { return };
         // The model has been read meanwhile, and its truth follows; or another grid was chosen, and answers later.
-        let another = self.is_of_another_grid(&key, &solution);
-        if another || !reduced && self.plane().is_some_and(|plane| solution.mesh.plane() != Some(plane)) {
+        let another = self.is_of_another_grid(&key, &full.solution);
+        if another || !reduced && self.plane().is_some_and(|plane| full.solution.mesh.plane() != Some(plane)) {
             return;
         }
-        let full = Picture::new(key, Origin::Full, solution, self.cuts, None);
         if present && self.plane().is_some() && !reduced {
             self.failure = None;
             self.picture = Some(full.clone());
@@ -253,8 +252,8 @@ impl Answers {
             return;
         }
         match outcome {
-            Outcome::Solved(second, _) if second.converged() => {
-                match self.full.as_ref().and_then(|full| GridError::of(full, &second)) {
+            Outcome::Solved(second) if second.result.converged => {
+                match self.full.as_ref().and_then(|full| GridError::of(full, second.fields()?)) {
                     Some(error) => self.grid_error = Some(error),
                     None => self.no_estimate = Some("the contact or its grid has changed meanwhile".to_owned()),
                 }
@@ -427,4 +426,9 @@ impl Answers {
         let on_plane = |full: &Picture| self.plane().is_none_or(|plane| full.solution.mesh.plane() == Some(plane));
         self.plane().is_some() && self.full.as_ref().is_some_and(|full| full.key == *key && on_plane(full))
     }
+}
+
+/// Returns the report of a full solve with its contact.
+fn report_of(key: Key, answer: &Answer) -> Option<(Key, Report)> {
+    Some((key, answer.solution.as_ref()?.report.clone()))
 }

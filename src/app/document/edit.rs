@@ -6,8 +6,10 @@ use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{LoadFollower, LubricantFollower, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::physics::contact::{Moes, OperatingPoint, Quantity};
-use crate::solver::physics::engineering::{Bodies, Oil};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::bodies::{Bodies, Material};
+use crate::solver::physics::contact::{Moes, OperatingPoint};
+use crate::solver::physics::engineering::Oil;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::training::TrainingSpec;
 
@@ -25,6 +27,10 @@ pub enum Edit {
     Oil(Option<Oil>),
     /// The bodies that R, E′, u_m and SRR are of.
     Bodies(Bodies),
+    /// Whether temperatures are computed.
+    Heat(bool),
+    /// The material of a body, 0 or 1.
+    Material(usize, Material),
     /// Roller, ball or ellipse.
     Shape(Shape),
     /// Laws and constants of the lubricant.
@@ -61,6 +67,8 @@ impl Document {
             Edit::Oil(Some(oil)) => return self.set_oil(oil),
             Edit::Oil(None) => self.view.oil = None,
             Edit::Bodies(bodies) => return self.set_bodies(bodies),
+            Edit::Heat(on) => return self.switch_heat(on),
+            Edit::Material(body, material) => return self.set_material(body, material),
             Edit::Shape(shape) => return self.set_shape(shape),
             Edit::Laws(laws) => return self.set_lubricant(*laws),
             Edit::Named(named) => return self.pick_lubricant(named),

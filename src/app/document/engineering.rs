@@ -2,8 +2,12 @@
 
 use super::experiment::Document;
 use crate::app::refusal::Refusal;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
-use crate::solver::physics::engineering::{Bodies, Oil};
+use crate::scene::named_lubricant::of_laws;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::bodies::{Bodies, Material};
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::engineering::Oil;
+use crate::solver::physics::lubricant::{Heat, Lubricant};
 
 const OF_THE_OIL: [Quantity; 2] = [Quantity::Viscosity, Quantity::Alpha];
 const OF_THE_BODIES: [Quantity; 3] = [Quantity::Radius, Quantity::Modulus, Quantity::Speed];
@@ -26,13 +30,13 @@ impl Document {
     }
 
     /// Takes R, E′, u_m and SRR from two bodies and holds the first three; of a point contact R_y as well, where the
-    /// bodies are not as round across as along.
+    /// bodies are not as round across as along. With heat the bodies' thermal constants count too.
     ///
     /// # Errors
     /// A sentence when the bodies make no contact; the document is unchanged then.
     pub fn set_bodies(&mut self, bodies: Bodies) -> Result<(), Refusal> {
-        let point = self.of_bodies(&bodies)?;
-        self.accept(point)?;
+        let (point, lubricant) = self.of_bodies(&bodies)?;
+        self.set_contact(point, lubricant)?;
         self.view.bodies = Some(bodies);
         OF_THE_BODIES.into_iter().for_each(|quantity| self.view.held.set(quantity, true));
         if self.point.radius_y_m.is_some() {
@@ -46,9 +50,22 @@ impl Document {
         self.view.oil.is_some_and(|oil| self.of_oil(&oil) == Ok(self.point))
     }
 
-    /// Whether the present contact still has the values of its bodies.
-    pub fn bodies_count(&self) -> bool {
-        self.view.bodies.is_some_and(|bodies| self.of_bodies(&bodies) == Ok(self.point))
+    /// The bodies that were entered; before that a roller or a ball on a plane that is the present contact.
+    pub fn bodies(&self) -> Bodies {
+        self.view.bodies.unwrap_or_else(|| {
+            let point = &self.point;
+            let srr = point.sliding.slide_to_roll_ratio;
+            let Bodies([first, second]) = Bodies::on_plane(point.radius_m, point.speed_m_per_s, srr);
+            // An ellipse on a plane is a body of both its radii.
+            let first = point.radius_y_m.map_or(first, |radius_y| first.with_transverse_radius_m(Some(radius_y)));
+            let [own, other] = self.lubricant.heat.unwrap_or_default().bodies;
+            Bodies([first.conducting(own), second.conducting(other)])
+        })
+    }
+
+    /// The bodies that were entered, if the present contact still has their values.
+    pub fn bodies_in_force(&self) -> Option<Bodies> {
+        self.view.bodies.filter(|bodies| self.of_bodies(bodies) == Ok((self.point, self.lubricant)))
     }
 
     fn of_oil(&self, oil: &Oil) -> Result<OperatingPoint, Refusal> {
@@ -56,19 +73,39 @@ impl Document {
         Ok(OperatingPoint { viscosity_pa_s: state.viscosity_pa_s, alpha_per_pa: state.alpha_per_pa, ..self.point })
     }
 
-    fn of_bodies(&self, bodies: &Bodies) -> Result<OperatingPoint, Refusal> {
-        let (speed_m_per_s, srr) = bodies.entrainment()?;
-        let radius_m = bodies.reduced_radius_m()?;
-        let modulus_pa = bodies.reduced_modulus_pa()?;
-        let radius_y_m = match self.point.kind {
-            ContactKind::Line => None,
-            // An ellipse stays one where its radii happen to be equal.
-            ContactKind::Point => Some(bodies.reduced_transverse_radius_m()?)
-                .filter(|radius_y| *radius_y != radius_m || self.point.radius_y_m.is_some()),
-        };
-        let mut point = OperatingPoint { radius_m, radius_y_m, modulus_pa, speed_m_per_s, ..self.point };
-        point.sliding.slide_to_roll_ratio = srr;
-        Ok(point)
+    /// Computes temperatures, or no longer. The bodies are those that were entered, as long as E′ is theirs, otherwise
+    /// of steel.
+    ///
+    /// # Errors
+    /// A sentence when the contact cannot be computed with heat; the document is unchanged then.
+    pub fn switch_heat(&mut self, on: bool) -> Result<(), Refusal> {
+        let oil = of_laws(&self.lubricant).map(|named| named.heat).unwrap_or_default();
+        let entered = self.view.bodies.filter(|bodies| bodies.reduced_modulus_pa() == Ok(self.point.modulus_pa));
+        let bodies = entered.map_or(Heat::default().bodies, |bodies| bodies.heat());
+        let heat = on.then(|| Heat { oil, bodies, ..Heat::default() });
+        self.set_lubricant(Lubricant { heat, ..self.lubricant })
+    }
+
+    /// Makes a body, 0 or 1, of a material: the body that was entered, if the contact still has the bodies' values;
+    /// otherwise its thermal constants change only.
+    ///
+    /// # Errors
+    /// A sentence when the bodies make no contact; the document is unchanged then.
+    pub fn set_material(&mut self, body: usize, material: Material) -> Result<(), Refusal> {
+        if let Some(mut bodies) = self.bodies_in_force() {
+            bodies.0[body] = bodies.0[body].of(material);
+            return self.set_bodies(bodies);
+        }
+        let mut lubricant = self.lubricant;
+        lubricant.heat.iter_mut().for_each(|heat| heat.bodies[body] = material.heat);
+        self.set_lubricant(lubricant)
+    }
+
+    /// The contact and the lubricant's laws that the bodies make of the present ones.
+    fn of_bodies(&self, bodies: &Bodies) -> Result<(OperatingPoint, Lubricant), Refusal> {
+        let point = bodies.contact(self.point)?;
+        let heat = self.lubricant.heat.map(|heat| Heat { bodies: bodies.heat(), ..heat });
+        Ok((point, Lubricant { heat, ..self.lubricant }))
     }
 }
 
@@ -76,8 +113,10 @@ impl Document {
 mod tests {
     use super::*;
     use crate::app::document::Shape;
+    use crate::solver::full::Problem;
+    use crate::solver::physics::bodies::Body;
     use crate::solver::physics::contact::Moes;
-    use crate::solver::physics::engineering::{Body, Grade, OilFamily};
+    use crate::solver::physics::engineering::{Grade, OilFamily};
 
     const VG_68: Oil =
         Oil { grade: Grade::IsoVg(68.0), family: OilFamily::Mineral, temperature_k: 333.15, density_15: 880.0 };
@@ -91,7 +130,7 @@ mod tests {
         let point = document.point;
         assert!((point.radius_m - 0.012).abs() < 1e-15 && (point.speed_m_per_s - 3.0).abs() < 1e-12);
         assert!((point.sliding.slide_to_roll_ratio - 0.05).abs() < 1e-12);
-        assert!(document.oil_counts() && document.bodies_count());
+        assert!(document.oil_counts() && document.bodies_in_force() == Some(bodies));
         let moes = point.moes();
         document.set_moes(Moes { m: 1.5 * moes.m, ..moes }).unwrap();
         assert_eq!(OperatingPoint { load: point.load, ..document.point }, point, "only the load follows");
@@ -106,15 +145,42 @@ mod tests {
     }
 
     #[test]
+    fn a_glass_disc_is_the_same_body_at_the_same_speed_with_heat() {
+        let Bodies([first, second]) = Bodies::on_plane(0.0127, 0.74, 0.4);
+        let glass = first.of(Material::GLASS);
+        let pair = Bodies([glass, second]);
+        assert!(glass.speed_m_per_s < second.speed_m_per_s);
+        // The bodies first or heat first.
+        let (mut document, mut other) = (Document::default(), Document::default());
+        document.set_bodies(pair).unwrap();
+        document.switch_heat(true).unwrap();
+        other.switch_heat(true).unwrap();
+        other.set_bodies(pair).unwrap();
+        assert_eq!((document.key(), document.bodies_in_force()), (other.key(), Some(pair)));
+        let heat = Problem::new(&document.point, document.lubricant).unwrap().heat.unwrap();
+        for (body, (speed, thermal)) in pair.0.iter().zip(heat.speeds.iter().zip(heat.heat.bodies)) {
+            assert!((speed * document.point.speed_m_per_s / body.speed_m_per_s - 1.0).abs() < 1e-12);
+            assert_eq!(thermal, body.heat);
+        }
+        // A material chosen beside Heat is that of the body, as long as the contact is that of the bodies.
+        document.set_material(1, Material::GLASS).unwrap();
+        assert_eq!(document.bodies_in_force(), Some(Bodies([glass, second.of(Material::GLASS)])));
+        document.type_quantity(Quantity::Modulus, 123e9).unwrap();
+        document.set_material(1, Material::STEEL).unwrap();
+        assert_eq!(document.lubricant.heat.map(|heat| heat.bodies), Some(pair.heat()));
+        assert!(document.point.modulus_pa == 123e9 && document.bodies_in_force().is_none());
+    }
+
+    #[test]
     fn a_ball_in_a_groove_becomes_an_ellipse_and_a_roller_has_no_groove() {
         let mut document = Document::default();
         document.set_shape(Shape::Ball).unwrap();
-        let Bodies(ball, race) = Bodies::on_plane(4.7625e-3, 3.0, 0.0);
+        let Bodies([ball, race]) = Bodies::on_plane(4.7625e-3, 3.0, 0.0);
         let race = Body { radius_m: Some(18.2e-3), ..race };
-        let pair = |groove_m: f64| Bodies(ball, race.with_transverse_radius_m(Some(groove_m)));
+        let pair = |groove_m: f64| Bodies([ball, race.with_transverse_radius_m(Some(groove_m))]);
         document.set_bodies(pair(-4.953e-3)).unwrap();
         assert!((document.point.radius_ratio() - 32.8).abs() < 0.1, "{}", document.point.radius_ratio());
-        assert!(document.bodies_count() && document.holds(Quantity::RadiusY));
+        assert!(document.bodies_in_force().is_some() && document.holds(Quantity::RadiusY));
         let said = document.set_bodies(pair(-4.5e-3)).unwrap_err();
         assert!(said.contains("across the rolling direction") && said.contains("beyond -0.0047625 m"), "{said}");
         let said = document.set_bodies(pair(-4.8e-3)).unwrap_err();
@@ -129,8 +195,8 @@ mod tests {
         let mut document = Document::default();
         let before = document.clone();
         assert!(document.set_oil(Oil { grade: Grade::IsoVg(33.0), ..VG_68 }).unwrap_err().contains("no ISO"));
-        let Bodies(first, second) = Bodies::on_plane(0.012, 3.0, 0.05);
-        let backwards = Bodies(Body { speed_m_per_s: -9.0, ..first }, second);
+        let Bodies([first, second]) = Bodies::on_plane(0.012, 3.0, 0.05);
+        let backwards = Bodies([Body { speed_m_per_s: -9.0, ..first }, second]);
         assert!(document.set_bodies(backwards).unwrap_err().contains("carry no oil"));
         assert_eq!(document, before);
     }

@@ -8,9 +8,8 @@ use crate::scene::study::point::Point;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Problem;
-use crate::solver::physics::contact::{
-    ContactKind, Moes, MoesRequest, OperatingPoint, Quantity, Sliding, si_from_moes,
-};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use crate::solver::physics::lubricant::{Heat, Lubricant, ShearLaw};
 use crate::solver::training::TrainingSpec;
 

@@ -3,7 +3,8 @@
 use super::experiment::Document;
 use crate::app::refusal::Refusal;
 use crate::scene::{LoadFollower, LubricantFollower};
-use crate::solver::physics::contact::{Moes, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::Moes;
 
 /// What gives way for M and what for L.
 pub type Followers = (LoadFollower, LubricantFollower);

@@ -1,5 +1,6 @@
 //! What a result belongs to.
 
+use crate::scene::{Grid, Method, ModelSource, Request};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 
@@ -13,6 +14,19 @@ pub struct Key {
 }
 
 impl Key {
+    /// The same contact seen from its other side: bodies exchanged, SRR with the other sign.
+    pub fn exchanged(mut self) -> Self {
+        self.point.sliding.slide_to_roll_ratio *= -1.0;
+        self.lubricant.heat.iter_mut().for_each(|heat| heat.bodies.reverse());
+        self
+    }
+
+    /// A request for the contact on a grid.
+    pub fn request(&self, grid: Grid, method: Method) -> Request {
+        let Self { point, lubricant } = *self;
+        Request { point, lubricant, grid, grid_model: ModelSource::Embedded, method }
+    }
+
     /// Whether pressure and film are the same: without heat a limiting stress cuts traction only, and a film that does not
     /// thin under shear does not feel the sliding.
     pub fn has_film_of(&self, other: &Self) -> bool {
@@ -34,7 +48,23 @@ impl Key {
 mod tests {
     use super::*;
     use crate::scene::named_lubricant::SQUALANE_PIP;
-    use crate::solver::physics::lubricant::{LimitingStress, Sliding};
+    use crate::solver::full::Problem;
+    use crate::solver::physics::bodies::Material;
+    use crate::solver::physics::contact::Sliding;
+    use crate::solver::physics::lubricant::{Heat, LimitingStress};
+
+    #[test]
+    fn an_exchanged_contact_has_the_same_body_at_the_same_speed() {
+        let bodies = [Material::GLASS.heat, Material::STEEL.heat];
+        let sliding = Sliding { slide_to_roll_ratio: -0.4, newtonian_plateau_ratio: None };
+        let lubricant = Lubricant { heat: Some(Heat { bodies, ..Heat::default() }), ..Lubricant::default() };
+        let key = Key { point: OperatingPoint { sliding, ..OperatingPoint::TABLE_2_1 }, lubricant };
+        let heat = |key: Key| Problem::new(&key.point, key.lubricant).unwrap().heat.unwrap();
+        let (own, other) = (heat(key), heat(key.exchanged()));
+        assert_eq!((own.speeds, own.heat.bodies), ([1.2, 0.8], bodies));
+        assert_eq!((other.speeds, other.heat.bodies), ([0.8, 1.2], [bodies[1], bodies[0]]));
+        assert_eq!(key.exchanged().exchanged(), key);
+    }
 
     #[test]
     fn sliding_changes_the_film_only_where_it_thins() {

@@ -2,7 +2,8 @@
 
 use super::experiment::Document;
 use crate::app::refusal::Refusal;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 
 /// What touches what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,8 @@
 
 use crate::app::theme::Palette;
 use crate::scene::{Scene, Study};
-use crate::solver::physics::contact::{ContactKind, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::ContactKind;
 use egui::{Color32, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use std::f32::consts::{PI, TAU};
 

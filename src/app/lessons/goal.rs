@@ -3,7 +3,8 @@
 use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 
 /// One thing that must hold.

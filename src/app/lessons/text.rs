@@ -128,7 +128,7 @@ fn start_of(words: &str) -> Result<(OperatingPoint, &'static NamedLubricant), Re
         Some("point contact") => ContactKind::Point,
         _ => return Err(Refusal::new(format!("a lesson starts with a line contact or a point contact; {like}"))),
     };
-    let named = |name: &str| by_name(name).map_err(|why| Refusal::new(why.to_string()));
+    let named = |name: &str| by_name(name).map_err(Refusal::from);
     let rest: Vec<&str> = parts.collect();
     let (point, name) = match *rest {
         ["published", name] => {

@@ -1,12 +1,14 @@
-//! The two bodies: materials, radii, surface speeds and roughness, which give R, R_y, E′, u_m, SRR and the film ratio.
+//! The two bodies: materials, radii, surface speeds and roughness, which give R, R_y, E′, u_m, SRR, the film ratio and,
+//! with heat, thermal constants.
 
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, named, row_name, typed_field, warning_ui};
 use crate::app::document::{Document, Edit};
 use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
+use crate::solver::physics::bodies::{Bodies, Body, MATERIALS};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::{self, Bodies, Body, Dimension, MATERIALS};
+use crate::solver::physics::engineering::{self, Dimension};
 use egui::{CollapsingHeader, ComboBox, Ui};
 
 /// Under this name bodies are refused.
@@ -69,28 +71,21 @@ const ACROSS: &str = "Across";
 /// The group, folded until it is wanted.
 pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     CollapsingHeader::new("Two bodies").default_open(document.view.bodies.is_some()).show(ui, |ui| {
-        let point = &document.point;
-        let present = || {
-            let pair = Bodies::on_plane(point.radius_m, point.speed_m_per_s, point.sliding.slide_to_roll_ratio);
-            let Bodies(first, second) = pair;
-            // An ellipse on a plane is a body of both its radii.
-            match point.radius_y_m {
-                Some(_) => Bodies(first.with_transverse_radius_m(point.radius_y_m), second),
-                None => pair,
-            }
-        };
-        let before = document.view.bodies.unwrap_or_else(present);
+        let before = document.bodies();
         let mut wanted = before;
         let mut field = materials_ui(ui, &mut wanted);
-        let line = point.kind == ContactKind::Line;
+        let line = document.point.kind == ContactKind::Line;
         for row in ROWS.iter().filter(|row| !(line && row.row == ACROSS)) {
             field = row.ui(ui, &mut wanted, entries).or(field);
         }
         if let Some(field) = field.filter(|_| wanted != before) {
             commands.edit(Edit::Bodies(wanted), field);
         }
-        if document.view.bodies.is_some() && !document.bodies_count() {
-            warning_ui(ui, "R, R_y, E’, u_m or SRR were changed since: they are no longer these bodies’");
+        if document.view.bodies.is_some() && document.bodies_in_force().is_none() {
+            warning_ui(
+                ui,
+                "R, R_y, E’, u_m, SRR or thermal constants were changed since: they are no longer these bodies’",
+            );
             if ui.button("Take the bodies’ values").clicked() {
                 commands.edit(Edit::Bodies(before), GROUP);
             }
@@ -102,14 +97,14 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
 fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
     let mut chosen = None;
     ui.horizontal(|ui| {
-        row_name(ui, name_and_symbol(ui, "Material", "", ""), "Young’s modulus and Poisson’s ratio give E’ (2.5)");
-        for (body, name) in [(&mut bodies.0, "Material of body 1"), (&mut bodies.1, "Material of body 2")] {
+        row_name(ui, name_and_symbol(ui, "Material", "", ""), "E and ν give E’ (2.5); with Heat k, c and ρ count too");
+        for (body, name) in bodies.0.iter_mut().zip(["Material of body 1", "Material of body 2"]) {
             let present = body.material();
             let text = present.map_or("Own", |material| material.name);
             let response = ComboBox::from_id_salt(name).width(78.0).selected_text(text).show_ui(ui, |ui| {
                 for material in MATERIALS {
-                    let tip = format!("E {:.0} GPa, ν {}", 1e-9 * material.modulus_pa, material.poisson);
-                    if ui.selectable_label(present == Some(material), material.name).on_hover_text(tip).clicked() {
+                    let label = ui.selectable_label(present == Some(material), material.name);
+                    if label.on_hover_text(material.describe()).clicked() {
                         *body = body.of(material);
                         chosen = Some(GROUP);
                     }
@@ -128,7 +123,7 @@ impl Field {
         let (unit, scale) = self.unit;
         ui.horizontal(|ui| {
             row_name(ui, name_and_symbol(ui, self.row, "", ""), self.tip);
-            for (body, name) in [&mut bodies.0, &mut bodies.1].into_iter().zip(self.names) {
+            for (body, name) in bodies.0.iter_mut().zip(self.names) {
                 let dimension = (self.dimension)(body);
                 // A plane has no radius: it is shown and typed as infinite.
                 let read = |text: &str| match text.trim().to_lowercase().as_str() {

@@ -1,12 +1,10 @@
 //! Heat: whether temperatures are computed, and what they need of the oil and of both bodies.
 
-use super::lubricant::{Constant, constant, constants_ui};
+use super::lubricant::{Constant, GROUP, constant, constants_ui};
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, NAME_WIDTH, choice};
 use crate::app::document::{Document, Edit};
-use crate::scene::named_lubricant;
-use crate::solver::physics::engineering::{MATERIALS, Material};
-use crate::solver::physics::lubricant::{Heat, Lubricant};
+use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
 use egui::{Checkbox, Grid, Ui};
 
 const TIP: &str = "Temperatures across and along the film and of both bodies, and what they do to film and traction: by \
@@ -44,13 +42,13 @@ pub(super) const CONSTANTS: [Constant; 6] = [
 /// The switch, and below it the constants where it is on.
 pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     let before = document.lubricant;
-    let mut wanted = before;
-    let mut on = wanted.heat.is_some();
+    let mut on = before.heat.is_some();
     if ui.add(Checkbox::new(&mut on, "Heat")).on_hover_text(TIP).changed() {
-        let own = named_lubricant::of_laws(&wanted).map(|named| named.heat).unwrap_or_default();
-        wanted.heat = on.then_some(Heat { oil: own, ..Heat::default() });
+        commands.edit(Edit::Heat(on), GROUP);
     }
-    bodies(ui, &mut wanted);
+    let Some(heat) = before.heat else { return };
+    materials_ui(ui, &heat.bodies, commands);
+    let mut wanted = before;
     let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted);
     if wanted != before {
         commands.edit(Edit::Laws(Box::new(wanted)), field);
@@ -58,23 +56,19 @@ pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, comman
 }
 
 /// The material of each body; those of a scene that are none of the named ones stay as they are.
-fn bodies(ui: &mut Ui, laws: &mut Lubricant) {
-    let Some(heat) = &mut laws.heat else { return };
+fn materials_ui(ui: &mut Ui, bodies: &[BodyHeat; 2], commands: &mut Commands) {
+    let names = [("Body 1", "Moves with u_m (1 − SRR/2)"), ("Body 2", "Moves with u_m (1 + SRR/2)")];
     Grid::new("bodies with heat").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        for (body, (name, tip)) in heat
-            .bodies
-            .iter_mut()
-            .zip([("Body 1", "It moves with u_m (1 + SRR/2)"), ("Body 2", "It moves with u_m (1 − SRR/2)")])
-        {
-            let known: Option<Material> = MATERIALS.into_iter().find(|material| material.heat == *body);
+        for (body, (thermal, (name, tip))) in bodies.iter().zip(names).enumerate() {
+            let known = thermal.material();
             let mut wanted = known;
-            let own = if known.is_none() { Some(None) } else { None };
+            let own = known.is_none().then_some(None);
             let options: Vec<Option<Material>> = MATERIALS.into_iter().map(Some).chain(own).collect();
             choice(ui, name, tip, &mut wanted, &options, |material| {
-                material.map_or(("Own", "Constants of its own"), |material| (material.name, ""))
+                material.map_or(("Own", "Constants of its own"), |material| (material.name, material.source))
             });
             if let Some(material) = wanted.filter(|_| wanted != known) {
-                *body = material.heat;
+                commands.edit(Edit::Material(body, material), GROUP);
             }
         }
     });

@@ -9,9 +9,11 @@ use crate::app::document::{Document, Edit, Shape};
 use crate::app::numbers;
 use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
-use crate::solver::physics::contact::{ContactKind, PLAUSIBLE_HERTZ_PRESSURE_PA, Quantity};
-use crate::solver::physics::engineering::{self, Dimension};
-use egui::{Grid, RichText, Ui};
+use crate::engine::Warning;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering;
+use egui::{Grid, RichText, TextWrapMode, Ui};
 
 /// What there is to choose from, and what it is.
 const SHAPES: [(Shape, &str); 3] = [
@@ -151,7 +153,7 @@ const HELD: [f32; 2] = [62.0, 22.0];
 /// The value in SI units of a typed text with or without unit, inside what is accepted.
 fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, Refusal> {
     let (unit, scale) = quantity.reading_unit(kind);
-    let value = engineering::parse(text, Dimension::of(quantity, kind), unit)?;
+    let value = engineering::parse(text, quantity.dimension(kind), unit)?;
     let (low, high) = quantity.range();
     if (low..=high).contains(&value) {
         return Ok(value);
@@ -215,8 +217,10 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
         }
     });
     reserved(ui, 1, |ui| {
-        if hertz.pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
-            warning_ui(ui, "Beyond 3.2 GPa steel yields: no real contact");
+        if let Some(warning) = Warning::of_hertz_pressure(hertz.pressure_pa) {
+            // The rest of the sentence is read under the pointer.
+            ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
+            warning_ui(ui, &warning.to_string());
         }
     });
 }

@@ -7,10 +7,11 @@ use crate::app::document::{Document, Edit, HOME, Shape};
 use crate::app::numbers;
 use crate::app::refusal::Refusal;
 use crate::app::theme::{name_and_symbol, rich};
-use crate::solver::physics::contact::{ContactKind, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{self, Dimension};
 use crate::solver::physics::lubricant::ShearLaw;
-use crate::solver::reduced::{CIRCLES, Domain};
+use crate::solver::reduced::Domain;
 use egui::{Grid, Slider, TextStyle, Ui};
 use std::ops::RangeInclusive;
 
@@ -68,9 +69,9 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     let (moes, kind) = (document.point.moes(), document.point.kind);
     // A model of circles has nothing to say of ellipses.
     let domain = answers.model(document).filter(|model| model.is_of(&document.point)).map(|model| &model.domain);
-    let (trained, sliding) = (domain.map(|domain| (domain.m, domain.l)), domain.and_then(|domain| domain.sliding));
     let srr = document.point.sliding.slide_to_roll_ratio;
     let (npr, own_npr) = (document.plateau_ratio(), document.lubricant.shear.plateau());
+    let trained = |quantity| domain.and_then(|domain| domain.interval(quantity));
     let slider = |quantity: Quantity, marked, home, tooltip| RangeSlider {
         name: quantity.label(),
         range: range(quantity),
@@ -81,13 +82,13 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     };
     let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
     let srr_tip = if thins(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
-    let m = slider(Quantity::M, trained.map(|t| t.0), HOME.m, m_tip);
-    let l = slider(Quantity::L, trained.map(|t| t.1), HOME.l, L_TIP);
+    let m = slider(Quantity::M, trained(Quantity::M), HOME.m, m_tip);
+    let l = slider(Quantity::L, trained(Quantity::L), HOME.l, L_TIP);
     let marked = domain.and_then(Domain::srr);
     let slide = slider(Quantity::SlideToRollRatio, marked, 0.0, srr_tip);
-    let marked = sliding.map(|sliding| sliding.npr);
+    let marked = trained(Quantity::NewtonianPlateauRatio);
     let plateau = slider(Quantity::NewtonianPlateauRatio, marked, own_npr, NPR_TIP);
-    let ratio = domain.filter(|domain| domain.radius_ratio != CIRCLES).map(|domain| domain.radius_ratio);
+    let ratio = trained(Quantity::RadiusRatio);
     // A ball is the ellipse in the middle: moving it makes one.
     let ellipse = (kind == ContactKind::Point).then(|| Row {
         quantity: Quantity::RadiusRatio,

@@ -224,7 +224,8 @@ mod tests {
     use crate::app::figure::FigureSettings;
     use crate::app::tabs::traction::Against;
     use crate::scene::named_lubricant::by_name;
-    use crate::solver::physics::contact::{Moes, Quantity};
+    use crate::solver::parameters::Quantity;
+    use crate::solver::physics::contact::Moes;
 
     /// An explorer with its session in a folder of the system's for this test.
     fn in_folder(name: &str) -> (PathBuf, impl Fn(bool) -> Explorer) {

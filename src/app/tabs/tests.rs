@@ -6,7 +6,7 @@ use crate::app::desk::Desk;
 use crate::app::document::Document;
 use crate::app::model_source::Models;
 use crate::app::tab::Tab;
-use crate::engine::{Embedded, Store};
+use crate::engine::Store;
 use egui::Ui;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
@@ -28,7 +28,7 @@ const SHOWN: [(Tab, &[&str]); 10] = [
 #[test]
 fn every_tab_can_be_drawn_alone() {
     let store = Store::default();
-    let model = store.embedded(Embedded::Line).unwrap();
+    let model = store.embedded("line").unwrap();
     assert_eq!(SHOWN.map(|(tab, _)| tab), Tab::ALL);
     for (tab, _) in SHOWN {
         let desk = Desk::new(Document::default(), Models::only(Some(model.clone())), store.clone());

@@ -1,10 +1,10 @@
 //! The folder of a campaign: reading it, and how far it is.
 
-use super::plan::Plan;
+use super::document::{Plan, VERSION, trains};
+use super::error::CampaignError;
 use super::program::{hash_of, own_hash, read};
 use super::round::Round;
 use super::shard::Shard;
-use super::{CampaignError, VERSION};
 use crate::engine::EngineError;
 use crate::scene::{Scene, SceneFileError};
 use std::collections::BTreeSet;
@@ -56,6 +56,11 @@ pub struct Status {
 }
 
 impl Folder {
+    /// Whether the shards hold rows of a study.
+    pub fn holds_rows(&self) -> bool {
+        !trains(&self.scene)
+    }
+
     /// Reads what a folder holds. The program may be another one: whoever looks only may look.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 use super::CampaignError;
 use super::folder::Folder;
 use super::merge::{Merged, Whole, merge};
+use crate::host::worker::pause;
 use crate::solver::observer::{Observer, Progress};
 use std::collections::VecDeque;
 use std::path::Path;
@@ -78,7 +79,7 @@ fn compute_open(folder: &Folder, program: &Path, workers: usize, observer: &dyn 
             }
         }
         at_work = still;
-        std::thread::sleep(LOOK_EVERY);
+        pause(LOOK_EVERY);
     }
 }
 

@@ -4,7 +4,6 @@ use super::CampaignError;
 use super::folder::{Folder, ROUNDS};
 use super::round::{Pieces, Round};
 use super::shard::{Content, Shard};
-use crate::engine::embedded::is_embedded;
 use crate::engine::{EngineError, SceneOutcome, Store, Workbench, model_file, training_file};
 use crate::scene::atomic_file::{self, WriteError};
 use crate::scene::study::training::Row;
@@ -72,8 +71,7 @@ pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, Campaig
             Err(TrainingError::Awaited) => open_round(folder, contacts(&folder.state_path(number), &state)?),
             Err(reason) => Err(EngineError::from(reason).into()),
             Ok(model) => {
-                let embedded = is_embedded(&model);
-                let row = |wall_s| vec![StudyRow::Training(Row { model: Arc::new(model.clone()), embedded, wall_s })];
+                let row = |wall_s| vec![StudyRow::Training(Row { model: Arc::new(model.clone()), wall_s })];
                 let name = format!("{}.rom", folder.plan.name);
                 let keep = |beside: &Path| {
                     let path = beside.join(&name);
@@ -90,15 +88,14 @@ pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, Campaig
     if !next.is_empty() {
         return open_round(folder, Pieces::of_study(next));
     }
-    let untimed = rows.iter().cloned().filter_map(without_seconds).collect();
+    let untimed = rows.iter().cloned().map(without_seconds).collect();
     finish(folder, (rows, untimed), |_| Ok(()), seconds, processors)
 }
 
 /// A row without what a clock said.
-fn without_seconds(row: StudyRow) -> Option<StudyRow> {
-    let mut row = crate::scene::study::PieceRow::of(row)?;
+fn without_seconds(mut row: StudyRow) -> StudyRow {
     row.seconds().into_iter().for_each(|seconds| *seconds = f64::NAN);
-    Some(row.into())
+    row
 }
 
 fn open_round(folder: &Folder, pieces: Pieces) -> Result<Merged, CampaignError> {

@@ -1,103 +1,25 @@
 //! Planning: from a campaign's document to a folder that holds everything its shards need.
 
+use super::document::{Campaign, Cut, Plan, VERSION};
+use super::error::CampaignError;
 use super::folder::{Folder, PLAN, ROUNDS, SCENE, SHARDS};
 use super::program::{PROGRAM, hash_of, own_hash, read};
 use super::round::{Pieces, Round};
-use super::{CampaignError, VERSION, merge, shard, slurm};
+use super::{compute, merge, slurm};
 use crate::engine::{EngineError, Store, Workbench};
+use crate::host::clock::Stopwatch;
 use crate::scene::atomic_file::{self, WriteError};
-use crate::scene::{CaseTable, ModelSource, Scene, SceneFileError, Study};
+use crate::scene::{CaseTable, ModelSource, Scene, SceneFileError};
 use crate::solver::observer::{Observer, Progress};
-use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// Shortest shards that may be asked for \[s\]: what a scheduler adds to each is to be next to nothing.
-const SHORTEST_S: f64 = 10.0;
-/// Longest shards \[s\].
-const LONGEST_S: f64 = 86_400.0;
 /// Pieces that are tried for the time they take, and how long at most.
 const TRIED: usize = 4;
 const TRYING: Duration = Duration::from_secs(20);
 
-/// A campaign as people write it, in RON.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Campaign {
-    /// Version of the format, 1.
-    pub version: u32,
-    /// The scene whose work it is; relative to the campaign's folder.
-    pub scene: PathBuf,
-    /// How its work is cut.
-    #[serde(default)]
-    pub shard: Cut,
-}
-
-/// How large a shard is.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Cut {
-    /// Of about so many seconds on this machine, by some pieces that are tried; from 10 to a day.
-    Seconds(f64),
-    /// Of so many pieces.
-    Pieces(usize),
-}
-
-impl Default for Cut {
-    fn default() -> Self {
-        Self::Seconds(30.0)
-    }
-}
-
-/// What was planned, as the folder of the campaign keeps it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Plan {
-    /// Version of the files.
-    pub version: u32,
-    /// The scene's title.
-    pub title: String,
-    /// What results are called: the name of the scene's file.
-    pub name: String,
-    /// Version of the program.
-    pub program: String,
-    /// Its hash.
-    pub program_hash: String,
-    /// Files that the work depends on, with their hashes.
-    pub files: Vec<(String, String)>,
-    /// Pieces of a shard.
-    pub per_shard: usize,
-    /// Seconds that a piece took when it was tried; none where none was.
-    pub seconds_per_piece: Option<f64>,
-}
-
-impl Campaign {
-    /// Reads a campaign's document.
-    ///
-    /// # Errors
-    /// When it cannot be read, with line and column where it is wrong, or naming the field that makes no sense.
-    pub fn read(path: &Path) -> Result<Self, CampaignError> {
-        let refused = |reason: String| CampaignError::Document { path: path.to_owned(), reason };
-        let text = String::from_utf8(read(path)?).map_err(|_| refused("it is not UTF-8 text".to_owned()))?;
-        let campaign: Self = ron::from_str(&text).map_err(|error| {
-            let at = error.span.start;
-            refused(format!("line {}, column {}: {}", at.line, at.col, error.code))
-        })?;
-        if campaign.version != VERSION {
-            return Err(refused(format!("its version is {}, this program reads {VERSION}", campaign.version)));
-        }
-        match campaign.shard {
-            Cut::Seconds(seconds) if !(SHORTEST_S..=LONGEST_S).contains(&seconds) => {
-                Err(refused(format!("`shard` is Seconds({seconds}), but must be between {SHORTEST_S} and {LONGEST_S}")))
-            }
-            Cut::Pieces(0) => Err(refused("`shard` is Pieces(0), but must be at least 1".to_owned())),
-            _ => Ok(campaign),
-        }
-    }
-}
-
 /// Stops once it has taken long enough.
-struct Patience(Instant);
+struct Patience(Stopwatch);
 
 impl Observer for Patience {
     fn cancelled(&self) -> bool {
@@ -208,14 +130,14 @@ fn self_contained(scene: &mut Scene, base: &Path) -> Result<Vec<(String, Vec<u8>
 /// Seconds that a piece takes here, by some that lie apart; the first one, which makes grids and reads models, counts
 /// only where it is alone.
 fn tried(scene: &Scene, pieces: &Pieces, bench: &mut Workbench) -> Result<f64, CampaignError> {
-    let (count, patience) = (pieces.len(), Patience(Instant::now()));
+    let (count, patience) = (pieces.len(), Patience(Stopwatch::start()));
     let mut seconds = Vec::new();
     for k in 0..TRIED.min(count) {
         let one = Round { first: 0, per_shard: 1, pieces: pieces.clone() }.part(k * count / TRIED.min(count));
-        let clock = Instant::now();
-        match shard::work(scene, 0, &one, bench, &patience) {
+        let clock = Stopwatch::start();
+        match compute::work(scene, 0, &one, bench, &patience) {
             Err(stopped) if !matches!(&stopped, CampaignError::Run(error) if error.cancelled()) => return Err(stopped),
-            _ => seconds.push(clock.elapsed().as_secs_f64()),
+            _ => seconds.push(clock.seconds()),
         }
         if patience.cancelled() {
             break;
@@ -223,9 +145,4 @@ fn tried(scene: &Scene, pieces: &Pieces, bench: &mut Workbench) -> Result<f64, C
     }
     let counted = seconds.get(1..).filter(|rest| !rest.is_empty()).unwrap_or(&seconds);
     Ok((counted.iter().sum::<f64>() / counted.len().max(1) as f64).max(1e-6))
-}
-
-/// Whether a scene asks for a training.
-pub fn trains(scene: &Scene) -> bool {
-    matches!(scene.study, Study::Training(_))
 }

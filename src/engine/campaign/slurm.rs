@@ -1,7 +1,7 @@
 //! The script that takes a campaign through Slurm: an array of jobs for the open shards, then a merge, round by round.
 
 use super::CampaignError;
-use super::plan::Plan;
+use super::document::Plan;
 use crate::scene::atomic_file;
 use std::path::{Path, PathBuf};
 

@@ -1,12 +1,11 @@
 //! Campaigns against one run, piece by piece and file by file.
 
 use super::CampaignError;
+use super::compute::{Done, compute};
 use super::folder::{Folder, RESULT, SHARDS};
 use super::merge::{Merged, merge};
 use super::plan::plan;
-use super::shard::{Done, compute};
 use crate::engine::{Workbench, model_file, run_scene};
-use crate::scene::study::PieceRow;
 use crate::scene::{Scene, StudyObserver, StudyRow};
 use crate::solver::observer::Observer;
 use crate::solver::training::{TrainingObserver, train};
@@ -14,13 +13,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 #[derive(Default)]
-struct Rows(Mutex<Vec<PieceRow>>);
+struct Rows(Mutex<Vec<StudyRow>>);
 
 impl Observer for Rows {}
 impl TrainingObserver for Rows {}
 impl StudyObserver for Rows {
     fn row(&self, row: StudyRow) {
-        self.0.lock().unwrap().extend(PieceRow::of(row));
+        self.0.lock().unwrap().push(row);
     }
 }
 
@@ -28,10 +27,10 @@ impl Rows {
     /// Without what a clock says, in the order of their bytes.
     fn bytes(self) -> Vec<Vec<u8>> {
         let mut rows = self.0.into_inner().unwrap();
-        rows.iter_mut().flat_map(PieceRow::seconds).for_each(|seconds| *seconds = 0.0);
+        rows.iter_mut().flat_map(StudyRow::seconds).for_each(|seconds| *seconds = 0.0);
         let mut bytes: Vec<_> = rows.iter().map(|row| postcard::to_allocvec(row).unwrap()).collect();
         for (row, bytes) in rows.iter().zip(&bytes) {
-            let again: PieceRow = postcard::from_bytes(bytes).unwrap();
+            let again: StudyRow = postcard::from_bytes(bytes).unwrap();
             assert_eq!(postcard::to_allocvec(&again).unwrap(), *bytes, "{row:?}");
         }
         bytes.sort();
@@ -41,8 +40,9 @@ impl Rows {
 
 #[test]
 fn pieces_in_any_order_give_every_bit_of_one_run() {
-    let table = "range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), alpha: (5e-9, 20e-9), \
-                 modulus: 231e9, viscosity: 0.01)";
+    let table = "range: (axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear), \
+    Load: (1e5, 5e5, Linear), Alpha: (5e-9, 20e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01})";
     for study in [
         format!("RandomTest({table}, tests: 9, seed: 7, method: Reduced(), compare: 2, worst: 2)"),
         "Sweep(over: [(vary: L, values: List([4.0, 6.0, 8.0])), (vary: M, values: Log(from: 10.0, to: 30.0, n: 3))], \
@@ -57,7 +57,7 @@ fn pieces_in_any_order_give_every_bit_of_one_run() {
         scene.study.run(&experiment, &mut Workbench::new(""), &one).unwrap();
         let mut bench = Workbench::new("");
         for round in 0.. {
-            let before: Vec<StudyRow> = parts.0.lock().unwrap().iter().cloned().map(StudyRow::from).collect();
+            let before: Vec<StudyRow> = parts.0.lock().unwrap().clone();
             let pieces = scene.study.pieces(&experiment, &mut bench, round, &before).unwrap();
             if pieces.is_empty() {
                 break;
@@ -85,11 +85,13 @@ fn other_studies_say_that_they_are_whole() {
     assert!(refused.to_string().contains("a campaign is a sweep"), "{refused}");
 }
 
-const RANDOM: &str = "study: RandomTest(range: Box(radius: (2e-3, 4e-3), speed: (1.0, 10.0), load: (1e5, 5e5), \
-    alpha: (5e-9, 20e-9), modulus: 231e9, viscosity: 0.01), tests: 7, seed: 7, method: Reduced(), compare: 3)";
+const RANDOM: &str = "study: RandomTest(range: (axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear), \
+    Load: (1e5, 5e5, Linear), Alpha: (5e-9, 20e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), tests: 7, seed: 7, method: Reduced(), compare: 3)";
 
-const ADAPTIVE: &str = "study: Training(title: \"t\", range: Box(radius: (3e-3, 4e-3), speed: (2.0, 4.0), \
-    load: (2e5, 4e5), alpha: (8e-9, 12e-9), modulus: 231e9, viscosity: 0.01), plan: Adaptive(start: 5, \
+const ADAPTIVE: &str = "study: Training(title: \"t\", range: (axes: {Radius: (3e-3, 4e-3, Linear), Speed: (2.0, 4.0, Linear), \
+    Load: (2e5, 4e5, Linear), Alpha: (8e-9, 12e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), plan: Adaptive(start: 5, \
     indicator: Correction, tolerances: [1e-7], successes: 16, local_sigma: 0.2, local_successes: 0, vicinity: 2, \
     limit: 8), windows: Given([(m: (1.0, 500.0), grid: Graded(nodes: 240, domain: (-6.0, 1.9), registered: true))]), \
     pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, evidence: 0, seed: 5)";

@@ -1,8 +1,9 @@
 //! Watching a campaign: its rows as its shards come, whoever computes them.
 
+use super::error::CampaignError;
 use super::folder::{Folder, Status};
-use super::{CampaignError, shard};
-use crate::engine::job::{Job, Wake};
+use crate::engine::job::{Job, JobError, Wake};
+use crate::host::worker::pause;
 use crate::scene::StudyRow;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -28,19 +29,19 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
         let (mut read, mut told): (BTreeSet<usize>, Option<Status>) = Default::default();
         let mut there = None;
         loop {
-            let folder = Folder::open(&path).map_err(|reason| reason.to_string())?;
+            let folder = Folder::open(&path).map_err(JobError::failed)?;
             let status = folder.status();
             let new: Vec<usize> = folder.done().into_iter().filter(|shard| !read.contains(shard)).collect();
             for shard in new {
                 if reporter.cancelled() {
                     return Ok(());
                 }
-                if shard::holds_rows(&folder) {
+                if folder.holds_rows() {
                     match folder.shard(shard) {
                         Ok(found) => reporter.send(News::Rows(shard, found.rows())),
                         // One that cannot be read now may be replaced.
                         Err(CampaignError::Read { .. }) => continue,
-                        Err(refused) => return Err(refused.to_string()),
+                        Err(refused) => return Err(JobError::failed(refused)),
                     }
                 }
                 read.insert(shard);
@@ -58,7 +59,7 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
                 if reporter.cancelled() {
                     return Ok(());
                 }
-                std::thread::sleep(HEARD_WITHIN);
+                pause(HEARD_WITHIN);
                 waited += HEARD_WITHIN;
             }
             if merged {

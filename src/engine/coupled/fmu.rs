@@ -3,9 +3,10 @@
 //! The archive holds `modelDescription.xml`, the model, and a library that knows neither: what it is to be it learns from
 //! the identity that the description repeats to it.
 
-use super::{Coupled, InTime, Inputs, Outputs, Pressed};
+use super::{Coupled, CoupledError, InTime, Inputs, Outputs, Pressed};
 use crate::engine::SavedModel;
 use crate::engine::archive::zip;
+use crate::scene::Field;
 use crate::solver::physics::contact::ContactKind;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -31,8 +32,10 @@ pub enum Role {
 pub struct Real {
     /// Its name.
     pub name: &'static str,
-    /// Its unit in line contacts and in point contacts; empty where it has none.
-    pub unit: [&'static str; 2],
+    /// The field of a contact that it gives.
+    field: Option<Field>,
+    /// Its unit in line contacts and in point contacts where it is no field; empty where it has none.
+    unit: [&'static str; 2],
     /// What it is.
     pub about: &'static str,
     role: Role,
@@ -41,14 +44,18 @@ pub struct Real {
     output: Option<fn(&Outputs) -> f64>,
 }
 
-const fn given(
-    name: &'static str,
-    unit: &'static str,
-    role: Role,
-    input: fn(&mut Inputs) -> &mut f64,
-    about: &'static str,
-) -> Real {
-    Real { name, unit: [unit, unit], about, role, input: Some(input), output: None }
+/// A field of a contact as a variable.
+const fn given(field: Field, role: Role, input: fn(&mut Inputs) -> &mut f64) -> Real {
+    let facts = field.facts();
+    Real {
+        name: facts.variable,
+        field: Some(field),
+        unit: [""; 2],
+        about: facts.about,
+        role,
+        input: Some(input),
+        output: None,
+    }
 }
 
 const fn follows(
@@ -57,33 +64,28 @@ const fn follows(
     output: fn(&Outputs) -> f64,
     about: &'static str,
 ) -> Real {
-    Real { name, unit, about, role: Role::Output, input: None, output: Some(output) }
+    Real { name, field: None, unit, about, role: Role::Output, input: None, output: Some(output) }
 }
 
 /// All real variables.
 pub const REALS: [Real; 17] = [
-    given("radius", "m", Role::Input, |i| &mut i.radius_m, "reduced radius R in the rolling direction"),
-    given("speed", "m/s", Role::Input, |i| &mut i.speed_m_per_s, "mean entrainment speed"),
-    given("slide_to_roll_ratio", "", Role::Input, |i| &mut i.slide_to_roll_ratio, "sliding speed over mean speed"),
+    given(Field::Radius, Role::Input, |i| &mut i.radius_m),
+    given(Field::Speed, Role::Input, |i| &mut i.speed_m_per_s),
+    given(Field::Srr, Role::Input, |i| &mut i.slide_to_roll_ratio),
+    Real { output: Some(|o| o.load), ..given(Field::Load, Role::Input, |i| &mut i.load) },
     Real {
-        unit: ["N/m", "N"],
-        output: Some(|o| o.load),
-        ..given("load", "", Role::Input, |i| &mut i.load, "load; of a line contact by its length")
+        role: Role::Input,
+        input: Some(|i| &mut i.approach_m),
+        ..follows("approach", ["m"; 2], |o| o.approach_m, "approach of points far inside both bodies")
     },
+    given(Field::Modulus, Role::Parameter, |i| &mut i.modulus_pa),
+    given(Field::Viscosity, Role::Parameter, |i| &mut i.viscosity_pa_s),
+    given(Field::Alpha, Role::Parameter, |i| &mut i.alpha_per_pa),
     Real {
-        output: Some(|o| o.approach_m),
-        ..given("approach", "m", Role::Input, |i| &mut i.approach_m, "approach of points far inside both bodies")
+        field: None,
+        about: "radius across over radius; 1 of a circle or a line",
+        ..given(Field::RadiusY, Role::Parameter, |i| &mut i.radius_ratio)
     },
-    given("modulus", "Pa", Role::Parameter, |i| &mut i.modulus_pa, "reduced modulus E'"),
-    given("viscosity", "Pa.s", Role::Parameter, |i| &mut i.viscosity_pa_s, "viscosity at ambient pressure"),
-    given("alpha", "1/Pa", Role::Parameter, |i| &mut i.alpha_per_pa, "pressure-viscosity coefficient"),
-    given(
-        "radius_ratio",
-        "",
-        Role::Parameter,
-        |i| &mut i.radius_ratio,
-        "radius across over radius; 1 of a circle or a line",
-    ),
     follows("film_central", ["m"; 2], |o| o.h_c_m, "central film"),
     follows("film_minimum", ["m"; 2], |o| o.h_min_m, "smallest film"),
     follows("friction_coefficient", [""; 2], |o| o.friction_coefficient, "friction over load"),
@@ -120,12 +122,10 @@ pub const TRUTHS: [Truth; 2] = [
 
 impl Real {
     /// Its unit in contacts of a kind.
-    fn unit_in(&self, kind: ContactKind) -> &'static str {
-        let [line, point] = self.unit;
-        match kind {
-            ContactKind::Line => line,
-            ContactKind::Point => point,
-        }
+    fn unit_in(&self, kind: ContactKind) -> String {
+        let [line, point] = self.field.map_or(self.unit, |field| field.facts().units());
+        let unit = if kind == ContactKind::Line { line } else { point };
+        unit.replace('·', ".")
     }
 
     /// What it is to a simulation in the unit of a model; none where the unit has no such variable.
@@ -158,12 +158,12 @@ impl Real {
     ///
     /// # Errors
     /// With a sentence where it is no number, or nothing to be given.
-    pub fn set(&self, role: Role, inputs: &mut Inputs, value: f64) -> Result<(), String> {
+    pub fn set(&self, role: Role, inputs: &mut Inputs, value: f64) -> Result<(), CoupledError> {
         let (Some(input), true) = (self.input, role != Role::Output) else {
-            return Err(format!("`{}` follows from the inputs and cannot be set", self.name));
+            return Err(CoupledError::Output(self.name));
         };
         if !value.is_finite() {
-            return Err(format!("`{}` is {value}, but must be a finite number", self.name));
+            return Err(CoupledError::NoNumber { name: self.name, value });
         }
         *input(inputs) = value;
         Ok(())
@@ -203,7 +203,12 @@ pub fn library_file() -> String {
 ///
 /// # Errors
 /// With a sentence where the model has no contact to begin with, or cannot be driven so.
-pub fn archive(model: &SavedModel, content: Vec<u8>, pressed: Pressed, library: Vec<u8>) -> Result<Vec<u8>, String> {
+pub fn archive(
+    model: &SavedModel,
+    content: Vec<u8>,
+    pressed: Pressed,
+    library: Vec<u8>,
+) -> Result<Vec<u8>, CoupledError> {
     let description = description(model, &content, pressed)?;
     let files = [
         ("modelDescription.xml".to_owned(), description.into_bytes()),
@@ -221,22 +226,20 @@ fn escaped(text: &str) -> String {
 ///
 /// # Errors
 /// With a sentence where the model has no contact to begin with, or cannot be driven so.
-pub fn first_inputs(model: &SavedModel, pressed: Pressed) -> Result<Inputs, String> {
-    let none = || format!("the reduced model `{}` solves none of its own training points", model.title());
+pub fn first_inputs(model: &SavedModel, pressed: Pressed) -> Result<Inputs, CoupledError> {
+    let none = || CoupledError::NoStart(model.title().to_owned());
     match model {
         SavedModel::Stationary(model) => {
             Coupled::new(Arc::clone(model), pressed)?;
             Coupled::first_inputs(model).ok_or_else(none)
         }
-        SavedModel::InTime(_) if pressed == Pressed::Approach => {
-            Err("a model in time is driven by its load; leave out --approach".to_owned())
-        }
+        SavedModel::InTime(_) if pressed == Pressed::Approach => Err(CoupledError::ApproachInTime),
         SavedModel::InTime(model) => InTime::first_inputs(model).ok_or_else(none),
     }
 }
 
 /// `modelDescription.xml` of a model and the content of its file.
-fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<String, String> {
+fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<String, CoupledError> {
     let inputs = first_inputs(model, pressed)?;
     let mut text = String::new();
     let (title, version) = (escaped(model.title()), env!("CARGO_PKG_VERSION"));
@@ -303,7 +306,7 @@ fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<S
             Role::Output => String::new(),
             _ => real.value(role, &inputs, None).map_or(String::new(), |value| format!(" start=\"{value:e}\"")),
         };
-        let unit = match real.unit_in(kind) {
+        let unit = match real.unit_in(kind).as_str() {
             "" => String::new(),
             unit => format!(" unit=\"{unit}\""),
         };
@@ -338,27 +341,25 @@ fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{ContactResult, Embedded, Request, Workbench};
-    use crate::scene::{Bench, Grid, Method, ModelSource};
-    use crate::solver::physics::contact::{OperatingPoint, Quantity};
+    use crate::engine::{Workbench, bytes_of, embedded};
+    use crate::scene::Bench;
+    use crate::solver::parameters::Quantity;
+    use crate::solver::physics::contact::OperatingPoint;
 
-    fn first(which: Embedded) -> (Coupled, Inputs) {
-        let model = which.model().unwrap();
+    fn first(which: &str) -> (Coupled, Inputs) {
+        let model = embedded(which).unwrap();
         let inputs = Coupled::first_inputs(&model).unwrap();
         (Coupled::new(model, Pressed::Load).unwrap(), inputs)
     }
 
     #[test]
     fn outputs_are_what_solve_answers_to_the_last_bit() {
-        for which in [Embedded::Line, Embedded::ThinningLine, Embedded::Circle] {
+        for which in ["line", "line_shear", "point"] {
             let (mut coupled, inputs) = first(which);
             let inputs = Inputs { slide_to_roll_ratio: 0.1, ..inputs };
             let own = coupled.solve(&inputs).unwrap();
-            let point = coupled.point(&inputs, inputs.load).unwrap();
-            let lubricant = coupled.lubricant;
-            let request = Request { point, lubricant, grid: Grid::Model, grid_model: ModelSource::Embedded };
-            let answer = Workbench::new("").answer(&request, &Method::EMBEDDED, None, &()).unwrap();
-            let result = ContactResult::from(&answer);
+            let request = coupled.request(&inputs, inputs.load).unwrap();
+            let result = Workbench::new("").answer(&request, None, &()).unwrap().result;
             let named = [
                 ("h_c_m", own.h_c_m),
                 ("h_min_m", own.h_min_m),
@@ -375,7 +376,7 @@ mod tests {
 
     #[test]
     fn an_approach_gives_the_load_that_gives_it() {
-        let model = Embedded::Circle.model().unwrap();
+        let model = embedded("point").unwrap();
         let inputs = Coupled::first_inputs(&model).unwrap();
         let mut by_approach = Coupled::new(model, Pressed::Approach).unwrap();
         for share in [0.9, 1.0, 1.3] {
@@ -385,14 +386,14 @@ mod tests {
             assert!((found.load > inputs.load) == (share > 1.0 + 1e-9) || share == 1.0);
         }
         let refused = by_approach.solve(&Inputs { approach_m: -1e-6, ..inputs }).unwrap_err();
-        assert!(refused.contains("above zero"), "{refused}");
-        let line = Embedded::Line.model().unwrap();
-        assert!(Coupled::new(line, Pressed::Approach).is_err_and(|why| why.contains("load instead")));
+        assert!(refused.to_string().contains("above zero"), "{refused}");
+        let line = embedded("line").unwrap();
+        assert!(Coupled::new(line, Pressed::Approach).is_err_and(|why| why.to_string().contains("load instead")));
     }
 
     #[test]
     fn what_makes_no_sense_is_refused_and_what_is_unknown_is_told() {
-        let (mut coupled, inputs) = first(Embedded::Line);
+        let (mut coupled, inputs) = first("line");
         for wrong in [
             Inputs { load: -1.0, ..inputs },
             Inputs { radius_m: 0.0, ..inputs },
@@ -404,14 +405,14 @@ mod tests {
         let beyond = coupled.solve(&Inputs { load: 30.0 * inputs.load, ..inputs }).unwrap();
         assert!(!beyond.trained && !beyond.warnings.is_empty(), "{beyond:?}");
         let mut inputs = inputs;
-        assert!(REALS[0].set(Role::Input, &mut inputs, f64::NAN).is_err_and(|why| why.contains("radius")));
+        assert!(REALS[0].set(Role::Input, &mut inputs, f64::NAN).is_err_and(|why| why.to_string().contains("radius")));
         let follows = REALS.iter().find(|real| real.name == "film_central").unwrap();
         assert!(follows.set(Role::Output, &mut inputs, 1.0).is_err());
     }
 
     #[test]
     fn a_description_names_every_variable_and_its_identity() {
-        let bytes = Embedded::Circle.bytes();
+        let bytes = bytes_of("point").unwrap();
         let model = SavedModel::from_bytes(bytes).unwrap();
         for pressed in [Pressed::Load, Pressed::Approach] {
             let text = description(&model, bytes, pressed).unwrap();
@@ -419,14 +420,15 @@ mod tests {
             assert_eq!(pressed_of(&identity(bytes, pressed), bytes), Some(pressed));
         }
         assert_eq!(pressed_of("load-0000000000000000", bytes), None);
-        let line = SavedModel::from_bytes(Embedded::Line.bytes()).unwrap();
-        assert!(description(&line, Embedded::Line.bytes(), Pressed::Approach).is_err());
+        let line = SavedModel::from_bytes(bytes_of("line").unwrap()).unwrap();
+        assert!(description(&line, bytes_of("line").unwrap(), Pressed::Approach).is_err());
     }
 
     #[test]
     fn an_ellipse_keeps_its_ratio_of_radii() {
-        let (coupled, inputs) = first(Embedded::Ellipse);
-        let point: OperatingPoint = coupled.point(&Inputs { radius_ratio: 2.0, ..inputs }, inputs.load).unwrap();
+        let (coupled, inputs) = first("ellipse");
+        let request = coupled.request(&Inputs { radius_ratio: 2.0, ..inputs }, inputs.load).unwrap();
+        let point: OperatingPoint = request.point;
         assert!((Quantity::RadiusRatio.of(&point).unwrap() - 2.0).abs() < 1e-12);
     }
 }

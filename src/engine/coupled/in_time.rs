@@ -3,14 +3,16 @@
 //! Inputs go on a straight line from what they were to what they are told to be at the end of a step, which is divided
 //! evenly into steps no longer than those of the model's training ([`CoupledMarch`]).
 
-use super::{Inputs, Outputs};
+use super::error::{check, check_sliding};
+use super::{CoupledError, Inputs, Outputs};
+use crate::engine::answer::outside;
 use crate::solver::full::transient::{Frame, Input, point_at};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination};
-use crate::solver::limits::Number;
-use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
+use crate::solver::parameters::Outside;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Sliding;
-use crate::solver::reduced::Trust;
-use crate::solver::reduced::transient::{CoupledError, CoupledMarch, MarchState, TrajectoryModel};
+use crate::solver::reduced::transient::{CoupledError as MarchError, CoupledMarch, MarchState, TrajectoryModel};
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -39,18 +41,19 @@ impl InTimeState {
     ///
     /// # Errors
     /// With a sentence where it cannot be written.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
-        postcard::to_allocvec(self).map_err(|_| "the state cannot be written".to_owned())
+    pub fn to_bytes(&self) -> Result<Vec<u8>, CoupledError> {
+        postcard::to_allocvec(self).map_err(|_| CoupledError::Unwritable)
     }
 
     /// A state of its bytes, which is judged when it is set.
     ///
     /// # Errors
     /// With a sentence where these are no such bytes.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let none = || "this is no state of this unit".to_owned();
-        let (state, rest) = postcard::take_from_bytes(bytes).map_err(|_| none())?;
-        if rest.is_empty() { Ok(state) } else { Err(none()) }
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, CoupledError> {
+        match postcard::take_from_bytes(bytes) {
+            Ok((state, [])) => Ok(state),
+            _ => Err(CoupledError::Foreign),
+        }
     }
 }
 
@@ -97,11 +100,11 @@ impl InTime {
     ///
     /// # Errors
     /// With a sentence where an input makes no sense or the model finds no such contact; nothing has changed then.
-    pub fn begin(&mut self, inputs: &Inputs) -> Result<Outputs, String> {
-        check(inputs)?;
+    pub fn begin(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
+        check_inputs(inputs)?;
         let reference = self.reference(self.reference_load(inputs.load)?)?;
         let input = over(inputs, &reference.point);
-        let march = CoupledMarch::begin(&self.model, reference, input).map_err(told)?;
+        let march = CoupledMarch::begin(&self.model, reference, input)?;
         (self.march, self.rate) = (Some(march), AT_REST);
         self.outputs(inputs)
     }
@@ -110,13 +113,13 @@ impl InTime {
     ///
     /// # Errors
     /// With a sentence where an input makes no sense or a step cannot be taken; nothing has changed then.
-    pub fn advance(&mut self, seconds: f64, inputs: &Inputs) -> Result<Outputs, String> {
-        check(inputs)?;
-        let march = self.march.as_mut().ok_or("the contact in time has not begun")?;
+    pub fn advance(&mut self, seconds: f64, inputs: &Inputs) -> Result<Outputs, CoupledError> {
+        check_inputs(inputs)?;
+        let march = self.march.as_mut().ok_or(CoupledError::NotBegun)?;
         let point = march.reference().point;
         let (span, from) = (seconds / Self::seconds_per_time(&point), march.conditions().input);
         let to = over(inputs, &point);
-        march.advance(span, to).map_err(told)?;
+        march.advance(span, to)?;
         self.rate = Input {
             radius: (to.radius - from.radius) / span,
             speed: (to.speed - from.speed) / span,
@@ -129,22 +132,17 @@ impl InTime {
     ///
     /// # Errors
     /// With a sentence where it has not begun.
-    pub fn outputs(&self, inputs: &Inputs) -> Result<Outputs, String> {
-        let march = self.march.as_ref().ok_or("the contact in time has not begun")?;
+    pub fn outputs(&self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
+        let march = self.march.as_ref().ok_or(CoupledError::NotBegun)?;
         let (moment, domain) = (march.moment(), &self.model.domain);
         let reference = march.reference();
-        let mut warnings = Vec::new();
-        if let Trust::Outside(why) = domain.reference.trust(reference) {
-            warnings.push(why);
-        }
-        warnings.extend(domain.outside(moment.time, moment.input, self.rate));
+        let mut warnings: Vec<Warning> = outside(domain.reference.trust(reference)).into_iter().collect();
+        let of_march = domain.outside(moment.time, moment.input, self.rate).into_iter();
+        warnings.extend(of_march.map(|why| Warning::OutsideTrainedRange { outside: Outside::Other(why) }));
         let trained = warnings.is_empty();
         let point = point_at(&reference.point, moment.input);
         let hertz_pressure_pa = point.hertz().pressure_pa;
-        if hertz_pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
-            let pressure = hertz_pressure_pa / 1e9;
-            warnings.push(format!("the Hertzian pressure of {pressure:.3} GPa exceeds 3.2 GPa: no real contact"));
-        }
+        warnings.extend(Warning::of_hertz_pressure(hertz_pressure_pa));
         let friction_coefficient = self.friction(march, inputs.slide_to_roll_ratio, &mut warnings)?;
         let scale = reference.point.film_scale_m();
         Ok(Outputs {
@@ -173,35 +171,36 @@ impl InTime {
     ///
     /// # Errors
     /// With a sentence where it is none of this model; nothing has changed then.
-    pub fn restore(&mut self, state: &InTimeState) -> Result<(), String> {
+    pub fn restore(&mut self, state: &InTimeState) -> Result<(), CoupledError> {
         let InTimeState { load, rate, march: kept } = state;
         let finite = [*load, rate.radius, rate.speed, rate.load].iter().all(|value| value.is_finite());
         if !finite || self.reference_load(*load)? != *load {
-            return Err(told(CoupledError::Foreign));
+            return Err(MarchError::Foreign.into());
         }
         let reference = self.reference(*load)?;
         match &mut self.march {
-            Some(march) => march.restore(reference, kept).map_err(told)?,
-            None => self.march = Some(CoupledMarch::resume(&self.model, reference, kept).map_err(told)?),
+            Some(march) => march.restore(reference, kept)?,
+            None => self.march = Some(CoupledMarch::resume(&self.model, reference, kept)?),
         }
         self.rate = *rate;
         Ok(())
     }
 
     /// The load of the reference contact where a march begins under a load.
-    fn reference_load(&self, load: f64) -> Result<f64, String> {
+    fn reference_load(&self, load: f64) -> Result<f64, CoupledError> {
         let reference = self.model.reference_for(load);
-        reference.map(|point| point.load).ok_or_else(|| format!("the model `{}` knows no contact", self.model.title))
+        reference.map(|point| point.load).ok_or_else(|| CoupledError::NoReference(self.model.title.clone()))
     }
 
     /// The reference problem of a load.
-    fn reference(&self, load: f64) -> Result<Problem, String> {
-        let point = self.model.reference_for(load).ok_or("the model knows no contact")?;
-        Problem::new(&point, self.model.domain.reference.lubricant).map_err(|refused| refused.to_string())
+    fn reference(&self, load: f64) -> Result<Problem, CoupledError> {
+        let point = self.model.reference_for(load);
+        let point = point.ok_or_else(|| CoupledError::NoReference(self.model.title.clone()))?;
+        Ok(Problem::new(&point, self.model.domain.reference.lubricant)?)
     }
 
     /// Friction over load at a slide-to-roll ratio, and what must be said of it.
-    fn friction(&self, march: &CoupledMarch, sliding: f64, warnings: &mut Vec<String>) -> Result<f64, String> {
+    fn friction(&self, march: &CoupledMarch, sliding: f64, warnings: &mut Vec<Warning>) -> Result<f64, CoupledError> {
         let (at, moment, reference) = (march.conditions(), march.moment(), march.reference());
         // The surfaces slide by this over the speed of the reference contact; it may roll the other way.
         let slide_to_roll_ratio = sliding * at.input.speed;
@@ -217,8 +216,7 @@ impl InTime {
                 OperatingPoint { speed_m_per_s, ..point_at(&reference.point, at.input) }
             }
         };
-        let problem = Problem::new(&OperatingPoint { sliding, ..own }, reference.lubricant);
-        let problem = problem.map_err(|refused| refused.to_string())?;
+        let problem = Problem::new(&OperatingPoint { sliding, ..own }, reference.lubricant)?;
         let fields = march.fields();
         let scalars = Scalars {
             h_c: moment.h_c / at.scales.film,
@@ -241,7 +239,7 @@ impl InTime {
         };
         // Over the load of the moment, not of the contact that lends its scales.
         let coefficient = solution.traction_coefficient() * own.load / (reference.point.load * at.input.load);
-        warnings.extend(problem.doubts_traction(coefficient, &scalars).map(|doubt| doubt.to_string()));
+        warnings.extend(problem.doubts_traction(coefficient, &scalars).map(Warning::from));
         Ok(coefficient)
     }
 }
@@ -256,31 +254,18 @@ fn over(inputs: &Inputs, reference: &OperatingPoint) -> Input {
 }
 
 /// Refuses inputs that make no sense; the rest is judged where the contact is.
-fn check(inputs: &Inputs) -> Result<(), String> {
-    let Inputs { radius_m, speed_m_per_s, load, slide_to_roll_ratio: sliding, .. } = *inputs;
-    for (name, value) in [("radius", radius_m), ("load", load)] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(format!("the {name} is {}, but must be a finite number above zero", Number(value)));
-        }
+fn check_inputs(inputs: &Inputs) -> Result<(), CoupledError> {
+    for (name, value) in [("radius", inputs.radius_m), ("load", inputs.load)] {
+        check(name, value, "", (" above zero", |value| value > 0.0))?;
     }
-    if !speed_m_per_s.is_finite() {
-        return Err(format!("the speed is {speed_m_per_s}, but must be a finite number"));
-    }
-    if !(sliding.is_finite() && sliding.abs() <= 10.0) {
-        let sliding = Number(sliding);
-        return Err(format!("the slide-to-roll ratio is {sliding}, but must be a finite number between -10 and 10"));
-    }
-    Ok(())
-}
-
-fn told(refused: CoupledError) -> String {
-    refused.to_string()
+    check("speed", inputs.speed_m_per_s, "", ("", |_| true))?;
+    check_sliding(inputs.slide_to_roll_ratio)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::trajectory_file;
+    use crate::engine::SavedModel;
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::transient::{Frame, Inputs as Driven, Keep, Signal, Transient, march, solve};
     use crate::solver::full::{FullSolver, Start};
@@ -313,7 +298,8 @@ mod tests {
     #[test]
     fn in_seconds_and_newtons_it_is_the_march_of_the_library() {
         let model = trained(Frame::Fixed);
-        let read = trajectory_file::from_bytes(&trajectory_file::to_bytes(&model).unwrap()).unwrap();
+        let saved = SavedModel::InTime(Arc::clone(&model)).to_bytes().unwrap();
+        let read = SavedModel::from_bytes(&saved).unwrap().in_time().unwrap();
         let loads: Vec<f64> = (0..=50).map(|k| 1.0 + 0.05 * (0.2 * f64::from(k)).sin()).collect();
         let times = (0..loads.len()).map(|k| 0.01 * k as f64).collect();
         let asked = Transient { duration: 0.5, ..driven(Signal::Sampled { times, values: loads.clone() }) };
@@ -387,7 +373,7 @@ mod tests {
         let model = trained(Frame::Fixed);
         let (mut own, first) = (InTime::new(Arc::clone(&model)), InTime::first_inputs(&model).unwrap());
         let step = model.domain.step * InTime::seconds_per_time(&model.starts[0].point);
-        assert!(own.advance(step, &first).unwrap_err().contains("has not begun"));
+        assert!(own.advance(step, &first).unwrap_err().to_string().contains("has not begun"));
         own.begin(&first).unwrap();
         let kept = own.outputs(&first).unwrap();
         for wrong in [
@@ -396,17 +382,18 @@ mod tests {
             Inputs { speed_m_per_s: f64::NAN, ..first },
             Inputs { slide_to_roll_ratio: 11.0, ..first },
         ] {
-            assert!(!own.advance(step, &wrong).unwrap_err().is_empty());
+            assert!(!own.advance(step, &wrong).unwrap_err().to_string().is_empty());
             assert_eq!(own.outputs(&first).unwrap().h_c_m, kept.h_c_m);
         }
-        assert!(own.advance(1e9, &first).unwrap_err().contains("steps"));
+        assert!(own.advance(1e9, &first).unwrap_err().to_string().contains("steps"));
         let fast = own.advance(step, &Inputs { load: 1.05 * first.load, ..first }).unwrap();
-        assert!(!fast.trained && fast.warnings.iter().any(|said| said.contains("faster")), "{:?}", fast.warnings);
+        assert!(!fast.trained && fast.warning().contains("faster"), "{:?}", fast.warnings);
         let rested = own.advance(step, &Inputs { load: 1.05 * first.load, ..first }).unwrap();
         assert!(rested.trained && rested.warnings.is_empty(), "{:?}", rested.warnings);
         let quick =
             own.advance(step, &Inputs { load: 1.05 * first.load, speed_m_per_s: 1.1 * first.speed_m_per_s, ..first });
-        assert!(quick.unwrap().warnings.iter().any(|said| said.contains("speed") && said.contains("rested")));
+        let quick = quick.unwrap().warning();
+        assert!(quick.contains("speed") && quick.contains("rested"), "{quick}");
     }
 
     #[test]

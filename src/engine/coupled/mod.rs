@@ -4,17 +4,21 @@
 //! answers is what `solve --method reduced` answers, to the last bit; each contact is solved afresh, so that an answer
 //! hangs on its inputs only. [`InTime`] is the same for models in time, whose state advances. [`fmu`] is what the Functional Mock-up Interface calls such a part.
 
+mod error;
 pub mod fmu;
 mod in_time;
 
+pub use error::CoupledError;
 pub use in_time::{InTime, InTimeState};
 
-use crate::solver::full::point::resolution_warning;
-use crate::solver::full::{ContactSolver, Problem, Solution, Start};
-use crate::solver::limits::Number;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use crate::solver::physics::lubricant::{Lubricant, Sliding};
-use crate::solver::reduced::{ErrorEstimate, Online, ReducedModel, ReducedOptions, Trust};
+use self::error::{check, check_sliding};
+use super::answer::{Solver, answer};
+use crate::scene::{Answer, ContactResult, ContactSpec, Grid, Method, ModelSource, Request, Words};
+use crate::solver::full::{ContactSolver, Problem, Start};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
+use crate::solver::warning::Warning;
 use std::sync::Arc;
 
 /// How close the load's logarithm is sought when an approach is given.
@@ -80,8 +84,55 @@ pub struct Outputs {
     pub trained: bool,
     /// Whether the full solver took over, where the model has no solution.
     pub full: bool,
-    /// What a reader must know, one sentence each.
-    pub warnings: Vec<String>,
+    /// What a reader must know.
+    pub warnings: Vec<Warning>,
+}
+
+impl Outputs {
+    /// What a simulation reads off a result; `None` without a solution.
+    fn of(result: ContactResult) -> Option<Self> {
+        let ContactResult { point, scalars, traction, reduced, warnings, .. } = result;
+        let (scalars, friction_coefficient, scale) = (scalars?, traction?, point.film_scale_m());
+        let error = reduced.as_ref().and_then(|facts| facts.error);
+        let bounds = error.map_or([None; 3], |error| [Some(error.h_c), Some(error.h_min), error.traction]);
+        Some(Self {
+            load: point.load,
+            approach_m: if point.kind == ContactKind::Line { f64::NAN } else { -scalars.h_0 * scale },
+            h_c_m: scalars.h_c * scale,
+            h_min_m: scalars.h_min * scale,
+            friction_coefficient,
+            friction_force: friction_coefficient * point.load,
+            hertz_pressure_pa: point.hertz().pressure_pa,
+            error_bounds: bounds.map(|error| error.map_or(f64::NAN, |error| error.bound)),
+            trained: reduced.as_ref().is_some_and(|facts| facts.trained),
+            full: reduced.is_none(),
+            warnings,
+        })
+    }
+
+    /// The warnings as one sentence.
+    pub fn warning(&self) -> String {
+        Warning::joined(&self.warnings)
+    }
+}
+
+impl Inputs {
+    /// The contact that they state under a load.
+    fn stated(&self, kind: ContactKind, load: f64) -> ContactSpec {
+        let ellipse = kind == ContactKind::Point && self.radius_ratio != 1.0;
+        ContactSpec {
+            contact: Some(kind),
+            radius: Some(self.radius_m),
+            radius_y: ellipse.then_some(self.radius_m * self.radius_ratio),
+            speed: Some(self.speed_m_per_s),
+            load: Some(load),
+            modulus: Some(self.modulus_pa),
+            viscosity: Some(self.viscosity_pa_s),
+            alpha: Some(self.alpha_per_pa),
+            srr: Some(self.slide_to_roll_ratio),
+            ..ContactSpec::default()
+        }
+    }
 }
 
 /// A model with all work space; one for each thread.
@@ -98,14 +149,12 @@ impl Coupled {
     ///
     /// # Errors
     /// With a sentence where the model has no window, or an approach is wanted of a line contact.
-    pub fn new(model: Arc<ReducedModel>, pressed: Pressed) -> Result<Self, String> {
+    pub fn new(model: Arc<ReducedModel>, pressed: Pressed) -> Result<Self, CoupledError> {
         if model.windows.is_empty() {
-            return Err(format!("the reduced model `{}` holds no window", model.title));
+            return Err(CoupledError::NoWindow(model.title.clone()));
         }
         if pressed == Pressed::Approach && model.contact() == ContactKind::Line {
-            return Err(
-                "the approach of a line contact hangs on the size of its bodies; give its load instead".to_owned()
-            );
+            return Err(CoupledError::LineApproach);
         }
         let online = Online::new(Arc::clone(&model), ReducedOptions::default());
         let lubricant = model.domain.lubricant;
@@ -148,7 +197,7 @@ impl Coupled {
     ///
     /// # Errors
     /// With a sentence where an input makes no sense, or neither the model nor the full solver has a solution.
-    pub fn solve(&mut self, inputs: &Inputs) -> Result<Outputs, String> {
+    pub fn solve(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         match self.pressed {
             Pressed::Load => self.under(inputs, inputs.load),
             Pressed::Approach => self.approached(inputs),
@@ -156,124 +205,52 @@ impl Coupled {
     }
 
     /// The outputs under a load.
-    fn under(&mut self, inputs: &Inputs, load: f64) -> Result<Outputs, String> {
-        let point = self.point(inputs, load)?;
-        let problem = Problem::new(&point, self.lubricant).map_err(|error| error.to_string())?;
+    fn under(&mut self, inputs: &Inputs, load: f64) -> Result<Outputs, CoupledError> {
+        let request = self.request(inputs, load)?;
         self.online.forget();
-        let mut warnings = Vec::new();
-        let reduced = match self.online.solve(&point, self.lubricant) {
-            Ok(solved) => {
-                let fields = self.online.reconstruct(&solved).map_err(|error| error.to_string())?;
-                Some((fields.of_problem(problem), solved))
-            }
-            Err(why) if why.without_solution().is_some() => {
-                warnings.extend([why.to_string(), "the full solver took over".to_owned()]);
-                None
-            }
-            Err(refused) => return Err(refused.to_string()),
-        };
-        let full = reduced.is_none();
-        let mut bounds = [f64::NAN; 3];
-        let trust = self.model.trust(&problem);
-        let trained = !full && trust == Trust::Trained;
-        let (solution, friction_coefficient) = match reduced {
-            Some((solution, solved)) => {
-                if let Trust::Outside(why) = trust {
-                    warnings.push(why);
-                }
-                if let Some(ErrorEstimate { h_c, h_min, traction, .. }) = solved.error {
-                    bounds =
-                        [Some(h_c), Some(h_min), traction].map(|error| error.map_or(f64::NAN, |error| error.bound));
-                }
-                let traction = solved.traction.unwrap_or_else(|| solution.traction_coefficient());
-                (solution, traction)
-            }
-            None => {
-                let solution = self.in_full(&point)?;
-                let traction = solution.traction_coefficient();
-                (solution, traction)
-            }
-        };
-        let (scalars, scale) = (solution.scalars, point.film_scale_m());
-        warnings.extend(resolution_warning(&solution));
-        let hertz_pressure_pa = point.hertz().pressure_pa;
-        if hertz_pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA {
-            let pressure = hertz_pressure_pa / 1e9;
-            warnings.push(format!("the Hertzian pressure of {pressure:.3} GPa exceeds 3.2 GPa: no real contact"));
-        }
-        warnings.extend(problem.doubts_traction(friction_coefficient, &scalars).map(|doubt| doubt.to_string()));
-        let line = point.kind == ContactKind::Line;
-        Ok(Outputs {
-            load,
-            approach_m: if line { f64::NAN } else { -scalars.h_0 * scale },
-            h_c_m: scalars.h_c * scale,
-            h_min_m: scalars.h_min * scale,
-            friction_coefficient,
-            friction_force: friction_coefficient * load,
-            hertz_pressure_pa,
-            error_bounds: bounds,
-            trained,
-            full,
-            warnings,
-        })
+        let reduced = answer(&request, Solver::Reduced(&mut self.online), &())?;
+        let answered = if reduced.result.converged { reduced } else { self.in_full(request)?.in_place_of(reduced) };
+        let why = answered.result.warning();
+        Outputs::of(answered.result).ok_or(CoupledError::NoSolution(why))
     }
 
-    /// The contact that inputs describe under a load.
-    fn point(&self, inputs: &Inputs, load: f64) -> Result<OperatingPoint, String> {
-        let kind = self.model.contact();
-        let quantities = [
-            inputs.radius_m,
-            inputs.speed_m_per_s,
-            load,
-            inputs.modulus_pa,
-            inputs.viscosity_pa_s,
-            self.lubricant.own_coefficient().unwrap_or(inputs.alpha_per_pa),
-        ];
-        let sliding = Sliding { slide_to_roll_ratio: inputs.slide_to_roll_ratio, newtonian_plateau_ratio: None };
-        let mut point = OperatingPoint::from_quantities(kind, quantities, sliding);
-        if kind == ContactKind::Point && inputs.radius_ratio != 1.0 {
-            point.radius_y_m = Some(inputs.radius_m * inputs.radius_ratio);
-        }
-        let srr = inputs.slide_to_roll_ratio;
-        if !(srr.is_finite() && srr.abs() <= 10.0) {
-            return Err(format!(
-                "the slide-to-roll ratio is {}, but must be a finite number between -10 and 10",
-                Number(srr)
-            ));
-        }
-        point.check().map_err(|error| error.to_string())?;
-        Ok(point)
+    /// The request that inputs describe under a load.
+    fn request(&self, inputs: &Inputs, load: f64) -> Result<Request, CoupledError> {
+        check_sliding(inputs.slide_to_roll_ratio)?;
+        let alpha = self.lubricant.own_coefficient().is_none().then_some(inputs.alpha_per_pa);
+        let stated = ContactSpec { alpha, ..inputs.stated(self.model.contact(), load) };
+        let point = stated
+            .operating_point(&self.lubricant)
+            .map_err(|why| CoupledError::Stated(why.in_words(Words::Variables)))?;
+        let (grid, grid_model, method) = (Grid::Model, ModelSource::Embedded, Method::EMBEDDED);
+        Ok(Request { point, lubricant: self.lubricant, grid, grid_model, method })
     }
 
     /// The full solution on the model's grid.
-    fn in_full(&mut self, point: &OperatingPoint) -> Result<Solution, String> {
-        let grid = &self.model.window_at(point).grid;
+    fn in_full(&mut self, request: Request) -> Result<Answer, CoupledError> {
+        let grid = &self.model.window_at(&request.point).grid;
         let solver = match self.full.take() {
             Some(solver) if solver.grid_spec() == grid.spec() => solver,
             _ => ContactSolver::on(grid),
         };
-        let solver = self.full.insert(solver);
-        let solution = solver.solve(point, self.lubricant, Start::Cold, &()).map_err(|error| error.to_string())?;
-        if solution.converged() {
-            return Ok(solution);
+        let solver = Solver::Full(self.full.insert(solver), Start::Cold);
+        let request = Request { method: Method::Full, ..request };
+        let full = answer(&request, solver, &())?;
+        if full.result.converged {
+            return Ok(full);
         }
-        Err(format!(
-            "neither the reduced model nor the full solver has a solution here: the full solver {}",
-            solution.report.termination.describe()
-        ))
+        Err(CoupledError::NoSolution(full.result.warning()))
     }
 
     /// The outputs at the wanted approach: the load is sought between two that give a smaller and a larger one.
-    fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, String> {
+    fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         let wanted = inputs.approach_m;
-        if !(wanted.is_finite() && wanted > 0.0) {
-            return Err(format!("the approach is {} m, but must be a finite number above zero", Number(wanted)));
-        }
+        check("approach", wanted, " m", (" above zero", |wanted| wanted > 0.0))?;
         let mut solves = 0;
         let mut miss = |own: &mut Self, load: f64| {
             solves += 1;
             if solves > MOST_SOLVES {
-                return Err(format!("no load was found that gives an approach of {} m", Number(wanted)));
+                return Err(CoupledError::NoLoad(wanted));
             }
             let outputs = own.under(inputs, load)?;
             Ok((load.ln(), outputs.approach_m / wanted - 1.0, outputs))

@@ -4,25 +4,28 @@
 //! A [`Job`] is what its owner holds, a [`Reporter`] what the work tells it by. Dropping the job stops the work. A
 //! [`Queue`] gives jobs to one thread that keeps only the newest request of each urgency: the live picture.
 
+mod error;
 mod queue;
 mod study;
 
+pub use error::{JobError, Panicked, guarded};
 pub use queue::Queue;
 
+use crate::host::clock::Stopwatch;
+use crate::host::worker;
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Shortest time between two calls of the owner on behalf of one job.
 const WAKE_EVERY: Duration = Duration::from_millis(50);
 
-/// How a job ended: with everything, stopped with what there is, or not at all for a reason given as a sentence.
-pub type Ending = Result<(), String>;
+/// How a job ended: with everything, stopped with what there is, or not at all.
+pub type Ending = Result<(), JobError>;
 
 /// Calls whoever waits for news of a job; called from the job's thread.
 #[derive(Clone)]
@@ -43,7 +46,7 @@ impl Default for Wake {
 }
 
 /// How far a job is, for people.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Standing {
     /// What is being done.
     pub stage: String,
@@ -57,9 +60,14 @@ pub struct Standing {
     pub since_s: f64,
 }
 
-enum Event<M> {
+/// What a job reports to its owner; a value, so that a job may run in another thread or process.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Event<M> {
+    /// A row, an answer or whatever else it finishes on its way.
     Message(M),
+    /// How far it is.
     Stage(Progress),
+    /// It ended, or failed with a sentence.
     Ended(Ending),
 }
 
@@ -68,7 +76,7 @@ enum Event<M> {
 struct Wish {
     /// How often it was asked to stop.
     stops: AtomicU8,
-    begun: OnceLock<Instant>,
+    begun: OnceLock<Stopwatch>,
     /// How long it may work, once something newer waits.
     patience: OnceLock<Duration>,
 }
@@ -84,9 +92,9 @@ impl Wish {
 pub struct Job<M> {
     events: Receiver<Event<M>>,
     wish: Arc<Wish>,
-    since: Instant,
+    since: Stopwatch,
     stage: Progress,
-    stage_since: Instant,
+    stage_since: Stopwatch,
 }
 
 impl<M: Send + 'static> Job<M> {
@@ -94,15 +102,14 @@ impl<M: Send + 'static> Job<M> {
     pub fn start(name: &str, wake: Wake, work: impl FnOnce(&Reporter<M>) -> Ending + Send + 'static) -> Self {
         let (job, reporter) = Self::waiting(name, wake);
         // Where no thread can be had, the reporter is gone and the next poll says so.
-        let thread = std::thread::Builder::new().name(name.replace('\0', " "));
-        let _handle = thread.spawn(move || reporter.run(work));
+        let _handle = worker::spawn(name, move || reporter.run(work));
         job
     }
 
     /// A job that has not begun, and what its work will tell it by.
     fn waiting(name: &str, wake: Wake) -> (Self, Reporter<M>) {
         let (sender, events) = channel();
-        let (wish, since) = (Arc::new(Wish::default()), Instant::now());
+        let (wish, since) = (Arc::new(Wish::default()), Stopwatch::start());
         let stage = Progress { stage: name.to_owned(), done: 0, total: 0 };
         let reporter = Reporter { events: sender, wish: Arc::clone(&wish), wake, woken: Mutex::new(since) };
         (Self { events, wish, since, stage, stage_since: since }, reporter)
@@ -115,21 +122,19 @@ impl<M: Send + 'static> Job<M> {
 
     /// The same, waiting for the end for at most a while.
     pub fn poll_within(&mut self, patience: Duration, mut receive: impl FnMut(M)) -> Option<Ending> {
-        let begin = Instant::now();
+        let begin = Stopwatch::start();
         loop {
             match self.events.recv_timeout(patience.saturating_sub(begin.elapsed())) {
                 Ok(Event::Message(message)) => receive(message),
                 Ok(Event::Stage(progress)) => {
                     if progress.stage != self.stage.stage {
-                        self.stage_since = Instant::now();
+                        self.stage_since = Stopwatch::start();
                     }
                     self.stage = progress;
                 }
                 Ok(Event::Ended(ending)) => return Some(ending),
                 Err(RecvTimeoutError::Timeout) => return None,
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Some(Err("no thread could be had for this work".to_owned()));
-                }
+                Err(RecvTimeoutError::Disconnected) => return Some(Err(JobError::NoThread)),
             }
         }
     }
@@ -137,9 +142,9 @@ impl<M: Send + 'static> Job<M> {
     /// How far it is.
     pub fn standing(&self) -> Standing {
         let Progress { stage, done, total } = self.stage.clone();
-        let spent = self.stage_since.elapsed().as_secs_f64();
+        let spent = self.stage_since.seconds();
         let left_s = (done > 0 && total >= done).then(|| spent * (total - done) as f64 / done as f64);
-        Standing { stage, done, total, left_s, since_s: self.since.elapsed().as_secs_f64() }
+        Standing { stage, done, total, left_s, since_s: self.since.seconds() }
     }
 }
 
@@ -166,7 +171,7 @@ impl<M> Job<M> {
     }
 
     /// When it was asked for.
-    pub fn since(&self) -> Instant {
+    pub fn since(&self) -> Stopwatch {
         self.since
     }
 }
@@ -182,7 +187,7 @@ pub struct Reporter<M> {
     events: Sender<Event<M>>,
     wish: Arc<Wish>,
     wake: Wake,
-    woken: Mutex<Instant>,
+    woken: Mutex<Stopwatch>,
 }
 
 impl<M: Send> Reporter<M> {
@@ -211,7 +216,7 @@ impl<M: Send> Reporter<M> {
         if self.events.send(event).is_ok() {
             let mut woken = self.woken.lock().unwrap_or_else(PoisonError::into_inner);
             if woken.elapsed() > WAKE_EVERY {
-                *woken = Instant::now();
+                *woken = Stopwatch::start();
                 (self.wake.0)();
             }
         }
@@ -219,13 +224,13 @@ impl<M: Send> Reporter<M> {
 
     fn begin(&self) {
         // The first time counts.
-        let _ = self.wish.begun.set(Instant::now());
+        let _ = self.wish.begun.set(Stopwatch::start());
     }
 
     /// Does the work and says how it ended.
     fn run(self, work: impl FnOnce(&Self) -> Ending) {
         self.begin();
-        let ending = guarded(|| work(&self)).and_then(|ending| ending);
+        let ending = guarded(|| work(&self)).unwrap_or_else(|panicked| Err(panicked.into()));
         // Nobody listens any more where the job was dropped.
         let _gone = self.events.send(Event::Ended(ending));
         (self.wake.0)();
@@ -255,31 +260,6 @@ impl Observer for Abandoned<'_> {
 
 impl TrainingObserver for Abandoned<'_> {}
 
-/// Runs something that may panic and turns the panic into a sentence.
-///
-/// # Errors
-/// The sentence.
-pub fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
-        let reason = panic_text(&*payload);
-        format!("the solver stopped unexpectedly ({reason}); the window and your work are not affected")
-    })
-}
-
-fn panic_text(payload: &(dyn Any + Send)) -> &str {
-    let text = payload.downcast_ref::<&str>().copied();
-    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given")
-}
-
-/// Does work that is spread over threads on all cores but one, which is the window's and the live picture's.
-pub fn on_spare_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get().saturating_sub(1).max(1));
-    match rayon::ThreadPoolBuilder::new().num_threads(cores).build() {
-        Ok(pool) => pool.install(work),
-        Err(_) => work(),
-    }
-}
-
 /// A job that can be started ever anew, and why the last one ended early.
 pub struct Background<M> {
     /// Why there is nothing, or no more.
@@ -301,10 +281,10 @@ impl<M: Send + 'static> Background<M> {
     }
 
     /// The same where there may be a sentence why there is no job.
-    pub fn start(&mut self, job: Result<Job<M>, String>) {
+    pub fn start(&mut self, job: Result<Job<M>, impl ToString>) {
         match job {
             Ok(job) => self.run(job),
-            Err(why) => *self = Self { message: Some(why), job: None },
+            Err(why) => *self = Self { message: Some(why.to_string()), job: None },
         }
     }
 
@@ -313,7 +293,7 @@ impl<M: Send + 'static> Background<M> {
         let Some(job) = &mut self.job else { return };
         if let Some(ending) = job.poll(receive) {
             if let Err(why) = ending {
-                self.message = Some(why);
+                self.message = Some(why.to_string());
             }
             self.job = None;
         }
@@ -342,22 +322,23 @@ impl<M> Background<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::host::worker::pause;
     use std::sync::atomic::AtomicUsize;
 
     fn ended<M: Send + 'static>(job: &mut Job<M>, mut receive: impl FnMut(M)) -> Ending {
-        let begin = Instant::now();
+        let begin = Stopwatch::start();
         loop {
             if let Some(ending) = job.poll(&mut receive) {
                 return ending;
             }
             assert!(begin.elapsed() < Duration::from_secs(300));
-            std::thread::sleep(Duration::from_millis(2));
+            pause(Duration::from_millis(2));
         }
     }
 
     fn endless(reporter: &Reporter<()>) -> Ending {
         while !reporter.cancelled() {
-            std::thread::sleep(Duration::from_millis(1));
+            pause(Duration::from_millis(1));
         }
         Ok(())
     }
@@ -372,7 +353,7 @@ mod tests {
             Ok(())
         });
         let mut seen = Vec::new();
-        assert_eq!(ended(&mut job, |k: usize| seen.push(k)), Ok(()));
+        ended(&mut job, |k: usize| seen.push(k)).unwrap();
         assert_eq!(seen, [0, 1, 2, 3, 4]);
         let standing = job.standing();
         assert_eq!((standing.stage.as_str(), standing.done, standing.total), ("counting", 5, 5));
@@ -386,20 +367,20 @@ mod tests {
         let mut job = Job::start("endless", Wake::default(), move |reporter: &Reporter<()>| {
             while !reporter.cancelled() {
                 asking.fetch_add(1, Ordering::Relaxed);
-                std::thread::sleep(Duration::from_millis(1));
+                pause(Duration::from_millis(1));
             }
             Ok(())
         });
         while asked.load(Ordering::Relaxed) == 0 {
-            std::thread::sleep(Duration::from_millis(1));
+            pause(Duration::from_millis(1));
         }
         job.stop();
         let before = asked.load(Ordering::Relaxed);
-        assert_eq!(ended(&mut job, |()| ()), Ok(()));
+        ended(&mut job, |()| ()).unwrap();
         let after = asked.load(Ordering::Relaxed);
         assert!(after <= before + 1, "{before} questions before the wish, {after} in all");
         let mut broken = Job::<()>::start("broken", Wake::default(), |_| panic!("index 7"));
-        assert!(ended(&mut broken, |()| ()).unwrap_err().contains("index 7"));
+        assert!(ended(&mut broken, |()| ()).unwrap_err().to_string().contains("index 7"));
     }
 
     #[test]
@@ -408,7 +389,7 @@ mod tests {
         let mut job = Job::start("called", Wake::new(move || calls.send(()).unwrap()), |reporter| {
             endless(reporter)?;
             while !reporter.abandoned().cancelled() {
-                std::thread::sleep(Duration::from_millis(1));
+                pause(Duration::from_millis(1));
             }
             Ok(())
         });
@@ -416,6 +397,6 @@ mod tests {
         assert!(job.stopping() && job.poll(|()| ()).is_none());
         job.stop();
         called.recv_timeout(Duration::from_secs(300)).unwrap();
-        assert_eq!(job.poll(|()| ()), Some(Ok(())));
+        assert!(matches!(job.poll(|()| ()), Some(Ok(()))));
     }
 }

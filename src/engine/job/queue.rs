@@ -1,6 +1,7 @@
 //! One thread for requests of which only the newest counts.
 
 use super::{Ending, Job, Reporter, Wake};
+use crate::host::worker;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// A thread that answers requests, the most urgent first. Of each urgency one waits at most: a newer one replaces it.
@@ -56,7 +57,7 @@ impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
             }
         };
         // Where no thread can be had, requests stay and the window says that they wait.
-        let _handle = std::thread::Builder::new().name(name.to_owned()).spawn(answer);
+        let _handle = worker::spawn(name, answer);
         Self { shared }
     }
 
@@ -81,14 +82,17 @@ impl<R, M> Drop for Queue<R, M> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::job::JobError;
+    use crate::host::clock::Stopwatch;
+    use crate::host::worker::pause;
     use std::sync::mpsc::channel;
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
 
     #[test]
     fn the_newest_request_replaces_the_one_that_waits_and_the_most_urgent_comes_first() {
         let (release, gate) = channel();
         let queue = Queue::new("test", 2, move |request: u32, reporter: &Reporter<u32>| {
-            gate.recv().map_err(|gone| gone.to_string())?;
+            gate.recv().map_err(JobError::failed)?;
             reporter.send(request);
             if request == 9 { panic!("nine") } else { Ok(()) }
         });
@@ -96,11 +100,11 @@ mod tests {
         let first = submit(1, 1);
         // The thread has taken it once its place is empty.
         while queue.shared.lock().waiting[1].is_some() {
-            std::thread::sleep(Duration::from_millis(1));
+            pause(Duration::from_millis(1));
         }
         let jobs = [first, submit(1, 2), submit(1, 3), submit(0, 9)];
         (0..3).for_each(|_| release.send(()).unwrap());
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         let mut answers = Vec::new();
         let mut endings: [Option<Ending>; 4] = Default::default();
         for (mut job, ending) in jobs.into_iter().zip(&mut endings) {
@@ -110,7 +114,7 @@ mod tests {
         }
         assert_eq!(answers, [1, 3, 9]);
         assert!(
-            matches!(&endings, [Some(Ok(())), Some(Err(_)), Some(Ok(())), Some(Err(nine))] if nine.contains("nine"))
+            matches!(&endings, [Some(Ok(())), Some(Err(_)), Some(Ok(())), Some(Err(nine))] if nine.to_string().contains("nine"))
         );
     }
 
@@ -118,13 +122,13 @@ mod tests {
     fn a_job_is_given_up_after_its_patience() {
         let queue = Queue::new("patience", 1, |(), reporter: &Reporter<()>| {
             while !reporter.cancelled() {
-                std::thread::sleep(Duration::from_millis(1));
+                pause(Duration::from_millis(1));
             }
             Ok(())
         });
         let mut job = queue.submit(0, "ask", Wake::default(), ());
         job.give_up_after(Duration::from_millis(5));
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         while job.poll(|()| ()).is_none() {
             assert!(begun.elapsed() < Duration::from_secs(300));
         }

@@ -1,44 +1,24 @@
 //! What the titles of a table say that its columns hold.
 
-use super::CasesError;
-use crate::solver::physics::contact::{ContactKind, Quantity};
-use crate::solver::physics::engineering::{Dimension, parse};
+use super::error::CasesError;
+use crate::scene::contact_spec::{Field, Words};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::parse;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Column {
     Name,
-    Contact,
-    Lubricant,
-    Oil,
-    Temperature,
-    Number(Quantity),
+    Of(Field),
     Skipped,
 }
 
-/// Titles of columns, in lower case and without spaces: the word first, then what people write instead.
-const TITLES: [(Column, &[&str]); 16] = [
-    (Column::Name, &["name", "case", "id", "loadcase"]),
-    (Column::Contact, &["contact", "kind"]),
-    (Column::Lubricant, &["lubricant"]),
-    (Column::Oil, &["oil", "isovg", "vg", "iso_vg"]),
-    (Column::Temperature, &["temperature", "t"]),
-    (Column::Number(Quantity::Radius), &["radius", "r", "r_x"]),
-    (Column::Number(Quantity::RadiusY), &["radius-y", "r_y", "ry"]),
-    (Column::Number(Quantity::Speed), &["speed", "u_m", "um", "u"]),
-    (Column::Number(Quantity::Load), &["load", "w", "f"]),
-    (Column::Number(Quantity::Modulus), &["modulus", "e'", "e’", "e\u{2032}"]),
-    (Column::Number(Quantity::Viscosity), &["viscosity", "eta_0", "eta0", "η₀", "η0"]),
-    (Column::Number(Quantity::Alpha), &["alpha", "α"]),
-    (Column::Number(Quantity::M), &["m", "moes-m", "moes_m"]),
-    (Column::Number(Quantity::L), &["l", "moes-l", "moes_l"]),
-    (Column::Number(Quantity::SlideToRollRatio), &["srr", "slip"]),
-    (Column::Number(Quantity::NewtonianPlateauRatio), &["npr"]),
-];
+/// Titles of the names of contacts, in lower case and without spaces.
+const NAMES: [&str; 4] = ["name", "case", "id", "loadcase"];
 
-/// The first title of each, as a refusal tells them.
+/// The fields that a column may hold.
 pub(super) fn accepted() -> String {
-    TITLES.iter().filter_map(|(_, titles)| titles.first().copied()).collect::<Vec<_>>().join(", ")
+    Field::of(Words::Columns).map(|field| field.facts().column).collect::<Vec<_>>().join(", ")
 }
 
 /// What each column holds, with the unit of its numbers.
@@ -47,12 +27,12 @@ pub(super) fn titles(line: usize, cells: &[&str]) -> Result<Vec<(Column, String)
     for &cell in cells {
         let title = || cell.to_owned();
         let (word, unit) = split_title(cell);
-        let key: String = word.to_lowercase().split_whitespace().collect();
         let column = if word.is_empty() || word.starts_with('#') {
             Column::Skipped
+        } else if NAMES.contains(&word.to_lowercase().split_whitespace().collect::<String>().as_str()) {
+            Column::Name
         } else {
-            let known = TITLES.iter().find(|(_, titles)| titles.contains(&key.as_str()));
-            known.ok_or_else(|| CasesError::Title { line, title: title() })?.0
+            Field::titled(word).map(Column::Of).ok_or_else(|| CasesError::Title { line, title: title() })?
         };
         if column != Column::Skipped && columns.iter().any(|(other, _)| *other == column) {
             return Err(CasesError::Twice { line, title: title() });
@@ -71,14 +51,12 @@ fn split_title(cell: &str) -> (&str, &str) {
     }
 }
 
-/// The unit of a title must be one of its quantity, for one of both kinds of contact.
+/// The unit of a title must be one of its field, for one of both kinds of contact.
 fn check_unit(column: Column, unit: &str) -> Result<(), String> {
-    let dimensions = match column {
-        _ if unit.is_empty() => return Ok(()),
-        Column::Number(quantity) => [ContactKind::Line, ContactKind::Point].map(|kind| Dimension::of(quantity, kind)),
-        Column::Temperature => [Dimension::Temperature; 2],
-        _ => return Ok(()),
-    };
-    let [first, second] = dimensions.map(|dimension| parse("1", dimension, unit).map(drop));
-    first.or(second).map_err(|error| error.to_string())
+    let Column::Of(field) = column else { return Ok(()) };
+    if unit.is_empty() || !field.is_number() {
+        return Ok(());
+    }
+    let read = |kind| parse("1", field.facts().dimension_in(kind), unit).map(drop);
+    read(ContactKind::Line).or(read(ContactKind::Point)).map_err(|error| error.to_string())
 }

@@ -28,7 +28,7 @@ pub struct Dimensions {
 const MOST_SNAPSHOTS: [usize; 2] = [10_000, 1_000];
 
 /// All dimensions.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Full solutions that converged.
     pub snapshots: usize,
@@ -41,7 +41,7 @@ pub struct Row {
 }
 
 /// Numbers of modes at one loss of information.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dimension {
     /// The loss.
     pub loss: f64,

@@ -6,8 +6,8 @@ use super::question::{
 use crate::scene::check::{self, MAX_COMPARED, count, refuse};
 use crate::scene::parallel::full_solutions;
 use crate::scene::random_points::all_random_points;
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{ContactKind, Moes};
-use crate::solver::training::Range;
 use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, Fit, correlation, fit};
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct DistanceMeasure {
     /// Where the points are drawn.
-    pub range: Range,
+    pub range: ParameterSpace,
     /// How many.
     pub points: usize,
     /// Seed of the random numbers.
@@ -24,7 +24,7 @@ pub struct DistanceMeasure {
 }
 
 /// The measure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Full solutions that converged.
     pub solutions: usize,
@@ -43,7 +43,7 @@ pub struct Row {
 }
 
 /// How different two solutions are, and what the measures say.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pair {
     /// The contacts.
     pub moes: (Moes, Moes),
@@ -70,7 +70,7 @@ impl Question for DistanceMeasure {
             return Err(refuse("study", "is made for line contacts only; write `contact: Line`, or another study"));
         }
         count("study.points", self.points, 3, MAX_COMPARED)?;
-        check::test_range(&self.range)
+        check::space("study.range", &self.range)
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {

@@ -8,9 +8,9 @@ use crate::scene::method::ModelSource;
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::rank_correlation;
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::{ErrorEstimate, ErrorMeasures, Norm, ReducedOptions};
-use crate::solver::training::Range;
 use serde::{Deserialize, Serialize};
 
 /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig.
@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct ErrorMeasureStudy {
     /// Where the points are drawn.
-    pub range: Range,
+    pub range: ParameterSpace,
     /// How many.
     pub points: usize,
     /// Seed of the random numbers.
@@ -55,7 +55,7 @@ impl OnlineScheme {
 }
 
 /// One random point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Where it lies.
     pub moes: Moes,
@@ -68,7 +68,7 @@ pub struct Row {
 }
 
 /// Measures and errors at one point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     /// The true e_z, (3.10).
     pub state: f64,
@@ -107,7 +107,7 @@ impl Question for ErrorMeasureStudy {
 
     fn check(&self, _experiment: &Experiment) -> Checked {
         count("study.points", self.points, 3, MAX_COMPARED)?;
-        check::test_range(&self.range)
+        check::space("study.range", &self.range)
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {

@@ -7,9 +7,9 @@ use super::question::{
 use crate::scene::check::{self, MAX_POINTS, refuse};
 use crate::scene::method::Method;
 use crate::scene::statistics::{median, percentile};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
-use crate::solver::training::QuantityBox;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub struct ErrorSplitStudy {
 }
 
 /// Which contacts a study looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Contacts {
     /// The scene's own operating point.
@@ -32,7 +32,7 @@ pub enum Contacts {
     /// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
     Trajectory {
         /// The box.
-        range: QuantityBox,
+        range: ParameterSpace,
         /// Equidistant values of c, both ends counted.
         points: usize,
     },
@@ -89,7 +89,7 @@ impl Question for ErrorSplitStudy {
             Contacts::Here => Ok(()),
             Contacts::Trajectory { range, points } => {
                 check::count("study.contacts.points", *points, 2, MAX_POINTS)?;
-                check::quantity_box("study.contacts.range", range)
+                check::space("study.contacts.range", range)
             }
         }
     }
@@ -105,7 +105,7 @@ impl Question for ErrorSplitStudy {
         };
         let points = match &self.contacts {
             Contacts::Here => vec![(f64::NAN, experiment.request()?.point)],
-            Contacts::Trajectory { range, points } => trajectory_points(range, experiment, *points)?,
+            Contacts::Trajectory { range, points } => trajectory_points(range, experiment, *points),
         };
         let Some((_, first)) = points.first() else { return Ok(()) };
         let model = setting.bench.model_for(source, first, &experiment.lubricant, observer)?;

@@ -18,7 +18,7 @@ pub struct FlowCurve {
 }
 
 /// One curve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Its plateau ratio.
     pub plateau: f64,

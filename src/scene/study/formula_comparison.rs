@@ -24,7 +24,7 @@ pub struct FormulaComparison {
 }
 
 /// One contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Load number.
     pub m: f64,
@@ -69,14 +69,14 @@ impl Question for FormulaComparison {
             setting.step("formula comparison", i, self.l.len() * self.m.len())?;
             let point = At::moes(m, l).point(experiment.contact)?;
             let request = experiment.request_at(OperatingPoint { sliding: experiment.sliding, ..point });
-            let answer = setting.bench.answer(&request, &Method::Full, former.as_ref(), observer)?;
-            let full_m = answer.result().map(|solution| {
+            let answer = setting.bench.answer(&request, former.as_ref(), observer)?;
+            let full_m = answer.fields().map(|solution| {
                 let s = &solution.scalars;
                 point.film_scale_m() * if self.formula.predicts_minimum() { s.h_min } else { s.h_c }
             });
             let predicted = self.formula.predict(&point);
             tell(Row { m, l, full_m, formula_m: predicted.film_m, in_range: predicted.in_range });
-            former = answer.solution.filter(|_| answer.converged).or(former);
+            former = answer.into_fields().or(former);
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::bench::Request;
+use crate::scene::answer::Request;
 use crate::scene::check::{count, number, refuse};
 use crate::scene::contact_result::ContactResult;
 use crate::scene::grid::Grid;
@@ -22,7 +22,7 @@ pub struct GridStudy {
 }
 
 /// One grid.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// ΔX.
     pub dx: f64,
@@ -76,9 +76,9 @@ impl Question for GridStudy {
                 _ => return Err(RunError::Study("a grid study needs a Uniform or Plane `grid`".to_owned())),
             };
             let request = Request { grid, ..template.clone() };
-            let answer = setting.bench.answer(&request, &Method::Full, former.as_ref(), setting.observer)?;
-            tell(Row { dx, result: ContactResult::from(&answer) });
-            former = answer.solution.filter(|_| answer.converged);
+            let answer = setting.bench.answer(&request, former.as_ref(), setting.observer)?;
+            tell(Row { dx, result: answer.result.clone() });
+            former = answer.into_fields();
         }
         Ok(())
     }

@@ -34,7 +34,7 @@ const MOST_SNAPSHOTS: usize = 4000;
 const LEAST_LOSS: f64 = 1e-12;
 
 /// One frame.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// It.
     pub frame: Frame,

@@ -4,7 +4,8 @@ use super::path::tag;
 use super::question::{
     Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::bench::{Request, answer_or_full};
+use crate::scene::answer::Request;
+use crate::scene::bench::answer_or_full;
 use crate::scene::check;
 use crate::scene::contact_result::{CONTACT_COLUMNS, ContactResult, RESULT_COLUMNS};
 use crate::scene::load_cases::{CaseTable, LoadCase};
@@ -36,15 +37,11 @@ pub struct Row {
 }
 
 impl Row {
-    /// What is to be said of it: why it is refused, or the warnings of its results.
-    fn remark(&self) -> String {
+    /// Why it is refused, or the warnings of its results.
+    fn warning(&self) -> String {
         match &self.results {
             Err(why) => format!("refused: {why}"),
-            Ok(results) => {
-                let mut warnings: Vec<&str> = results.iter().flat_map(|r| &r.warnings).map(String::as_str).collect();
-                warnings.dedup();
-                warnings.join("; ")
-            }
+            Ok(results) => ContactResult::warning_of_all(results),
         }
     }
 
@@ -81,8 +78,9 @@ impl LoadCases {
     ) -> Result<Result<Vec<ContactResult>, String>, RunError> {
         let mut results = Vec::with_capacity(self.methods.len());
         for method in &self.methods {
-            match answer_or_full(setting.bench, request, method, setting.observer) {
-                Ok(answer) => results.push(ContactResult::from(&answer)),
+            let request = Request { method: method.clone(), ..request.clone() };
+            match answer_or_full(setting.bench, &request, setting.observer) {
+                Ok(answer) => results.push(answer.result),
                 Err(stopped) if stopped.cancelled() => return Err(stopped),
                 Err(refused) => return Ok(Err(refused.to_string())),
             }
@@ -190,12 +188,13 @@ impl Question for LoadCases {
             let results = row.results().iter().flat_map(|result| result.row(&RESULT_COLUMNS));
             line.chain(first.row(&CONTACT_COLUMNS)).chain(results).collect()
         };
-        let words = |words: Vec<String>| if words.iter().all(String::is_empty) { Vec::new() } else { words };
+        let named = rows.iter().any(|row| !row.name.is_empty());
         vec![Table {
             name: "load_cases".to_owned(),
             rows: rows.iter().map(numbers).collect(),
-            labels: words(rows.iter().map(|row| row.name.clone()).collect()),
-            remarks: words(rows.iter().map(|row| row.remark()).collect()),
+            labels: rows.iter().filter(|_| named).map(|row| row.name.clone()).collect(),
+            remarks: rows.iter().map(|row| row.warning()).collect(),
+            remarks_title: "warning",
             columns,
         }]
     }

@@ -90,13 +90,13 @@ impl Question for MeasuredFilm {
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         setting.step("solving", 0, 1)?;
         let request = setting.experiment.request()?;
-        let answer = setting.bench.answer(&request, &Method::Full, None, setting.observer)?;
+        let answer = setting.bench.answer(&request, None, setting.observer)?;
         let along = |solution: &Solution| {
             let point = &solution.problem.point;
             let (length, height) = (point.hertz().half_width_m, point.film_scale_m());
             solution.profile().map(|(x, _, h)| [length * x, height * h]).collect()
         };
-        if let Some(solution) = answer.result() {
+        if let Some(solution) = answer.fields() {
             tell(along(solution));
         }
         Ok(())

@@ -56,7 +56,6 @@ pub mod transition;
 pub use error_measures::OnlineScheme;
 pub use error_split::Contacts;
 pub use path::{OnModelGrid, PathRow};
-pub use pieces::PieceRow;
 pub use plan_comparison::ComparedPlan;
 pub use question::{Divisible, Question, Setting, Tell};
 pub use sampling_comparison::ComparedSampling;
@@ -75,7 +74,7 @@ use std::sync::atomic::AtomicBool;
 
 /// What is asked of a scene's contact, what comes of it, and how each is handed to the file of its study.
 macro_rules! studies {
-    ($($(#[$about:meta])* $name:ident($question:ty),)*) => {
+    ($($(#[$about:meta])* $name:ident($question:ty)$([$rows:meta])?,)*) => {
         /// What is asked of a scene's contact.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
@@ -84,11 +83,12 @@ macro_rules! studies {
             $($(#[$about])* $name($question),)*
         }
 
-        /// A row of any study.
-        #[derive(Clone, Debug)]
+        /// A row of any study. Rows that hold models are not serialised: a model travels as its file.
+        #[derive(Clone, Debug, Serialize, Deserialize)]
         pub enum StudyRow {
             $(
                 #[doc = concat!("What comes of [`Study::", stringify!($name), "`].")]
+                $(#[$rows])?
                 $name(<$question as Question>::Row),
             )*
         }
@@ -163,7 +163,7 @@ studies! {
     /// solutions.
     RandomTest(random_test::RandomTest),
     /// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
-    ErrorSplit(error_split::ErrorSplitStudy),
+    ErrorSplit(error_split::ErrorSplitStudy)[serde(skip)],
     /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point
     /// contact keeps ΔY.
     GridStudy(grid_study::GridStudy),
@@ -171,22 +171,22 @@ studies! {
     /// information: Table 3.7.
     Dimensions(dimensions::Dimensions),
     /// Error and time of a reduced model against its numbers of modes and of sampled rows.
-    ModelSizes(model_sizes::ModelSizes),
+    ModelSizes(model_sizes::ModelSizes)[serde(skip)],
     /// Training of a reduced model.
-    Training(TrainingSpec),
+    Training(TrainingSpec)[serde(skip)],
     /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error:
     /// Fig. 3.1.
     ErrorMeasures(error_measures::ErrorMeasureStudy),
     /// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
     DistanceMeasure(distance_measure::DistanceMeasure),
     /// Plans of snapshot selection side by side: Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7.
-    PlanComparison(plan_comparison::PlanComparison),
+    PlanComparison(plan_comparison::PlanComparison)[serde(skip)],
     /// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
     ToleranceStudy(tolerance_study::ToleranceStudy),
     /// Ways of sampling rows, on the same full solutions and basis.
     SamplingComparison(sampling_comparison::SamplingComparison),
     /// The contact in time, under inputs that vary, in full and by models: Figs. 2.6 (right), 4.4, 4.10 to 4.18.
-    Transient(transient::TransientStudy),
+    Transient(transient::TransientStudy)[serde(skip)],
     /// A table of load cases, each line a contact of its own.
     LoadCases(load_cases::LoadCases),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.

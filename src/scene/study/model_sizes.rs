@@ -3,6 +3,7 @@
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::host::clock::Stopwatch;
 use crate::scene::Scene;
 use crate::scene::check::{MAX_COMPARED, count, number};
 use crate::scene::method::ModelSource;
@@ -12,10 +13,9 @@ use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Window};
-use crate::solver::training::{Plan, Range, TrainingObserver, TrainingSpec, random_points, with_rows};
+use crate::solver::training::{Plan, TrainingObserver, TrainingSpec, random_points, with_rows};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Error and time of a reduced model with fewer modes, and with other numbers of sampled rows, at random contacts of the
 /// window that serves the scene's contact.
@@ -118,9 +118,9 @@ impl Truth<'_> {
                     return Err(RunError::Cancelled);
                 }
                 online.forget();
-                let clock = Instant::now();
+                let clock = Stopwatch::start();
                 let solved = online.solve(point, self.lubricant);
-                quickest = quickest.min(clock.elapsed().as_secs_f64());
+                quickest = quickest.min(clock.seconds());
                 match solved {
                     Ok(solved) => film = Some(online.reconstruct(&solved)?.scalars.h_c),
                     Err(error) if error.without_solution().is_some() => break,
@@ -152,8 +152,8 @@ fn ladder(least: usize, most: usize, steps: usize) -> Vec<usize> {
 fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunError> {
     match Scene::from_ron(&model.scene).ok().and_then(|scene| scene.training()) {
         Some(spec) => Ok(spec),
-        None if model.domain.sliding.is_none() => {
-            let (range, plan) = (Range::from(&model.domain), Plan::FarthestPoint { snapshots: window.snapshots.len() });
+        None if !model.domain.thins() => {
+            let (range, plan) = (model.domain.space.clone(), Plan::FarthestPoint { snapshots: window.snapshots.len() });
             Ok(TrainingSpec {
                 lubricant: model.domain.lubricant,
                 sampling: window.sampling,

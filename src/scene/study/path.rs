@@ -1,13 +1,14 @@
 //! Contacts along a path, each solved from its neighbour: what a sweep and the test trajectory (3.21) share.
 
 use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, RunError, Setting, Table, Tell};
-use crate::scene::bench::Request;
+use crate::scene::answer::Request;
 use crate::scene::contact_result::{ContactResult, result_columns};
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
 use crate::solver::full::Solution;
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
-use crate::solver::training::QuantityBox;
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// What a reduced method's errors against the first full one are stated of.
@@ -49,21 +50,13 @@ pub(super) struct Path<'a> {
     pub on_model_grid: bool,
 }
 
-/// The contacts of the test trajectory (3.21) at equidistant c, 0 ≤ c ≤ 2.
-///
-/// # Errors
-/// When one makes no sense.
+/// Returns the contacts of the test trajectory (3.21) at equidistant c, 0 ≤ c ≤ 2, but for those that the range excludes.
 pub(super) fn trajectory_points(
-    range: &QuantityBox,
+    range: &ParameterSpace,
     experiment: &Experiment,
     count: usize,
-) -> Result<Vec<(f64, OperatingPoint)>, RunError> {
-    let contact = |c: f64| {
-        let point = range.trajectory(experiment.contact, c);
-        point.check()?;
-        Ok((c, point))
-    };
-    places(count).map(contact).collect()
+) -> Vec<(f64, OperatingPoint)> {
+    places(count).filter_map(|c| Some((c, range.trajectory(experiment.contact, c)?))).collect()
 }
 
 /// Equidistant c of the test trajectory, both ends counted.
@@ -99,21 +92,18 @@ impl Path<'_> {
             let mut results = Vec::new();
             for (method, former) in self.methods.iter().zip(&mut former) {
                 let start = former.as_ref().filter(|_| !self.cold);
-                let answer = setting.bench.answer(&request, method, start, setting.observer)?;
-                results.push(ContactResult::from(&answer));
-                if answer.converged {
-                    *former = answer.solution;
-                }
+                let request = Request { method: method.clone(), ..request.clone() };
+                let answer = setting.bench.answer(&request, start, setting.observer)?;
+                results.push(answer.result.clone());
+                *former = answer.into_fields().or(former.take());
             }
             let mut on_model_grid = OnModelGrid::NotAsked;
             if self.on_model_grid {
                 let request = Request { grid: Grid::Model, ..request };
                 let start = former_on_model_grid.as_ref().filter(|_| !self.cold);
-                let answer = setting.bench.answer(&request, &Method::Full, start, setting.observer)?;
-                on_model_grid = OnModelGrid::Solved(Box::new(ContactResult::from(&answer)));
-                if answer.converged {
-                    former_on_model_grid = answer.solution;
-                }
+                let answer = setting.bench.answer(&request, start, setting.observer)?;
+                on_model_grid = OnModelGrid::Solved(Box::new(answer.result.clone()));
+                former_on_model_grid = answer.into_fields().or(former_on_model_grid);
             }
             tell(PathRow { values: values.clone(), point: *point, results, on_model_grid });
         }
@@ -144,10 +134,11 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
         found.converged &= failures == 0;
         found.push("failures_on_model_grid", None, failures as f64);
     }
-    found.warnings.extend(grid_warning(rows));
     let full = methods.iter().position(|method| *method == Method::Full);
     for (k, method) in methods.iter().enumerate() {
         let of = Some(method);
+        let warnings = Warning::summary(rows.iter().filter_map(|row| Some(&row.results.get(k)?.warnings[..])));
+        found.warnings.extend(warnings.into_iter().map(|warning| format!("{}: {warning}", tag(methods, k))));
         let results = || rows.iter().filter_map(|row| row.results.get(k));
         let plausible = |result: &&ContactResult| result.point.hertz().pressure_pa <= PLAUSIBLE_HERTZ_PRESSURE_PA;
         let failed = || results().filter(|result| !result.converged);
@@ -166,17 +157,6 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
             found.push_spread(&format!("{name}_error"), of, &errors);
         }
     }
-}
-
-/// How many contacts of a path the grid does not do for, and the worst of them.
-fn grid_warning(rows: &[&PathRow]) -> Option<String> {
-    let doubts = rows
-        .iter()
-        .flat_map(|row| &row.results)
-        .filter_map(|result| Some((result.grid_warning.as_ref()?, result.grid_cost?)));
-    let doubts: Vec<_> = doubts.collect();
-    let (worst, _) = doubts.iter().max_by(|a, b| a.1.total().total_cmp(&b.1.total()))?;
-    Some(format!("the grid does not do for {} of {} contacts; the worst: {worst}", doubts.len(), rows.len()))
 }
 
 /// The relative error of a method at one contact, where it is known.
@@ -205,7 +185,14 @@ pub(super) fn table(name: &str, varied: &[&str], methods: &[Method], rows: &[&Pa
         let values = row.values.iter().copied().chain(contact).chain([point.hertz().pressure_pa]);
         values.chain(results).collect()
     };
-    Table { name: name.to_owned(), columns, rows: rows.iter().map(row).collect(), ..Table::default() }
+    Table {
+        name: name.to_owned(),
+        columns,
+        rows: rows.iter().map(row).collect(),
+        remarks: rows.iter().map(|row| ContactResult::warning_of_all(&row.results)).collect(),
+        remarks_title: "warning",
+        ..Table::default()
+    }
 }
 
 /// `full`, `reduced`, and with a number where a kind occurs again.

@@ -1,56 +1,23 @@
-//! Studies in pieces, for campaigns: which studies fall into pieces, and their rows as programs hand them on.
+//! Studies in pieces, for campaigns: which studies fall into pieces, and what of their rows a clock and a place say.
 
 use super::question::{Divisible, RunError, Setting};
 use super::sweep::Sweep;
-use super::{Bench, Experiment, Method, Study, StudyObserver, StudyRow, load_cases, path, random_test};
+use super::{Bench, Experiment, Method, Study, StudyObserver, StudyRow, load_cases, random_test};
 use crate::scene::contact_result::ContactResult;
 use crate::scene::load_cases::CaseTable;
-use serde::{Deserialize, Serialize};
 
-/// A row of a study that falls into pieces. Every bit of it is kept.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum PieceRow {
-    /// Of a sweep.
-    Sweep(path::PathRow),
-    /// Of a random test.
-    RandomTest(random_test::Row),
-    /// Of a table of load cases.
-    LoadCases(load_cases::Row),
-}
-
-impl From<PieceRow> for StudyRow {
-    fn from(row: PieceRow) -> Self {
-        match row {
-            PieceRow::Sweep(row) => Self::Sweep(row),
-            PieceRow::RandomTest(row) => Self::RandomTest(row),
-            PieceRow::LoadCases(row) => Self::LoadCases(row),
-        }
-    }
-}
-
-impl PieceRow {
-    /// The row of a study, where that falls into pieces.
-    pub fn of(row: StudyRow) -> Option<Self> {
-        match row {
-            StudyRow::Sweep(row) => Some(Self::Sweep(row)),
-            StudyRow::RandomTest(row) => Some(Self::RandomTest(row)),
-            StudyRow::LoadCases(row) => Some(Self::LoadCases(row)),
-            _ => None,
-        }
-    }
-
-    /// The seconds in it: all that two runs of it differ by.
+impl StudyRow {
+    /// The seconds in it: all that two runs of it differ by. None of studies that do not fall into pieces.
     pub fn seconds(&mut self) -> Vec<&mut f64> {
         match self {
             Self::Sweep(row) => Sweep::seconds(row),
             Self::RandomTest(row) => random_test::RandomTest::seconds(row),
             Self::LoadCases(row) => load_cases::LoadCases::seconds(row),
+            _ => Vec::new(),
         }
     }
-}
 
-impl PieceRow {
-    /// Its place among rows that are told in any order; rows of all other kinds come in theirs.
+    /// Its place among rows that arrive in any order; rows of all other kinds arrive in theirs.
     pub fn place(&self) -> usize {
         match self {
             Self::RandomTest(random_test::Row::Truth(index, _)) => *index,
@@ -58,7 +25,8 @@ impl PieceRow {
         }
     }
 
-    /// Whether its contacts make sense, and whatever is said to have converged has a film.
+    /// Whether it is of a study that falls into pieces, its contacts make sense, and a result has a film if and only if it
+    /// converged.
     pub fn is_sound(&self) -> bool {
         let sound = |result: &ContactResult| {
             let film = result.scalars.is_some_and(|scalars| scalars.h_c.is_finite() && scalars.h_min.is_finite());
@@ -69,6 +37,7 @@ impl PieceRow {
             Self::RandomTest(random_test::Row::Test(test)) => test.point.check().is_ok(),
             Self::RandomTest(random_test::Row::Truth(..)) => true,
             Self::LoadCases(row) => row.results.iter().flatten().all(sound),
+            _ => false,
         }
     }
 }

@@ -21,9 +21,9 @@ use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::mean;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Solution;
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::{ErrorMeasures, ModelSize, Norm, PodBasis, ReducedModel, Window};
-use crate::solver::training::{QuantityBox, Range};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -35,7 +35,7 @@ pub struct PlanComparison {
     /// The plans.
     pub plans: Vec<ComparedPlan>,
     /// The box of random tests (3.17) and of the trajectory (3.21).
-    pub range: QuantityBox,
+    pub range: ParameterSpace,
     /// Random tests of each.
     pub tests: usize,
     /// Seed of the random tests.
@@ -197,7 +197,7 @@ impl Question for PlanComparison {
         check::names("study.plans.name", self.plans.iter().map(|plan| plan.name.as_str()))?;
         let published = self.plans.iter().filter_map(|plan| plan.published_failure_percent);
         published.into_iter().try_for_each(|p| number("study.plans.published_failure_percent", p, 0.0, 100.0))?;
-        check::quantity_box("study.range", &self.range)
+        check::space("study.range", &self.range)
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
@@ -206,8 +206,8 @@ impl Question for PlanComparison {
         let plans = self.train(setting)?;
         plans.iter().for_each(|plan| tell(Row::Trained(plan.clone())));
         let common = common_modes(&plans.iter().collect::<Vec<_>>());
-        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed, observer)?;
-        let path = trajectory_points(&self.range, experiment, self.trajectory)?;
+        let points = all_random_points(&self.range, experiment.contact, self.tests, self.seed, observer)?;
+        let path = trajectory_points(&self.range, experiment, self.trajectory);
         let along: Vec<OperatingPoint> = path.iter().map(|(_, point)| *point).collect();
         let options = self.online.options();
         let mut truths: Vec<Truth> = Vec::new();

@@ -3,8 +3,10 @@
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::scene::answer::Request;
 use crate::scene::check;
-use crate::scene::contact_result::{ContactResult, profile_table};
+use crate::scene::contact_result::ContactResult;
+use crate::scene::field_tables::profile_table;
 use crate::scene::method::Method;
 use crate::solver::full::Solution;
 use serde::{Deserialize, Serialize};
@@ -19,7 +21,7 @@ pub struct Point {
 }
 
 /// One method's result.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row {
     /// The method.
     pub method: Method,
@@ -44,10 +46,10 @@ impl Question for Point {
         let request = setting.experiment.request()?;
         for (i, method) in self.methods.iter().enumerate() {
             setting.step("solving", i, self.methods.len())?;
-            let answer = setting.bench.answer(&request, method, None, setting.observer)?;
-            let result = ContactResult::from(&answer);
-            let solution = answer.solution.filter(|_| answer.converged).map(Arc::new);
-            tell(Row { method: method.clone(), result, solution });
+            let request = Request { method: method.clone(), ..request.clone() };
+            let answer = setting.bench.answer(&request, None, setting.observer)?;
+            let result = answer.result.clone();
+            tell(Row { method: method.clone(), result, solution: answer.into_fields().map(Arc::new) });
         }
         Ok(())
     }

@@ -7,16 +7,16 @@ pub use rows::{Film, Row, Test, Tested, add, errors, tests};
 use super::question::{
     Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::bench::Request;
+use crate::scene::answer::Request;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::method::Method;
 use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::percentile;
 use crate::solver::full::{GridCost, Solution, grid_doubts};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
-use crate::solver::training::Range;
 use fastrand::Rng;
 use rows::COMPARED;
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ use std::sync::{Mutex, PoisonError};
 #[serde(deny_unknown_fields)]
 pub struct RandomTest {
     /// Where the points are drawn.
-    pub range: Range,
+    pub range: ParameterSpace,
     /// How many.
     pub tests: usize,
     /// Seed of the random numbers: the same seed gives the same points.
@@ -67,7 +67,7 @@ impl RandomTest {
 
     /// The lubricant of a point, whichever others are tested: the scene's, or one of the range's thermal constants.
     fn lubricant(&self, k: usize, own: Lubricant) -> Lubricant {
-        self.range.warmed(own, &mut Rng::with_seed(self.seed ^ SCRAMBLE.wrapping_mul(k as u64 + 1)))
+        self.range.with_random_heat(own, &mut Rng::with_seed(self.seed ^ SCRAMBLE.wrapping_mul(k as u64 + 1)))
     }
 
     /// Tests some of the points.
@@ -86,21 +86,22 @@ impl RandomTest {
             // Its numbers are those of the same contact alone, whichever were tested before it.
             setting.bench.forget();
             let lubricant = self.lubricant(k, experiment.lubricant);
-            let request = Request { lubricant, ..experiment.request_at(*point) };
-            let answer = setting.bench.answer(&request, &self.method, None, observer)?;
+            let request = Request { lubricant, method: self.method.clone(), ..experiment.request_at(*point) };
+            let answer = setting.bench.answer(&request, None, observer)?;
+            let result = &answer.result;
             tell(Row::Test(Test {
                 point: *point,
-                film: answer.result().map(|solution| Film {
+                film: answer.fields().map(|solution| Film {
                     h_c: solution.scalars.h_c,
                     h_min: solution.scalars.h_min,
-                    traction: answer.traction().unwrap_or(f64::NAN),
+                    traction: result.traction.unwrap_or(f64::NAN),
                     rises: solution.heat.as_ref().map(|heat| heat.central),
                     grid_cost: solution.grid_cost,
                 }),
-                newton_iterations: answer.newton_iterations,
-                wall_s: answer.wall_s,
-                untrained: answer.reduced.as_ref().is_some_and(|facts| !facts.trained),
-                estimate: answer.reduced.as_ref().and_then(|facts| facts.error),
+                newton_iterations: result.newton_iterations,
+                wall_s: result.wall_s,
+                untrained: result.untrained(),
+                estimate: result.reduced.as_ref().and_then(|facts| facts.error),
             }));
         }
         Ok(())
@@ -190,7 +191,7 @@ impl Question for RandomTest {
         count("study.tests", self.tests, 1, MAX_TESTS)?;
         count("study.compare", self.compare, 0, self.tests.min(MAX_COMPARED))?;
         count("study.worst", self.worst, 0, self.tests.min(MAX_COMPARED))?;
-        check::test_range(&self.range)
+        check::space("study.range", &self.range)
     }
 
     fn methods(&self) -> &[Method] {
@@ -308,8 +309,8 @@ impl Question for RandomTest {
 mod tests_of_doubts {
     use super::*;
     use crate::scene::{ModelSource, Scene};
+    use crate::solver::parameters::ParameterSpace;
     use crate::solver::reduced::{ErrorEstimate, Estimated};
-    use crate::solver::training::QuantityBox;
 
     #[test]
     fn most_doubtful_are_failures_then_answers_without_a_bound_then_large_bounds() {
@@ -329,7 +330,7 @@ mod tests_of_doubts {
             test(None, None),
         ];
         let study = RandomTest {
-            range: Range::Box(QuantityBox::TABLE_3_1),
+            range: ParameterSpace::table_3_1(),
             tests: 4,
             seed: 1,
             method: Method::Reduced { model: ModelSource::Embedded, pressure_loss: None, deformation_loss: None },

@@ -3,18 +3,19 @@
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::host::clock::Stopwatch;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count, number};
 use crate::scene::parallel::{film_errors, full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::{median, percentile};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Scheme};
-use crate::solver::training::{QuantityBox, Range, TrainingSpec, TrainingState, Windows, train_resumable};
+use crate::solver::training::{TrainingSpec, TrainingState, Windows, train_resumable};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Ways of sampling rows, on the same full solutions and basis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,7 +26,7 @@ pub struct SamplingComparison {
     /// The ways.
     pub samplings: Vec<ComparedSampling>,
     /// The box of random tests (3.17).
-    pub range: QuantityBox,
+    pub range: ParameterSpace,
     /// Random tests of each.
     pub tests: usize,
     /// Seed of the random tests.
@@ -55,7 +56,7 @@ pub struct ComparedSampling {
 }
 
 /// What comes of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Row {
     /// What all ways share.
     Trained {
@@ -69,7 +70,7 @@ pub enum Row {
 }
 
 /// What one way of sampling is worth.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Way {
     /// Its name.
     pub name: String,
@@ -105,9 +106,9 @@ fn one_by_one(
     let timed = |point: &OperatingPoint| {
         online.prepare(point);
         online.forget();
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let _ = online.solve(point, lubricant);
-        clock.elapsed().as_secs_f64()
+        clock.seconds()
     };
     points.iter().take(TIMED).map(timed).collect()
 }
@@ -135,7 +136,7 @@ impl Question for SamplingComparison {
             number("study.samplings.rows_per_mode", way.rows_per_mode, 1.0, 20.0)?;
             number("study.samplings.penalty", way.penalty, 1e2, 1e9)?;
         }
-        check::quantity_box("study.range", &self.range)
+        check::space("study.range", &self.range)
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
@@ -145,7 +146,7 @@ impl Question for SamplingComparison {
             let sentence = "a comparison of samplings needs a training with one given window";
             return Err(RunError::Study(sentence.to_owned()));
         }
-        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed, observer)?;
+        let points = all_random_points(&self.range, experiment.contact, self.tests, self.seed, observer)?;
         let own_law = training.lubricant.cavitation;
         // Errors are measured here, against full solutions.
         let mut state = TrainingState::new(TrainingSpec { evidence: 0, ..training });

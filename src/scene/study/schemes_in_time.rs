@@ -54,7 +54,7 @@ pub struct ComparedScheme {
 }
 
 /// What one way gives along one load.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The way.
     pub scheme: String,

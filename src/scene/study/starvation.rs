@@ -3,7 +3,7 @@
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::bench::Request;
+use crate::scene::answer::Request;
 use crate::scene::check::{count, number, refuse};
 use crate::scene::method::Method;
 use crate::solver::full::Solution;
@@ -20,7 +20,7 @@ pub struct Starvation {
 }
 
 /// One supply.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// r.
     pub ratio: f64,
@@ -69,22 +69,22 @@ impl Question for Starvation {
             setting.step("supplies", step, self.ratios.len() + 1)?;
             let lubricant = Lubricant { cavitation: Cavitation::MassConserving { supply_film_m }, ..request.lubricant };
             let request = Request { lubricant, ..request.clone() };
-            setting.bench.answer(&request, &Method::Full, None, setting.observer)
+            setting.bench.answer(&request, None, setting.observer)
         };
         let flooded = solved(None, 0)?;
-        let Some(full) = flooded.result() else { return Ok(()) };
+        let Some(full) = flooded.fields() else { return Ok(()) };
         let scalars = full.scalars;
         let drawn_m = scalars.h_c * full.problem.fluid.at(scalars.p_c).density * full.problem.point.film_scale_m();
         for (i, &ratio) in self.ratios.iter().enumerate() {
             let supply_m = ratio * drawn_m;
             let answer = solved(Some(supply_m), i + 1)?;
-            let result = answer.result();
+            let fields = answer.fields();
             tell(Row {
                 ratio,
                 supply_m,
-                film: result.map(|solution| solution.scalars.h_c / scalars.h_c),
-                meniscus: result.and_then(Solution::meniscus),
-                newton_iterations: answer.newton_iterations,
+                film: fields.map(|solution| solution.scalars.h_c / scalars.h_c),
+                meniscus: fields.and_then(Solution::meniscus),
+                newton_iterations: answer.result.newton_iterations,
             });
         }
         Ok(())

@@ -4,12 +4,12 @@ use super::path::{self, Path, PathRow};
 use super::question::{
     Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::at::At;
 use crate::scene::axis::{Axis, Steps};
 use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
+use crate::scene::contact_spec::{ContactSpec, Field, Refusal, Words};
 use crate::scene::method::Method;
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
-use crate::solver::physics::lubricant::Sliding;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
 /// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour, and the
@@ -125,50 +125,33 @@ impl Divisible for Sweep {
 pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<(Vec<f64>, OperatingPoint)>, RunError> {
     let mut contacts = Vec::new();
     for values in Steps::combinations(over.iter().map(|axis| &axis.values)) {
-        let (mut at, mut sliding) = (experiment.at, experiment.sliding);
+        let mut stated = ContactSpec::from(experiment);
         for (axis, &value) in over.iter().zip(&values) {
-            set(&mut at, &mut sliding, axis.vary, value)?;
+            match axis.vary {
+                quantity @ (Quantity::M | Quantity::L) if stated.moes_m.is_none() => {
+                    let name = quantity.name();
+                    return Err(RunError::Study(format!(
+                        "{name} can only be varied where `at` is Moes(…), which says what follows"
+                    )));
+                }
+                Quantity::M => stated.moes_m = Some(value),
+                Quantity::L => stated.moes_l = Some(value),
+                quantity => Field::named(quantity.name()).into_iter().for_each(|field| stated.set(field, value)),
+            }
         }
-        let mut point = at.with_alpha_of(&experiment.lubricant).point(experiment.contact)?;
+        if experiment.lubricant.own_coefficient().is_some() {
+            stated.alpha = None;
+        }
+        let refused = |refusal: Refusal| RunError::Study(refusal.in_words(Words::Scene));
+        let mut point = stated.operating_point(&experiment.lubricant).map_err(refused)?;
         // Of a radius that may have followed from M and L.
         for (axis, &value) in over.iter().zip(&values).filter(|(axis, _)| axis.vary == Quantity::RadiusRatio) {
             point = axis.vary.at(&point, value);
             point.check()?;
         }
-        contacts.push((values, OperatingPoint { sliding, ..point }));
+        contacts.push((values, point));
     }
     Ok(contacts)
-}
-
-/// Sets one quantity of an operating point or its sliding.
-fn set(at: &mut At, sliding: &mut Sliding, quantity: Quantity, value: f64) -> Result<(), RunError> {
-    match (quantity, at) {
-        (Quantity::M | Quantity::L, At::Si { .. }) => {
-            return Err(RunError::Study(format!(
-                "{} can only be varied where `at` is Moes(…), which says what follows",
-                quantity.name()
-            )));
-        }
-        (Quantity::M, At::Moes { m, .. }) => *m = value,
-        (Quantity::L, At::Moes { l, .. }) => *l = value,
-        (Quantity::Radius, At::Si { radius, .. }) => *radius = value,
-        (Quantity::Radius, At::Moes { radius, .. }) => *radius = Some(value),
-        (Quantity::RadiusY, At::Si { radius_y, .. } | At::Moes { radius_y, .. }) => *radius_y = Some(value),
-        (Quantity::RadiusRatio, _) => {}
-        (Quantity::Speed, At::Si { speed, .. }) => *speed = value,
-        (Quantity::Speed, At::Moes { speed, .. }) => *speed = Some(value),
-        (Quantity::Load, At::Si { load, .. }) => *load = value,
-        (Quantity::Load, At::Moes { load, .. }) => *load = Some(value),
-        (Quantity::Modulus, At::Si { modulus, .. }) => *modulus = value,
-        (Quantity::Modulus, At::Moes { modulus, .. }) => *modulus = Some(value),
-        (Quantity::Viscosity, At::Si { viscosity, .. }) => *viscosity = value,
-        (Quantity::Viscosity, At::Moes { viscosity, .. }) => *viscosity = Some(value),
-        (Quantity::Alpha, At::Si { alpha, .. }) => *alpha = value,
-        (Quantity::Alpha, At::Moes { alpha, .. }) => *alpha = Some(value),
-        (Quantity::SlideToRollRatio, _) => sliding.slide_to_roll_ratio = value,
-        (Quantity::NewtonianPlateauRatio, _) => sliding.newtonian_plateau_ratio = Some(value),
-    }
-    Ok(())
 }
 
 /// What a study varies.
@@ -199,7 +182,7 @@ fn check_axis(axis: &Axis) -> Checked {
         Steps::Graded { from, half, to, .. } => {
             limit(*from)?;
             limit(*to)?;
-            Steps::check_grading(*from, *half, *to).map_err(|why| refuse(&field, why))
+            Steps::check_grading(*from, *half, *to).map_err(|why| refuse(&field, why.to_string()))
         }
         Steps::List(values) => values.iter().try_for_each(|&value| limit(value)),
     }

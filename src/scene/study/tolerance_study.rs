@@ -8,17 +8,18 @@ use super::path::trajectory_points;
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::host::clock::Stopwatch;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::{mean, median, percentile};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ErrorMeasures, ModelSize, Norm, Online};
-use crate::solver::training::{Plan, QuantityBox, Range, TrainingState, Windows, train_resumable};
+use crate::solver::training::{Plan, TrainingState, Windows, train_resumable};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,7 +28,7 @@ pub struct ToleranceStudy {
     /// The scene of the training; relative paths refer to this scene's folder.
     pub training: PathBuf,
     /// The box of random tests (3.17) and of the trajectory (3.21).
-    pub range: QuantityBox,
+    pub range: ParameterSpace,
     /// Points along the trajectory, each with a full solution.
     pub points: usize,
     /// Random tests of each cut.
@@ -40,7 +41,7 @@ pub struct ToleranceStudy {
 }
 
 /// What comes of it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Row {
     /// What all rungs share.
     Trained {
@@ -54,7 +55,7 @@ pub enum Row {
 }
 
 /// The training cut at one tolerance.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
     /// The tolerance that was met.
     pub tolerance: f64,
@@ -69,7 +70,7 @@ pub struct Rung {
 }
 
 /// What is measured of a model along the trajectory (3.21).
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Along {
     /// Contacts with a full solution and no reduced one.
     pub failures: usize,
@@ -107,7 +108,7 @@ impl Question for ToleranceStudy {
     fn check(&self, _experiment: &Experiment) -> Checked {
         count("study.points", self.points, 2, MAX_COMPARED)?;
         count("study.tests", self.tests, 1, MAX_TESTS)?;
-        check::quantity_box("study.range", &self.range)
+        check::space("study.range", &self.range)
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
@@ -122,11 +123,11 @@ impl Question for ToleranceStudy {
         let model = train_resumable(&mut state, observer)?;
         let grid = model.windows[0].grid.clone();
         let along: Vec<OperatingPoint> =
-            trajectory_points(&self.range, experiment, self.points)?.into_iter().map(|(_, point)| point).collect();
+            trajectory_points(&self.range, experiment, self.points).into_iter().map(|(_, point)| point).collect();
         let truth = full_solutions(|_| grid.clone(), &along, experiment.lubricant, observer)?;
         let full_failures = truth.iter().filter(|full| full.is_none()).count();
         tell(Row::Trained { log: model.log, full_failures });
-        let points = all_random_points(&Range::Box(self.range), experiment.contact, self.tests, self.seed, observer)?;
+        let points = all_random_points(&self.range, experiment.contact, self.tests, self.seed, observer)?;
         let options = self.online.options();
         let rungs = state.windows[0].search.rungs.clone();
         for (tolerance, solutions) in tolerances.iter().zip(rungs) {
@@ -146,9 +147,9 @@ impl Question for ToleranceStudy {
             }
             for (point, full) in along.iter().zip(&truth) {
                 online.forget();
-                let clock = Instant::now();
+                let clock = Stopwatch::start();
                 let solved = online.solve(point, experiment.lubricant);
-                measured.seconds.push(clock.elapsed().as_secs_f64());
+                measured.seconds.push(clock.seconds());
                 if let (Ok(solved), Some(full)) = (solved, full) {
                     let fields = online.reconstruct(&solved)?;
                     measured.residuals.push(measures.residuals(&solved.coefficients, &fields).sampled_rows);

@@ -3,20 +3,18 @@
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use crate::host::clock::Stopwatch;
 use crate::scene::check::refuse;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ReducedModel, Window};
 use crate::solver::training::TrainingSpec;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// The model.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// What was trained.
     pub model: Arc<ReducedModel>,
-    /// Whether its file would be, byte for byte, one that is part of the program.
-    pub embedded: bool,
     /// Seconds that it took; next to none where another scene of the run has trained it.
     pub wall_s: f64,
 }
@@ -55,21 +53,20 @@ impl Question for TrainingSpec {
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
-        let clock = Instant::now();
+        let clock = Stopwatch::start();
         let spec = of_scene(self, setting.experiment);
         let model = setting.bench.trained(&spec, setting.observer)?;
-        let wall_s = clock.elapsed().as_secs_f64();
-        tell(Row { embedded: setting.bench.is_embedded(&model), model, wall_s });
+        let wall_s = clock.seconds();
+        tell(Row { model, wall_s });
         Ok(())
     }
 
-    /// Values: `windows`, `snapshots`, `basis_p`, `basis_delta`, `sampled_rows` (the largest of all windows), `training_s`,
-    /// and `embedded`: 1 where it is, byte for byte, a model of the program.
+    /// Values: `windows`, `snapshots`, `basis_p`, `basis_delta`, `sampled_rows` (the largest of all windows), and
+    /// `training_s`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
-        for Row { model, embedded, wall_s } in rows {
+        for Row { model, wall_s } in rows {
             let of_windows = |get: fn(&Window) -> f64| model.windows.iter().map(get);
             found.push("training_s", None, *wall_s);
-            found.push("embedded", None, f64::from(u8::from(*embedded)));
             found.push("windows", None, model.windows.len() as f64);
             for (name, get) in &WINDOW[3..] {
                 let value =

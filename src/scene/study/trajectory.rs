@@ -1,23 +1,19 @@
 //! The test trajectory (3.21) through a box.
 
-use super::path::{self, Path, PathRow, places, trajectory_points};
+use super::path::{self, Path, PathRow, trajectory_points};
 use super::question::{Chart, ChartAxis, Checked, Experiment, Findings, Question, RunError, Setting, Table, Tell};
-use crate::scene::check::{self, MAX_POINTS, refuse};
+use crate::scene::check::{self, MAX_POINTS};
 use crate::scene::method::Method;
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::training::{QuantityBox, Range};
 use serde::{Deserialize, Serialize};
 
-/// The test trajectory (3.21) through a box, 0 ≤ c ≤ 2.
+/// The test trajectory (3.21) through a range, 0 ≤ c ≤ 2.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trajectory {
-    /// The box.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub range: Option<QuantityBox>,
-    /// Another range in its place, whose coordinates swing by the same waves; what it excludes is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub through: Option<Range>,
+    /// The range, whose first four axes swing; contacts that it excludes are left out.
+    pub range: ParameterSpace,
     /// Equidistant values of c, both ends counted.
     pub points: usize,
     /// How each point is solved.
@@ -30,14 +26,7 @@ impl Question for Trajectory {
     fn check(&self, _experiment: &Experiment) -> Checked {
         check::methods("study.methods", &self.methods)?;
         check::count("study.points", self.points, 2, MAX_POINTS)?;
-        match (&self.range, &self.through) {
-            (Some(range), None) => check::quantity_box("study.range", range),
-            (None, Some(range)) => range.check().map_err(|refused| refused.within("study.through")),
-            _ => Err(refuse(
-                "study.range, study.through",
-                "must be one of both: the box of the trajectory, or another range",
-            )),
-        }
+        check::space("study.range", &self.range)
     }
 
     fn methods(&self) -> &[Method] {
@@ -45,16 +34,10 @@ impl Question for Trajectory {
     }
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, PathRow>) -> Result<(), RunError> {
-        let Experiment { contact, sliding, .. } = *setting.experiment;
-        let mut contacts = Vec::new();
-        if let Some(range) = &self.range {
-            let points = trajectory_points(range, setting.experiment, self.points)?;
-            contacts.extend(points.into_iter().map(|(c, point)| (vec![c], OperatingPoint { sliding, ..point })));
-        }
-        if let Some(range) = &self.through {
-            let point = |c| Some((vec![c], range.trajectory(contact, c)?));
-            contacts.extend(places(self.points).filter_map(point));
-        }
+        let sliding = (!self.range.slides()).then_some(setting.experiment.sliding);
+        let own = |point: OperatingPoint| OperatingPoint { sliding: sliding.unwrap_or(point.sliding), ..point };
+        let points = trajectory_points(&self.range, setting.experiment, self.points);
+        let contacts: Vec<_> = points.into_iter().map(|(c, point)| (vec![c], own(point))).collect();
         let (line, methods) = (contacts.len().max(1), &self.methods[..]);
         let path = Path { name: "trajectory", contacts, line, methods, cold: false, on_model_grid: false };
         path.solve(setting, tell)

@@ -21,7 +21,7 @@ pub struct Transition {
 }
 
 /// One contact.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Its load number.
     pub m: f64,
@@ -50,9 +50,9 @@ impl Question for Transition {
             let experiment = setting.experiment;
             let point = At::moes(m, self.l).point(experiment.contact)?;
             let request = experiment.request_at(OperatingPoint { sliding: experiment.sliding, ..point });
-            let answer = setting.bench.answer(&request, &Method::Full, None, setting.observer)?;
+            let answer = setting.bench.answer(&request, None, setting.observer)?;
             let profile = |solution: &Solution| solution.profile().collect::<Vec<_>>();
-            let profile = answer.result().map(profile).unwrap_or_default();
+            let profile = answer.fields().map(profile).unwrap_or_default();
             tell(Row { m, flattening: flattening(&profile), profile });
         }
         Ok(())

@@ -5,6 +5,7 @@ use super::heat::{RULE, WarmFilm, WarmLaws};
 use super::reynolds::film_integrals::KnownFilm;
 use super::reynolds::generalized::{FilmTreatment, NodeState, PlaneGradient, ShearNode, gradient_slopes};
 use super::reynolds::{Node, Row, RowGeometry, STENCIL, row};
+use crate::host::pool::on_all_cores;
 use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
 use rayon::prelude::*;
 use std::ops::{Deref, Range};
@@ -92,13 +93,11 @@ impl Nodes {
             self.thinning.clear();
             let of = |(node, (&p, &h)): (&mut Node, (&f64, &f64))| *node = Node::new(fluid, inverse_lambda, p, h);
             match order {
-                Order::Parallel => {
+                Order::Parallel if self.nodes.len() / 2 >= SHARE[0] => on_all_cores(|| {
                     let states = pressure.par_iter().zip(film);
                     self.nodes.par_iter_mut().zip(states).with_min_len(SHARE[0]).for_each(of);
-                }
-                Order::Alone | Order::BesideTheFormer => {
-                    self.nodes.iter_mut().zip(pressure.iter().zip(film)).for_each(of);
-                }
+                }),
+                _ => self.nodes.iter_mut().zip(pressure.iter().zip(film)).for_each(of),
             }
             return;
         };
@@ -108,14 +107,14 @@ impl Nodes {
             ShearNode::near(known, fluid, law, inverse_lambda, state, treatment)
         };
         match order {
-            Order::Parallel => {
+            Order::Parallel if self.nodes.len() / 2 >= SHARE[1] => on_all_cores(|| {
                 let all = self.thinning.par_iter_mut().zip(&mut self.nodes).enumerate().with_min_len(SHARE[1]);
                 all.for_each(|(k, (own, node))| {
                     *own = thinned(k, &own.known);
                     *node = own.node;
                 });
-            }
-            Order::Alone => {
+            }),
+            Order::Parallel | Order::Alone => {
                 for (k, (own, node)) in self.thinning.iter_mut().zip(&mut self.nodes).enumerate() {
                     *own = thinned(k, &own.known);
                     *node = own.node;
@@ -199,12 +198,12 @@ impl Nodes {
             *node = own.node;
         };
         match order {
-            Order::Parallel => {
+            Order::Parallel if self.nodes.len() / 2 >= SHARE[1] => on_all_cores(|| {
                 let temperatures = warm.theta.par_iter().zip(&mut warm.stress);
                 let all = self.thinning.par_iter_mut().zip(&mut self.nodes).zip(temperatures).enumerate();
                 all.with_min_len(SHARE[1]).for_each(|(k, (node, film))| one(k, node, film));
-            }
-            Order::Alone | Order::BesideTheFormer => {
+            }),
+            _ => {
                 let temperatures = warm.theta.iter().zip(&mut warm.stress);
                 let all = self.thinning.iter_mut().zip(&mut self.nodes).zip(temperatures).enumerate();
                 all.for_each(|(k, (node, film))| one(k, node, film));

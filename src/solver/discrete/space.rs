@@ -5,7 +5,7 @@ use super::elasticity::{PointScratch, Scratch};
 use super::grid::{FIRST_UNKNOWN, INLET, LineGrid, PointGrid};
 use super::reynolds::line::Upstream;
 use super::reynolds::{RowGeometry, STENCIL};
-use rayon::prelude::*;
+use crate::host::pool;
 use std::sync::Arc;
 
 /// Nodes, weights and deformation of a contact; node arrays run over X and, fastest, Y.
@@ -261,7 +261,7 @@ impl Space for PlaneSpace {
     #[inline]
     fn each_row<T: Send>(&self, items: &mut [T], f: impl Fn(usize, [usize; STENCIL], &mut T) + Sync) {
         let m = self.grid.column_unknowns();
-        items.par_chunks_mut(m).enumerate().with_min_len(SHARE.div_ceil(m)).for_each(|(column, items)| {
+        pool::each_chunk(items, m, SHARE.div_ceil(m), |column, items| {
             let ny = m + 1;
             let west2 = if column == 0 { ny } else { 2 * ny };
             for (j, item) in items.iter_mut().enumerate() {

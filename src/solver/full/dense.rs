@@ -1,7 +1,7 @@
 //! The dissertation's way, kept as the baseline of `bench`: Newton with a dense LU of the whole Jacobian in every step.
 
 use super::line::Backtracking;
-use super::solution::Problem;
+use super::problem::Problem;
 use super::system::{SolveOptions, System};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
 use crate::solver::discrete::space::LineSpace;

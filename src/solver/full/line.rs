@@ -3,9 +3,9 @@
 
 mod preconditioner;
 
-use super::heat::Turn;
-use super::newton_space::{NewtonSpace, ScaledRows, StepControl, Taken};
-use super::solution::{Mesh, Problem, SolveError};
+use super::mesh::Mesh;
+use super::newton_space::{NewtonSpace, ScaledRows, StepControl, Taken, Turn};
+use super::problem::{Problem, SolveError};
 use super::system::{SolveOptions, System};
 use crate::solver::discrete::grid::{GridSpec, INLET, ReferenceGrid, dot};
 use crate::solver::discrete::reynolds::PENALTY;

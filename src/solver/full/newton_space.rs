@@ -1,8 +1,8 @@
 //! What a space brings to Newton's method: its step control and its preconditioner, because those really differ, and
 //! where it starts.
 
-use super::heat::Turn;
-use super::solution::{Mesh, Problem, SolveError};
+use super::mesh::Mesh;
+use super::problem::{Problem, SolveError};
 use super::system::{SolveOptions, System};
 use super::thinning::Thinning;
 use crate::solver::discrete::grid::dot;
@@ -20,6 +20,21 @@ impl<C: StepControl> Default for SolveOptions<C> {
     fn default() -> Self {
         C::options()
     }
+}
+
+/// What a step of pressure and film has to keep to between two marches.
+#[derive(Clone, Copy, Debug)]
+pub struct Turn {
+    /// Largest change of P.
+    pub largest_step: f64,
+    /// Largest share of the film that it may take away.
+    pub film_loss: f64,
+    /// Backtracking ends at this share of it.
+    pub shortest_step: f64,
+    /// Whether there is backtracking at all.
+    pub looks_back: bool,
+    /// Whether it is the last one, solved for all but to rounding.
+    pub last: bool,
 }
 
 /// What a Newton step did.

@@ -1,232 +1,16 @@
-//! What is solved and what comes out: a problem and a solution are values that know what they belong to.
+//! The solution of a problem: a value that holds what was solved and how.
 
+use super::grid_cost::GridCost;
 use super::heat::Temperatures;
-use super::trust::GridCost;
-use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec, dot};
-use crate::solver::discrete::heat::{Course, StressLaw, WarmLaws};
-use crate::solver::discrete::nodes::Laws;
-use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
+use super::mesh::Mesh;
+use super::problem::Problem;
+use super::report::{Report, Termination};
+use crate::solver::discrete::grid::dot;
+use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::space::Grid;
-use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
-use crate::solver::physics::lubricant::{
-    Lubricant, LubricantError, ScaledFluid, ScaledHeat, ScaledShear, ShearLaw, Sliding,
-};
+use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// Why a solve cannot be started.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SolveError {
-    /// The operating point is refused.
-    #[error(transparent)]
-    Contact(#[from] ContactError),
-    /// The lubricant is refused.
-    #[error(transparent)]
-    Lubricant(#[from] LubricantError),
-    /// The grid is refused.
-    #[error(transparent)]
-    Grid(#[from] GridError),
-    /// The problem is of the other kind.
-    #[error("this solver is made for {} contacts, but the operating point is that of a {} contact", wanted.name(), given.name())]
-    OtherContact {
-        /// What the solver is made for.
-        wanted: ContactKind,
-        /// What it was given.
-        given: ContactKind,
-    },
-}
-
-/// One dimensionless problem: what the solver needs of an operating point and a lubricant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Problem {
-    /// The operating point it was made from.
-    pub point: OperatingPoint,
-    /// The laws it was made with.
-    pub lubricant: Lubricant,
-    /// The laws with their constants.
-    pub fluid: ScaledFluid,
-    /// The shear-thinning law with its constants; `None` where the fluid is Newtonian.
-    pub shear: Option<ScaledShear>,
-    /// What heat adds; `None` where everything has the inlet's temperature.
-    pub heat: Option<ScaledHeat>,
-    /// Moes numbers.
-    pub moes: Moes,
-    /// 1/λ̄ of (2.23).
-    pub inverse_lambda: f64,
-    /// ∫P: π/2 for a line, (2.28), 2π/3 for a point contact, (2.29).
-    pub load: f64,
-    /// Flow that the surfaces bring to the inlet, the supplied film in units of a²/R; none where it is flooded.
-    pub supply: Option<f64>,
-}
-
-impl Problem {
-    /// The same point under other sliding.
-    ///
-    /// # Errors
-    /// As [`Problem::new`].
-    pub fn under_sliding(point: &OperatingPoint, lubricant: Lubricant, sliding: Sliding) -> Result<Self, SolveError> {
-        Self::new(&OperatingPoint { sliding, ..*point }, lubricant)
-    }
-
-    /// Checks the point and the lubricant and makes them dimensionless. Where α follows from the viscosity law, the
-    /// problem's point has that α, whatever the given one has; where the lubricant thins under shear, its point has the
-    /// plateau ratio that counts.
-    ///
-    /// # Errors
-    /// When the point, its sliding or the lubricant is outside its valid range.
-    pub fn new(point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
-        lubricant.check()?;
-        // Before the coefficient that follows: that of a law which has ended is beyond any sense as well.
-        lubricant.check_pressure(point.hertz().pressure_pa)?;
-        let alpha_per_pa = lubricant.own_coefficient().unwrap_or(point.alpha_per_pa);
-        let mut point = OperatingPoint { alpha_per_pa, ..*point };
-        point.check()?;
-        let fluid = lubricant.scaled(&point)?;
-        let shear = ScaledShear::new(lubricant.shear, point.sliding, &point)?;
-        if lubricant.shear != ShearLaw::Newtonian {
-            point.sliding.newtonian_plateau_ratio.get_or_insert(lubricant.shear.plateau());
-        }
-        Ok(Self {
-            point,
-            lubricant,
-            fluid,
-            shear,
-            heat: lubricant.scaled_heat(&fluid, &point)?,
-            moes: point.moes(),
-            inverse_lambda: 1.0 / point.lambda_bar(),
-            supply: lubricant.cavitation.supply_film_m().map(|film| film / point.film_scale_m()),
-            load: match point.kind {
-                ContactKind::Line => 0.5 * PI,
-                ContactKind::Point => 2.0 / 3.0 * PI,
-            },
-        })
-    }
-
-    /// The same without heat.
-    pub fn isothermal(self) -> Self {
-        Self { lubricant: Lubricant { heat: None, ..self.lubricant }, heat: None, ..self }
-    }
-
-    /// What makes films with temperatures into nodes; none without heat.
-    pub fn warm_laws(&self) -> Option<WarmLaws<'_>> {
-        let heat = self.heat.as_ref()?;
-        Some(WarmLaws { heat, shear: self.shear.as_ref().map(|shear| StressLaw::new(shear, heat)) })
-    }
-
-    /// What a film with heat is marched through, given P, P_X and H at the stations; none without heat.
-    pub fn course<'a>(&'a self, states: &'a [NodeState]) -> Option<Course<'a>> {
-        let limit = self.lubricant.limiting_stress.map(|limit| (limit, self.fluid.hertz_pressure_pa()));
-        Some(Course { laws: self.warm_laws()?, limit, states })
-    }
-
-    /// What makes pressure, gradient and film into nodes.
-    pub fn laws(&self) -> Laws<'_> {
-        Laws { fluid: &self.fluid, shear: self.shear.as_ref(), inverse_lambda: self.inverse_lambda }
-    }
-}
-
-/// Refuses a point of the other kind.
-pub(super) fn expect_kind(wanted: ContactKind, point: &OperatingPoint) -> Result<(), SolveError> {
-    let given = point.kind;
-    if given == wanted { Ok(()) } else { Err(SolveError::OtherContact { wanted, given }) }
-}
-
-/// Why a solve stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Termination {
-    /// The step fell below the tolerance.
-    Converged,
-    /// The iteration limit was reached.
-    IterationLimit,
-    /// The effort of a whole solve was spent, see [`most_newton`].
-    ///
-    /// [`most_newton`]: super::most_newton
-    Effort,
-    /// The iterates left every sensible range.
-    Diverged,
-    /// The pressures left the range of the viscosity law.
-    OccupiedVolume,
-    /// The observer asked to stop.
-    Cancelled,
-}
-
-impl Termination {
-    /// One sentence for people.
-    pub fn describe(self) -> &'static str {
-        match self {
-            Self::Converged => "converged",
-            Self::IterationLimit => {
-                "stopped at the iteration limit; try a start from a converged neighbour, a finer grid or a longer inlet"
-            }
-            Self::Effort => {
-                "was given up after its effort was spent; try a start from a converged neighbour, another grid or an easier contact"
-            }
-            Self::Diverged => "diverged; try a start from a converged neighbour, a smaller load or a finer grid",
-            Self::OccupiedVolume => {
-                "met pressures at which the lubricant's relative volume falls under its occupied volume, where Doolittle's law ends; use a smaller load or another lubricant"
-            }
-            Self::Cancelled => "was cancelled",
-        }
-    }
-}
-
-/// How a solution was obtained.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Report {
-    /// Why it stopped.
-    pub termination: Termination,
-    /// Newton steps, all attempts together.
-    pub newton_iterations: usize,
-    /// Krylov iterations, all attempts together.
-    pub linear_iterations: usize,
-    /// Starts that were tried (1 when the first one converged).
-    pub attempts: usize,
-    /// Residual 2-norm before each Newton step: rows weighted by √w so that it approximates the L2 norm over the
-    /// domain.
-    pub residuals: Vec<f64>,
-    /// Size of each Newton step: ‖Δz‖/‖z‖ for a line, max|ΔP| for a point contact.
-    pub steps: Vec<f64>,
-    /// Residual 2-norm of the solution.
-    pub residual_norm: f64,
-    /// Whether a rupture front was seen to cycle between two sets of nodes, and was moved node by node from then on.
-    #[serde(default)]
-    pub cautious_front: bool,
-}
-
-impl Report {
-    /// Nothing tried yet.
-    pub(crate) fn empty() -> Self {
-        Self {
-            termination: Termination::IterationLimit,
-            newton_iterations: 0,
-            linear_iterations: 0,
-            attempts: 0,
-            residuals: Vec::new(),
-            steps: Vec::new(),
-            residual_norm: f64::NAN,
-            cautious_front: false,
-        }
-    }
-
-    /// Counts what another solve took; what came of it last counts.
-    pub(super) fn add(&mut self, other: &Self) {
-        self.termination = other.termination;
-        self.newton_iterations += other.newton_iterations;
-        self.linear_iterations += other.linear_iterations;
-        self.attempts += other.attempts;
-        self.residuals.extend_from_slice(&other.residuals);
-        self.steps.extend_from_slice(&other.steps);
-        self.residual_norm = other.residual_norm;
-        self.cautious_front |= other.cautious_front;
-    }
-
-    /// Whether no further start needs to be tried.
-    pub(super) fn ended(&self) -> bool {
-        use Termination::{Cancelled, Converged, Effort};
-        self.attempts > 0 && matches!(self.termination, Converged | Cancelled | Effort)
-    }
-}
 
 /// Scalars of a solution. Positions and values are dimensionless, (2.22).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
@@ -258,30 +42,11 @@ pub struct Traction {
     pub per_srr: f64,
 }
 
-/// The grid that a solution lives on. Node arrays of a line contact have one extra leading node outside the inlet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mesh {
-    /// What it was built from; of a line contact its reference grid.
-    pub spec: GridSpec,
-    /// Scale of the registration map; 1 where there is none.
-    pub scale: f64,
-}
-
-impl Mesh {
-    /// The specification of a point contact's grid; `None` of a line contact's.
-    pub fn plane(&self) -> Option<PointGridSpec> {
-        match self.spec {
-            GridSpec::Plane(spec) => Some(spec),
-            _ => None,
-        }
-    }
-}
-
 /// Fields and scalars of one contact, with what they were computed for and how.
 ///
 /// Node arrays run over X and, fastest, over Y: node (i, j) has the index i·n_y + j, and the last j lies on the axis Y
 /// = 0. A line contact is the case n_y = 1.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solution {
     /// What was solved.
     pub problem: Problem,

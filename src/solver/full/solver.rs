@@ -4,7 +4,9 @@
 use super::cut::cell;
 use super::heat;
 use super::newton_space::NewtonSpace;
-use super::solution::{Problem, Report, Solution, SolveError, Termination, expect_kind, scalars_of};
+use super::problem::{Problem, SolveError, expect_kind};
+use super::report::{Report, Termination};
+use super::solution::{Solution, scalars_of};
 use super::system::{SolveOptions, System};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};

@@ -1,19 +1,14 @@
 //! Shear across the film, and the traction (3.41) it adds up to.
 
-use super::solution::{Problem, Scalars, Solution};
+use super::problem::Problem;
+use super::solution::{Scalars, Solution};
+use crate::host::pool;
 use crate::solver::discrete::heat::interpolated_across;
 use crate::solver::discrete::reynolds::film_integrals::{PRODUCTION_RULE, film_integrals};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::physics::lubricant::{LimitingStress, ScaledShear};
-use rayon::prelude::*;
+use crate::solver::warning::{PLAUSIBLE_EXPONENT, PLAUSIBLE_TRACTION, Warning};
 use std::fmt::{Display, Formatter};
-
-/// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every
-/// stress a lubricant can carry.
-pub const PLAUSIBLE_EXPONENT: f64 = 12.0;
-
-/// A traction coefficient beyond which no lubricant was ever measured: it would have thinned under shear or yielded.
-pub const PLAUSIBLE_TRACTION: f64 = 0.15;
 
 /// A shear stress \[Pa\] that every lubricant carries; under pressure it carries more.
 const CARRIED_PA: f64 = 5e6;
@@ -44,27 +39,19 @@ impl TractionDoubt {
     }
 }
 
+impl From<TractionDoubt> for Warning {
+    fn from(doubt: TractionDoubt) -> Self {
+        match doubt {
+            TractionDoubt::Exponent(exponent) => Self::UnphysicalExponent { exponent },
+            TractionDoubt::Coefficient(traction) => Self::UnphysicalTraction { traction },
+            TractionDoubt::Stress { stress_pa, pressure_pa } => Self::ShearStressAboveLimit { stress_pa, pressure_pa },
+        }
+    }
+}
+
 impl Display for TractionDoubt {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Exponent(exponent) => write!(
-                f,
-                "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear \
-                 stress is unphysical"
-            ),
-            Self::Coefficient(traction) => write!(
-                f,
-                "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant thins \
-                 under shear or yields"
-            ),
-            Self::Stress { stress_pa, pressure_pa } => write!(
-                f,
-                "the shear stress of {:.3} GPa under {:.3} GPa is above the limit: beyond {PLAUSIBLE_TRACTION} of the \
-                 pressure a lubricant yields, and this one has no limiting stress",
-                1e-9 * stress_pa,
-                1e-9 * pressure_pa
-            ),
-        }
+        Warning::from(*self).fmt(f)
     }
 }
 
@@ -77,7 +64,7 @@ pub struct Shear {
     pub rate_per_s: f64,
 }
 
-/// The shear stress of a film: linear across it, from the lower surface Z = 0 to the upper one Z = 1.
+/// The shear stress of a film: linear across it, from body 1 at Z = 0 to body 2 at Z = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct FilmStress {
     /// (τ_zx, τ_zy) at mid-film \[Pa\].
@@ -91,7 +78,7 @@ struct FilmStress {
 }
 
 impl Solution {
-    /// The same with heat: heights are those above body 1, and shear is positive where that is the faster one.
+    /// [`Self::shear_field`] with heat.
     fn warm_shear_field(&self, heights: &[f64]) -> Option<Vec<Shear>> {
         let (heat, laws) = (self.heat.as_ref()?, self.problem.warm_laws()?);
         let gradient = self.gradient();
@@ -105,7 +92,7 @@ impl Solution {
                     heat.shear_stress[k] + laws.heat.gradient * state.film * state.gradient[0] * (height - 0.5);
                 let theta = interpolated_across(rise_k, height) / heat.inlet_k;
                 let fluidity = laws.fluidity(state.pressure, theta, stress);
-                let (felt, rate) = (-stress * scale, -stress * fluidity * scale / self.problem.point.viscosity_pa_s);
+                let (felt, rate) = (stress * scale, stress * fluidity * scale / self.problem.point.viscosity_pa_s);
                 let limit = self.problem.lubricant.limiting_stress;
                 let pressure_pa = state.pressure * self.problem.point.hertz().pressure_pa;
                 let carried = limit.map_or(f64::INFINITY, |limit| limit.carried(felt.abs(), pressure_pa));
@@ -115,8 +102,8 @@ impl Solution {
         Some(field)
     }
 
-    /// Shear along the axis Y = 0 at heights z = Z h above the lower surface, 0 ≤ Z ≤ 1, in the order of
-    /// [`Solution::profile`], the heights of a node one after the other. A limiting stress, where the lubricant has one,
+    /// Shear along the axis Y = 0 at heights z = Z h above body 1, 0 ≤ Z ≤ 1, in the order of [`Solution::profile`], the
+    /// heights of a node one after the other; positive where body 2 is the faster one. A limiting stress, where the lubricant has one,
     /// cuts the stress; the rate is the one of the film without it.
     pub fn shear_field(&self, heights: &[f64]) -> Vec<Shear> {
         if let Some(field) = self.warm_shear_field(heights) {
@@ -158,7 +145,7 @@ impl Solution {
         let gradient = self.gradient();
         let ny = self.y.len();
         let mut stress = vec![0.0; self.pressure.len()];
-        stress.par_iter_mut().enumerate().with_min_len(256).for_each(|(k, stress)| {
+        pool::each(&mut stress, 256, |k, stress| {
             *stress = mid_film_stress(&self.problem, self.state(&gradient, k / ny, k % ny));
         });
         stress

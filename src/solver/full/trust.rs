@@ -9,102 +9,39 @@
 //! - The rows of a scheme of second order, evaluated on every other node of the solution, miss three times what the
 //!   solution itself misses of the differential equation.
 
+use super::grid_cost::{GridCost, TOLERATED};
 use super::newton_space::NewtonSpace;
-use super::solution::{Problem, Solution};
+use super::problem::Problem;
+use super::solution::Solution;
 use super::solver::Solver;
 use super::system::System;
 use crate::solver::discrete::grid::{INLET, that_would_do};
 use crate::solver::discrete::reynolds::{EAST, NORTH, SOUTH, WEST};
 use crate::solver::discrete::space::Grid;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
-use serde::{Deserialize, Serialize};
-
-/// What the grid costs H_c: relative errors to first order, positive where the true film is thicker. Far beyond a tenth
-/// they are too small: the film by which they are judged is too thin itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct GridCost {
-    /// Since the inlet ends too early, or the sides too near.
-    pub truncation: f64,
-    /// Since the spacing is finite.
-    pub resolution: f64,
-}
-
-/// An answer whose grid costs more than this share of H_c carries a warning.
-const TOLERATED: f64 = 0.03;
-/// Beyond this the truth is likely to be farther off.
-const SATURATED: f64 = 0.1;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::warning::{NearEnds, Warning, WideSpacing};
 
 /// Accuracy of the linear solves, and their iterations at most.
 const LINEAR: (f64, usize) = (1e-4, 60);
 
-impl GridCost {
-    /// The relative error of H_c by both.
-    pub fn total(self) -> f64 {
-        self.truncation.abs() + self.resolution.abs()
-    }
-
-    /// A sentence where that is more than a few percent, or cannot be told.
-    pub fn warning(self) -> Option<String> {
-        let total = self.total();
-        if total.is_nan() {
-            return Some("what the grid costs H_c cannot be told; compare with a finer one".to_owned());
-        }
-        let more = if total > SATURATED { " or more" } else { "" };
-        (total > TOLERATED).then(|| format!("H_c is off by about {:.0} %{more}", 100.0 * total))
-    }
-}
-
-/// What the grids cost those of some solutions that they do not do for: how many these are, of how many, and the
-/// worst of them with its contact.
-pub fn grid_doubts(judged: impl IntoIterator<Item = (OperatingPoint, GridCost)>) -> Option<String> {
-    let (mut all, mut doubtful) = (0, 0);
-    let mut worst: Option<(OperatingPoint, GridCost)> = None;
-    for (point, cost) in judged {
-        all += 1;
-        if cost.warning().is_some() {
-            doubtful += 1;
-            // What cannot be told is the worst.
-            worst = Some(
-                worst.filter(|(_, worst)| worst.total().total_cmp(&cost.total()).is_ge()).unwrap_or((point, cost)),
-            );
-        }
-    }
-    let (point, cost) = worst?;
-    let Moes { m, l } = point.moes();
-    let why = cost.warning()?;
-    Some(format!("the grid does not do for {doubtful} of {all} solutions; the worst, at M = {m:.4}, L = {l:.4}: {why}"))
-}
-
 impl Solution {
-    /// A sentence where the grid costs the central film more than a few percent, with a grid that would do.
-    pub fn grid_warning(&self) -> Option<String> {
+    /// A warning if the grid moves the central film by more than a few percent, with a grid that would do.
+    pub fn grid_warning(&self) -> Option<Warning> {
         let cost = self.grid_cost?;
-        let warning = cost.warning()?;
-        if cost.total().is_nan() {
-            return Some(warning);
-        }
-        let (reach, spacing) = that_would_do(&self.problem.point);
-        let mut parts = Vec::new();
-        if cost.truncation.abs() > 0.3 * TOLERATED {
-            let x = self.x[self.first()];
+        let mut warning = cost.warning()?;
+        let Warning::DiscretisationError { ends, spacing, .. } = &mut warning else { return Some(warning) };
+        let (reach, widest) = that_would_do(&self.problem.point);
+        *ends = (cost.truncation.abs() > 0.3 * TOLERATED).then(|| {
+            let (x, y) = (self.x[self.first()], self.y[0]);
             let wanted = reach.max(-x * (cost.truncation.abs() / 0.01).sqrt()).ceil();
-            parts.push(match self.y[..] {
-                [_] => format!("the inlet at X = {x:.3} is too near, one at {:.0} would do", -wanted),
-                _ => format!(
-                    "the ends of the domain at X = {x:.3} and Y = {:.3} are too near, {:.0} and {:.0} would do",
-                    self.y[0],
-                    -wanted,
-                    -0.5 * wanted
-                ),
-            });
-        }
-        if cost.resolution.abs() > 0.3 * TOLERATED {
+            NearEnds { x, y: (self.y.len() > 1).then_some(y), wanted }
+        });
+        *spacing = (cost.resolution.abs() > 0.3 * TOLERATED).then(|| {
             let behind = self.x.partition_point(|&x| x < -1.0).clamp(1, self.x.len() - 1);
-            let own = self.x[behind] - self.x[behind - 1];
-            let wanted = spacing.min(own * (0.01 / cost.resolution.abs()).sqrt());
-            parts.push(format!("the spacing of {own:.2e} at X = -1 is too wide, {wanted:.1e} would do"));
-        }
-        Some(format!("{warning}: {}", parts.join("; ")))
+            let spacing = self.x[behind] - self.x[behind - 1];
+            WideSpacing { spacing, wanted: widest.min(spacing * (0.01 / cost.resolution.abs()).sqrt()) }
+        });
+        Some(warning)
     }
 }
 
@@ -233,7 +170,7 @@ mod tests {
         ] {
             let poor = judged(uniform(dx), m, l);
             assert!((poor.scalars.h_c / truth - 1.0).abs() > 0.05);
-            let warning = poor.grid_warning().unwrap();
+            let warning = poor.grid_warning().unwrap().to_string();
             assert!(warning.starts_with("H_c is off by about") && warning.contains(word), "{warning}");
             let own =
                 GridSpec::explorer_for(&si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap()).unwrap();
@@ -260,7 +197,7 @@ mod tests {
     fn a_point_contact_whose_domain_is_too_small_or_coarse_carries_a_warning() {
         let quick = PointGridSpec::uniform(0.08, 0.2, (-4.0, 2.0, -2.0));
         for (m, l, word) in [(1.1, 11.2, "ends of the domain"), (200.0, 10.0, "spacing")] {
-            let warning = judged(GridSpec::Plane(quick), m, l).grid_warning().unwrap();
+            let warning = judged(GridSpec::Plane(quick), m, l).grid_warning().unwrap().to_string();
             assert!(warning.contains(word), "M {m}, L {l}: {warning}");
         }
         let usual = judged(GridSpec::Plane(PointGridSpec { dx: 0.03, ..PointGridSpec::QUICK }), 50.0, 5.0);

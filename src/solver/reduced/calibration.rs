@@ -17,16 +17,17 @@
 
 mod features;
 mod neighbours;
+mod parts;
 mod quantity;
 mod rupture;
 mod steps;
 #[cfg(test)]
 mod tests;
 
-pub use features::{Beside, Evidence, Features, Measured};
-pub use steps::Laws;
+pub use features::{Evidence, FeatureSet, Features, Measured};
+pub use parts::CalibrationParts;
 
-use features::SIGNS;
+use features::{ERRORS, FEATURES, MOST_FEATURES, SIGNS};
 use neighbours::Neighbours;
 use quantity::{Quantity, quadratic};
 use serde::{Deserialize, Serialize};
@@ -68,7 +69,7 @@ pub struct ErrorEstimate {
 }
 
 /// What a window knows about its own errors.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// Smallest and largest value of each feature in the evidence.
     ranges: Vec<(f64, f64)>,
@@ -92,8 +93,8 @@ impl Calibration {
     }
 
     fn fitted(evidence: &[&[Evidence]]) -> Option<Vec<Option<Self>>> {
-        let beside = evidence.iter().find_map(|own| own.first())?.features.beside;
-        let sound = |e: &&Evidence| e.features.finite() && e.errors.values(Beside::Nothing).all(f64::is_finite);
+        let Features { count, errors, .. } = evidence.iter().find_map(|own| own.first())?.features;
+        let sound = |e: &&Evidence| e.features.finite() && e.errors.values(ERRORS).all(f64::is_finite);
         let usable: Vec<Vec<&Evidence>> = evidence.iter().map(|own| own.iter().filter(sound).collect()).collect();
         if usable.iter().map(Vec::len).sum::<usize>() < LEAST_EVIDENCE {
             return None;
@@ -102,7 +103,7 @@ impl Calibration {
             let values = usable.iter().flatten().map(|e| e.features.values[k]);
             (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max))
         };
-        let ranges: Vec<(f64, f64)> = (0..beside.features()).map(range).collect();
+        let ranges: Vec<(f64, f64)> = (0..count).map(range).collect();
         let mut windows = Vec::with_capacity(usable.len());
         let mut terms = Vec::with_capacity(usable.len());
         for own in &usable {
@@ -113,8 +114,8 @@ impl Calibration {
             windows.push(window);
         }
         let neighbours: Vec<Vec<Neighbours>> = windows.iter().map(Self::left_out).collect();
-        for q in 0..beside.quantities() {
-            let log = |e: &&Evidence| e.errors.values(beside).nth(q).map_or(f64::NAN, |v| (v + FLOOR).ln());
+        for q in 0..errors {
+            let log = |e: &&Evidence| e.errors.values(errors).nth(q).map_or(f64::NAN, |v| (v + FLOOR).ln());
             let logs: Vec<Vec<f64>> = usable.iter().map(|own| own.iter().map(log).collect()).collect();
             let fitted = Quantity::fit(&terms, &logs, &neighbours)?;
             windows.iter_mut().zip(fitted).for_each(|(window, quantity)| window.quantities.push(quantity));
@@ -147,20 +148,22 @@ impl Calibration {
         self.places.len() / (self.ranges.len() - SIGNS.len()).max(1)
     }
 
-    /// Whether it is of contacts that have so much beside M, L and α.
-    pub fn is_of(&self, beside: Beside) -> bool {
-        beside.has_had(self.ranges.len()) && self.quantities.len() == beside.quantities()
+    /// True if it has these features and errors.
+    pub fn is_of(&self, set: &FeatureSet) -> bool {
+        self.ranges.len() == set.count() && self.quantities.len() == set.errors
     }
 
     /// Whether its errors are those against full solutions, not what a few full Newton steps change.
     pub fn by_full_solutions(&self) -> bool {
-        self.quantities.len() > Beside::Nothing.quantities()
+        self.quantities.len() > ERRORS
     }
 
     /// Whether every number in it makes sense, as when it was read from a file.
     pub fn sound(&self) -> bool {
         let features = self.ranges.len();
-        if !Beside::ALL.into_iter().any(|beside| self.is_of(beside)) {
+        let known =
+            (FEATURES..=MOST_FEATURES).contains(&features) && (ERRORS..=ERRORS + 2).contains(&self.quantities.len());
+        if !known {
             return false;
         }
         let (evidence, terms) = (self.evidence(), 1 + features + features * (features + 1) / 2);

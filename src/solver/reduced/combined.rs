@@ -4,7 +4,7 @@
 //! dozen are combinations of them. So a file holds one basis, and what it deforms is computed once.
 
 use super::dense;
-use super::kept::{factor_scales, kept_factors};
+use super::multiples::{factor_scales, kept_factors};
 use super::pod::PodBasis;
 use super::sums::rows_times;
 use crate::solver::discrete::grid::ContactGrid;

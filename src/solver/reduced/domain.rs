@@ -1,185 +1,178 @@
-//! What a reduced model was trained for, and whether a contact lies inside.
+//! What a reduced model covers: a space of contacts with one lubricant's laws, and whether a contact lies inside.
 
-mod eyring;
-mod thermal;
-
-pub use eyring::{EyringDomain, gradient_stress};
-pub use thermal::ThermalDomain;
-
-use self::eyring::eyring_stress;
-use super::oils::expected_film;
 use crate::solver::full::Problem;
-use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw, roelands_exponent};
+use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity};
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw, WholeLubricant};
 use serde::{Deserialize, Serialize};
 
-/// The range a model declares to be trained for: an interval each of M, L, α and p_H at its η₀, for its lubricant.
+/// The contacts a reduced model covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Domain {
-    /// Load number.
-    pub m: (f64, f64),
-    /// Lubricant number.
-    pub l: (f64, f64),
-    /// Pressure–viscosity coefficient \[1/Pa\].
-    pub alpha_per_pa: (f64, f64),
-    /// Largest Hertzian pressure \[Pa\].
-    pub max_hertz_pressure_pa: f64,
-    /// Ambient viscosity \[Pa·s\].
-    pub viscosity_pa_s: f64,
+    /// Line or point contacts.
+    pub contact: ContactKind,
+    /// Varied and fixed quantities.
+    pub space: ParameterSpace,
     /// Laws of the lubricant.
+    #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
-    /// What else a shear-thinning lubricant was trained for.
-    pub sliding: Option<SlidingDomain>,
-    /// R_y/R; (1, 1) of a model that knows circles or lines. Files keep it in a place of its own.
-    #[serde(skip, default = "circles")]
-    pub radius_ratio: (f64, f64),
-    /// The oils of a model that knows many; none of one that knows the oils with its η₀ only. Files keep them in a place
-    /// of their own.
-    #[serde(skip)]
-    pub oils: Option<OilDomain>,
-    /// What a model of contacts with heat was trained for; its lubricant has the thermal constants. Files keep both in a
-    /// place of their own.
-    #[serde(skip)]
-    pub heat: Option<HeatDomain>,
-    /// What a model of many oils that thin under shear by Eyring's law was trained for beside these. Files keep it in a
-    /// place of its own.
-    #[serde(skip)]
-    pub eyring: Option<EyringDomain>,
 }
 
-/// What a model of contacts with heat is trained for beside M, L, α, η₀ and p_H.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct HeatDomain {
-    /// |SRR|.
-    pub srr: (f64, f64),
-    /// R \[m\].
-    pub radius_m: (f64, f64),
-    /// E′ \[Pa\].
-    pub modulus_pa: (f64, f64),
-    /// u_m \[m/s\].
-    pub speed_m_per_s: (f64, f64),
-    /// Largest |SRR| u_m \[m/s\].
-    pub fastest_sliding_m_per_s: f64,
-    /// The thermal constants and limiting stresses of a model that knows many; of others these are its lubricant's. Files
-    /// keep them in a place of their own.
-    #[serde(skip)]
-    pub thermal: Option<ThermalDomain>,
-}
-
-/// What a model of many oils was trained for beside M, L, α and the largest p_H; its η₀ is one in the middle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OilDomain {
-    /// η₀ \[Pa·s\].
-    pub viscosity_pa_s: (f64, f64),
-    /// Roelands' exponent z.
-    pub exponent: (f64, f64),
-    /// Smallest p_H \[Pa\].
-    pub lowest_hertz_pressure_pa: f64,
-    /// Thinnest H_c, by [`expected_film`]; 0 where there is no limit. Files keep it in a place of its own.
-    #[serde(skip)]
-    pub thinnest_film: f64,
-}
-
-/// What is left out where a contact is a circle.
-pub(crate) fn circles() -> (f64, f64) {
-    CIRCLES
-}
-
-/// R_y/R of models that know circles or lines only.
-pub const CIRCLES: (f64, f64) = (1.0, 1.0);
-
-/// What a shear-thinning model is trained for beside M, L, α and p_H.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SlidingDomain {
-    /// |SRR|.
-    pub srr: (f64, f64),
-    /// NPR.
-    pub npr: (f64, f64),
-    /// E′ \[Pa\]: with M and L it fixes the shear stress.
-    pub modulus_pa: f64,
-}
-
-/// Whether a model was trained for a problem.
+/// Whether a model covers a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Trust {
-    /// Inside the declared domain.
+    /// Inside the trained range.
     Trained,
-    /// Outside, with a sentence that says in which quantity and by how much.
-    Outside(String),
+    /// Outside, with the reason.
+    Outside(Outside),
 }
 
+/// Relative tolerance at the ends of an interval, for rounding.
+const ROUNDING: f64 = 1e-6;
+/// Relative tolerance of a radius or a modulus, which people state to few digits.
+const STATED: f64 = 1e-3;
+
 impl Domain {
-    /// Whether errors are measured against converged full solutions, since a few Newton steps do not tell them
-    /// everywhere: where a lubricant thins under shear, with heat, and over the wide windows of many oils.
-    pub fn measured_in_full(&self) -> bool {
-        self.sliding.is_some() || self.heat.is_some() || self.oils.is_some()
+    /// Returns the interval of a quantity over all its contacts; `None` if nothing is said of it.
+    pub fn interval(&self, quantity: Quantity) -> Option<(f64, f64)> {
+        self.space.interval(quantity, self.contact)
     }
 
-    /// |SRR| that was trained; none where films know no sliding.
-    pub fn srr(&self) -> Option<(f64, f64)> {
-        let heat_or_eyring = || self.heat.map(|heat| heat.srr).or(self.eyring.map(|eyring| eyring.srr));
-        self.sliding.map(|sliding| sliding.srr).or_else(heat_or_eyring)
+    /// Returns the interval of M.
+    pub fn m(&self) -> (f64, f64) {
+        self.interval(Quantity::M).unwrap_or((0.0, f64::INFINITY))
     }
 
-    /// Whether lubricants of the model thin under shear.
+    /// Returns the interval of L.
+    pub fn l(&self) -> (f64, f64) {
+        self.interval(Quantity::L).unwrap_or((0.0, f64::INFINITY))
+    }
+
+    /// Returns the largest Hertzian pressure \[Pa\].
+    pub fn highest_pressure_pa(&self) -> f64 {
+        self.interval(Quantity::HertzPressure).map_or(f64::INFINITY, |(_, highest)| highest)
+    }
+
+    /// Returns the viscosity η₀ \[Pa·s\] of its contacts, or the geometric mean of their interval.
+    pub fn middle_viscosity_pa_s(&self) -> f64 {
+        self.space
+            .axis(Quantity::Viscosity)
+            .map_or_else(|| self.interval(Quantity::Viscosity).map_or(f64::NAN, |(low, _)| low), |axis| axis.value(0.5))
+    }
+
+    /// True for thermal contacts.
+    pub fn heats(&self) -> bool {
+        self.lubricant.heat.is_some()
+    }
+
+    /// True if its lubricants are shear-thinning and isothermal, so that films depend on sliding.
     pub fn thins(&self) -> bool {
-        self.sliding.is_some() || self.eyring.is_some()
+        self.lubricant.shear != ShearLaw::Newtonian && !self.heats()
     }
 
-    /// Whether a problem lies inside; boundaries count as inside to rounding.
+    /// True if films depend on sliding, by shear-thinning or by heat.
+    pub fn slides(&self) -> bool {
+        self.thins() || self.heats()
+    }
+
+    /// True if errors are measured against converged full solutions: a few Newton steps do not show them everywhere under
+    /// shear-thinning, with heat, and over wide lubricant ranges.
+    pub fn measured_in_full(&self) -> bool {
+        self.slides() || self.space.varies_lubricant()
+    }
+
+    /// Returns the interval of |SRR|; `None` where films do not depend on sliding.
+    pub fn srr(&self) -> Option<(f64, f64)> {
+        self.slides().then(|| self.space.interval(Quantity::SlideToRollRatio, self.contact))?
+    }
+
+    /// True if the Eyring stress τ₀ is free: of a lubricant-parameterised model only E′ τ₀ counts.
+    fn frees_eyring_stress(&self) -> bool {
+        self.thins() && self.space.varies_lubricant()
+    }
+
+    /// Returns τ₀ of a lubricant over that of the model; `None` where the model does not free τ₀ or the lubricant has none.
+    fn stress_ratio(&self, lubricant: &Lubricant) -> Option<f64> {
+        let stress = |laws: &Lubricant| Quantity::EyringStress.of_contact(&OperatingPoint::TABLE_2_1, laws);
+        if self.frees_eyring_stress() { Some(stress(lubricant)? / stress(&self.lubricant)?) } else { None }
+    }
+
+    /// Returns the contact with the model's own τ₀ that has the same film: of equal M, L, p_H, lubricant and SRR, with E′ τ₀ as
+    /// it was. The contact itself where the model does not free τ₀.
+    pub(crate) fn as_trained(&self, point: &OperatingPoint, lubricant: &Lubricant) -> OperatingPoint {
+        let Some(stresses) = self.stress_ratio(lubricant) else { return *point };
+        // 2U goes with E′⁻⁴ at a given L; then the speed follows from 2U E′ R, and the load from M.
+        let load = match point.kind {
+            ContactKind::Line => stresses.recip(),
+            ContactKind::Point => stresses.powi(-2),
+        };
+        OperatingPoint {
+            modulus_pa: point.modulus_pa * stresses,
+            speed_m_per_s: point.speed_m_per_s * stresses.powi(-3),
+            load: point.load * load,
+            ..*point
+        }
+    }
+
+    /// True if the traction quadrature was fitted to stresses like those of a problem: to unlimited ones, for
+    /// lubricant-parameterised Eyring models to limited ones as well, with heat to those of the model's own limit.
+    pub(crate) fn knows_traction(&self, problem: &Problem) -> bool {
+        let Some(limit) = problem.lubricant.limiting_stress else { return true };
+        match self.stress_ratio(&problem.lubricant) {
+            Some(stresses) => {
+                let slope = Quantity::LimitSlope;
+                let ends = self.space.constant(slope);
+                ends.is_some_and(|ends| {
+                    Outside::of(slope, self.contact, limit.slope / stresses, ends, ROUNDING).is_none()
+                })
+            }
+            None => problem.heat.is_some(),
+        }
+    }
+
+    /// Whether the model covers a problem; ends of intervals count as inside.
     pub fn trust(&self, problem: &Problem) -> Trust {
-        if let Some(other) = self.other_laws(problem) {
-            return Trust::Outside(other.to_owned());
+        let other = |why: &str| Trust::Outside(Outside::Other(why.to_owned()));
+        if let Some(why) = self.other_laws(problem) {
+            return other(why);
         }
         if problem.supply.is_some() {
-            return Trust::Outside("the model was trained with a flooded inlet, not with a supplied film".to_owned());
+            return other("the model was trained with a flooded inlet, not with a supplied film");
         }
-        let point = &problem.point;
-        if let Some(why) = self.no_circle(point) {
-            return Trust::Outside(why);
-        }
-        if let Some(oils) = &self.oils {
-            let film = || self.thinner_film(problem).or_else(|| self.sheared_film(problem));
-            if let Some(outside) = oils.outside(point).or_else(film) {
-                return Trust::Outside(outside);
-            }
-        } else if (point.viscosity_pa_s / self.viscosity_pa_s - 1.0).abs() > 1e-6 {
-            return Trust::Outside(format!(
-                "the model was trained at an ambient viscosity of {} Pa·s, not {} Pa·s",
-                self.viscosity_pa_s, point.viscosity_pa_s
-            ));
-        }
-        let sliding = self.sliding.and_then(|sliding| sliding.outside(point));
-        let stresses = self.eyring.zip(self.stresses(&problem.lubricant));
-        let sliding = sliding.or_else(|| stresses.and_then(|(eyring, stresses)| eyring.outside(problem, stresses)));
-        if let Some(outside) = sliding.or_else(|| self.heat.and_then(|heat| heat.outside(problem))) {
-            return Trust::Outside(outside);
-        }
-        let [m, l, ratio, p_h] = self.shapes(problem);
-        let alpha =
-            Bounded { name: "α", value: point.alpha_per_pa, range: self.alpha_per_pa, scale: 1e9, unit: "/GPa" };
-        [m, l, ratio, alpha, p_h].iter().find_map(Bounded::outside).map_or(Trust::Trained, Trust::Outside)
+        let found = self.other_shape(&problem.point).or_else(|| self.other_plateau(problem));
+        let found = found.or_else(|| self.other_constants(&problem.lubricant));
+        found.or_else(|| self.outside(problem, |_| true)).map_or(Trust::Trained, Trust::Outside)
     }
 
-    /// The laws of a lubricant with the model's own τ₀, and thermal constants and limit, where it knows all.
+    /// Why pressures and films have shapes the model does not cover, whatever the lubricant: M, L, p_H, the film thickness or
+    /// the shape lie outside. For another lubricant inside, the bases still apply and the reduced equations are exact.
+    pub fn strange_shape(&self, problem: &Problem) -> Option<Outside> {
+        let shapes = |quantity: Quantity| {
+            use Quantity::{FilmThickness, GradientStress, HertzPressure, L, M, RadiusRatio};
+            matches!(quantity, M | L | HertzPressure | RadiusRatio | FilmThickness | GradientStress)
+        };
+        self.other_shape(&problem.point).or_else(|| self.outside(problem, shapes))
+    }
+
+    /// True if it is a domain of a lubricant, whatever limits its traction and whatever its cavitation.
+    pub fn is_of(&self, lubricant: &Lubricant) -> bool {
+        self.with_own_constants(*lubricant).of_the_liquid() == self.lubricant.of_the_liquid()
+    }
+
+    /// A lubricant with the model's own constants in place of those that the model leaves free.
     fn with_own_constants(&self, mut laws: Lubricant) -> Lubricant {
-        if self.heat.is_some_and(|heat| heat.thermal.is_some()) && laws.heat.is_some() {
+        if !self.space.constants.is_empty() && laws.heat.is_some() && self.heats() {
             (laws.heat, laws.limiting_stress) = (self.lubricant.heat, self.lubricant.limiting_stress);
         }
-        match (self.stresses(&laws), eyring_stress(self.lubricant.shear), laws.shear) {
-            (Some(_), Some(critical_stress), ShearLaw::Eyring { npr, .. }) => {
+        match (laws.shear, self.lubricant.shear) {
+            (ShearLaw::Eyring { npr, .. }, ShearLaw::Eyring { critical_stress, .. }) if self.frees_eyring_stress() => {
                 Lubricant { shear: ShearLaw::Eyring { critical_stress, npr }, ..laws }
             }
             _ => laws,
         }
     }
 
-    /// Whether it is of a lubricant, whatever limits its traction and however its films rupture.
-    pub fn is_of(&self, lubricant: &Lubricant) -> bool {
-        self.with_own_constants(*lubricant).of_the_liquid() == self.lubricant.of_the_liquid()
-    }
-
-    /// A sentence where a problem has other laws than those the model was trained with.
+    /// A sentence if a problem has laws the model was not trained with.
     fn other_laws(&self, problem: &Problem) -> Option<&'static str> {
         let (asked, own) = (self.with_own_constants(problem.lubricant), self.lubricant);
         match (asked.heat, own.heat) {
@@ -191,207 +184,244 @@ impl Domain {
         if without_heat(asked) != without_heat(own) {
             return Some("the model was trained with other lubricant laws");
         }
-        // Under heat a limit cuts the heat that shear makes.
+        // With heat the limit also limits the heat that shear generates.
         if asked.heat.is_some() && asked.limiting_stress != own.limiting_stress {
             return Some("the model was trained with another limiting stress, which with heat changes the film");
         }
         (asked.heat != own.heat).then_some("the model was trained with other thermal constants of oil or bodies")
     }
 
-    /// A sentence where M, L or p_H lie outside, or the contact is an ellipse, with any fluid: pressures and films of
-    /// such shapes were never trained. Of another fluid inside, the bases still know the shapes, and the reduced
-    /// equations are its own.
-    pub fn strange_shape(&self, problem: &Problem) -> Option<String> {
-        let outside = || self.shapes(problem).iter().find_map(Bounded::outside);
-        let film = || self.thinner_film(problem).or_else(|| self.sheared_film(problem));
-        self.no_circle(&problem.point).or_else(outside).or_else(film)
+    fn other_shape(&self, point: &OperatingPoint) -> Option<Outside> {
+        let ellipse = self.space.radius_ratio() == CIRCLES && point.radius_ratio() != 1.0;
+        ellipse.then(|| Outside::Other("the model was trained for circular contacts only".to_owned()))
     }
 
-    /// A sentence where a film is thinner than the model's grid was made for.
-    fn thinner_film(&self, problem: &Problem) -> Option<String> {
-        let (least, film) = (self.oils?.thinnest_film, expected_film(problem.point.kind, problem.moes));
-        (film < least * (1.0 - 1e-6)).then(|| {
-            let [film, least] = [film, least].map(digits);
-            format!(
-                "by Moes’ formula its film is H_c = {film}, thinner than {least}, the thinnest that the model was trained for"
-            )
+    /// The plateau ratio where it does not vary: of Eyring and thermal models the lubricant's own.
+    fn other_plateau(&self, problem: &Problem) -> Option<Outside> {
+        let plateau = problem.lubricant.shear.plateau();
+        let given = problem.point.sliding.newtonian_plateau_ratio.unwrap_or(plateau);
+        let fixed = self.slides() && problem.shear.is_some() && !self.space.knows(Quantity::NewtonianPlateauRatio);
+        (fixed && given != plateau)
+            .then(|| Outside::Other(format!("the model was trained with an NPR of {plateau}, not {given}")))
+    }
+
+    /// Constants of a thermal lubricant and its bodies that the model leaves free within intervals.
+    pub(crate) fn other_constants(&self, lubricant: &Lubricant) -> Option<Outside> {
+        if !self.heats() || self.space.constants.is_empty() {
+            return None;
+        }
+        if lubricant.heat.is_some_and(|heat| heat.oil.free_volume.is_some()) {
+            let why = "the model was trained with oils whose α does not change with temperature";
+            return Some(Outside::Other(why.to_owned()));
+        }
+        let point = OperatingPoint::TABLE_2_1;
+        self.space.constants.iter().find_map(|axis| match axis.quantity.of_contact(&point, lubricant) {
+            Some(value) => Outside::of(axis.quantity, self.contact, value, axis.ends, ROUNDING),
+            None => Some(Outside::Other(format!(
+                "the model was trained with limiting stresses that have a τ_E, which with heat change the film; {} is missing",
+                axis.quantity.short()
+            ))),
         })
     }
 
-    /// A sentence where a contact is an ellipse, and the model knows circles only.
-    fn no_circle(&self, point: &OperatingPoint) -> Option<String> {
-        let ellipse = self.radius_ratio == CIRCLES && point.radius_ratio() != 1.0;
-        ellipse.then(|| "the model was trained for circular contacts only".to_owned())
+    /// True if a quantity has an influence of its own beside M, L, α, η₀ and p_H.
+    fn counts(&self, quantity: Quantity) -> bool {
+        match quantity {
+            Quantity::Load => false,
+            Quantity::Radius | Quantity::Speed | Quantity::SlidingSpeed => self.heats(),
+            Quantity::Modulus | Quantity::SlideToRollRatio | Quantity::NewtonianPlateauRatio => self.slides(),
+            _ => true,
+        }
     }
 
-    /// What the shapes of pressure and film depend on most.
-    fn shapes(&self, problem: &Problem) -> [Bounded; 4] {
-        let ratio = problem.point.radius_ratio();
-        let (p_h, highest) = (problem.point.hertz().pressure_pa, self.max_hertz_pressure_pa);
-        let lowest = self.oils.map_or(0.0, |oils| oils.lowest_hertz_pressure_pa);
-        [
-            Bounded { name: "M", value: problem.moes.m, range: self.m, scale: 1.0, unit: "" },
-            Bounded { name: "L", value: problem.moes.l, range: self.l, scale: 1.0, unit: "" },
-            Bounded { name: "the ratio of radii", value: ratio, range: self.radius_ratio, scale: 1.0, unit: "" },
-            Bounded { name: "p_H", value: p_h, range: (lowest, highest), scale: 1e-9, unit: " GPa" },
-        ]
+    /// The first quantity outside, of those that are asked for.
+    fn outside(&self, problem: &Problem, asked: impl Fn(Quantity) -> bool) -> Option<Outside> {
+        let point = self.as_trained(&problem.point, &problem.lubricant);
+        let space = &self.space;
+        let given = space.axes.iter().map(|axis| axis.quantity).chain(space.fixed.iter().map(|(fixed, _)| *fixed));
+        let limits = space.limits.iter().map(|(limited, _)| *limited).filter(|limited| !space.gives(*limited));
+        let followers = [Quantity::M, Quantity::L, Quantity::Alpha, Quantity::Viscosity, Quantity::HertzPressure];
+        let followers =
+            followers.into_iter().filter(|follows| !space.gives(*follows) && space.limit(*follows).is_none());
+        let checked =
+            given.chain(limits).chain(followers).filter(|quantity| asked(*quantity) && self.counts(*quantity));
+        let mut found = checked.filter_map(|quantity| self.value_outside(quantity, &point, &problem.lubricant));
+        found.next().or_else(|| self.outside_box(&point).filter(|_| asked(Quantity::M)))
     }
-}
 
-/// A quantity with the range it was trained in.
-struct Bounded {
-    name: &'static str,
-    value: f64,
-    range: (f64, f64),
-    /// Shown units per SI unit.
-    scale: f64,
-    unit: &'static str,
-}
+    fn value_outside(&self, quantity: Quantity, point: &OperatingPoint, lubricant: &Lubricant) -> Option<Outside> {
+        let ends = self.interval(quantity)?;
+        let value = match quantity {
+            // Of another law there is no stress that it could be compared with.
+            Quantity::GradientStress => self.stress_ratio(lubricant).and_then(|_| quantity.of(point))?,
+            // Where nothing shears the film there is no plateau.
+            Quantity::NewtonianPlateauRatio => quantity.of(point).unwrap_or(1.0),
+            // Films are even in SRR where both bodies are alike, or were trained as either.
+            Quantity::SlideToRollRatio if !self.distinguishes_bodies(lubricant) => quantity.of(point)?.abs(),
+            _ => quantity.of(point)?,
+        };
+        let tolerance = match quantity {
+            Quantity::Radius | Quantity::Modulus => STATED,
+            _ => ROUNDING,
+        };
+        let found = Outside::of(quantity, self.contact, value, ends, tolerance)?;
+        Some(match self.stress_ratio(lubricant) {
+            Some(stresses) if quantity == Quantity::Modulus => {
+                self.other_stress(point, stresses, ends).unwrap_or(found)
+            }
+            _ => found,
+        })
+    }
 
-impl Bounded {
-    /// A sentence where it lies outside.
-    fn outside(&self) -> Option<String> {
-        let Self { name, value, range: (low, high), scale, unit } = *self;
-        if value >= low * (1.0 - 1e-6) && value <= high * (1.0 + 1e-6) {
+    /// E′ τ₀ outside, as an interval of τ₀ for the contact's own E′.
+    fn other_stress(&self, point: &OperatingPoint, stresses: f64, (low, high): (f64, f64)) -> Option<Outside> {
+        let stress = Quantity::EyringStress.of_contact(point, &self.lubricant)? * stresses;
+        let at = |own: f64| stress * own / point.modulus_pa;
+        Outside::of(Quantity::EyringStress, self.contact, stress, (at(low), at(high)), 0.0)
+    }
+
+    /// True if exchanging the bodies changes the film: they differ in material, and the model was not trained with either
+    /// order.
+    fn distinguishes_bodies(&self, lubricant: &Lubricant) -> bool {
+        let differ = lubricant.heat.is_some_and(|heat| heat.bodies[0] != heat.bodies[1]);
+        differ && self.space.constants.is_empty()
+    }
+
+    /// Of a box of R, u_m and w: whether no contact of the box has the M, L, α and η₀ of a contact. With these given u_m/R and
+    /// w/R (w/R² of circles) are fixed for the box's E′, so that one free R is left.
+    fn outside_box(&self, point: &OperatingPoint) -> Option<Outside> {
+        if !self.space.is_si_box() {
             return None;
         }
-        let range = if low > 0.0 {
-            format!("outside the trained range {}…{}{unit}", digits(low * scale), digits(high * scale))
-        } else {
-            format!("above the trained {}{unit}", digits(high * scale))
+        let moes = point.moes();
+        let ends = |quantity| self.space.interval(quantity, self.contact);
+        let (radius, speed, load) = (ends(Quantity::Radius)?, ends(Quantity::Speed)?, ends(Quantity::Load)?);
+        let request = MoesRequest {
+            radius_m: Some(radius.0),
+            modulus_pa: Some(ends(Quantity::Modulus)?.0),
+            viscosity_pa_s: Some(point.viscosity_pa_s),
+            alpha_per_pa: Some(point.alpha_per_pa),
+            ..MoesRequest::new(self.contact, moes.m, moes.l)
         };
-        Some(format!("{name} = {}{unit} lies {range}", digits(value * scale)))
+        let outside = Some(Outside::Box { m: moes.m, l: moes.l });
+        let Ok(smallest) = si_from_moes(&request) else { return outside };
+        let power = match self.contact {
+            ContactKind::Line => 1.0,
+            ContactKind::Point => 2.0,
+        };
+        // R that the intervals of u_m and w leave.
+        let by_speed = |speed: f64| radius.0 * speed / smallest.speed_m_per_s;
+        let by_load = |load: f64| radius.0 * (load / smallest.load).powf(1.0 / power);
+        let least = radius.0.max(by_speed(speed.0)).max(by_load(load.0));
+        let most = radius.1.min(by_speed(speed.1)).min(by_load(load.1));
+        if least <= most * (1.0 + ROUNDING) { None } else { outside }
     }
-}
-
-impl OilDomain {
-    /// A sentence that says in what an oil lies outside.
-    fn outside(&self, point: &OperatingPoint) -> Option<String> {
-        let viscosity =
-            Bounded {
-                name: "η₀", value: point.viscosity_pa_s, range: self.viscosity_pa_s, scale: 1e3, unit: " mPa·s"
-            };
-        let exponent = roelands_exponent(point);
-        let exponent = Bounded { name: "Roelands’ z", value: exponent, range: self.exponent, scale: 1.0, unit: "" };
-        [viscosity, exponent].iter().find_map(Bounded::outside)
-    }
-}
-
-/// How far from a radius or a modulus it counts as that one.
-const ROUNDED: f64 = 1e-3;
-
-impl HeatDomain {
-    /// A sentence that says in what a contact lies outside.
-    fn outside(&self, problem: &Problem) -> Option<String> {
-        let point = &problem.point;
-        let radius = other("radius", (point.radius_m, self.radius_m), 1e3, "mm");
-        if let Some(outside) = radius.or_else(|| other_modulus(point, self.modulus_pa)) {
-            return Some(format!("{outside}; with heat that is another contact at equal M and L"));
-        }
-        let (speed, range) = (point.speed_m_per_s, self.speed_m_per_s);
-        let speed = Bounded { name: "u_m", value: speed, range, scale: 1.0, unit: " m/s" };
-        let plateau = problem.lubricant.shear.plateau();
-        let given = point.sliding.newtonian_plateau_ratio.unwrap_or(plateau);
-        if problem.shear.is_some() && given != plateau {
-            return Some(format!("the model was trained with an NPR of {plateau}, not {given}"));
-        }
-        if let Some(outside) = self.thermal.and_then(|thermal| thermal.outside(&problem.lubricant)) {
-            return Some(outside);
-        }
-        // Which body is the faster one matters where they are of two materials, unless both were trained as either.
-        let alike =
-            problem.heat.is_none_or(|heat| heat.heat.bodies[0] == heat.heat.bodies[1]) || self.thermal.is_some();
-        let srr = point.sliding.slide_to_roll_ratio;
-        let srr = if alike { srr.abs() } else { srr };
-        let srr = Bounded { name: "SRR", value: srr, range: self.srr, scale: 1.0, unit: "" };
-        let value = (point.sliding.slide_to_roll_ratio * point.speed_m_per_s).abs();
-        let range = (0.0, self.fastest_sliding_m_per_s);
-        let sliding = Bounded { name: "the sliding speed SRR u_m", value, range, scale: 1.0, unit: " m/s" };
-        [speed, srr, sliding].iter().find_map(Bounded::outside)
-    }
-}
-
-/// That sentence of a contact's reduced modulus \[Pa\].
-fn other_modulus(point: &OperatingPoint, trained: (f64, f64)) -> Option<String> {
-    other("reduced modulus", (point.modulus_pa, trained), 1e-9, "GPa")
-}
-
-/// A sentence where a value lies outside the one value, or the interval, that was trained, in so many shown units of SI.
-fn other(name: &str, (given, (low, high)): (f64, (f64, f64)), scale: f64, unit: &str) -> Option<String> {
-    if given >= low * (1.0 - ROUNDED) && given <= high * (1.0 + ROUNDED) {
-        return None;
-    }
-    let trained = digits(low * scale);
-    let trained = if low == high { trained } else { format!("{trained}…{}", digits(high * scale)) };
-    Some(format!("the model was trained with a {name} of {trained} {unit}, not {} {unit}", digits(given * scale)))
-}
-
-impl SlidingDomain {
-    /// A sentence that says in what a point lies outside.
-    fn outside(&self, point: &OperatingPoint) -> Option<String> {
-        if let Some(other) = other_modulus(point, (self.modulus_pa, self.modulus_pa)) {
-            return Some(other);
-        }
-        let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
-        let checks = [("SRR", point.sliding.slide_to_roll_ratio.abs(), self.srr), ("NPR", npr, self.npr)];
-        checks
-            .into_iter()
-            .find(|(_, value, (low, high))| *value < low - 1e-9 || *value > high + 1e-9)
-            .map(|(name, value, (low, high))| format!("{name} = {value} lies outside the trained range {low}…{high}"))
-    }
-}
-
-/// Four significant digits without trailing zeros.
-pub(super) fn digits(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 12) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
+    use crate::solver::parameters::Axis;
     use crate::solver::physics::lubricant::ViscosityLaw;
+    use crate::solver::training::random_points;
+    use fastrand::Rng;
+
+    const LINE: ContactKind = ContactKind::Line;
+
+    fn domain(alpha: (f64, f64)) -> Domain {
+        let space = ParameterSpace::of([
+            Axis::new(Quantity::M, (2.0, 500.0)),
+            Axis::new(Quantity::L, (1.0, 21.2)),
+            Axis::new(Quantity::Alpha, alpha),
+        ])
+        .limited([(Quantity::HertzPressure, (0.0, 3.2e9))])
+        .fixing([(Quantity::Viscosity, 0.01)]);
+        Domain { contact: LINE, space, lubricant: Lubricant::default() }
+    }
+
+    fn line(m: f64, l: f64) -> OperatingPoint {
+        si_from_moes(&MoesRequest::new(LINE, m, l)).unwrap()
+    }
 
     #[test]
-    fn what_lies_outside_is_said_with_sensible_digits() {
-        let domain = Domain {
-            m: (2.0, 500.0),
-            l: (1.0, 21.2),
-            alpha_per_pa: (5e-9, 20e-9),
-            max_hertz_pressure_pa: 3.2e9,
-            viscosity_pa_s: 0.01,
-            lubricant: Lubricant::default(),
-            sliding: None,
-            radius_ratio: CIRCLES,
-            oils: None,
-            heat: None,
-            eyring: None,
-        };
-        let trust = |m, l| {
-            let point = si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap();
-            domain.trust(&Problem::new(&point, Lubricant::default()).unwrap())
+    fn a_contact_outside_is_named_with_quantity_value_and_interval() {
+        let domain = domain((5e-9, 20e-9));
+        let trust = |m, l| domain.trust(&Problem::new(&line(m, l), Lubricant::default()).unwrap());
+        let why = |m, l| match trust(m, l) {
+            Trust::Outside(why) => why.to_string(),
+            Trust::Trained => panic!("{m} {l}"),
         };
         assert_eq!(trust(40.0, 10.0), Trust::Trained);
-        assert_eq!(trust(1.0, 10.0), Trust::Outside("M = 1 lies outside the trained range 2…500".to_owned()));
-        let Trust::Outside(why) = trust(200.0, 15.0) else { panic!("beyond the pressure limit") };
-        assert!(why.starts_with("p_H = 4.8") && why.ends_with("GPa lies above the trained 3.2 GPa"), "{why}");
-        // Another fluid, or another α, may have shapes that are known.
+        assert_eq!(why(1.0, 10.0), "M = 1 lies outside the trained range 2…500");
+        let pressure = why(200.0, 15.0);
+        assert!(
+            pressure.starts_with("p_H = 4.8") && pressure.ends_with("GPa lies above the trained 3.2 GPa"),
+            "{pressure}"
+        );
+    }
+
+    #[test]
+    fn another_lubricant_may_have_shapes_the_model_covers() {
         let barus = Lubricant { viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
         let shape = |m, l, lubricant| {
-            let point = si_from_moes(&MoesRequest::new(ContactKind::Line, m, l)).unwrap();
-            let domain = Domain { alpha_per_pa: (1e-9, 2e-9), ..domain.clone() };
-            let problem = Problem::new(&point, lubricant).unwrap();
+            let domain = domain((1e-9, 2e-9));
+            let problem = Problem::new(&line(m, l), lubricant).unwrap();
             assert!(matches!(domain.trust(&problem), Trust::Outside(_)));
-            domain.strange_shape(&problem)
+            domain.strange_shape(&problem).map(|why| why.to_string())
         };
         assert_eq!(shape(40.0, 10.0, barus), None);
         assert_eq!(shape(40.0, 10.0, Lubricant::default()), None);
         assert!(shape(1.0, 10.0, barus).is_some_and(|why| why.starts_with("M = 1 lies outside")));
         assert!(shape(200.0, 15.0, barus).is_some_and(|why| why.starts_with("p_H")));
+    }
+
+    #[test]
+    fn a_box_covers_the_contacts_that_share_the_numbers_of_one_of_its_own_and_no_others() {
+        for (contact, space) in [(LINE, ParameterSpace::table_3_1()), (ContactKind::Point, ParameterSpace::table_3_4())]
+        {
+            let domain = Domain { contact, space: space.clone(), lubricant: Lubricant::default() };
+            let trusted = |point: &OperatingPoint| {
+                domain.trust(&Problem::new(point, Lubricant::default()).unwrap()) == Trust::Trained
+            };
+            let mut rng = Rng::with_seed(5);
+            for point in random_points(&space, contact, 300, 1) {
+                assert!(trusted(&point), "{point:?}");
+                // The same numbers with another R and E′ are the same contact.
+                let request = MoesRequest {
+                    radius_m: Some(0.1 * rng.f64() + 1e-3),
+                    modulus_pa: Some(1e11),
+                    viscosity_pa_s: Some(point.viscosity_pa_s),
+                    alpha_per_pa: Some(point.alpha_per_pa),
+                    ..MoesRequest::new(contact, point.moes().m, point.moes().l)
+                };
+                assert!(trusted(&si_from_moes(&request).unwrap()));
+            }
+            // Random numbers of the surrounding rectangle: inside exactly if some R of the box fits, found by trial.
+            let [m, l] = [domain.m(), domain.l()];
+            let (mut inside, mut outside) = (0, 0);
+            for _ in 0..300 {
+                let between = |(low, high): (f64, f64), t: f64| low * (high / low).powf(t);
+                let alpha = between((5e-9, 20e-9), rng.f64());
+                let request = MoesRequest {
+                    viscosity_pa_s: Some(0.01),
+                    alpha_per_pa: Some(alpha),
+                    ..MoesRequest::new(contact, between(m, rng.f64()), between(l, rng.f64()))
+                };
+                let Ok(point) = si_from_moes(&request) else { continue };
+                let (from, to) = space.axis(Quantity::Radius).unwrap().ends;
+                let within = |quantity: Quantity, value: f64| {
+                    let (low, high) = space.axis(quantity).unwrap().ends;
+                    (low..=high).contains(&value)
+                };
+                let some = (0..=4000).any(|k| {
+                    let radius = from + (to - from) * f64::from(k) / 4000.0;
+                    let own = si_from_moes(&MoesRequest { radius_m: Some(radius), ..request }).unwrap();
+                    within(Quantity::Speed, own.speed_m_per_s) && within(Quantity::Load, own.load)
+                });
+                assert_eq!(trusted(&point), some, "{request:?}");
+                if some { inside += 1 } else { outside += 1 }
+            }
+            assert!(inside > 20 && outside > 20, "{inside} {outside}");
+        }
     }
 }

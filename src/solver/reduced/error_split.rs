@@ -30,8 +30,9 @@
 //! projection.
 
 use super::model::{ReducedModel, Window};
-use super::online::{Online, ReducedError, ReducedOptions, ReducedSolution};
+use super::online::{Online, ReducedError, ReducedOptions};
 use super::operators::fronts;
+use super::reduced_solution::ReducedSolution;
 use super::sampling::{Sampling, TestSpace, all_rows};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, GridError, dot};
 use crate::solver::full::point::{Accuracy, second_grid};

@@ -6,8 +6,8 @@
 
 use super::dense;
 use super::model::Window;
-use super::oils::{OilPlace, apart, oil_place};
 use super::start::{Guess, film_number};
+use crate::solver::parameters::{MOST_NUMBERS, Metric, Place, apart};
 use crate::solver::physics::contact::OperatingPoint;
 use faer::Mat;
 
@@ -15,7 +15,7 @@ use faer::Mat;
 const fn terms(numbers: usize) -> usize {
     (numbers + 1) * (numbers + 2) / 2
 }
-const MOST_TERMS: usize = terms(7);
+const MOST_TERMS: usize = terms(MOST_NUMBERS);
 /// Solutions per term without which there is no trend.
 const FEWEST: usize = 2;
 /// What trends that the solutions cannot tell apart are held by.
@@ -23,13 +23,11 @@ const RIDGE: f64 = 1e-9;
 
 /// Interpolates between the training solutions of a window.
 pub(super) struct Kriging {
-    /// How many numbers tell contacts apart, and whether stresses and SRR are among them.
-    apart_by: usize,
-    slides: bool,
-    centre: OilPlace,
+    metric: Metric,
+    centre: Place,
     /// Length in which places are counted.
     length: f64,
-    places: Vec<OilPlace>,
+    places: Vec<Place>,
     /// Of each solution, then of each term, what it contributes: coefficients, ln of the film, fronts.
     weights: Vec<f64>,
     modes: usize,
@@ -38,26 +36,20 @@ pub(super) struct Kriging {
 }
 
 impl Kriging {
-    /// Of the snapshots of a window of a model that knows heat or does not; `None` where they are too few or do not differ
-    /// enough.
-    pub fn of(window: &Window, heat: bool) -> Option<Self> {
+    /// Of the snapshots of a local model; `None` where they are too few or do not differ enough.
+    pub fn of(window: &Window, metric: Metric) -> Option<Self> {
         let snapshots = &window.snapshots;
         let (count, modes) = (snapshots.len(), window.pressure.count());
         let lines = snapshots.first()?.fronts.len();
-        let slides = window.thins || heat;
-        let apart_by = match (&window.shapes, slides) {
-            (Some(_), _) => 7,
-            (None, true) => 6,
-            (None, false) => 4,
-        };
+        let apart_by = metric.len();
         let trends = terms(apart_by);
         if count < FEWEST * trends {
             return None;
         }
-        let own: Vec<OilPlace> = snapshots.iter().map(|snapshot| oil_place(&snapshot.point, slides)).collect();
-        let centre: OilPlace = std::array::from_fn(|k| own.iter().map(|place| place[k]).sum::<f64>() / count as f64);
+        let own: Vec<Place> = snapshots.iter().map(|snapshot| metric.place(&snapshot.point)).collect();
+        let centre: Place = std::array::from_fn(|k| own.iter().map(|place| place[k]).sum::<f64>() / count as f64);
         let length = (own.iter().map(|place| apart(*place, centre)).sum::<f64>() / count as f64).sqrt();
-        let places: Vec<OilPlace> = own.iter().map(|place| scaled(*place, centre, length)).collect();
+        let places: Vec<Place> = own.iter().map(|place| scaled(*place, centre, length)).collect();
         let terms: Vec<[f64; MOST_TERMS]> = places.iter().map(|place| trend(*place, apart_by)).collect();
         let system = Mat::from_fn(count + trends, count + trends, |i, j| match (i < count, j < count) {
             (true, true) => cubed(apart(places[i], places[j])),
@@ -82,15 +74,15 @@ impl Kriging {
         let weights: Vec<f64> =
             (0..count + trends).flat_map(|i| (0..numbers).map(move |k| (i, k))).map(|at| solved[at]).collect();
         let sound = weights.iter().all(|weight| weight.is_finite());
-        sound.then_some(Self { apart_by, slides, centre, length, places, weights, modes, numbers })
+        sound.then_some(Self { metric, centre, length, places, weights, modes, numbers })
     }
 
     /// The start for a contact; `None` where it is none.
     pub fn start(&self, point: &OperatingPoint) -> Option<Guess> {
-        let place = scaled(oil_place(point, self.slides), self.centre, self.length);
+        let place = scaled(self.metric.place(point), self.centre, self.length);
         let mut coefficients = vec![0.0; self.numbers];
         let near = self.places.iter().map(|other| cubed(apart(place, *other)));
-        let trends = trend(place, self.apart_by);
+        let trends = trend(place, self.metric.len());
         for (factor, weights) in near.chain(trends).zip(self.weights.chunks_exact(self.numbers)) {
             coefficients.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += factor * weight);
         }
@@ -102,12 +94,12 @@ impl Kriging {
     }
 }
 
-fn scaled(place: OilPlace, centre: OilPlace, length: f64) -> OilPlace {
+fn scaled(place: Place, centre: Place, length: f64) -> Place {
     std::array::from_fn(|k| (place[k] - centre[k]) / length)
 }
 
 /// 1, so many numbers, and their products.
-fn trend(place: OilPlace, numbers: usize) -> [f64; MOST_TERMS] {
+fn trend(place: Place, numbers: usize) -> [f64; MOST_TERMS] {
     let mut terms = [1.0; MOST_TERMS];
     terms[1..=numbers].copy_from_slice(&place[..numbers]);
     let mut at = numbers + 1;

@@ -13,16 +13,16 @@ pub(crate) mod dense;
 mod domain;
 mod error_measures;
 mod error_split;
-#[cfg(test)]
-mod error_split_tests;
 mod kept;
 mod kriging;
 mod minimisation;
 mod model;
+mod multiples;
 mod oils;
 mod online;
 mod operators;
 mod pod;
+mod reduced_solution;
 mod row_sizes;
 mod sampling;
 mod shapes;
@@ -32,33 +32,30 @@ pub mod tpwl;
 mod traction;
 mod traction_curve;
 pub mod transient;
+mod warmth;
 
 pub use calibration::{
-    Beside, Calibration, ErrorEstimate, Estimated, Evidence, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Laws, Measured,
+    Calibration, CalibrationParts, ErrorEstimate, Estimated, Evidence, FeatureSet, Features, LEAST_EVIDENCE,
+    LEAST_OF_WINDOW, Measured,
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
-pub(crate) use domain::circles;
-pub use domain::{
-    CIRCLES, Domain, EyringDomain, HeatDomain, OilDomain, SlidingDomain, ThermalDomain, Trust, gradient_stress,
-};
+pub use domain::{Domain, Trust};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
-pub use kept::{
-    ALL_DIGITS, FILM_DIGITS, Keeping, Multiples, RULE_ACCURACY, factor_accuracy, factor_scales, keep_snapshots,
-    kept_digits, kept_rule, kept_starts,
-};
+pub use kept::{FILM_DIGITS, Keeping, keep_snapshots, kept_starts};
 pub use minimisation::Scheme;
 pub(crate) use minimisation::minimised_rows;
-pub use model::{ModelSize, ReducedModel, SHAPE_WEIGHT, Snapshot, Window, deformation_weights, distance, separation};
-pub use oils::expected_film;
-pub(crate) use oils::{BEYOND_CELLS, OilPlace, apart, from_anchor, oil_place};
-pub use online::{Online, ReducedError, ReducedOptions, ReducedSolution, STANDS_IN, Starts};
-pub use operators::Warmth;
+pub use model::{ModelSize, ReducedModel, Snapshot, Window, deformation_weights};
+pub use multiples::{ALL_DIGITS, Multiples, RULE_ACCURACY, factor_accuracy, factor_scales, kept_digits, kept_rule};
+pub(crate) use oils::{BEYOND_CELLS, from_anchor};
+pub use online::{Online, ReducedError, ReducedOptions, Starts};
 pub(crate) use operators::{Iterate, fronts};
 pub use pod::PodBasis;
+pub use reduced_solution::ReducedSolution;
 pub(crate) use row_sizes::mean_diagonals;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, all_rows, greedy, is_finite, q_deim};
 pub use shapes::Shapes;
 pub use traction::TractionRule;
 pub use traction_curve::{CurvePoint, traction_curve};
+pub use warmth::Warmth;

@@ -2,9 +2,8 @@
 
 use super::calibration::{Calibration, ErrorEstimate, Features};
 use super::combined::PressureModes;
-use super::domain::{CIRCLES, Domain, Trust};
+use super::domain::{Domain, Trust};
 use super::minimisation::Scheme;
-use super::oils::{apart, oil_place};
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};
 use super::shapes::Shapes;
@@ -12,6 +11,7 @@ use super::traction::TractionRule;
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::{GridCost, Problem};
+use crate::solver::parameters::{CIRCLES, Metric, apart, separation};
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use faer::Mat;
@@ -19,10 +19,9 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// A training solution as the model keeps it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// The operating point. Files keep the radius across in a place of its own.
-    #[serde(with = "without_shape")]
+    /// The operating point.
     pub point: OperatingPoint,
     /// Its coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
@@ -31,28 +30,9 @@ pub struct Snapshot {
     /// Its central film H_c, from the full solution.
     pub h_c: f64,
     /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
-    /// Files keep them in a place of their own.
-    #[serde(skip)]
     pub fronts: Vec<usize>,
-    /// What the grid costs H_c, where the training asked. Files keep it in a place of its own.
-    #[serde(skip)]
+    /// What the grid costs H_c, where the training asked.
     pub grid_cost: Option<GridCost>,
-}
-
-/// An operating point as model files have it, without a radius across.
-mod without_shape {
-    use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-    use crate::solver::physics::lubricant::Sliding;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<S: Serializer>(point: &OperatingPoint, serializer: S) -> Result<S::Ok, S::Error> {
-        (point.kind, point.quantities(), point.sliding).serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<OperatingPoint, D::Error> {
-        let (kind, quantities, sliding) = <(ContactKind, [f64; 6], Sliding)>::deserialize(deserializer)?;
-        Ok(OperatingPoint::from_quantities(kind, quantities, sliding))
-    }
 }
 
 /// One local model: a window of M with its own grid, bases and sampled rows.
@@ -63,8 +43,8 @@ pub struct Window {
     /// Of a window that serves the contacts around a place in (ln M, ln L) that place; M then says no more than how far
     /// these reach.
     pub anchor: Option<Moes>,
-    /// Whether SRR and stresses tell its contacts apart as well: of many oils that thin under shear.
-    pub thins: bool,
+    /// Distance between its solutions, if it was built around an anchor.
+    pub metric: Metric,
     /// The grid of its solutions.
     pub grid: ContactGrid,
     /// Penalty factor γ̄ of (2.36) in the reduced equations. Sampled rows of a point contact want it softer than the
@@ -130,24 +110,6 @@ pub struct ReducedModel {
     pub log: Vec<String>,
 }
 
-/// The dissertation's distance of two contacts, (3.20).
-pub fn distance(a: Moes, b: Moes) -> f64 {
-    (a.m - b.m).powi(2) / (a.m * a.m + b.m * b.m) + 0.001 * (a.l - b.l).powi(2)
-}
-
-/// Weight of (ln of the ratio of two R_y/R)² beside (3.20).
-pub const SHAPE_WEIGHT: f64 = 0.15;
-
-/// (3.20) with what SRR and NPR add to it, and the shape.
-pub fn separation(a: &OperatingPoint, b: &OperatingPoint) -> f64 {
-    let shape = if a.radius_y_m == b.radius_y_m && a.radius_m == b.radius_m {
-        0.0
-    } else {
-        SHAPE_WEIGHT * (a.radius_ratio() / b.radius_ratio()).ln().powi(2)
-    };
-    distance(a.moes(), b.moes()) + a.sliding.distance(b.sliding) + shape
-}
-
 /// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the nodes that carry no
 /// pressure.
 pub fn deformation_weights(grid: &ContactGrid) -> Vec<f64> {
@@ -182,7 +144,7 @@ impl Window {
         Self {
             m,
             anchor: None,
-            thins: false,
+            metric: Metric::default(),
             grid,
             penalty: PENALTY,
             cavitation: Cavitation::Penalty,
@@ -245,9 +207,9 @@ impl Window {
     /// The nearest training solution by [`separation`], or by what tells oils apart where it knows many.
     pub fn nearest(&self, point: &OperatingPoint) -> Option<(&Snapshot, f64)> {
         if self.anchor.is_some() {
-            let place = |point: &OperatingPoint| oil_place(point, self.thins);
-            let own = place(point);
-            let all = self.snapshots.iter().map(|snapshot| (snapshot, apart(own, place(&snapshot.point))));
+            let own = self.metric.place(point);
+            let far = |snapshot: &Snapshot| apart(own, self.metric.place(&snapshot.point));
+            let all = self.snapshots.iter().map(|snapshot| (snapshot, far(snapshot)));
             return all.min_by(|a, b| a.1.total_cmp(&b.1));
         }
         self.snapshots.iter().map(|s| (s, separation(point, &s.point))).min_by(|a, b| a.1.total_cmp(&b.1))
@@ -284,12 +246,12 @@ impl ReducedModel {
 
     /// Whether it is a model of ellipses.
     pub fn of_ellipses(&self) -> bool {
-        self.domain.radius_ratio != CIRCLES
+        self.domain.space.of_ellipses()
     }
 
     /// Whether its rows want gradients of the pressure: of a lubricant that thins under shear, and of films with heat.
     pub(crate) fn slides(&self) -> bool {
-        self.domain.thins() || self.domain.heat.is_some()
+        self.domain.slides()
     }
 
     /// Whether it is a model of this kind of contact: of lines, of circles, or of ellipses.
@@ -300,16 +262,5 @@ impl ReducedModel {
     /// Whether the model was trained for a problem.
     pub fn trust(&self, problem: &Problem) -> Trust {
         self.domain.trust(problem)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_distance_is_the_dissertations() {
-        let d = distance(Moes { m: 10.0, l: 5.0 }, Moes { m: 20.0, l: 8.0 });
-        assert!((d - (100.0 / 500.0 + 0.009)).abs() < 1e-15);
     }
 }

@@ -1,17 +1,15 @@
-//! Contacts of many oils: the four numbers that tell their solutions apart, and windows around anchors.
+//! Local models around anchors in (ln M, ln L), for spaces whose lubricant varies.
 //!
-//! Under Roelands' and Dowson and Higginson's laws a contact is four numbers: M, L, p_H and Roelands' exponent z =
-//! α p_Roe/(ln η₀ + 9.67). Registered pressures vary most with ln M and ln L, three times less over the range of oils with
-//! ln p_H, and little with z; a window narrow in one of the latter needs hardly fewer modes than a wide one. So windows
-//! are the cells of anchors in (ln M, ln L), whatever the oil. Where oils thin under shear SRR and p_H a/R over τ₀ are two
-//! numbers more.
+//! Registered pressures vary most with ln M and ln L, three times less over the lubricant ranges with ln p_H, and little with
+//! Roelands' exponent z. A local model that is narrow in one of the latter needs hardly fewer modes than a wide one, so local
+//! models are the cells of anchors in (ln M, ln L), whatever the lubricant.
 
 use super::calibration::{ErrorEstimate, Estimated};
 use super::model::{ReducedModel, Window};
-use super::online::ReducedSolution;
+use super::reduced_solution::ReducedSolution;
 use crate::solver::full::GridCost;
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint, moes_film};
-use crate::solver::physics::lubricant::roelands_exponent;
+use crate::solver::parameters::apart;
+use crate::solver::physics::contact::{Moes, OperatingPoint};
 
 /// How much farther than the nearest anchor, in ln M and ln L, another one may be to be blended in.
 const BLENDED: f64 = 0.05;
@@ -19,46 +17,6 @@ const BLENDED: f64 = 0.05;
 /// How much farther contacts of its training may lie: a window knows more than it is asked for, so that nothing is
 /// extrapolated where it is blended.
 pub(crate) const BEYOND_CELLS: f64 = 0.1;
-
-/// Where a contact lies among those of many oils: the first numbers tell them apart, the others are zero.
-pub(crate) type OilPlace = [f64; 7];
-
-/// ln M, ln L, ln p_H and z in lengths that add up to the distance of registered pressures; of oils that thin under shear,
-/// whose contacts have one τ₀, ln(p_H a/R) and |SRR| as well, and of ellipses ln(R_y/R).
-pub(crate) fn oil_place(point: &OperatingPoint, thins: bool) -> OilPlace {
-    let (Moes { m, l }, pressure) = (point.moes(), point.hertz().pressure_pa);
-    let [stress, srr] = if thins {
-        let srr = point.sliding.slide_to_roll_ratio.abs();
-        [STRESS_LENGTH * point.gradient_stress_pa().ln(), SRR_LENGTH * srr]
-    } else {
-        [0.0; 2]
-    };
-    let shape = SHAPE_LENGTH * point.radius_ratio().ln();
-    [0.27 * m.ln(), 0.29 * l.ln(), 0.18 * pressure.ln(), 0.34 * roelands_exponent(point), stress, srr, shape]
-}
-
-/// Units of ln(p_H a/R), and of |SRR|, in the lengths of [`oil_place`]: where films are thick they change pressures by up
-/// to 0.06 and 0.2, where these are thin hardly at all.
-const STRESS_LENGTH: f64 = 0.05;
-const SRR_LENGTH: f64 = 0.15;
-
-/// The unit of ln(R_y/R) there: beside ln M it counts as much as by [`separation`](super::model::separation).
-const SHAPE_LENGTH: f64 = 0.15;
-
-/// H_c in units of a²/R that Moes' formula expects of M and L.
-pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {
-    let film = moes_film(kind, moes);
-    match kind {
-        // (a/R)² = (8/π) M √(2U) of a line, (3M/2)^⅔ √(2U) of a circle, and h/R = Ĥ √(2U).
-        ContactKind::Line => film * std::f64::consts::PI / (8.0 * moes.m),
-        ContactKind::Point => film * (1.5 * moes.m).powf(-2.0 / 3.0),
-    }
-}
-
-/// The squared distance of two places.
-pub(crate) fn apart<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
-}
 
 /// How far a contact lies from an anchor, in ln M and ln L.
 pub(crate) fn from_anchor(moes: Moes, anchor: Moes) -> f64 {
@@ -70,7 +28,7 @@ impl ReducedModel {
     /// Shares begin with zero where an anchor comes near enough, so that nothing jumps.
     pub(super) fn blended(&self, moes: Moes) -> Vec<(f64, usize)> {
         // Temperatures are not blended.
-        let Some(nearest) = self.nearest_anchor(moes).filter(|_| self.domain.heat.is_none()) else { return Vec::new() };
+        let Some(nearest) = self.nearest_anchor(moes).filter(|_| !self.domain.heats()) else { return Vec::new() };
         let far = |k: usize| self.windows[k].anchor.map_or(f64::INFINITY, |anchor| from_anchor(moes, anchor));
         let least = far(nearest);
         let share = |k: usize| (1.0 - (far(k) - least) / BLENDED).max(0.0).powi(2);
@@ -99,10 +57,10 @@ const NEIGHBOURS: usize = 8;
 impl Window {
     /// What the grid costs H_c of a contact, by those of the training solutions around it; none where these do not say.
     pub fn grid_cost(&self, point: &OperatingPoint) -> Option<GridCost> {
-        let place = oil_place(point, self.thins);
+        let place = self.metric.place(point);
         let known = self.snapshots.iter().filter_map(|snapshot| {
             let cost = snapshot.grid_cost.filter(|cost| cost.total().is_finite())?;
-            Some((apart(place, oil_place(&snapshot.point, self.thins)), cost))
+            Some((apart(place, self.metric.place(&snapshot.point)), cost))
         });
         let mut near: Vec<(f64, GridCost)> = known.collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -7,17 +7,19 @@ mod settings;
 
 pub use settings::{ReducedError, ReducedOptions, Starts};
 
-use super::calibration::{Beside, ErrorEstimate, Features};
+use super::calibration::{FeatureSet, Features};
 use super::domain::Trust;
 use super::kriging::Kriging;
 use super::model::{ReducedModel, Snapshot, Window};
-use super::operators::{Operators, RowObserver, Warmth};
+use super::operators::{Operators, RowObserver};
+use super::reduced_solution::ReducedSolution;
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
-use crate::solver::full::heat::ENDURED_K;
 use crate::solver::observer::Observer;
+use crate::solver::parameters::Metric;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::warning::ENDURED_K;
 use attempt::{Found, Watch, attempt, walk};
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -31,51 +33,6 @@ const FIRST_ATTEMPTS: usize = 12;
 /// most; from other starts films were off by up to 5e-2. Circles that thin under shear or have heat find their solutions from
 /// other starts, all but five of 20,000 and two of 5,000, which are tried with fewer modes at last. Of lines all modes count.
 static SHARES: [f64; 5] = [1.0, 0.875, 0.75, 0.625, 0.5];
-
-/// What is said of a solution by another window than the contact's own.
-pub const STANDS_IN: &str = "the window of the reduced model that this contact belongs to found no solution; the one beside \
-    it answers, whose errors were not measured here";
-
-/// What the online phase returns: small numbers only; fields are reconstructed on request.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReducedSolution {
-    /// The operating point it belongs to.
-    pub point: OperatingPoint,
-    /// The laws it belongs to.
-    pub lubricant: Lubricant,
-    /// The window that served it.
-    pub window: usize,
-    /// Whether that is not the contact's own, which found no solution: errors were not measured there.
-    pub stands_in: bool,
-    /// Coefficients in the pressure basis.
-    pub coefficients: Vec<f64>,
-    /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
-    pub fronts: Vec<usize>,
-    /// Solutions of further windows around anchors, near whose borders it is blended with them, and the share of each;
-    /// the films and what follows from them are then those of the blend.
-    pub beside: Vec<(f64, ReducedSolution)>,
-    /// H₀.
-    pub h_0: f64,
-    /// Central film H_c.
-    pub h_c: f64,
-    /// Traction coefficient (3.41) by the window's rule on few nodes; none of a model that does not know sliding.
-    pub traction: Option<f64>,
-    /// The share that the limiting stress takes of what its own window's traction were without one, 0…1; none with heat, or
-    /// where no rule says it.
-    pub cut: Option<f64>,
-    /// Its temperatures; none without heat.
-    pub heat: Option<Warmth>,
-    /// Newton steps.
-    pub iterations: usize,
-    /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
-    pub residual_estimate: f64,
-    /// Calibrated estimate of its errors. None where the model has no calibration, or solved otherwise than it was
-    /// calibrated: outside its domain, by another window, with fewer modes or other settings; nor of a film hotter than
-    /// lubricants endure.
-    pub error: Option<ErrorEstimate>,
-    /// Whether the model was trained for the point.
-    pub trust: Trust,
-}
 
 /// A model with the operators of the chosen truncation and all work space.
 pub struct Online {
@@ -214,7 +171,7 @@ impl Online {
             return Err(ReducedError::OtherContact { model, given: point.kind });
         }
         let problem = Problem::new(point, lubricant)?;
-        if problem.heat.is_some() && self.model.domain.heat.is_none() {
+        if problem.heat.is_some() && !self.model.domain.heats() {
             return Err(ReducedError::Heat);
         }
         if problem.shear.is_some() && !self.model.slides() {
@@ -229,7 +186,7 @@ impl Online {
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
         };
-        let (ellipse, known) = (point.ellipse(), model.domain.radius_ratio);
+        let (ellipse, known) = (point.ellipse(), model.domain.space.radius_ratio());
         if window.shapes.as_ref().map_or(ellipse != Ellipse::CIRCLE, |shapes| !shapes.hold_for(&ellipse)) {
             return Err(ReducedError::Ellipse { given: ellipse.radius_ratio, known });
         }
@@ -275,9 +232,12 @@ impl Online {
 
     /// The start by kriging in a window around an anchor.
     fn kriged(&self, index: usize, point: &OperatingPoint) -> Option<Guess> {
-        let heat = self.model.domain.heat.is_some();
         let window = self.model.windows.get(index).filter(|window| window.anchor.is_some())?;
-        self.krigings.get(index)?.get_or_init(|| Kriging::of(window, heat)).as_ref()?.start(point)
+        self.krigings
+            .get(index)?
+            .get_or_init(|| Kriging::of(window, Metric::of_starts(&self.model.domain.space)))
+            .as_ref()?
+            .start(point)
     }
 
     /// Solves a contact from one snapshot of its window and from nowhere else, showing every iterate, for the training.
@@ -330,12 +290,13 @@ impl Online {
         };
         let own = self.model.windows.get(window).filter(|_| as_measured && !solved.is_too_hot());
         solved.error = own.and_then(|window| {
-            let features = Features::of(&solved, &point, Beside::of(domain));
+            let features = Features::of(&solved, &point, &FeatureSet::of(domain));
             window.likely_error(&features, &problem.point, problem.lubricant.cavitation)
         });
         if let Some(estimate) = solved.error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
-            let meant = problem.traction_warning().is_none() && (knows_traction || domain.eyring.is_none());
+            let meant = problem.traction_warning().is_none()
+                && (knows_traction || !(domain.thins() && domain.space.varies_lubricant()));
             estimate.traction = estimate.traction.filter(|_| meant);
         }
         solved
@@ -368,7 +329,7 @@ fn all_modes() -> (&'static [f64], &'static [f64]) {
 
 fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Operators {
     let modes = options.pressure_modes.unwrap_or(usize::MAX);
-    if model.domain.heat.is_some() {
+    if model.domain.heats() {
         return Operators::with_heat(window, modes, options.deformation_modes);
     }
     Operators::new(window, modes, options.deformation_modes, model.domain.thins())

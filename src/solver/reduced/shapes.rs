@@ -4,6 +4,7 @@
 //! the largest deformation, and what a reduced model costs hardly feels them: the rows of the support are combined once
 //! per contact. Single precision does for them, 6e-8 of it, and halves what they take.
 
+use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::{ContactGrid, GridError, PointGrid};
 use crate::solver::physics::contact::Ellipse;
 use faer::Mat;
@@ -45,13 +46,14 @@ impl Shapes {
         };
         let ends = (log_kappa(low)?, log_kappa(high)?);
         let count = NODES[usize::from(high > 10.0 * low)];
-        let flexed = (0..count).into_par_iter().map(|i| {
+        let flexed = |i: usize| {
             let at = 0.5 * (ends.0 + ends.1) + 0.5 * (ends.1 - ends.0) * node(i, count);
             let grid = grid.of_ellipse(Ellipse::of_kappa(at.exp()))?;
             let flexed = ContactGrid::Point(grid).flex(modes);
             Ok(Mat::from_fn(flexed.nrows(), flexed.ncols(), |node, k| flexed[(node, k)] as f32))
-        });
-        Ok(Self { radius_ratio, ends, flexed: flexed.collect::<Result<_, GridError>>()? })
+        };
+        let flexed = on_all_cores(|| (0..count).into_par_iter().map(flexed).collect::<Result<_, GridError>>())?;
+        Ok(Self { radius_ratio, ends, flexed })
     }
 
     /// Whether it holds for an ellipse, a little beyond its range too.

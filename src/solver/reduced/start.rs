@@ -3,8 +3,9 @@
 //! The interpolation carries film and spike along; the nearest snapshot alone is the dissertation's choice.
 
 use super::dense;
-use super::model::{SHAPE_WEIGHT, Snapshot, Window, separation};
+use super::model::{Snapshot, Window};
 use crate::solver::discrete::heat::Profile;
+use crate::solver::parameters::{SHAPE_WEIGHT, separation};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
 use faer::Mat;
 

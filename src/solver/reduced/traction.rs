@@ -9,7 +9,6 @@
 //! everywhere. One with heat is less exact than its rule, and a film with temperatures takes longer.
 
 use super::cubature::GoalEquations;
-use super::model::Window;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
@@ -47,17 +46,17 @@ impl TractionRule {
         (self.nodes.clone(), self.weights.clone())
     }
 
-    /// The rule that reproduces ∫τ for the stresses of many solutions, each given at every node of a window's grid. `None`
+    /// The rule that reproduces ∫τ for the stresses of many solutions, each given at every node of a grid, from nodes of the sampled equations and some of the grid. `None`
     /// when there are too few solutions, or the fit fails.
-    pub fn fit(window: &Window, stresses: &[Vec<f64>]) -> Option<Self> {
-        let most = match window.grid.kind() {
+    pub fn fit(grid: &ContactGrid, sampled_rows: &[usize], stresses: &[Vec<f64>]) -> Option<Self> {
+        let most = match grid.kind() {
             ContactKind::Line => NODES_OF_LINE,
             ContactKind::Point => NODES,
         };
-        let quadrature = quadrature(&window.grid);
-        let (_, across) = window.grid.nodes();
+        let quadrature = quadrature(grid);
+        let (_, across) = grid.nodes();
         let between = |node: &usize| (node / across).is_multiple_of(BETWEEN) && (node % across).is_multiple_of(BESIDE);
-        let of_rows = window.sampled_rows.iter().flat_map(|&row| window.grid.row(row).0);
+        let of_rows = sampled_rows.iter().flat_map(|&row| grid.row(row).0);
         let of_grid = (0..quadrature.len()).filter(between);
         let mut candidates: Vec<usize> = of_rows.chain(of_grid).filter(|&node| quadrature[node] > 0.0).collect();
         candidates.sort_unstable();

@@ -1,7 +1,9 @@
 //! Traction and film along a curve: contacts that differ in one quantity, each solved from its neighbours.
 
-use super::online::{Online, ReducedError, ReducedSolution};
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use super::online::{Online, ReducedError};
+use super::reduced_solution::ReducedSolution;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 
 /// One contact of a curve.

@@ -16,11 +16,11 @@
 use super::build::WindowTraining;
 use super::indicator::{Indicator, Judges};
 use super::plan::{Drawn, global_point, local_point};
-use super::range::Unit;
 use super::state::{Part, TrainingState, WindowState};
 use super::{Plan, Progress, TrainingError};
+use crate::solver::parameters::{Unit, separation};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::reduced::{Sampling, Window, separation};
+use crate::solver::reduced::{Sampling, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 

@@ -5,7 +5,7 @@
 //! every window near it; a window with fewer than its number takes further ones of its own. A contact that the full
 //! solver gives no solution for is left out, and named.
 
-use super::build::{WindowTraining, domain};
+use super::build::WindowTraining;
 use super::layout::outward;
 use super::one_thread::on_one_thread;
 use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
@@ -71,7 +71,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
     };
     let (count, grid) = (*count, *grid);
     let modes = if *divided_by == 0 { *modes } else { *divided_by };
-    let whole = WindowSpec::new(domain(&spec).m, grid);
+    let whole = WindowSpec::new(spec.domain().m(), grid);
     if state.trials.is_empty() {
         state.trials.push(WindowState::new(whole, spec.seed, []));
     }
@@ -135,7 +135,7 @@ pub(super) fn in_common(
         let own = window.solved.iter().take(window.inherited);
         pool.extend(own.filter(|solved| cell.holds(solved.point.moes(), 0.0)).cloned());
     }
-    let heat = spec.range.heats();
+    let heat = spec.heats();
     let (wanted, loss, (from, to), positive) = (grid, spec.deformation_loss, first.window.m, spec.positive_modes);
     let bases = on_one_thread(observer, move || {
         let grid = wanted.build().map_err(SolveError::from)?;

@@ -2,21 +2,19 @@
 
 use super::anchors::{Cell, InCommon, anchor, modes_missing, modes_missing_of_any};
 use super::one_thread::on_one_thread;
-use super::plan::{Within, grid_points};
+use super::plan::Within;
 use super::rows::sample_rows;
 use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState, train_resumable};
-use super::{
-    HeatedOilRange, HeatedRange, OilRange, Progress, QuantityBox, Range, SlidingOilRange, SlidingRange, TrainingError,
-    TrainingObserver, TrainingSpec, WindowSpec, Windows,
-};
+use super::{Progress, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
+use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Start};
-use crate::solver::physics::contact::{DEFAULT_VISCOSITY_PA_S, MoesRequest, OperatingPoint};
+use crate::solver::parameters::{CIRCLES, Metric};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    CIRCLES, Combined, Domain, Keeping, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes,
-    SlidingDomain, Snapshot, TestSpace, Window, all_rows, deformation_weights, fronts, keep_snapshots, kept_rule,
-    minimised_rows,
+    Combined, Keeping, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes, Snapshot,
+    TestSpace, Window, all_rows, deformation_weights, fronts, keep_snapshots, kept_rule, minimised_rows,
 };
 use faer::Mat;
 use fastrand::Rng;
@@ -30,74 +28,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// When the specification is refused, a full solve fails, or the observer cancels.
 pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     train_resumable(&mut TrainingState::new(spec.clone()), observer)
-}
-
-/// What the model declares to be trained for.
-pub(super) fn domain(spec: &TrainingSpec) -> Domain {
-    let (m, l, alpha_per_pa, max_hertz_pressure_pa, viscosity_pa_s) = match spec.range {
-        Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => (m, l, alpha, max_hertz_pressure, viscosity),
-        Range::Sliding(range) => {
-            // The lubricant's own coefficient counts, and L goes with it.
-            let SlidingRange { m, l, viscosity, alpha, .. } = range;
-            let own = spec.lubricant.own_coefficient().unwrap_or(alpha);
-            let l = (l.0 * own / alpha, l.1 * own / alpha);
-            (m, l, (own, own), range.highest_pressure(spec.contact()), viscosity)
-        }
-        Range::Heated(HeatedRange { m, l, alpha, viscosity, max_hertz_pressure, .. }) => {
-            let own = spec.lubricant.own_coefficient().unwrap_or(alpha);
-            (m, (l.0 * own / alpha, l.1 * own / alpha), (own, own), max_hertz_pressure, viscosity)
-        }
-        Range::Oils(range)
-        | Range::HeatedOils(HeatedOilRange { oils: range, .. })
-        | Range::SlidingOils(SlidingOilRange { oils: range, .. }) => {
-            let OilRange { m, l, alpha, hertz_pressure, .. } = range;
-            (m, l, alpha, hertz_pressure.1, range.middle_viscosity())
-        }
-        Range::Realisation { m, l, max_hertz_pressure } | Range::Ellipses { m, l, max_hertz_pressure, .. } => {
-            let end = |l| MoesRequest::new(spec.contact(), m.0, l).default_alpha();
-            (m, l, (end(l.0), end(l.1)), max_hertz_pressure, DEFAULT_VISCOSITY_PA_S)
-        }
-        Range::Box(QuantityBox { alpha, viscosity, .. }) => {
-            let corners = grid_points(&spec.range, spec.contact(), [2, 2, 2, 2]);
-            let span = |value: &dyn Fn(&OperatingPoint) -> f64| {
-                corners.iter().map(value).fold((f64::INFINITY, 0.0f64), |(a, b), v| (a.min(v), b.max(v)))
-            };
-            let highest = span(&|p| p.hertz().pressure_pa).1;
-            (span(&|p| p.moes().m), span(&|p| p.moes().l), alpha, highest, viscosity)
-        }
-    };
-    let sliding = match spec.range {
-        Range::Sliding(SlidingRange { srr, npr, modulus, .. }) => Some(SlidingDomain { srr, npr, modulus_pa: modulus }),
-        _ => None,
-    };
-    let oils = match spec.range {
-        Range::Oils(range)
-        | Range::HeatedOils(HeatedOilRange { oils: range, .. })
-        | Range::SlidingOils(SlidingOilRange { oils: range, .. }) => Some(range.declared()),
-        _ => None,
-    };
-    let heat = match spec.range {
-        Range::Heated(range) => Some(range.declared()),
-        Range::HeatedOils(range) => Some(range.declared()),
-        _ => None,
-    };
-    let eyring = match spec.range {
-        Range::SlidingOils(range) => Some(range.declared()),
-        _ => None,
-    };
-    Domain {
-        m,
-        l,
-        alpha_per_pa,
-        max_hertz_pressure_pa,
-        viscosity_pa_s,
-        lubricant: spec.lubricant,
-        sliding,
-        radius_ratio: spec.range.radius_ratio(),
-        oils,
-        heat,
-        eyring,
-    }
 }
 
 /// A window in training: everything it is made with.
@@ -139,12 +69,7 @@ impl<'a> WindowTraining<'a> {
         let (low, high) = self.window.radius_ratio.unwrap_or((0.0, f64::INFINITY));
         let (radius_ratio, cell) = ((low / OVERLAP, high * OVERLAP), self.cell.clone());
         let within = self.spec.within(self.reach);
-        let range = match within.range {
-            Range::Oils(range) => Range::Oils(range.beyond()),
-            Range::HeatedOils(range) => Range::HeatedOils(range.beyond()),
-            Range::SlidingOils(range) => Range::SlidingOils(range.beyond()),
-            other => other,
-        };
+        let range = within.range.beyond();
         Within { radius_ratio, cell, range, ..within }
     }
 
@@ -200,29 +125,24 @@ impl<'a> WindowTraining<'a> {
         let (spec, observer) = (self.spec, self.observer);
         let stage = format!("Full solutions, M {}…{}", self.window.m.0, self.window.m.1);
         let done = AtomicUsize::new(before);
-        points
-            .par_iter()
-            .map_init(
-                || ContactSolver::on(&self.grid),
-                |solver, (place, point)| {
-                    if observer.cancelled() {
-                        return Err(TrainingError::Cancelled);
-                    }
-                    let solution = solver.solve(point, spec.lubricant_of(point), Start::Cold, observer)?;
-                    let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                    observer.progress(Progress { stage: stage.clone(), done, total });
-                    if solution.converged() {
-                        let solution = if spec.tells_grid_costs() { solver.judged(solution) } else { solution };
-                        Ok(Solved::new(*place, solution))
-                    } else if observer.cancelled() {
-                        Err(TrainingError::Cancelled)
-                    } else {
-                        let moes = point.moes();
-                        Err(TrainingError::NotConverged { m: moes.m, l: moes.l })
-                    }
-                },
-            )
-            .collect()
+        let solve = |solver: &mut ContactSolver, (place, point): &(usize, OperatingPoint)| {
+            if observer.cancelled() {
+                return Err(TrainingError::Cancelled);
+            }
+            let solution = solver.solve(point, spec.lubricant_of(point), Start::Cold, observer)?;
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            observer.progress(Progress { stage: stage.clone(), done, total });
+            if solution.converged() {
+                let solution = if spec.tells_grid_costs() { solver.judged(solution) } else { solution };
+                Ok(Solved::new(*place, solution))
+            } else if observer.cancelled() {
+                Err(TrainingError::Cancelled)
+            } else {
+                let moes = point.moes();
+                Err(TrainingError::NotConverged { m: moes.m, l: moes.l })
+            }
+        };
+        on_all_cores(|| points.par_iter().map_init(|| ContactSolver::on(&self.grid), solve).collect())
     }
 
     /// Bases of given solutions, with all rows; `None` when they need more modes than the window may have.
@@ -244,7 +164,7 @@ impl<'a> WindowTraining<'a> {
         let cavitation = spec.lubricant.cavitation;
         let ratio = window.radius_ratio.unwrap_or(spec.range.radius_ratio());
         let (anchored, shapes) = (anchor(window).is_some(), ratio != CIRCLES);
-        let keeping = Keeping { kind: grid.kind(), anchored, heat: spec.range.heats(), shapes };
+        let keeping = Keeping { kind: grid.kind(), anchored, heat: spec.heats(), shapes };
         let mut model = on_one_thread(*observer, move || {
             let mut asked = Vec::new();
             if missing[0] > 0.0 {
@@ -271,7 +191,7 @@ impl<'a> WindowTraining<'a> {
         })?
         .ok_or_else(failed)?;
         (model.penalty, model.cavitation, model.anchor) = (spec.penalty, cavitation, anchor(window));
-        model.thins = matches!(spec.range, Range::SlidingOils(_));
+        model.metric = Metric::of_solutions(&spec.range);
         if most_modes.is_some_and(|most| model.pressure.count() > most) {
             return Ok(None);
         }
@@ -293,7 +213,7 @@ impl<'a> WindowTraining<'a> {
             let served = Within { radius_ratio: window.served_ratios(), ..self.within() };
             let sampled = sample_rows(spec, &Arc::new(alone(spec, &window)), &served, rng, *observer)?;
             let mut rows = sampled.ok_or(TrainingError::Decomposition { from, to })?;
-            let short = Keeping::of(&window, spec.range.heats()).shortens_rules();
+            let short = Keeping::of(&window, spec.heats()).shortens_rules();
             if short && spec.sampling != Sampling::Cubature {
                 rows.reconstruction = kept_rule(rows.reconstruction);
             }
@@ -364,6 +284,6 @@ fn bases(
 
 /// A model of one window only.
 pub(super) fn alone(spec: &TrainingSpec, window: &Window) -> ReducedModel {
-    let (windows, domain) = (vec![window.clone()], domain(spec));
+    let (windows, domain) = (vec![window.clone()], spec.domain());
     ReducedModel { title: String::new(), domain, windows, scene: String::new(), log: Vec::new() }
 }

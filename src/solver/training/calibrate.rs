@@ -8,9 +8,10 @@ use super::anchors::Cell;
 use super::indicator::Corrector;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::traction::drawn;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
-use crate::solver::reduced::{Beside, Calibration, Evidence, Features, Online, ReducedModel, ReducedOptions, Window};
+use crate::solver::reduced::{
+    Calibration, Evidence, FeatureSet, Features, Online, ReducedModel, ReducedOptions, Window,
+};
 use fastrand::Rng;
 use std::sync::Arc;
 
@@ -34,8 +35,8 @@ pub(super) fn measured(
     let served = Within { radius_ratio: window.served_ratios(), cell, ..spec.within(m) };
     let mut rng = Rng::with_seed(seed);
     let points = served.random_points(spec.evidence, &mut rng);
-    let contacts: Vec<_> = points.into_iter().map(|point| (point, drawn(spec, &mut rng))).collect();
-    let beside = Beside::of(&model.domain);
+    let contacts: Vec<_> = points.into_iter().map(|point| (point, spec.random_lubricant(&mut rng))).collect();
+    let set = FeatureSet::of(&model.domain);
     let stage = format!("Measuring errors, M {}…{}", window.m.0, window.m.1);
     let solvers = || (Online::new(Arc::clone(model), ReducedOptions::default()), Corrector::of(window));
     let measured = in_parallel(observer, &stage, &contacts, solvers, |(online, corrector), _, (point, lubricant)| {
@@ -46,7 +47,7 @@ pub(super) fn measured(
             return None;
         }
         let errors = corrector.errors(online, &solved)?;
-        Some(Evidence { features: Features::of(&solved, point, beside), errors })
+        Some(Evidence { features: Features::of(&solved, point, &set), errors })
     })?;
     Ok(measured.into_iter().flatten().collect())
 }

@@ -1,10 +1,11 @@
 //! What a specification of a training may say.
 
-use super::{HeatedOilRange, HeatedRange, Plan, Range, SlidingRange, TrainingSpec, WindowSpec, Windows};
+use super::{Plan, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
+use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::{Cavitation, ShearLaw, ViscosityLaw};
-use crate::solver::reduced::{CIRCLES, LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
+use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, ViscosityLaw};
+use crate::solver::reduced::{LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
 
 /// Most points of a plan, or judged in one go.
 const MOST_POINTS: usize = 100_000;
@@ -73,7 +74,7 @@ pub(super) fn scheme(scheme: Scheme, sampling: Sampling, rows_per_mode: f64) -> 
 fn plan(spec: &TrainingSpec) -> Result<(), Refused> {
     match &spec.plan {
         Plan::FarthestPoint { snapshots } => count("snapshots", *snapshots, 4, MOST_SNAPSHOTS),
-        Plan::Grid { .. } if !matches!(spec.range, Range::Box(_)) => {
+        Plan::Grid { .. } if !spec.range.is_si_box() => {
             Err(Refused::new("nodes", "make the grid of Table 3.2, which needs a range that is a box of SI quantities"))
         }
         Plan::Grid { nodes } => {
@@ -109,112 +110,105 @@ fn search(start: usize, tolerances: &[f64], limit: usize) -> Result<(), Refused>
     }
 }
 
-/// A range with SRR and NPR belongs to a lubricant that thins under shear, and only such a range does; its α is the
-/// lubricant's own.
+/// Which spaces go with which lubricants: what the reduced operators support.
 fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
-    spec.lubricant.check().map_err(|problem| Refused::new("lubricant", format!("is refused: {problem}")))?;
-    let cavitation = &spec.lubricant.cavitation;
-    match cavitation {
-        Cavitation::Complementarity if spec.range.heats() => {
-            let limit = "is complementarity, but reduced models of films with heat rupture by the penalty";
-            return Err(Refused::new("cavitation", limit));
+    let refuse = |field: &str, problem: &str| Err(Refused::new(field, problem));
+    let (range, laws) = (&spec.range, &spec.lubricant);
+    laws.check().map_err(|problem| Refused::new("lubricant", format!("is refused: {problem}")))?;
+    let (heat, thins) = (spec.heats(), laws.shear != ShearLaw::Newtonian);
+    let eyring = matches!(laws.shear, ShearLaw::Eyring { .. });
+    match laws.cavitation {
+        Cavitation::Complementarity if heat => {
+            return refuse("cavitation", "is complementarity, but thermal reduced models support the penalty only");
         }
         Cavitation::MassConserving { .. } => {
-            let limit = "is mass-conserving, but reduced models rupture by the penalty or by complementarity";
-            return Err(Refused::new("cavitation", limit));
+            return refuse(
+                "cavitation",
+                "is mass-conserving, but reduced models support the penalty or complementarity",
+            );
+        }
+        Cavitation::Complementarity if range.of_ellipses() => {
+            return refuse("cavitation", "must be the penalty for a reduced model of ellipses");
         }
         Cavitation::Penalty | Cavitation::Complementarity => {}
     }
-    if spec.range.radius_ratio() != CIRCLES {
-        if spec.contact() != ContactKind::Point {
-            return Err(Refused::new("range", "is of ellipses, but the windows' grids are of line contacts"));
-        }
-        if *cavitation != Cavitation::Penalty {
-            return Err(Refused::new("cavitation", "must be the penalty for a reduced model of ellipses"));
-        }
-        if matches!(spec.range, Range::SlidingOils(_)) {
-            return Err(Refused::new(
-                "range.oils.radius_ratio",
-                "must be left out: sliding oils are of lines and circles",
-            ));
-        }
+    if range.of_ellipses() && spec.contact() != ContactKind::Point {
+        return refuse("range", "is of ellipses, but the windows' grids are of line contacts");
     }
-    if spec.range.of_oils() {
-        if spec.lubricant.viscosity != ViscosityLaw::Roelands {
-            return Err(Refused::new(
+    if range.of_ellipses() && thins && !heat {
+        return refuse("range.axes.RadiusRatio", "must be left out for a shear-thinning lubricant");
+    }
+    if range.varies_lubricant() {
+        if laws.viscosity != ViscosityLaw::Roelands {
+            return refuse(
                 "range",
-                "is of oils by Roelands’ exponent, but the viscosity follows another law",
-            ));
+                "varies the viscosity, which needs Roelands’ law, but the lubricant has another one",
+            );
         }
         if !matches!(spec.windows, Windows::Anchored { .. }) {
-            return Err(Refused::new("windows", "must be anchored for a range of oils: `Anchored(…)`"));
+            return refuse("windows", "must be `Anchored(…)` for a range that varies the viscosity");
+        }
+        if thins && !heat && !eyring {
+            return refuse("range", "varies the viscosity, but shear-thinning by another law than Eyring’s fixes it");
+        }
+        if thins && !heat && !range.knows(Quantity::GradientStress) {
+            return refuse("range", "needs a limit of `GradientStress` for Eyring lubricants whose viscosity varies");
         }
     }
-    heat(spec)?;
-    match (&spec.range, spec.lubricant.shear == ShearLaw::Newtonian) {
-        (Range::Heated(_) | Range::HeatedOils(_), _) => Ok(()),
-        (Range::SlidingOils(_), _) => match spec.lubricant.shear {
-            ShearLaw::Eyring { .. } => Ok(()),
-            _ => Err(Refused::new(
-                "range",
-                "is of oils that thin by Eyring’s law, but the lubricant’s `shear` is another",
-            )),
-        },
-        (Range::Sliding(_), true) => {
-            Err(Refused::new("range", "names SRR and NPR, but the lubricant has no shear constants"))
+    if spec.heats() {
+        return thermal(spec);
+    }
+    let (slides, plateau) = (range.slides(), range.varies(Quantity::NewtonianPlateauRatio));
+    let modulus = range.gives(Quantity::Modulus);
+    match (slides, thins) {
+        _ if plateau && !thins => refuse("range", "varies NPR, but the lubricant has no shear constants"),
+        (true, false) => refuse("range", "varies SRR, but the lubricant is Newtonian and isothermal"),
+        (false, true) => refuse("range", "must vary SlideToRollRatio for a shear-thinning lubricant"),
+        (true, true) if !modulus => refuse("range", "must vary or fix Modulus for a shear-thinning lubricant"),
+        (true, true) => {
+            sliding(spec, 10.0)?;
+            own_coefficient(spec)
         }
-        (Range::Sliding(SlidingRange { srr, alpha, .. }), false) => {
-            interval("range.srr", *srr, 0.0, 10.0)?;
-            match spec.lubricant.own_coefficient() {
-                Some(own) if (alpha / own - 1.0).abs() > 1e-3 => Err(Refused::new(
-                    "range.alpha",
-                    format!(
-                        "is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"
-                    ),
-                )),
-                _ => Ok(()),
-            }
-        }
-        (_, false) => {
-            Err(Refused::new("range", "must name SRR and NPR for a lubricant that thins under shear: `Sliding(…)`"))
-        }
-        (_, true) => Ok(()),
+        (false, false) => Ok(()),
     }
 }
 
-/// A range with heat belongs to films with heat, and only such a range does.
-fn heat(spec: &TrainingSpec) -> Result<(), Refused> {
-    let refuse = |field, problem: &str| Err(Refused::new(field, problem));
-    let alpha = match spec.range {
-        Range::Heated(HeatedRange { alpha, .. }) => Some(alpha),
-        Range::HeatedOils(HeatedOilRange { thermal, .. }) => {
-            if let Some(why) = thermal.and_then(|thermal| thermal.outside(&spec.lubricant)) {
-                return Err(Refused::new("range.thermal", format!("must hold the scene's own constants: {why}")));
-            }
-            None
-        }
-        _ if spec.lubricant.heat.is_none() => return Ok(()),
-        _ => {
-            let wanted = "must name R and SRR for films with heat: `Heated(…)` or `HeatedOils(…)`; or leave heat out";
-            return refuse("range", wanted);
-        }
-    };
-    if spec.lubricant.heat.is_none() {
-        return refuse("range", "is of films with heat, but the scene has no field `heat`");
-    }
-    if spec.lubricant.cavitation != Cavitation::Penalty {
-        return refuse("cavitation", "must be the penalty for a reduced model with heat");
-    }
-    if spec.scheme != Scheme::Galerkin {
-        return refuse("scheme", "must be Galerkin for a reduced model with heat");
-    }
-    match alpha.zip(spec.lubricant.own_coefficient()) {
+/// Refuses negative SRR, in which films are even, and too large ones.
+fn sliding(spec: &TrainingSpec, most: f64) -> Result<(), Refused> {
+    let srr = spec.range.interval(Quantity::SlideToRollRatio, spec.contact()).unwrap_or_default();
+    interval("range.axes.SlideToRollRatio", srr, 0.0, most)
+}
+
+/// A fixed α must be the one that the viscosity law determines.
+fn own_coefficient(spec: &TrainingSpec) -> Result<(), Refused> {
+    match spec.range.fixed(Quantity::Alpha).zip(spec.lubricant.own_coefficient()) {
         Some((alpha, own)) if (alpha / own - 1.0).abs() > 1e-3 => Err(Refused::new(
-            "range.alpha",
+            "range.fixed.Alpha",
             format!("is {alpha:.4e} 1/Pa, but the lubricant's viscosity law determines {own:.4e} 1/Pa; write that"),
         )),
         _ => Ok(()),
     }
+}
+
+/// A space of thermal contacts gives SRR, R and E′, by which films warm at equal M and L.
+fn thermal(spec: &TrainingSpec) -> Result<(), Refused> {
+    let range = &spec.range;
+    for quantity in [Quantity::SlideToRollRatio, Quantity::Radius, Quantity::Modulus] {
+        if !range.gives(quantity) {
+            return Err(Refused::new(
+                "range",
+                format!("must vary or fix {quantity:?} for thermal contacts; or leave heat out"),
+            ));
+        }
+    }
+    sliding(spec, LARGEST_HEATED_SRR)?;
+    if let Some(why) = spec.domain().other_constants(&spec.lubricant) {
+        return Err(Refused::new("range.constants", format!("must contain the scene's own constants: {why}")));
+    }
+    if spec.scheme != Scheme::Galerkin {
+        return Err(Refused::new("scheme", "must be Galerkin for a thermal reduced model"));
+    }
+    own_coefficient(spec)
 }
 
 fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
@@ -236,8 +230,9 @@ fn windows(spec: &TrainingSpec) -> Result<(), Refused> {
                 return Err(Refused::new(*field, format!("is {missing}; it must be within 0…{MOST_MISSING}")));
             }
             grid.check().map_err(|problem| Refused::new("windows.grid", format!("makes no sense: {problem}")))?;
-            if !spec.range.of_oils() {
-                return Err(Refused::new("windows", "are anchored in M and L, which needs a range of oils: `Oils(…)`"));
+            if !spec.range.varies_lubricant() {
+                let why = "are anchored in M and L, which needs a range that varies Viscosity";
+                return Err(Refused::new("windows", why));
             }
             if matches!(spec.plan, Plan::Grid { .. }) {
                 return Err(Refused::new("plan", "is a grid, but anchored windows share solutions at farthest points"));
@@ -278,7 +273,7 @@ fn given(spec: &TrainingSpec, windows: &[WindowSpec]) -> Result<(), Refused> {
     if windows.windows(2).any(apart) {
         return refuse("must have their intervals of radius_ratio in ascending order, or none of them any".to_owned());
     }
-    let (low, high) = spec.domain().m;
+    let (low, high) = spec.domain().m();
     match windows.iter().find(|w| w.m.1 < low || w.m.0 > high) {
         Some(WindowSpec { m: (from, to), .. }) => {
             refuse(format!("contain M {from}…{to}, outside the range, whose M is {low:.4}…{high:.4}"))

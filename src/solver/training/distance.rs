@@ -9,6 +9,7 @@
 //! (`scenes/reduced/distance_measure_*.ron`).
 
 use crate::solver::physics::contact::OperatingPoint;
+use serde::{Deserialize, Serialize};
 
 /// A candidate function g_s,k of two contacts.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +49,7 @@ pub const FURTHER: [Candidate; 8] = [
 ];
 
 /// Weights of a distance measure.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
     /// ω, one per candidate, scaled so that s fits the distances themselves.
     pub weights: Vec<f64>,
@@ -138,16 +139,16 @@ fn non_negative(q: &[Vec<f64>], a: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{QuantityBox, Range, random_points};
+    use super::super::random_points;
     use super::*;
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::full::{FullSolver, Start};
+    use crate::solver::parameters::ParameterSpace;
     use crate::solver::physics::contact::ContactKind;
     use crate::solver::physics::lubricant::Lubricant;
 
     fn points() -> Vec<OperatingPoint> {
-        let range = Range::Box(QuantityBox::TABLE_3_1);
-        random_points(&range, ContactKind::Line, 40, 5)
+        random_points(&ParameterSpace::table_3_1(), ContactKind::Line, 40, 5)
     }
 
     #[test]

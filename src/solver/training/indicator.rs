@@ -9,6 +9,7 @@
 
 use super::build::alone;
 use super::{TrainingError, TrainingObserver, TrainingSpec};
+use crate::host::pool;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
 use crate::solver::physics::contact::OperatingPoint;
@@ -56,7 +57,7 @@ impl<'a> Judges<'a> {
             Indicator::Residual | Indicator::Correction => (ReducedOptions::default(), None),
         };
         let solver = |_| (Online::new(Arc::clone(&model), options), Corrector::of(window));
-        let solvers = (0..rayon::current_num_threads()).map(solver).collect();
+        let solvers = (0..pool::threads()).map(solver).collect();
         Self { indicator, lubricant: spec.lubricant, measures, solvers, observer }
     }
 
@@ -66,24 +67,18 @@ impl<'a> Judges<'a> {
         let Self { indicator, lubricant, measures, solvers, observer } = self;
         let measures = measures.as_ref();
         let threads = solvers.len();
-        let parts: Vec<Vec<f64>> = solvers
-            .par_iter_mut()
-            .enumerate()
-            .map(|(t, solvers)| {
-                points
-                    .iter()
-                    .skip(t)
-                    .step_by(threads)
-                    .map(|point| {
-                        if observer.cancelled() {
-                            return Err(TrainingError::Cancelled);
-                        }
-                        let error = error_at(*indicator, measures, solvers, point, *lubricant);
-                        Ok(error.unwrap_or(f64::INFINITY))
-                    })
-                    .collect()
-            })
-            .collect::<Result<_, _>>()?;
+        let share = |(t, solvers): (usize, &mut (Online, Corrector))| {
+            let judge = |point: &OperatingPoint| {
+                if observer.cancelled() {
+                    return Err(TrainingError::Cancelled);
+                }
+                let error = error_at(*indicator, measures, solvers, point, *lubricant);
+                Ok(error.unwrap_or(f64::INFINITY))
+            };
+            points.iter().skip(t).step_by(threads).map(judge).collect()
+        };
+        let parts: Vec<Vec<f64>> =
+            pool::on_all_cores(|| solvers.par_iter_mut().enumerate().map(share).collect::<Result<_, TrainingError>>())?;
         Ok((0..points.len()).map(|i| parts[i % threads][i / threads]).collect())
     }
 }

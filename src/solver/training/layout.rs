@@ -11,7 +11,7 @@
 //! the training. Registration pays for wide windows and small numbers of modes; for narrow windows and small losses it
 //! hardly matters.
 
-use super::build::{WindowTraining, domain};
+use super::build::WindowTraining;
 use super::one_thread::on_one_thread;
 use super::plan::Within;
 use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
@@ -38,9 +38,12 @@ const TRIAL_POINTS: usize = 48;
 /// # Errors
 /// When the range holds too few points, a full solve fails, or the observer cancels.
 pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
-    let (spec, whole) = (state.spec.clone(), outward(domain(&state.spec).m));
-    let points =
-        Within::all(spec.range, ContactKind::Line).farthest_points(&[], TRIAL_POINTS, &mut Rng::with_seed(spec.seed));
+    let (spec, whole) = (state.spec.clone(), outward(state.spec.domain().m()));
+    let points = Within::all(&spec.range, ContactKind::Line, spec.heats()).farthest_points(
+        &[],
+        TRIAL_POINTS,
+        &mut Rng::with_seed(spec.seed),
+    );
     if points.len() < FEWEST {
         return Err(TrainingError::Specification(format!(
             "the range holds {} points that differ; a model needs at least {FEWEST}",
@@ -173,7 +176,7 @@ mod tests {
         let spec = GridSpec::explorer_from(-5.0, true);
         let grid = spec.line().unwrap();
         let range = moes((5.0, 50.0), (5.0, 8.0), 4e9);
-        let point = Within::all(range, ContactKind::Line).farthest_points(&[], 1, &mut Rng::with_seed(1))[0];
+        let point = Within::all(&range, ContactKind::Line, false).farthest_points(&[], 1, &mut Rng::with_seed(1))[0];
         let solved = |a: f64, b: f64| {
             let pressure = grid.xi.iter().map(|x| a * (x * 0.3).cos() + b * (x * 0.7).sin()).collect();
             Solved { place: 0, point, pressure, h_0: 0.0, h_c: 1.0, grid_cost: None }

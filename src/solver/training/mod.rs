@@ -14,29 +14,25 @@ pub mod distance;
 #[cfg(test)]
 mod ellipse_tests;
 #[cfg(test)]
+mod error_split_tests;
+#[cfg(test)]
 mod heat_tests;
-mod heated_range;
 mod indicator;
 mod layout;
 mod local_bases;
-mod oil_range;
 #[cfg(test)]
 mod oil_tests;
 mod one_thread;
 mod plan;
 #[cfg(test)]
 mod point_tests;
-mod quantity_box;
-mod range;
 #[cfg(test)]
 mod resume_tests;
 mod rows;
 #[cfg(test)]
 mod rupture_tests;
-mod sliding_oil_range;
 #[cfg(test)]
 mod sliding_oil_tests;
-mod sliding_range;
 #[cfg(test)]
 pub(crate) mod small;
 mod split;
@@ -53,17 +49,11 @@ pub use crate::solver::observer::{Observer, Progress};
 pub use adaptive::{BadPoint, Search};
 pub use build::train;
 pub use calibrate::EVIDENCE;
-pub use heated_range::{HeatedOilRange, HeatedRange};
 pub use indicator::Indicator;
 pub use local_bases::LocalBases;
-pub use oil_range::OilRange;
 pub use one_thread::on_one_thread;
 pub use plan::{random_points, random_points_while};
-pub use quantity_box::QuantityBox;
-pub use range::Range;
 pub use rows::with_rows;
-pub use sliding_oil_range::SlidingOilRange;
-pub use sliding_range::SlidingRange;
 pub use state::{Solved, TrainingState, WindowState, train_resumable};
 pub use trajectories::{TrajectoryTraining, train_trajectories};
 
@@ -71,9 +61,11 @@ use self::plan::Within;
 use super::discrete::grid::GridSpec;
 use super::discrete::reynolds::PENALTY;
 use super::limits::Refused;
+use super::parameters::{ParameterSpace, Quantity};
 use super::physics::contact::{ContactKind, OperatingPoint};
 use super::physics::lubricant::{Cavitation, Heat, Lubricant};
-use super::reduced::{CIRCLES, Domain, ReducedModel, Sampling, Scheme};
+use super::reduced::{Domain, ReducedModel, Sampling, Scheme};
+use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::AtomicBool;
 
@@ -147,6 +139,10 @@ impl Plan {
     }
 }
 
+/// One in that many full solutions of a line contact, and of a point contact, has the training's own constants and is a
+/// starting value online: a solution of a point contact takes seconds.
+const OWN: [u64; 2] = [4, 2];
+
 /// Everything that determines a reduced model: the same specification gives the same model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -154,7 +150,7 @@ pub struct TrainingSpec {
     /// Title the model carries.
     pub title: String,
     /// What it is for.
-    pub range: Range,
+    pub range: ParameterSpace,
     /// Laws of the lubricant.
     #[serde(default)]
     pub lubricant: Lubricant,
@@ -199,7 +195,7 @@ fn evidence() -> usize {
 impl TrainingSpec {
     /// A training of Newtonian contacts on one grid, with everything else as a scene has it that leaves it out, losses
     /// of information of 1e-6 and two rows per mode.
-    pub fn new(range: Range, m: (f64, f64), grid: GridSpec, plan: Plan) -> Self {
+    pub fn new(range: ParameterSpace, m: (f64, f64), grid: GridSpec, plan: Plan) -> Self {
         Self {
             title: String::new(),
             range,
@@ -239,8 +235,8 @@ impl TrainingSpec {
     /// Whether a model is of the contacts that it is about.
     pub fn is_of(&self, model: &ReducedModel) -> bool {
         model.contact() == self.contact()
-            && model.of_ellipses() == (self.range.radius_ratio() != CIRCLES)
-            && model.domain.heat.is_some() == self.range.heats()
+            && model.of_ellipses() == self.range.of_ellipses()
+            && model.domain.heats() == self.heats()
     }
 
     /// The kind of contact it is about: that of its grids; windows chosen by the training are of line contacts.
@@ -254,28 +250,63 @@ impl TrainingSpec {
 
     /// Whether its model tells what the grid costs: over the range of many oils that differs much.
     pub fn tells_grid_costs(&self) -> bool {
-        matches!(self.range, Range::Oils(_) | Range::SlidingOils(_))
+        self.range.varies_lubricant() && !self.heats()
     }
 
     /// Whether reduced solutions have temperatures along the lines of a plane, of which all rows take as long as a hundred
     /// others.
     fn warms_a_plane(&self) -> bool {
-        self.range.heats() && self.contact() == ContactKind::Point
+        self.heats() && self.contact() == ContactKind::Point
     }
 
     /// Whether reduced solutions have temperatures along a line.
     fn warms_a_line(&self) -> bool {
-        self.range.heats() && self.contact() == ContactKind::Line
+        self.heats() && self.contact() == ContactKind::Line
     }
 
     /// Its contacts with M in an interval.
     fn within(&self, m: (f64, f64)) -> Within {
-        Within { m, ..Within::all(self.range, self.contact()) }
+        Within { m, ..Within::all(&self.range, self.contact(), self.heats()) }
     }
 
-    /// What the model will declare to be trained for.
+    /// True for films with heat.
+    pub fn heats(&self) -> bool {
+        self.lubricant.heat.is_some()
+    }
+
+    /// Returns the domain that the model will declare. Where the viscosity law determines α, that α counts, and L goes with
+    /// it.
     pub fn domain(&self) -> Domain {
-        build::domain(self)
+        let contact = self.contact();
+        let mut space = self.range.clone();
+        let fixed = space.fixed.iter_mut().find(|(quantity, _)| *quantity == Quantity::Alpha);
+        if let Some((own, (_, alpha))) = self.lubricant.own_coefficient().zip(fixed) {
+            let ratio = own / *alpha;
+            *alpha = own;
+            if let Some(axis) = space.axis_mut(Quantity::L) {
+                axis.ends = (axis.ends.0 * ratio, axis.ends.1 * ratio);
+            }
+        }
+        Domain { contact, space: space.with_followers(contact), lubricant: self.lubricant }
+    }
+
+    /// Returns the lubricant for the full solution of a contact. Of a space with varying constants most contacts of a
+    /// farthest-point plan, by the last digits of their loads, have random ones: the basis is made of all, starting values
+    /// are those of the training's own lubricant.
+    pub fn lubricant_of(&self, point: &OperatingPoint) -> Lubricant {
+        let digits = point.load.to_bits();
+        let planned = matches!(self.plan, Plan::FarthestPoint { .. });
+        let own = digits.is_multiple_of(OWN[self.contact() as usize]) || !planned;
+        if own {
+            return self.lubricant;
+        }
+        self.range.with_random_heat(self.lubricant, &mut Rng::with_seed(self.seed ^ digits))
+    }
+
+    /// Returns the lubricant of a reduced solution that traction is fitted to, or errors are measured at: with random
+    /// constants of the space.
+    fn random_lubricant(&self, rng: &mut Rng) -> Lubricant {
+        self.range.with_random_constants(self.lubricant, rng)
     }
 }
 

@@ -1,17 +1,17 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
 use super::anchors::Cell;
-use super::range::{Unit, in_the_middle_but};
-use super::{QuantityBox, Range};
+use crate::solver::parameters::{Metric, ParameterSpace, SHAPE_WEIGHT, Unit, apart, distance, middle};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::reduced::{BEYOND_CELLS, OilPlace, SHAPE_WEIGHT, apart, distance, oil_place};
+use crate::solver::reduced::BEYOND_CELLS;
 use fastrand::Rng;
 use std::f64::consts::PI;
 
 /// Weight of (ln α ratio)² beside (3.20) when points of a range in (M, L, α) are spread: α changes H_c by a few per
-/// cent at equal M and L. Boxes of SI quantities spread by (3.20) with a quarter of it: more would take points from M
-/// and L, whose corners need them.
+/// cent at equal M and L.
 const ALPHA_WEIGHT: f64 = 0.02;
+/// The same for boxes of SI quantities: more would take points from M and L, whose corners need them.
+const BOX_ALPHA_WEIGHT: f64 = 0.005;
 
 /// A random point near another one by (3.18), coordinates in the unit cube: μ = min(max(μ_ref + σN, 0), 1).
 pub(super) fn local_point(mut unit: Unit, sigma: f64, count: usize, rng: &mut Rng) -> Unit {
@@ -22,7 +22,7 @@ pub(super) fn local_point(mut unit: Unit, sigma: f64, count: usize, rng: &mut Rn
 
 /// So many coordinates of (3.17) in the unit cube, in the middle of the others.
 pub(super) fn global_point(count: usize, rng: &mut Rng) -> Unit {
-    let mut unit = in_the_middle_but([0.5; 4]);
+    let mut unit = middle([]);
     unit.iter_mut().take(count).for_each(|v| *v = 0.5 * (1.0 - (PI * rng.f64()).cos()));
     unit
 }
@@ -33,25 +33,13 @@ const MAX_DRAWS: usize = 10_000;
 /// A point with its coordinates in the unit cube.
 pub(super) type Drawn = (Unit, OperatingPoint);
 
-/// Units of ln u_m, and of SRR, in the lengths of [`oil_place`]: how much heat changes registered pressures.
-const HEAT_LENGTHS: [f64; 2] = [0.1, 0.4];
-
-/// Where a contact of a range of many oils lies among others.
-fn place_of_oil(point: &OperatingPoint, range: &Range) -> OilPlace {
-    let [m, l, p_h, z, stress, srr, shape] = oil_place(point, matches!(range, Range::SlidingOils(_)));
-    if !range.heats() {
-        return [m, l, p_h, z, stress, srr, shape];
-    }
-    let by_heat = [point.speed_m_per_s.ln(), point.sliding.slide_to_roll_ratio];
-    let [u, srr] = [0, 1].map(|k| HEAT_LENGTHS[k] * by_heat[k]);
-    [m, l, p_h, z, u, srr, shape]
-}
-
 /// The contacts of a range, of one kind and with M in an interval.
 #[derive(Clone, Debug)]
 pub(super) struct Within {
-    pub range: Range,
+    pub range: ParameterSpace,
     pub kind: ContactKind,
+    /// True for films with heat.
+    pub heat: bool,
     pub m: (f64, f64),
     pub radius_ratio: (f64, f64),
     /// The cell of an anchor, with what is blended beyond it.
@@ -60,7 +48,7 @@ pub(super) struct Within {
 
 /// Random points of a range by (3.17), which pushes towards its boundary: the same ones for the same seed, whoever
 /// asks. Fewer than `count` where hardly any contact of the range is admissible.
-pub fn random_points(range: &Range, kind: ContactKind, count: usize, seed: u64) -> Vec<OperatingPoint> {
+pub fn random_points(range: &ParameterSpace, kind: ContactKind, count: usize, seed: u64) -> Vec<OperatingPoint> {
     random_points_while(range, kind, count, seed, || true)
 }
 
@@ -69,13 +57,13 @@ const UNASKED: usize = 1000;
 
 /// The same as long as they are wanted: a hundred thousand take a tenth of a second.
 pub fn random_points_while(
-    range: &Range,
+    range: &ParameterSpace,
     kind: ContactKind,
     count: usize,
     seed: u64,
     wanted: impl Fn() -> bool,
 ) -> Vec<OperatingPoint> {
-    let (within, mut rng) = (Within::all(*range, kind), Rng::with_seed(seed));
+    let (within, mut rng) = (Within::all(range, kind, false), Rng::with_seed(seed));
     let mut points = Vec::with_capacity(count);
     while points.len() < count && wanted() {
         let share = UNASKED.min(count - points.len());
@@ -91,8 +79,15 @@ pub fn random_points_while(
 
 impl Within {
     /// With any M.
-    pub fn all(range: Range, kind: ContactKind) -> Self {
-        Self { range, kind, m: (0.0, f64::INFINITY), radius_ratio: (0.0, f64::INFINITY), cell: None }
+    pub fn all(range: &ParameterSpace, kind: ContactKind, heat: bool) -> Self {
+        Self {
+            range: range.clone(),
+            kind,
+            heat,
+            m: (0.0, f64::INFINITY),
+            radius_ratio: (0.0, f64::INFINITY),
+            cell: None,
+        }
     }
 
     fn at(&self, unit: Unit) -> Option<OperatingPoint> {
@@ -102,7 +97,7 @@ impl Within {
             let served = self.cell.as_ref().is_none_or(|cell| cell.holds(moes, BEYOND_CELLS));
             inside(moes.m, self.m) && inside(point.radius_ratio(), self.radius_ratio) && served
         };
-        self.range.at(self.kind, unit).filter(wanted)
+        self.range.at(self.kind, &unit).filter(wanted)
     }
 
     /// Up to `count` points at the coordinates that `draw` gives; fewer where hardly any is admissible.
@@ -125,20 +120,17 @@ impl Within {
     pub fn farthest_points(&self, known: &[OperatingPoint], count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
         let mut pool = self.random_points((40 * count).max(2000), rng);
         // The corners of the range are its extremes, and a random pool never quite reaches them.
-        let corners = 0..1u8 << self.range.coordinates();
-        let corners = corners.filter_map(|c| self.at(std::array::from_fn(|k| f64::from(c >> k & 1))));
-        pool.extend(corners);
+        pool.extend(self.range.corners().filter_map(|corner| self.at(corner)));
         let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
-        let oils = self.range.of_oils();
-        let own_place = |point: &OperatingPoint| place_of_oil(point, &self.range);
+        let metric = self.range.varies_lubricant().then(|| Metric::of_plan(&self.range, self.heat));
         let coordinates: Vec<_> = pool.iter().map(place).collect();
-        let oil_places: Vec<_> = pool.iter().filter(|_| oils).map(own_place).collect();
-        let alpha_weight = if matches!(self.range, Range::Box(_)) { 0.005 } else { ALPHA_WEIGHT };
+        let places: Vec<_> = metric.iter().flat_map(|metric| pool.iter().map(|point| metric.place(point))).collect();
+        let alpha_weight = if self.range.is_si_box() { BOX_ALPHA_WEIGHT } else { ALPHA_WEIGHT };
         let mut nearest = vec![f64::INFINITY; pool.len()];
         let approach = |nearest: &mut [f64], point: &OperatingPoint| {
-            if oils {
-                let own = own_place(point);
-                nearest.iter_mut().zip(&oil_places).for_each(|(best, other)| *best = best.min(apart(own, *other)));
+            if let Some(metric) = &metric {
+                let own = metric.place(point);
+                nearest.iter_mut().zip(&places).for_each(|(best, other)| *best = best.min(apart(own, *other)));
                 return;
             }
             let (moes, log_alpha, sliding, log_ratio) = place(point);
@@ -167,68 +159,28 @@ impl Within {
     }
 }
 
-/// The tensor grid of Table 3.2 over a box: equidistant in R, u_m and α, logarithmic in w. Empty for a range given in M
-/// and L.
-pub(super) fn grid_points(range: &Range, kind: ContactKind, nodes: [usize; 4]) -> Vec<OperatingPoint> {
-    let Range::Box(QuantityBox { load, .. }) = range else { return Vec::new() };
-    let unit = |i: usize, n: usize| if n < 2 { 0.5 } else { i as f64 / (n - 1) as f64 };
-    let log_unit = |t: f64| {
-        let width = load.1 - load.0;
-        if width > 0.0 { (load.0 * (load.1 / load.0).powf(t) - load.0) / width } else { 0.0 }
-    };
-    let mut points = Vec::new();
-    for r in 0..nodes[0] {
-        for u in 0..nodes[1] {
-            for w in 0..nodes[2] {
-                for a in 0..nodes[3] {
-                    let at = [unit(r, nodes[0]), unit(u, nodes[1]), log_unit(unit(w, nodes[2])), unit(a, nodes[3])];
-                    points.extend(range.at(kind, in_the_middle_but(at)));
-                }
-            }
-        }
-    }
-    points
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::training::small;
 
     const LINE: ContactKind = ContactKind::Line;
-    const TABLE_3_1: Range = Range::Box(QuantityBox::TABLE_3_1);
-
-    #[test]
-    fn table_3_1_has_the_moes_numbers_the_dissertation_prints() {
-        let points = grid_points(&TABLE_3_1, LINE, [2, 2, 2, 2]);
-        let m = points.iter().map(|p| p.moes().m);
-        let l = points.iter().map(|p| p.moes().l);
-        let (low, high) = (m.clone().fold(f64::INFINITY, f64::min), m.fold(0.0, f64::max));
-        // The dissertation prints them rounded, with a tilde.
-        assert!((low / 7.4 - 1.0).abs() < 0.01 && (high / 164.6 - 1.0).abs() < 1e-3, "{low} {high}");
-        let (low, high) = (l.clone().fold(f64::INFINITY, f64::min), l.fold(0.0, f64::max));
-        assert!((low / 2.5 - 1.0).abs() < 0.02 && (high / 21.1 - 1.0).abs() < 5e-3, "{low} {high}");
-    }
-
-    #[test]
-    fn table_3_2_grids_have_the_printed_sizes() {
-        assert_eq!(grid_points(&TABLE_3_1, LINE, [3, 4, 5, 4]).len(), 240);
-        assert_eq!(grid_points(&TABLE_3_1, LINE, [2, 3, 5, 4]).len(), 120);
-    }
-
     #[test]
     fn random_points_repeat_with_the_seed_and_an_empty_range_ends() {
-        assert_eq!(random_points(&TABLE_3_1, LINE, 20, 7), random_points(&TABLE_3_1, LINE, 20, 7));
-        assert_ne!(random_points(&TABLE_3_1, LINE, 20, 7), random_points(&TABLE_3_1, LINE, 20, 8));
-        let none = Range::Realisation { m: (500.0, 500.0), l: (20.0, 20.0), max_hertz_pressure: 1e6 };
+        let table = ParameterSpace::table_3_1();
+        assert_eq!(random_points(&table, LINE, 20, 7), random_points(&table, LINE, 20, 7));
+        assert_ne!(random_points(&table, LINE, 20, 7), random_points(&table, LINE, 20, 8));
+        let none = small::moes_as_realised((500.0, 500.0), (20.0, 20.0), 1e6);
         assert!(random_points(&none, LINE, 3, 1).is_empty());
     }
 
     #[test]
     fn farthest_points_are_spread_wider_than_random_ones_and_follow_the_seed() {
-        let farthest = || Within::all(TABLE_3_1, LINE).farthest_points(&[], 60, &mut Rng::with_seed(3));
+        let table = ParameterSpace::table_3_1();
+        let farthest = || Within::all(&table, LINE, false).farthest_points(&[], 60, &mut Rng::with_seed(3));
         let chosen = farthest();
         assert_eq!(chosen, farthest());
-        let random = random_points(&TABLE_3_1, LINE, 60, 4);
+        let random = random_points(&table, LINE, 60, 4);
         let closest = |points: &[OperatingPoint]| {
             let mut d = f64::INFINITY;
             for (i, a) in points.iter().enumerate() {

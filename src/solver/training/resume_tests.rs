@@ -10,13 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 /// A small box on a coarse grid: a full solve takes a fraction of a millisecond.
 fn small(plan: Plan) -> TrainingSpec {
     let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
-    let range = Range::Box(QuantityBox {
-        radius: (2e-3, 3e-3),
-        speed: (3.0, 5.0),
-        load: (1e5, 2e5),
-        alpha: (6e-9, 10e-9),
-        ..QuantityBox::TABLE_3_1
-    });
+    let range = ParameterSpace::si_box([(2e-3, 3e-3), (3.0, 5.0), (1e5, 2e5), (6e-9, 10e-9)], 231e9, 0.01);
     TrainingSpec {
         windows: Windows::Given(vec![WindowSpec::new((5.0, 25.0), grid), WindowSpec::new((25.0, 200.0), grid)]),
         pressure_loss: 1e-7,
@@ -131,7 +125,7 @@ fn automatic_windows_are_split_until_they_fit_and_share_their_solutions() {
     assert!(model.windows.windows(2).all(|pair| pair[0].m.1 == pair[1].m.0));
     let domain = &model.domain;
     let (first, last) = (model.windows.first().unwrap(), model.windows.last().unwrap());
-    assert!(first.m.0 <= domain.m.0 && last.m.1 >= domain.m.1);
+    assert!(first.m.0 <= domain.m().0 && last.m.1 >= domain.m().1);
     for (k, window) in model.windows.iter().enumerate() {
         assert_eq!(window.grid.spec(), first.grid.spec());
         assert!(window.snapshots.iter().all(|s| state.windows[k].solved.iter().any(|known| known.point == s.point)));
@@ -188,12 +182,12 @@ fn a_range_that_holds_no_contact_is_refused_with_a_sentence() {
     let plan = Plan::FarthestPoint { snapshots: 8 };
     let given = |m| Windows::Given(vec![WindowSpec::new(m, GridSpec::EXPLORER)]);
     for (range, windows, holds) in [
-        (nowhere, given((400.0, 500.0)), "holds 0"),
-        (nowhere, Windows::Automatic { modes: 90 }, "holds 0"),
-        (one_point, given((10.0, 30.0)), "holds 1"),
-        (one_point, Windows::Automatic { modes: 90 }, "holds 1"),
+        (&nowhere, given((400.0, 500.0)), "holds 0"),
+        (&nowhere, Windows::Automatic { modes: 90 }, "holds 0"),
+        (&one_point, given((10.0, 30.0)), "holds 1"),
+        (&one_point, Windows::Automatic { modes: 90 }, "holds 1"),
     ] {
-        let spec = TrainingSpec { range, windows, ..small(plan.clone()) };
+        let spec = TrainingSpec { range: range.clone(), windows, ..small(plan.clone()) };
         let sentence = train(&spec, &()).unwrap_err().to_string();
         assert!(sentence.contains(holds) && sentence.contains("at least 4"), "{sentence}");
     }
@@ -246,7 +240,7 @@ fn what_was_hardly_begun_is_left_out_of_the_model_and_its_domain() {
     train_resumable(&mut state, &()).unwrap();
     state.windows[1].solved.truncate(2);
     let model = state.model(&()).unwrap();
-    assert_eq!((model.windows.len(), model.domain.m.1), (1, 25.0));
+    assert_eq!((model.windows.len(), model.domain.m().1), (1, 25.0));
     state.windows[0].solved.truncate(2);
     assert!(state.model(&()).unwrap_err().to_string().starts_with("2 full solutions in the first window"));
 }

@@ -6,11 +6,12 @@ use super::build::alone;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
 use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
+use crate::solver::parameters::separation;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{
     GoalEquations, Iterate, Online, ReducedModel, ReducedOptions, RowSnapshots, SampledRows, Sampling, Scheme,
-    Snapshot, TestSpace, Window, all_rows, cubature, dense, greedy, is_finite, minimised_rows, q_deim, separation,
+    Snapshot, TestSpace, Window, all_rows, cubature, dense, greedy, is_finite, minimised_rows, q_deim,
 };
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
@@ -222,7 +223,8 @@ impl Shown {
         let mut constants = Rng::with_seed(spec.seed);
         let at = |(k, point): (usize, OperatingPoint)| {
             let other = spec.warms_a_line() && k % 2 == 1;
-            let lubricant = if other { spec.range.warmed(spec.lubricant, &mut constants) } else { spec.lubricant };
+            let lubricant =
+                if other { spec.range.with_random_heat(spec.lubricant, &mut constants) } else { spec.lubricant };
             Task { point, lubricant, from: None }
         };
         let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(at).collect();

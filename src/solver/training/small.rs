@@ -1,11 +1,10 @@
 //! Small trainings, which tests make of many things.
 
-use super::{
-    HeatedOilRange, HeatedRange, OilRange, Plan, QuantityBox, Range, SlidingOilRange, TrainingSpec, WindowSpec, Windows,
-};
+use super::{Plan, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant, ShearLaw};
-use crate::solver::reduced::{CIRCLES, Sampling, ThermalDomain};
+use crate::solver::reduced::Sampling;
 
 /// A grid of point contacts on which a full solve takes milliseconds.
 pub(crate) const POINT_GRID: PointGridSpec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
@@ -17,27 +16,15 @@ pub(crate) fn line_grid(nodes: usize) -> GridSpec {
 
 /// Line contacts of a corner of Table 3.1.
 pub(crate) fn line(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let corner = QuantityBox {
-        radius: (3e-3, 4e-3),
-        speed: (2.0, 4.0),
-        load: (2e5, 4e5),
-        alpha: (8e-9, 12e-9),
-        ..QuantityBox::TABLE_3_1
-    };
+    let corner = ParameterSpace::si_box([(3e-3, 4e-3), (2.0, 4.0), (2e5, 4e5), (8e-9, 12e-9)], 231e9, 0.01);
     let plan = Plan::FarthestPoint { snapshots };
-    let spec = TrainingSpec::new(Range::Box(corner), (1.0, 500.0), line_grid(240), plan);
+    let spec = TrainingSpec::new(corner, (1.0, 500.0), line_grid(240), plan);
     TrainingSpec { sampling, evidence: 0, seed: 5, ..spec }
 }
 
 /// Point contacts of a corner of Table 3.4.
 pub(crate) fn point(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let corner = QuantityBox {
-        radius: (10e-3, 11e-3),
-        speed: (2.0, 3.0),
-        load: (30.0, 45.0),
-        alpha: (8e-9, 11e-9),
-        ..QuantityBox::TABLE_3_4
-    };
+    let corner = ParameterSpace::si_box([(10e-3, 11e-3), (2.0, 3.0), (30.0, 45.0), (8e-9, 11e-9)], 231e9, 0.01);
     let (grid, plan) = (GridSpec::Plane(POINT_GRID), Plan::FarthestPoint { snapshots });
     TrainingSpec {
         pressure_loss: 1e-4,
@@ -47,13 +34,14 @@ pub(crate) fn point(sampling: Sampling, snapshots: usize) -> TrainingSpec {
         penalty: 1e5,
         evidence: 0,
         seed: 2,
-        ..TrainingSpec::new(Range::Box(corner), (1.0, 2000.0), grid, plan)
+        ..TrainingSpec::new(corner, (1.0, 2000.0), grid, plan)
     }
 }
 
 /// Ellipses of two windows.
 pub(crate) fn ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let range = Range::Ellipses { m: (15.0, 60.0), l: (4.0, 8.0), radius_ratio: (0.5, 4.0), max_hertz_pressure: 3.2e9 };
+    let mut range = moes_as_realised((15.0, 60.0), (4.0, 8.0), 3.2e9);
+    range.axes.push(Axis::new(Quantity::RadiusRatio, (0.5, 4.0)));
     let window = |ratios| WindowSpec {
         radius_ratio: Some(ratios),
         ..WindowSpec::new((1.0, 500.0), GridSpec::Plane(POINT_GRID))
@@ -69,78 +57,61 @@ pub(crate) fn ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     }
 }
 
-/// Line contacts of oils, in three windows.
+/// A space of M, L, α and η₀ between p_H \[Pa\], of Roelands' exponents 0.4…0.8.
+pub(crate) fn lubricants([m, l, alpha, viscosity]: [(f64, f64); 4], hertz_pressure: (f64, f64)) -> ParameterSpace {
+    ParameterSpace::of([
+        Axis::new(Quantity::M, m),
+        Axis::logarithmic(Quantity::L, l),
+        Axis::new(Quantity::Alpha, alpha),
+        Axis::new(Quantity::Viscosity, viscosity),
+    ])
+    .limited([(Quantity::HertzPressure, hertz_pressure), (Quantity::RoelandsExponent, (0.4, 0.8))])
+}
+
+/// Windows around anchors on a grid.
+fn anchored(count: usize, modes: usize, grid: GridSpec, shared: usize) -> Windows {
+    Windows::Anchored { count, modes, grid, shared, missing: 0.0, missing_of_any: 0.0, divided_by: 0 }
+}
+
+/// Gives a space SRR, E′ and the limits of Eyring lubricants.
+fn with_eyring(mut range: ParameterSpace) -> ParameterSpace {
+    range
+        .axes
+        .extend([Axis::new(Quantity::SlideToRollRatio, (0.0, 0.6)), Axis::new(Quantity::Modulus, (150e9, 350e9))]);
+    range.constants =
+        vec![Axis::new(Quantity::LimitAmbient, (0.0, 10e6)), Axis::logarithmic(Quantity::LimitSlope, (0.02, 0.15))];
+    range.limited([(Quantity::GradientStress, (0.0, 5e6))])
+}
+
+/// Line contacts of many oils, in three windows.
 pub(crate) fn oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let range = OilRange {
-        m: (15.0, 60.0),
-        l: (5.0, 10.0),
-        alpha: (12e-9, 24e-9),
-        viscosity: (0.01, 0.1),
-        exponent: (0.4, 0.8),
-        hertz_pressure: (0.4e9, 1.6e9),
-        thinnest_film: 0.0,
-        radius_ratio: CIRCLES,
-    };
-    let plan = Plan::FarthestPoint { snapshots };
-    let windows = Windows::Anchored {
-        count: 3,
-        modes: 32,
-        grid: line_grid(240),
-        shared: 0,
-        missing: 0.0,
-        missing_of_any: 0.0,
-        divided_by: 0,
-    };
-    let spec = TrainingSpec::new(Range::Oils(range), range.m, line_grid(240), plan);
+    let m = (15.0, 60.0);
+    let range = lubricants([m, (5.0, 10.0), (12e-9, 24e-9), (0.01, 0.1)], (0.4e9, 1.6e9));
+    let spec = TrainingSpec::new(range, m, line_grid(240), Plan::FarthestPoint { snapshots });
+    let windows = anchored(3, 32, line_grid(240), 0);
     TrainingSpec { windows, pressure_loss: 1e-9, deformation_loss: 0.1, sampling, evidence: 0, seed: 5, ..spec }
 }
 
-/// Sliding line contacts of oils that thin by Eyring's law, in two windows.
+/// Sliding line contacts of Eyring lubricants, in two windows.
 pub(crate) fn sliding_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let spec = oils(sampling, snapshots);
-    let Range::Oils(range) = spec.range else { return spec };
-    let oils = OilRange { m: (15.0, 30.0), l: (6.0, 10.0), alpha: (14e-9, 22e-9), ..range };
-    let range = SlidingOilRange {
-        oils,
-        srr: (0.0, 0.6),
-        modulus: (150e9, 350e9),
-        limit_slope: (0.02, 0.15),
-        gradient_stress: 5e6,
-    };
+    let range = lubricants([(15.0, 30.0), (6.0, 10.0), (14e-9, 22e-9), (0.01, 0.1)], (0.4e9, 1.6e9));
     TrainingSpec {
-        range: Range::SlidingOils(range),
+        range: with_eyring(range),
         lubricant: Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..Lubricant::default() },
-        windows: Windows::Anchored {
-            count: 2,
-            modes: 40,
-            grid: line_grid(240),
-            shared: 0,
-            missing: 0.0,
-            missing_of_any: 0.0,
-            divided_by: 0,
-        },
-        ..spec
+        windows: anchored(2, 40, line_grid(240), 0),
+        ..oils(sampling, snapshots)
     }
 }
 
-/// Circular contacts of oils, in two windows whose modes are made of one basis.
+/// Circular contacts of many oils, in two windows whose modes are made of one basis.
 pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
-    let range = OilRange {
-        m: (20.0, 60.0),
-        l: (4.0, 8.0),
-        alpha: (12e-9, 24e-9),
-        viscosity: (0.01, 0.1),
-        exponent: (0.4, 0.8),
-        hertz_pressure: (0.3e9, 1.6e9),
-        thinnest_film: 0.16,
-        radius_ratio: CIRCLES,
-    };
+    let m = (20.0, 60.0);
+    let range = lubricants([m, (4.0, 8.0), (12e-9, 24e-9), (0.01, 0.1)], (0.3e9, 1.6e9))
+        .limited([(Quantity::FilmThickness, (0.16, 1e6))]);
     let grid = GridSpec::Plane(PointGridSpec { refinement: 2.0, ..POINT_GRID });
-    let windows =
-        Windows::Anchored { count: 2, modes: 24, grid, shared: 60, missing: 0.0, missing_of_any: 0.0, divided_by: 0 };
-    let spec = TrainingSpec::new(Range::Oils(range), range.m, grid, Plan::FarthestPoint { snapshots });
+    let spec = TrainingSpec::new(range, m, grid, Plan::FarthestPoint { snapshots });
     TrainingSpec {
-        windows,
+        windows: anchored(2, 24, grid, 60),
         pressure_loss: 1e-9,
         deformation_loss: 0.1,
         sampling: Sampling::Cubature,
@@ -151,12 +122,11 @@ pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
     }
 }
 
-/// Circular contacts of oils that thin by Eyring's law, in two such windows.
+/// Circular contacts of Eyring lubricants, in two such windows.
 pub(crate) fn sliding_oils_of_points(snapshots: usize) -> TrainingSpec {
     let (spec, sliding) = (oils_of_points(snapshots), sliding_oils(Sampling::Cubature, snapshots));
-    let (Range::Oils(oils), Range::SlidingOils(range)) = (spec.range, sliding.range) else { return spec };
     TrainingSpec {
-        range: Range::SlidingOils(SlidingOilRange { oils, ..range }),
+        range: with_eyring(spec.range.clone()),
         lubricant: Lubricant { cavitation: Cavitation::Complementarity, ..sliding.lubricant },
         ..spec
     }
@@ -166,101 +136,112 @@ const HEATED_GRID: GridSpec = GridSpec::Graded { nodes: 280, domain: (-10.0, 2.0
 
 /// Line contacts with heat of an oil whose stress is limited, between steel bodies.
 pub(crate) fn heated(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let range = HeatedRange {
-        m: (15.0, 30.0),
-        l: (8.0, 11.0),
-        srr: (0.0, 0.6),
-        radius: 0.01,
-        modulus: 231e9,
-        viscosity: 0.02,
-        alpha: 1.8e-8,
-        max_hertz_pressure: 1.6e9,
-    };
+    let range = one_heated((15.0, 30.0), (8.0, 11.0), (0.0, 0.6));
     let plan = Plan::FarthestPoint { snapshots };
     let grid = HEATED_GRID;
     let limiting_stress = Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: Some(5e6) });
     let lubricant = Lubricant { heat: Some(Heat::default()), limiting_stress, ..Lubricant::default() };
-    let spec = TrainingSpec::new(Range::Heated(range), range.m, grid, plan);
+    let spec = TrainingSpec::new(range, (15.0, 30.0), grid, plan);
     TrainingSpec { lubricant, positive_modes: true, penalty: 1e5, sampling, rows_per_mode: 3.0, evidence: 0, ..spec }
+}
+
+/// Thermal contacts of one oil between steel bodies.
+pub(crate) fn one_heated(m: (f64, f64), l: (f64, f64), srr: (f64, f64)) -> ParameterSpace {
+    ParameterSpace::of([
+        Axis::new(Quantity::M, m),
+        Axis::new(Quantity::L, l),
+        Axis::new(Quantity::SlideToRollRatio, srr),
+    ])
+    .limited([(Quantity::HertzPressure, (0.0, 1.6e9))])
+    .fixing([
+        (Quantity::Radius, 0.01),
+        (Quantity::Modulus, 231e9),
+        (Quantity::Viscosity, 0.02),
+        (Quantity::Alpha, 1.8e-8),
+    ])
 }
 
 /// Line contacts with heat of many such oils, in two windows.
 pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let oils = OilRange {
-        m: (15.0, 30.0),
-        l: (7.0, 10.0),
-        alpha: (14e-9, 22e-9),
-        viscosity: (0.01, 0.05),
-        exponent: (0.4, 0.8),
-        hertz_pressure: (0.5e9, 1.4e9),
-        thinnest_film: 0.0,
-        radius_ratio: CIRCLES,
-    };
-    let range = HeatedOilRange {
-        oils,
-        srr: (0.0, 0.5),
-        radius: (5e-3, 20e-3),
-        modulus: (200e9, 240e9),
-        speed: (0.2, 10.0),
-        sliding_speed: 3.0,
-        thermal: Some(ThermalDomain {
-            inlet_temperature: (293.0, 373.0),
-            viscosity_temperature: (0.03, 0.06),
-            density_temperature: (4e-4, 9e-4),
-            conductivity: (0.1, 0.18),
-            heat_capacity: (1.5e6, 2e6),
-            effusivity: (2e3, 2e4),
-            limit_ambient: (0.0, 8e6),
-            limit_slope: (0.03, 0.1),
-            limit_eyring: (3e6, 8e6),
-        }),
-    };
-    let one = heated(sampling, snapshots);
-    let windows = Windows::Anchored {
-        count: 2,
-        modes: 40,
-        grid: HEATED_GRID,
-        shared: 0,
-        missing: 0.0,
-        missing_of_any: 0.0,
-        divided_by: 0,
-    };
     TrainingSpec {
-        range: Range::HeatedOils(range),
-        windows,
+        range: many_heated((15.0, 30.0), (7.0, 10.0)),
+        windows: anchored(2, 40, HEATED_GRID, 0),
         pressure_loss: 1e-8,
         deformation_loss: 0.1,
         seed: 3,
-        ..one
+        ..heated(sampling, snapshots)
     }
+}
+
+/// Thermal contacts of many oils between bodies of many materials.
+fn many_heated(m: (f64, f64), l: (f64, f64)) -> ParameterSpace {
+    let mut range = lubricants([m, l, (14e-9, 22e-9), (0.01, 0.05)], (0.5e9, 1.4e9));
+    range.axes.extend([
+        Axis::new(Quantity::Radius, (5e-3, 20e-3)),
+        Axis::new(Quantity::SlideToRollRatio, (0.0, 0.5)),
+        Axis::new(Quantity::Modulus, (200e9, 240e9)),
+    ]);
+    let constants = [
+        (Quantity::InletTemperature, (293.0, 373.0)),
+        (Quantity::ViscosityTemperature, (0.03, 0.06)),
+        (Quantity::DensityTemperature, (4e-4, 9e-4)),
+        (Quantity::Conductivity, (0.1, 0.18)),
+        (Quantity::HeatCapacity, (1.5e6, 2e6)),
+        (Quantity::LimitAmbient, (0.0, 8e6)),
+        (Quantity::LimitSlope, (0.03, 0.1)),
+        (Quantity::LimitEyring, (3e6, 8e6)),
+        (Quantity::Effusivity2, (2e3, 2e4)),
+        (Quantity::Effusivity1, (2e3, 2e4)),
+    ];
+    range.constants = constants.map(|(quantity, ends)| Axis::new(quantity, ends)).to_vec();
+    range.limited([(Quantity::Speed, (0.2, 10.0)), (Quantity::SlidingSpeed, (0.0, 3.0))])
 }
 
 /// Circular contacts with heat of one such oil.
 pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let one = heated(sampling, snapshots);
-    let Range::Heated(range) = one.range else { return one };
-    let range = HeatedRange { m: (25.0, 40.0), l: (6.0, 8.0), srr: (0.0, 0.5), ..range };
-    let windows = Windows::Given(vec![WindowSpec::new(range.m, GridSpec::Plane(POINT_GRID))]);
-    TrainingSpec { range: Range::Heated(range), windows, pressure_loss: 1e-7, deformation_loss: 0.1, ..one }
+    let m = (25.0, 40.0);
+    TrainingSpec {
+        range: one_heated(m, (6.0, 8.0), (0.0, 0.5)),
+        windows: Windows::Given(vec![WindowSpec::new(m, GridSpec::Plane(POINT_GRID))]),
+        pressure_loss: 1e-7,
+        deformation_loss: 0.1,
+        ..heated(sampling, snapshots)
+    }
 }
 
 /// Elliptical contacts with heat of many such oils.
 pub(crate) fn heated_ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
-    let lines = heated_oils(sampling, snapshots);
-    let Range::HeatedOils(range) = lines.range else { return lines };
-    let oils = OilRange { m: (25.0, 40.0), l: (6.0, 8.0), radius_ratio: (0.7, 3.0), ..range.oils };
-    let grid = GridSpec::Plane(POINT_GRID);
-    let windows =
-        Windows::Anchored { count: 1, modes: 40, grid, shared: 0, missing: 0.0, missing_of_any: 0.0, divided_by: 0 };
-    TrainingSpec { range: Range::HeatedOils(HeatedOilRange { oils, ..range }), windows, pressure_loss: 1e-7, ..lines }
+    let mut range = many_heated((25.0, 40.0), (6.0, 8.0));
+    range.axes.push(Axis::new(Quantity::RadiusRatio, (0.7, 3.0)));
+    let windows = anchored(1, 40, GridSpec::Plane(POINT_GRID), 0);
+    TrainingSpec { range, windows, pressure_loss: 1e-7, ..heated_oils(sampling, snapshots) }
 }
 
 /// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.
-pub(crate) fn moes(m: (f64, f64), l: (f64, f64), max_hertz_pressure: f64) -> Range {
+pub(crate) fn moes(m: (f64, f64), l: (f64, f64), max_hertz_pressure: f64) -> ParameterSpace {
     moes_with(m, l, (5e-9, 20e-9), max_hertz_pressure)
 }
 
 /// The same at another α.
-pub(crate) fn moes_with(m: (f64, f64), l: (f64, f64), alpha: (f64, f64), max_hertz_pressure: f64) -> Range {
-    Range::Moes { m, l, alpha, max_hertz_pressure, viscosity: 0.01 }
+pub(crate) fn moes_with(m: (f64, f64), l: (f64, f64), alpha: (f64, f64), max_hertz_pressure: f64) -> ParameterSpace {
+    let mut space = moes_as_realised(m, l, max_hertz_pressure).fixing([(Quantity::Viscosity, 0.01)]);
+    space.axes.push(Axis::new(Quantity::Alpha, alpha));
+    space
+}
+
+/// The same in the default realisation.
+pub(crate) fn moes_as_realised(m: (f64, f64), l: (f64, f64), max_hertz_pressure: f64) -> ParameterSpace {
+    ParameterSpace::of([Axis::new(Quantity::M, m), Axis::new(Quantity::L, l)])
+        .limited([(Quantity::HertzPressure, (0.0, max_hertz_pressure))])
+}
+
+/// A space with another interval of a quantity that it varies or limits, as a constant where it is one.
+pub(crate) fn with_ends(space: &ParameterSpace, quantity: Quantity, ends: (f64, f64)) -> ParameterSpace {
+    let mut space = space.clone();
+    let varied = space.axes.iter_mut().chain(&mut space.constants).find(|axis| axis.quantity == quantity);
+    match varied {
+        Some(axis) => axis.ends = ends,
+        None => space.set_limit(quantity, ends),
+    }
+    space
 }

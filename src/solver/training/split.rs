@@ -95,7 +95,7 @@ mod tests {
     /// Solutions whose pressures have nothing in common: every one needs a mode.
     fn solutions(grid: &ContactGrid) -> Vec<Solved> {
         let range = moes((2.0, 500.0), (2.0, 8.0), 6e9);
-        let points = Within::all(range, ContactKind::Line).farthest_points(&[], 60, &mut Rng::with_seed(1));
+        let points = Within::all(&range, ContactKind::Line, false).farthest_points(&[], 60, &mut Rng::with_seed(1));
         let solved = points.into_iter().enumerate().map(|(place, point)| {
             let pressure = (0..grid.len()).map(|i| if i > 1 && i % 64 == place { 1.0 } else { 0.0 }).collect();
             Solved { place, point, pressure, h_0: 0.0, h_c: 1.0, grid_cost: None }

@@ -2,16 +2,17 @@
 
 use super::adaptive::Search;
 use super::anchors::{self, Cell, InCommon, anchor};
-use super::build::{WindowTraining, alone, domain};
+use super::build::{WindowTraining, alone};
 use super::calibrate::{calibrate, measured};
 use super::check::check;
 use super::one_thread::on_one_thread;
-use super::plan::{Within, grid_points};
+use super::plan::Within;
 use super::split::{may_split, split};
 use super::traction::traction_rule;
 use super::{Plan, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows, layout};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{GridCost, Solution};
+use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{ModelSize, ReducedModel, Snapshot, Window};
 use fastrand::Rng;
@@ -245,7 +246,7 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         logs.push(log);
         windows.push(trained);
     }
-    let mut domain = domain(&spec);
+    let mut domain = spec.domain();
     calibrate(&mut windows, evidence, observer)?;
     let mut log = state.decisions.clone();
     for (own, window) in logs.into_iter().zip(&windows) {
@@ -262,7 +263,8 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
     if !windows.is_empty() && !anchored {
         let lowest = windows.iter().map(|window| window.m.0).fold(f64::INFINITY, f64::min);
         let highest = windows.iter().map(|window| window.m.1).fold(0.0, f64::max);
-        domain.m = (domain.m.0.max(lowest), domain.m.1.min(highest));
+        let (low, high) = domain.m();
+        domain.space.set_limit(Quantity::M, (low.max(lowest), high.min(highest)));
     }
     Ok(ReducedModel { title: spec.title, domain, windows, scene: String::new(), log })
 }
@@ -314,7 +316,7 @@ fn train_window(
     // Drawn again when resumed, so that the random numbers behind it are the same.
     let points = match spec.plan {
         Plan::Grid { nodes } => {
-            let mut points = grid_points(&spec.range, spec.contact(), nodes);
+            let mut points = spec.range.grid_points(spec.contact(), nodes);
             points.retain(|p| (reach.0..=reach.1).contains(&p.moes().m) && !known.contains(p));
             points
         }

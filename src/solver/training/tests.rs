@@ -85,7 +85,7 @@ fn all_rows_and_q_deim_agree_at_fresh_points_and_lie_near_full_solutions() {
     }
 }
 
-fn exact_range() -> Range {
+fn exact_range() -> ParameterSpace {
     small(Sampling::All).range
 }
 

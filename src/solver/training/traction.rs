@@ -2,7 +2,7 @@
 
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::{Range, TrainingError, TrainingObserver, TrainingSpec};
+use super::{TrainingError, TrainingObserver, TrainingSpec};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};
@@ -14,15 +14,6 @@ const SOLUTIONS: usize = 1000;
 /// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of
 /// the contact.
 const SLOWEST: f64 = 1e-3;
-
-/// The lubricant of a training with a limiting stress of those that its range says may cut traction, which pressure and film
-/// do not feel, or with thermal constants of its range. Its own where the range says nothing.
-pub(super) fn drawn(spec: &TrainingSpec, rng: &mut Rng) -> Lubricant {
-    match spec.range {
-        Range::SlidingOils(range) => range.limited(spec.lubricant, rng),
-        range => range.warmed(spec.lubricant, rng),
-    }
-}
 
 /// Fits the rule of a window to reduced solutions of the contacts that it serves, `model` being the model of it alone; `None`
 /// where the fit fails. That of a line without heat is the whole grid's.
@@ -45,7 +36,7 @@ pub(super) fn traction_rule(
         point.sliding.slide_to_roll_ratio *= SLOWEST.powf(rng.f64());
     }
     let contacts: Vec<(OperatingPoint, Lubricant)> =
-        points.into_iter().map(|point| (point, drawn(spec, &mut rng))).collect();
+        points.into_iter().map(|point| (point, spec.random_lubricant(&mut rng))).collect();
     let online = || Online::new(Arc::clone(model), ReducedOptions::default());
     let stresses = in_parallel(observer, "Traction", &contacts, online, |online, _, (point, lubricant)| {
         online.forget();
@@ -54,5 +45,8 @@ pub(super) fn traction_rule(
     })?;
     let stresses: Vec<Vec<f64>> = stresses.into_iter().flatten().collect();
     let model = Arc::clone(model);
-    on_one_thread(observer, move || TractionRule::fit(model.windows.first()?, &stresses))
+    on_one_thread(observer, move || {
+        let window = model.windows.first()?;
+        TractionRule::fit(&window.grid, &window.sampled_rows, &stresses)
+    })
 }

@@ -4,6 +4,7 @@ use super::one_thread::on_one_thread;
 use super::rows::{add_goals, rows_by};
 use super::trajectories::{TrajectoryTraining, test_space};
 use super::{Observer, Progress, TrainingError};
+use crate::host::pool::on_all_cores;
 use crate::solver::full::transient::{Keep, MarchProgress, Trajectory, Transient, march};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::reduced::{
@@ -106,5 +107,5 @@ fn evidence(
         drop(model);
         if observer.cancelled() { Err(TrainingError::Cancelled) } else { Ok(evidence) }
     };
-    trajectories.par_iter().enumerate().map(along).collect()
+    on_all_cores(|| trajectories.par_iter().enumerate().map(along).collect())
 }

@@ -5,9 +5,9 @@
 >>> result = ehl.solve(contact, method="reduced")
 >>> result.h_c_m, result.pressure.max()
 
-SI units throughout; X, P and H are dimensionless as in the dissertation (X = x/a, P = p/p_H, H = h R/a**2). What makes no
-sense is refused by an :class:`EhlError` with the sentence of the command line. Work that takes long runs without Python's
-lock, calls ``progress(stage, done, total)``, and is stopped by Ctrl-C.
+SI units throughout, or texts with a unit; X, P and H are dimensionless as in the dissertation (X = x/a, P = p/p_H,
+H = h R/a**2). What makes no sense is refused by an :class:`EhlError` in one sentence. Work that takes long runs without
+Python's lock, calls ``progress(stage, done, total)``, and is stopped by Ctrl-C.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def sweep(contact, *varied, method=None, model=None, progress=None):
 
     Each of ``varied`` is a text as on the command line (``"moes-m=10:160:5:log"``) or a pair of a name and its values
     (``("moes_m", np.geomspace(10, 160, 5))``); the last one changes fastest. Returns a structured array, a row for each
-    contact: varied options, the contact, its result; NaN where a solve did not converge.
+    contact: varied options, the contact, its result (NaN where a solve did not converge), its ``warning``.
     """
     axes = [axis if isinstance(axis, str) else (axis[0], [float(value) for value in axis[1]]) for axis in varied]
     if not axes:
@@ -54,7 +54,8 @@ def solve_many(contact, *, method=None, model=None, progress=None, **options):
 
     Options are those of :class:`Contact` that are numbers; arrays are broadcast against each other. Each contact is solved
     afresh, so that neither order nor cores matter. Returns a structured array of the broadcast shape: the contact and
-    its result, numbers only; ``converged`` and ``trained`` are 1 or 0, values NaN where a solve did not converge.
+    its result by the names of :func:`sweep`'s columns; ``converged`` and ``reduced.trained`` are 1 or 0, values NaN where
+    a solve did not converge, ``warning`` is a text.
     """
     if not options:
         raise EhlError("nothing is varied; write solve_many(contact, load=[...])")
@@ -66,7 +67,8 @@ def solve_many(contact, *, method=None, model=None, progress=None, **options):
 class Outcome:
     """What a scene gave: ``passed``, ``values`` by name, ``expectations``, ``warnings``, and ``tables``.
 
-    ``tables`` are structured arrays by name; ``labels`` and ``remarks`` hold the words of their rows, where there are any.
+    ``tables`` are structured arrays by name; what must be said of a row is their column ``warning``, and ``labels`` are
+    the names of rows, where they have any.
     ``object`` is what ``run --json`` prints.
     """
 
@@ -77,9 +79,8 @@ class Outcome:
         self.converged = answer["converged"]
         self.expectations = answer["expectations"]
         self.warnings = [answer["warning"]] if "warning" in answer else []
-        self.tables = {name: array for name, (array, _, _) in tables.items()}
-        self.labels = {name: labels for name, (_, labels, _) in tables.items() if labels}
-        self.remarks = {name: remarks for name, (_, _, remarks) in tables.items() if remarks}
+        self.tables = {name: array for name, (array, _) in tables.items()}
+        self.labels = {name: labels for name, (_, labels) in tables.items() if labels}
 
     def value(self, name: str, method: Optional[str] = None) -> float:
         """The value of a name: of the method where one is given, else the first of that name."""

@@ -98,7 +98,6 @@ class Outcome:
     warnings: list[str]
     tables: dict[str, npt.NDArray[Any]]
     labels: dict[str, list[str]]
-    remarks: dict[str, list[str]]
     def value(self, name: str, method: Optional[_Method] = None) -> float: ...
 
 def solve(

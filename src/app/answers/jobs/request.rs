@@ -1,7 +1,8 @@
 //! What is asked of the worker, and what comes back.
 
 use crate::app::document::Key;
-use crate::engine::Store;
+use crate::engine::{Answer, Store};
+use crate::scene::Grid;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec, PointGridSpec};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
@@ -55,6 +56,14 @@ impl GridChoice {
         }
     }
 
+    /// The grid as a request states it.
+    pub fn stated(&self) -> Grid {
+        match self {
+            Self::Existing(_) => Grid::Model,
+            Self::Spec(spec) => Grid::from(*spec),
+        }
+    }
+
     /// The grid itself.
     ///
     /// # Errors
@@ -81,8 +90,8 @@ pub struct FullSolve {
 
 /// What comes back.
 pub enum Outcome {
-    /// A solution (it says itself whether it converged) and the seconds of the solve alone.
-    Solved(Box<Solution>, f64),
+    /// An answer, converged or not.
+    Solved(Box<Answer>),
     /// A sentence why there is none.
     Failed(String),
 }

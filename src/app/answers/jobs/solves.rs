@@ -3,18 +3,20 @@
 use super::request::{FullSolve, JobKind, Outcome};
 use crate::app::document::Key;
 use crate::app::wake::wake;
-use crate::engine::Store;
 use crate::engine::job::{Ending, Job, Queue, Reporter};
-use crate::solver::full::{Solution, Start};
+use crate::engine::{Answer, Solver, Store, answer};
+use crate::host::clock::Stopwatch;
+use crate::scene::Method;
+use crate::solver::full::Start;
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// News of a solve.
 enum News {
     Step(NewtonStep),
     Krylov(usize),
-    Solved(Box<Solution>, f64),
+    Solved(Box<Answer>),
 }
 
 /// A job as the strip at the bottom shows it.
@@ -28,8 +30,8 @@ pub struct Running {
     /// Krylov iterations of the present Newton step, where they are counted.
     pub krylov: usize,
     /// When it was handed over.
-    pub since: Instant,
-    solved: Option<(Box<Solution>, f64)>,
+    pub since: Stopwatch,
+    solved: Option<Box<Answer>>,
     job: Job<News>,
 }
 
@@ -43,12 +45,12 @@ impl Running {
                 *krylov = 0;
             }
             News::Krylov(count) => *krylov = count,
-            News::Solved(solution, wall_s) => *solved = Some((solution, wall_s)),
+            News::Solved(answer) => *solved = Some(answer),
         })?;
         Some(match (ending, solved.take()) {
-            (Ok(()), Some((solution, wall_s))) => Outcome::Solved(solution, wall_s),
+            (Ok(()), Some(answer)) => Outcome::Solved(answer),
             (Ok(()), None) => Outcome::Failed("the solve ended without a result".to_owned()),
-            (Err(why), _) => Outcome::Failed(why),
+            (Err(why), _) => Outcome::Failed(why.to_string()),
         })
     }
 }
@@ -128,14 +130,9 @@ impl Jobs {
 fn solve(store: &Store, request: &FullSolve, reporter: &Reporter<News>) -> Ending {
     let grid = request.grid.with(store).map_err(|refused| refused.to_string())?;
     let start = request.start.as_deref().map_or(Start::Cold, Start::From);
-    let (solution, wall_s) = store.with_full_solver(&grid, |solver| {
-        let begin = Instant::now();
-        let solution = solver.solve(&request.key.point, request.key.lubricant, start, &Steps(reporter));
-        let wall_s = begin.elapsed().as_secs_f64();
-        (solution.map(|solution| solver.judged(solution)), wall_s)
-    });
-    let solution = solution.map_err(|refused| refused.to_string())?;
-    reporter.send(News::Solved(Box::new(solution), wall_s));
+    let asked = request.key.request(request.grid.stated(), Method::Full);
+    let answer = store.with_full_solver(&grid, |solver| answer(&asked, Solver::Full(solver, start), &Steps(reporter)));
+    reporter.send(News::Solved(Box::new(answer.map_err(|refused| refused.to_string())?)));
     Ok(())
 }
 
@@ -170,12 +167,12 @@ mod tests {
         let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
         let grid = GridChoice::Spec(GridSpec::EXPLORER);
         jobs.submit(&egui::Context::default(), FullSolve { kind: JobKind::Verify, key, grid, start: None });
-        let begin = Instant::now();
+        let begin = Stopwatch::start();
         loop {
             if let Some((job, outcome)) = jobs.poll().pop() {
                 assert_eq!(job.key, key);
                 assert!(!job.steps.is_empty());
-                assert!(matches!(outcome, Outcome::Solved(solution, _) if solution.converged()));
+                assert!(matches!(outcome, Outcome::Solved(answer) if answer.result.converged));
                 break;
             }
             assert!(begin.elapsed() < Duration::from_secs(300));

@@ -15,7 +15,8 @@ use crate::engine::Store;
 use crate::engine::job::Background;
 use crate::scene::study::PathRow;
 use crate::scene::study::trajectory::Trajectory;
-use crate::scene::{ContactResult, Method, QuantityBox, Study, StudyRow};
+use crate::scene::{ContactResult, Method, Study, StudyRow};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::ContactKind;
 use egui::{Color32, ComboBox, Id, Ui, Vec2b};
 use egui_plot::{Line, LineStyle, VLine};
@@ -143,12 +144,12 @@ impl Along {
     /// Each full solution starts from its neighbour on the path, never from a reduced one.
     fn begin(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse, (wanted, unasked): (Wanted, bool)) {
         self.results = Some(Followed { in_use: in_use.clone(), wanted, unasked, steps: Vec::new(), open: true });
-        let (range, through) = match wanted.through {
-            Through::Dissertation => (Some(QuantityBox::of_tables(in_use.model.contact())), None),
-            Through::Trained => (None, Some(in_use.trained_range())),
+        let range = match wanted.through {
+            Through::Dissertation => ParameterSpace::of_tables(in_use.model.contact()),
+            Through::Trained => in_use.trained_range(),
         };
         let methods = vec![in_use.method(), Method::Full];
-        let study = Study::Trajectory(Trajectory { range, through, points: wanted.points, methods });
+        let study = Study::Trajectory(Trajectory { range, points: wanted.points, methods });
         let question = in_use.question("Trajectory", study).map_err(|why| why.to_string());
         self.work.start(question.map(|question| in_use.ask(ctx, store, question)));
     }

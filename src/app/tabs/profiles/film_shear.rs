@@ -47,7 +47,7 @@ impl FilmShear {
         match self {
             Self::Off => "Pressure and film only",
             Self::Stress => {
-                "τ_zx across the film: linear from one surface to the other, positive where the upper one drags the film along"
+                "τ_zx across the film: linear from body 1 below to body 2 above, positive where body 2 drags the film along"
             }
             Self::Rate => "∂u/∂z across the film, its size on a logarithmic scale over four decades",
         }

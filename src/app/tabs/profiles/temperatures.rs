@@ -148,7 +148,7 @@ pub fn ui(ui: &mut Ui, image: &TemperatureImage, context: &Context<'_>, (scales,
     );
     balance_ui(ui, &heat.balance, hues);
     match heat.too_hot() {
-        Some(warning) => warning_ui(ui, &warning),
+        Some(warning) => warning_ui(ui, &warning.to_string()),
         None => {
             let above = numbers::quantity(image.largest_k, "K");
             ui.weak(format!("Colours: from the inlet’s temperature to {above} above it"));

@@ -2,8 +2,8 @@
 
 use crate::app::export;
 use crate::app::theme::Palette;
-use crate::scene::QuantityBox;
 use crate::scene::regimes::{L_AXIS, M_AXIS, Regime, SAMPLES, boundaries, names, spread};
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{
     ContactKind, FilmShape, Moes, MoesRequest, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA, si_from_moes,
 };
@@ -85,8 +85,8 @@ impl ChartLines {
         }
         // The dissertation's balls.
         if shape == FilmShape::CIRCLE {
-            add(Kind::Table, None, outline(&QuantityBox::TABLE_3_4, kind));
-            add(Kind::Trajectory, None, trajectory(&QuantityBox::TABLE_3_4, kind));
+            add(Kind::Table, None, outline(&ParameterSpace::table_3_4(), kind));
+            add(Kind::Trajectory, None, trajectory(&ParameterSpace::table_3_4(), kind));
         }
         Self { lines, names: names(shape).into_iter().map(|(regime, [m, l])| (regime, point(m, l))).collect() }
     }
@@ -154,9 +154,9 @@ fn pressure_limit(shape: FilmShape) -> Vec<PlotPoint> {
 
 /// The box of M and L, its upper right corner cut by the pressure limit.
 fn trained(shape: FilmShape, domain: &Domain) -> Vec<PlotPoint> {
-    let (m, l) = (domain.m, domain.l);
+    let (m, l, highest) = (domain.m(), domain.l(), domain.highest_pressure_pa());
     let hertz = hertz_pressure(shape);
-    let below = |m: f64, l: f64| hertz(m, l) <= domain.max_hertz_pressure_pa;
+    let below = |m: f64, l: f64| hertz(m, l) <= highest;
     let top = |m: f64| if below(m, l.1) { l.1 } else { up_to(l, |l| below(m, l)) };
     let mut outline = vec![point(m.0, l.0)];
     outline.extend((0..SAMPLES).map(|k| spread(m, k, SAMPLES)).map(|m| point(m, top(m))));
@@ -166,12 +166,9 @@ fn trained(shape: FilmShape, domain: &Domain) -> Vec<PlotPoint> {
 
 /// The convex hull of a box's contacts, closed. M and L are products of powers of the quantities: in logarithmic axes
 /// the box becomes a polygon, with its corners among those of the box; on linear axes its sides are curved.
-fn outline(range: &QuantityBox, kind: ContactKind) -> Vec<PlotPoint> {
-    let end = |corner: u32, bit: u32| f64::from(corner >> bit & 1);
-    let mut corners: Vec<PlotPoint> = (0..16)
-        .map(|k| range.at(kind, [end(k, 0), end(k, 1), end(k, 2), end(k, 3)]).moes())
-        .map(|moes| point(moes.m, moes.l))
-        .collect();
+fn outline(range: &ParameterSpace, kind: ContactKind) -> Vec<PlotPoint> {
+    let moes = range.corners().filter_map(|unit| Some(range.at(kind, &unit)?.moes()));
+    let mut corners: Vec<PlotPoint> = moes.map(|moes| point(moes.m, moes.l)).collect();
     corners.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let turn = |a: &PlotPoint, b: &PlotPoint, c: &PlotPoint| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     let half = |points: &mut dyn Iterator<Item = &PlotPoint>| {
@@ -190,9 +187,9 @@ fn outline(range: &QuantityBox, kind: ContactKind) -> Vec<PlotPoint> {
 }
 
 /// The test trajectory through a box, 0 ≤ c ≤ 2.
-fn trajectory(range: &QuantityBox, kind: ContactKind) -> Vec<PlotPoint> {
-    let at = |k: usize| range.trajectory(kind, 2.0 * k as f64 / SAMPLES as f64).moes();
-    (0..=SAMPLES).map(at).map(|moes| point(moes.m, moes.l)).collect()
+fn trajectory(range: &ParameterSpace, kind: ContactKind) -> Vec<PlotPoint> {
+    let at = |k: usize| Some(range.trajectory(kind, 2.0 * k as f64 / SAMPLES as f64)?.moes());
+    (0..=SAMPLES).filter_map(at).map(|moes| point(moes.m, moes.l)).collect()
 }
 
 /// The regimes as a picture, blended softly where they meet.

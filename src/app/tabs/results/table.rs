@@ -32,8 +32,8 @@ pub fn ui(ui: &mut Ui, table: &Table) {
                 for column in &table.columns {
                     ui.label(rich(column, 12.0, quiet));
                 }
-                if !table.remarks.is_empty() {
-                    ui.label(rich("remark", 12.0, quiet));
+                if let Some(title) = table.remarks_title() {
+                    ui.label(rich(title, 12.0, quiet));
                 }
                 ui.end_row();
                 for (k, row) in (first..).zip(seen) {

@@ -100,7 +100,7 @@ impl LiveCurve {
             // It was given up.
             Ok(()) if contacts < CURVE => None,
             Ok(()) => Some(curve),
-            Err(why) => Some(Curve { samples: Vec::new(), left_out: Err(Refusal::new(why)), ..curve }),
+            Err(why) => Some(Curve { samples: Vec::new(), left_out: Err(Refusal::new(why.to_string())), ..curve }),
         }
     }
 }

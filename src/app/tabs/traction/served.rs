@@ -28,8 +28,8 @@ pub struct Served {
 pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, Refusal>)> {
     let varied = choices.against.varied();
     let key = document.key();
-    let mut point = key.point;
-    point.sliding.slide_to_roll_ratio = point.sliding.slide_to_roll_ratio.abs();
+    let key = if key.point.sliding.slide_to_roll_ratio < 0.0 { key.exchanged() } else { key };
+    let point = key.point;
     if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian || !choices.against.is_of(point.kind) {
         return None;
     }
@@ -78,14 +78,14 @@ fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Re
     for value in [ends.0, ends.1] {
         let problem = Problem::new(&varied.at(&key.point, value), key.lubricant)?;
         if let Some(why) = domain.strange_shape(&problem) {
-            return Err(Refusal::new(why));
+            return Err(Refusal::new(why.to_string()));
         }
         if let Trust::Outside(why) = domain.trust(&problem) {
             if problem.heat.is_some() {
                 // Full solutions are at hand, and with heat the oil and its bodies count as well.
-                return Err(Refusal::new(why));
+                return Err(Refusal::new(why.to_string()));
             }
-            untrained.get_or_insert(why);
+            untrained.get_or_insert(why.to_string());
         }
     }
     Ok(untrained)

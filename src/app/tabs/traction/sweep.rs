@@ -5,7 +5,8 @@ use crate::app::in_use::question;
 use crate::scene::study::{PathRow, sweep as scene};
 use crate::scene::{Axis, Grid, Method, Scene, Steps, Study, StudyRow};
 use crate::solver::full::{Problem, TractionDoubt};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::Domain;
 use serde::{Deserialize, Serialize};
@@ -147,10 +148,10 @@ impl Varied {
             Self::SlideToRoll => {
                 let (from, to) = domain.srr().unwrap_or(SRR);
                 // With heat it is trained up to a speed of sliding as well.
-                let fastest = domain.heat.map_or(f64::INFINITY, |heat| heat.fastest_sliding_m_per_s);
+                let fastest = domain.interval(Quantity::SlidingSpeed).map_or(f64::INFINITY, |(_, fastest)| fastest);
                 Some((from, to.min(fastest / point.speed_m_per_s)))
             }
-            Self::Plateau => domain.sliding.map(|sliding| sliding.npr),
+            Self::Plateau => domain.interval(Quantity::NewtonianPlateauRatio),
             Self::RadiusRatio => None,
             Self::Speed => {
                 let (e, r) = (point.modulus_pa, point.radius_m);
@@ -161,7 +162,8 @@ impl Varied {
                     ContactKind::Line => speed((point.load / (e * r * m)).powi(2)),
                     ContactKind::Point => speed((point.load / (e * r * r * m)).powf(4.0 / 3.0)),
                 };
-                let ends = (of_l(domain.l.0).max(of_m(domain.m.1)), of_l(domain.l.1).min(of_m(domain.m.0)));
+                let (m, l) = (domain.m(), domain.l());
+                let ends = (of_l(l.0).max(of_m(m.1)), of_l(l.1).min(of_m(m.0)));
                 (ends.0 < ends.1).then_some(ends)
             }
         }
@@ -297,13 +299,12 @@ impl Sweep {
         let mut point = self.varied.at(&self.base.point, self.varied.of(other));
         // A plateau that is the lubricant's own, and the sense of sliding, make no other sweep.
         let theirs = other.point.sliding;
-        if point.sliding.slide_to_roll_ratio == theirs.slide_to_roll_ratio.abs() {
-            point.sliding.slide_to_roll_ratio = theirs.slide_to_roll_ratio;
-        }
         if self.varied == Varied::Plateau {
             point.sliding.newtonian_plateau_ratio = theirs.newtonian_plateau_ratio;
         }
-        Key { point, lubricant: self.base.lubricant }
+        let key = Key { point, lubricant: self.base.lubricant };
+        let srr = theirs.slide_to_roll_ratio;
+        if srr < 0.0 && point.sliding.slide_to_roll_ratio == -srr { key.exchanged() } else { key }
     }
 
     /// What its contacts are compared with: with heat those without; without heat those of a lubricant that keeps its
@@ -388,7 +389,7 @@ impl Sample {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Embedded;
+    use crate::engine::embedded;
     use crate::scene::named_lubricant::{MINERAL_OIL, SQUALANE_PIP};
     use crate::solver::physics::contact::Sliding;
     use crate::solver::physics::lubricant::Heat;
@@ -403,24 +404,32 @@ mod tests {
 
     #[test]
     fn trained_speeds_end_where_a_moes_number_does() {
-        let model = Embedded::ThinningLine.model().unwrap();
+        let model = embedded("line_shear").unwrap();
         for kind in [ContactKind::Line, ContactKind::Point] {
             let point = key(kind).point;
             let here = point.moes();
             // A box around the present contact, that the speed leaves by M at one end and by L at the other.
-            let domain =
-                Domain { m: (0.5 * here.m, 1.2 * here.m), l: (0.5 * here.l, 1.1 * here.l), ..model.domain.clone() };
+            let around = |m: (f64, f64)| {
+                let mut domain = model.domain.clone();
+                let ends = [(Quantity::M, m), (Quantity::L, (0.5 * here.l, 1.1 * here.l))];
+                for (quantity, ends) in ends {
+                    domain.space.axis_mut(quantity).unwrap().ends = ends;
+                    domain.space.limits.retain(|(limited, _)| *limited != quantity);
+                }
+                domain
+            };
+            let domain = around((0.5 * here.m, 1.2 * here.m));
             let (from, to) = Varied::Speed.trained(&domain, &point).unwrap();
             let [slow, fast] = [from, to].map(|speed| Varied::Speed.at(&point, speed).moes());
-            assert!((slow.m / domain.m.1 - 1.0).abs() < 1e-9, "{kind:?}: {slow:?}");
-            assert!((fast.l / domain.l.1 - 1.0).abs() < 1e-9, "{kind:?}: {fast:?}");
-            let elsewhere = Domain { m: (1e3 * here.m, 2e3 * here.m), ..domain };
+            assert!((slow.m / domain.m().1 - 1.0).abs() < 1e-9, "{kind:?}: {slow:?}");
+            assert!((fast.l / domain.l().1 - 1.0).abs() < 1e-9, "{kind:?}: {fast:?}");
+            let elsewhere = around((1e3 * here.m, 2e3 * here.m));
             assert_eq!(Varied::Speed.trained(&elsewhere, &point), None);
         }
         let point = key(ContactKind::Line).point;
         assert_eq!(Varied::SlideToRoll.trained(&model.domain, &point), Some((0.0, 1.0)));
         assert_eq!(Varied::Plateau.trained(&model.domain, &point), Some((0.2, 1.0)));
-        let (heated, fast) = (Embedded::HeatedLine.model().unwrap(), OperatingPoint { speed_m_per_s: 10.0, ..point });
+        let (heated, fast) = (embedded("line_heat").unwrap(), OperatingPoint { speed_m_per_s: 10.0, ..point });
         assert_eq!(Varied::SlideToRoll.trained(&heated.domain, &fast), Some((0.0, 0.5)), "5 m/s of sliding");
     }
 

@@ -12,7 +12,7 @@ use crate::app::wake::wake;
 use crate::engine::job::{Background, Standing};
 use crate::engine::{Store, Workbench};
 use crate::scene::{Grid, Method, StudyRow};
-use crate::solver::physics::contact::Quantity;
+use crate::solver::parameters::Quantity;
 use egui::Context;
 use serde::{Deserialize, Serialize};
 

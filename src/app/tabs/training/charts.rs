@@ -61,7 +61,7 @@ pub fn plane(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f3
     // What runs, else what would be started.
     let runs = training.spec.as_deref().filter(|_| training.job().is_some());
     let spec = runs.or_else(|| context.document.training_spec());
-    let range = spec.map(|spec| spec.domain());
+    let range = spec.map(|spec| spec.domain()).map(|domain| (domain.m(), domain.l()));
     let group = |searched: bool| -> Vec<PlotPoint> {
         chart.solved.iter().filter(|dot| dot.searched == searched).map(|dot| dot.at).collect()
     };
@@ -81,8 +81,8 @@ pub fn plane(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f3
         ui,
         "Chart of the training solutions",
         |plot| {
-            if let Some(range) = range.filter(|r| r.m.0 > 0.0 && r.m.0 <= r.m.1 && r.m.1.is_finite()) {
-                let ((left, right), (low, high)) = ((range.m.0.log10(), range.m.1.log10()), range.l);
+            if let Some((m, (low, high))) = range.filter(|(m, _)| m.0 > 0.0 && m.0 <= m.1 && m.1.is_finite()) {
+                let (left, right) = (m.0.log10(), m.1.log10());
                 let corners = vec![[left, low], [right, low], [right, high], [left, high], [left, low]];
                 let outline = Line::new("Range of M and L", corners).color(faded(palette.accent, 0.8)).width(1.2);
                 plot.line(outline.allow_hover(false));

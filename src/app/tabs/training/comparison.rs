@@ -72,7 +72,7 @@ impl Comparison {
     ) -> Result<Self, Refusal> {
         let points = random_points(&spec.range, spec.contact(), 1, SEED);
         let point = *points.first().ok_or_else(|| Refusal::new("the range holds no points to compare at"))?;
-        let range = spec.range;
+        let range = spec.range.clone();
         let test = RandomTest { range, tests: POINTS, seed: SEED, method: Method::EMBEDDED, compare: POINTS, worst: 0 };
         let key = Key { point, lubricant: spec.lubricant };
         let mut comparison = Self {

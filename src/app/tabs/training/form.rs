@@ -7,13 +7,11 @@ use crate::app::controls::{heading, named};
 use crate::app::document::Edit;
 use crate::app::form::{Form, choose, row, short};
 use crate::app::tabs::training::presets;
-use crate::scene::QuantityBox;
 use crate::solver::discrete::grid::GridSpec;
+use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::reduced::{CIRCLES, Sampling, Scheme};
-use crate::solver::training::{
-    HeatedOilRange, HeatedRange, Indicator, OilRange, Plan, Range, SlidingOilRange, SlidingRange, TrainingSpec, Windows,
-};
+use crate::solver::reduced::{Sampling, Scheme};
+use crate::solver::training::{Indicator, Plan, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
 
 /// The form.
@@ -65,13 +63,10 @@ fn title_ui(ui: &mut Ui, typed: &mut Option<String>, spec: &mut TrainingSpec) {
 
 /// Units with their size in SI units.
 const PLAIN: (&str, f64) = ("", 1.0);
-const ALPHA: (&str, f64) = ("1/GPa", 1e-9);
-const VISCOSITY: (&str, f64) = ("mPa·s", 1e-3);
-const GIGAPASCAL: (&str, f64) = ("GPa", 1e9);
 
 fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     heading(ui, "Range");
-    let is_box = matches!(spec.range, Range::Box(_));
+    let is_box = spec.range.is_si_box();
     let mut wanted = is_box;
     choose(ui, "Given by", "What the model shall be good for", &mut wanted, &[true, false], |is_box| {
         if is_box {
@@ -85,92 +80,27 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
         form.changed = Some("Given by");
     }
     form.message(ui, "Given by");
-    let (load_unit, load_tip) = match spec.contact() {
-        ContactKind::Line => (("kN/m", 1e3), "Load per unit length (2.9)"),
-        ContactKind::Point => (("N", 1.0), "Load (2.9)"),
-    };
-    let viscosity_tip = "Viscosity at ambient pressure, the same for the whole range";
-    match &mut spec.range {
-        Range::Box(QuantityBox { radius, speed, load, alpha, modulus, viscosity }) => {
-            form.interval(ui, "Radius {R}", ("mm", 1e-3), radius, "Reduced radius of curvature (2.3)");
-            form.interval(ui, "Speed {u_m}", ("m/s", 1.0), speed, "Mean entrainment speed (2.1)");
-            form.interval(ui, "Load {w}", load_unit, load, load_tip);
-            form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");
-            form.row(ui, "Modulus {E'}", GIGAPASCAL, modulus, "Reduced modulus (2.5), the same for the whole range");
-            form.row(ui, "Viscosity {η_0}", VISCOSITY, viscosity, viscosity_tip);
-        }
-        Range::Moes { m, l, alpha, max_hertz_pressure, viscosity } => {
-            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
-            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
-            form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");
-            form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
-            form.row(ui, "Viscosity {η_0}", VISCOSITY, viscosity, viscosity_tip);
-        }
-        Range::Realisation { m, l, max_hertz_pressure } => {
-            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
-            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
-            form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
-        }
-        Range::Ellipses { m, l, radius_ratio, max_hertz_pressure } => {
-            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
-            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
-            form.interval(ui, "Ratio of radii {R_y}/{R}", PLAIN, radius_ratio, "1 is a circle");
-            form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
-        }
-        Range::Oils(range) => oils(ui, form, range),
-        Range::SlidingOils(SlidingOilRange { oils: range, srr, modulus, limit_slope, gradient_stress }) => {
-            oils(ui, form, range);
-            form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of oils that thin by Eyring’s law");
-            let modulus_tip = "Reduced modulus (2.5) at the lubricant’s own Eyring stress: their product counts";
-            form.interval(ui, "Modulus {E'}", GIGAPASCAL, modulus, modulus_tip);
-            form.interval(ui, "Slope {Λ}", PLAIN, limit_slope, "Of limiting stresses that cut traction");
-            let gradient_tip = "Thick films that the pressure’s gradient shears by more are left out";
-            form.row(ui, "Gradient’s stress", ("MPa", 1e6), gradient_stress, gradient_tip);
-        }
-        Range::HeatedOils(HeatedOilRange { oils: range, srr, radius, modulus, speed, sliding_speed, thermal }) => {
-            oils(ui, form, range);
-            form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of contacts with heat");
-            form.interval(ui, "Radius {R}", ("mm", 1e-3), radius, "Reduced radius of curvature (2.3)");
-            form.interval(ui, "Modulus {E'}", GIGAPASCAL, modulus, "Reduced modulus (2.5)");
-            form.interval(ui, "Mean speed {u_m}", ("m/s", 1.0), speed, "Faster and slower contacts are left out");
-            form.row(ui, "Highest SRR {u_m}", ("m/s", 1.0), sliding_speed, "Contacts that slide faster are left out");
-            if let Some(thermal) = thermal {
-                let tip = "In front of the contact; errors are measured at any of them, and at other constants";
-                form.interval(ui, "Inlet", ("K", 1.0), &mut thermal.inlet_temperature, tip);
-            }
-        }
-        Range::Heated(HeatedRange { m, l, srr, max_hertz_pressure, .. }) => {
-            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19), by the load");
-            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19), by the speed");
-            form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, "Of contacts with heat");
-            form.row(ui, "Highest {p_H}", GIGAPASCAL, max_hertz_pressure, "Contacts beyond it are left out");
-        }
-        Range::Sliding(SlidingRange { m, l, srr, npr, max_hertz_pressure, .. }) => {
-            let ratio = "Of a shear-thinning lubricant";
-            form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
-            form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
-            form.interval(ui, "Slide-to-roll ratio", PLAIN, srr, ratio);
-            form.interval(ui, "Plateau ratio", PLAIN, npr, ratio);
-            if let Some(limit) = max_hertz_pressure {
-                form.row(ui, "Highest {p_H}", GIGAPASCAL, limit, "Contacts beyond it are left out");
-            }
-        }
+    let kind = spec.contact();
+    let ParameterSpace { axes, limits, fixed, constants } = &mut spec.range;
+    for axis in axes {
+        quantity_ui(ui, form, (axis.quantity, kind), &mut axis.ends);
+    }
+    for (quantity, ends) in limits {
+        quantity_ui(ui, form, (*quantity, kind), ends);
+    }
+    for (quantity, value) in fixed {
+        let tip = format!("{}, the same for the whole range", quantity.meaning(kind));
+        form.row(ui, quantity.field(), quantity.reading_unit(kind), value, &tip);
+    }
+    for axis in constants {
+        quantity_ui(ui, form, (axis.quantity, kind), &mut axis.ends);
     }
     ui.weak(described_windows(&spec.windows));
 }
 
-/// What a range of oils has with heat and without.
-fn oils(ui: &mut Ui, form: &mut Form<'_>, range: &mut OilRange) {
-    let OilRange { m, l, alpha, viscosity, exponent, hertz_pressure, radius_ratio, .. } = range;
-    form.interval(ui, "Load number {M}", PLAIN, m, "Moes’ load number (3.19)");
-    form.interval(ui, "Lubricant {L}", PLAIN, l, "Moes’ lubricant number (3.19)");
-    form.interval(ui, "Coefficient {α}", ALPHA, alpha, "Pressure–viscosity coefficient");
-    form.interval(ui, "Viscosity {η_0}", VISCOSITY, viscosity, "Viscosity at ambient pressure");
-    form.interval(ui, "Exponent {z}", PLAIN, exponent, "Roelands’ exponent (2.12), which α and η₀ make");
-    form.interval(ui, "Pressure {p_H}", GIGAPASCAL, hertz_pressure, "Hertzian pressure");
-    if *radius_ratio != CIRCLES {
-        form.interval(ui, "Ratio of radii {R_y}/{R}", PLAIN, radius_ratio, "1 is a circle");
-    }
+/// The interval of a quantity of a kind of contact.
+fn quantity_ui(ui: &mut Ui, form: &mut Form<'_>, (quantity, kind): (Quantity, ContactKind), ends: &mut (f64, f64)) {
+    form.interval(ui, quantity.field(), quantity.reading_unit(kind), ends, quantity.meaning(kind));
 }
 
 /// The windows of M in a line.
@@ -197,27 +127,21 @@ fn described_windows(windows: &Windows) -> String {
 }
 
 /// The same range, as far as it can be, given the other way.
-fn converted(spec: &TrainingSpec) -> Range {
+fn converted(spec: &TrainingSpec) -> ParameterSpace {
     let domain = spec.domain();
-    match spec.range {
-        Range::Box(QuantityBox { alpha, viscosity, .. }) => {
-            Range::Moes { m: domain.m, l: domain.l, alpha, max_hertz_pressure: domain.max_hertz_pressure_pa, viscosity }
-        }
-        Range::Moes { viscosity, .. } | Range::Sliding(SlidingRange { viscosity, .. }) => {
-            let table = QuantityBox::of_tables(spec.contact());
-            Range::Box(QuantityBox { alpha: domain.alpha_per_pa, viscosity, ..table })
-        }
-        Range::Realisation { .. }
-        | Range::Ellipses { .. }
-        | Range::Oils(_)
-        | Range::Heated(_)
-        | Range::HeatedOils(_)
-        | Range::SlidingOils(_) => Range::Box(QuantityBox {
-            alpha: domain.alpha_per_pa,
-            viscosity: domain.viscosity_pa_s,
-            ..QuantityBox::of_tables(spec.contact())
-        }),
+    let viscosity = domain.middle_viscosity_pa_s();
+    let alpha = domain.interval(Quantity::Alpha).unwrap_or_default();
+    let axis = |quantity, ends| Axis::new(quantity, ends);
+    if !spec.range.is_si_box() {
+        let mut space = ParameterSpace::of_tables(spec.contact());
+        space.axes.retain(|axis| axis.quantity != Quantity::Alpha);
+        space.axes.push(Axis::linear(Quantity::Alpha, alpha));
+        space.fixed.retain(|(fixed, _)| *fixed != Quantity::Viscosity);
+        return space.fixing([(Quantity::Viscosity, viscosity)]);
     }
+    ParameterSpace::of([axis(Quantity::M, domain.m()), axis(Quantity::L, domain.l()), axis(Quantity::Alpha, alpha)])
+        .limited([(Quantity::HertzPressure, (0.0, domain.highest_pressure_pa()))])
+        .fixing([(Quantity::Viscosity, viscosity)])
 }
 
 /// Which plan.

@@ -45,7 +45,7 @@ fn spec_of(scene: &str) -> Option<TrainingSpec> {
 
 /// Lets given windows follow a range that was changed: those it no longer meets go, the outer ends move to its own.
 pub fn fit_windows(spec: &mut TrainingSpec) {
-    let (low, high) = spec.domain().m;
+    let (low, high) = spec.domain().m();
     if !(low > 0.0 && low < high && high.is_finite()) {
         return;
     }
@@ -67,7 +67,8 @@ pub fn fit_windows(spec: &mut TrainingSpec) {
 mod tests {
     use super::*;
     use crate::solver::discrete::grid::GridSpec;
-    use crate::solver::training::{Range, WindowSpec};
+    use crate::solver::parameters::Quantity;
+    use crate::solver::training::WindowSpec;
 
     #[test]
     fn the_presets_are_trainings_that_can_be_started() {
@@ -87,8 +88,7 @@ mod tests {
         let windows = [(2.0, 9.0), (9.0, 40.0), (40.0, 500.0)].map(|m| WindowSpec::new(m, grid));
         let mut spec = TrainingSpec { windows: Windows::Given(windows.into()), ..slider_range().unwrap().clone() };
         let mut fitted = |range| {
-            let Range::Moes { m, .. } = &mut spec.range else { panic!() };
-            *m = range;
+            spec.range.axis_mut(Quantity::M).unwrap().ends = range;
             fit_windows(&mut spec);
             spec.check().unwrap();
             let Windows::Given(windows) = &spec.windows else { panic!() };

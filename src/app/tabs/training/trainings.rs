@@ -11,9 +11,10 @@ use super::worker::{Ended, Trained};
 use crate::app::answers::Answers;
 use crate::app::document::Document;
 use crate::engine::job::{Background, Standing};
-use crate::engine::{Embedded, Store, training_file};
+use crate::engine::registry::{alike, loads_in_common};
+use crate::engine::{Store, catalogue, training_file};
 use crate::solver::reduced::ReducedModel;
-use crate::solver::training::{Plan, Range, TrainingSpec, TrainingState, WindowState};
+use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use egui::Context;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -146,7 +147,7 @@ impl Training {
     pub fn start(&mut self, ctx: &Context, document: &Document) {
         let Some(spec) = document.training_spec().cloned() else { return };
         // Its films rupture as those of the contact do, and warm themselves where it is about heat.
-        let heat = document.lubricant.heat.filter(|_| spec.range.heats());
+        let heat = document.lubricant.heat.filter(|_| spec.heats());
         let spec = spec.under(document.lubricant.cavitation).heated(heat);
         match spec.check() {
             Ok(()) => self.run(ctx, TrainingState::new(spec)),
@@ -212,16 +213,15 @@ impl Training {
     /// files, and the one that was made.
     pub fn comparable(&self, answers: &Answers, document: &Document) -> Vec<(String, Arc<ReducedModel>)> {
         let Some(spec) = self.compared_spec(document) else { return Vec::new() };
-        let kind = spec.contact();
-        let ellipses = matches!(spec.range, Range::Ellipses { .. });
+        let domain = spec.domain();
         // That of ellipses is large: it stands here once it is in use.
-        let (heats, shear) = (spec.range.heats(), spec.lubricant.shear);
-        let (lightest, heaviest) = spec.domain().m;
-        let middle = (lightest * heaviest).sqrt();
-        let of_kind = if heats { Embedded::with_heat(kind) } else { Embedded::of_kind(kind, shear).under_load(middle) };
-        let round = (!ellipses).then_some(of_kind);
-        let embedded = round.and_then(|which| answers.store().embedded(which).ok());
-        let in_use = answers.models().shaped(kind, ellipses, &spec.lubricant, middle).cloned();
+        let round = catalogue().iter().filter(|entry| !domain.space.of_ellipses() && alike(&entry.domain, &domain));
+        let nearest = round.max_by(|a, b| {
+            let [a, b] = [a, b].map(|entry| loads_in_common(&entry.domain, &domain));
+            a.total_cmp(&b)
+        });
+        let embedded = nearest.and_then(|entry| answers.store().embedded(&entry.name).ok());
+        let in_use = answers.models().counterpart(&domain).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));
@@ -310,7 +310,7 @@ impl Training {
         let Some((ending, trained)) = running.receive() else { return };
         let seconds = running.job.since().elapsed().as_secs_f64();
         self.job = None;
-        self.notices.extend(ending.err().map(Notice::Wrong));
+        self.notices.extend(ending.err().map(|why| Notice::Wrong(why.to_string())));
         if let Some(trained) = trained {
             self.take(trained, seconds);
         }

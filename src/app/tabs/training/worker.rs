@@ -3,9 +3,10 @@
 use crate::app::refusal::Refusal;
 use crate::app::tabs::training::chart::Chart;
 use crate::app::wake::wake;
-use crate::engine::job::{Ending, Job, Reporter, guarded, on_spare_cores};
+use crate::engine::job::{Ending, Job, Reporter, guarded};
 use crate::engine::model_file;
 use crate::engine::training_file::{self, TrainingKeeper};
+use crate::host::pool::on_spare_cores;
 use crate::scene::atomic_file;
 use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{
@@ -227,7 +228,7 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
         Ok(Err(TrainingError::Cancelled)) => (Ended::Stopped, rest(&state, watch.reporter)),
         Ok(Err(error)) => (Ended::Failed(error.to_string()), rest(&state, watch.reporter)),
         // Whatever broke there would break here too.
-        Err(message) => (Ended::Failed(message.clone()), Err(Refusal::new(message))),
+        Err(broken) => (Ended::Failed(broken.to_string()), Err(broken.into())),
     };
     let kept = match (keeper, &ended) {
         (Some(keeper), Ended::Complete) => keeper.discard(),
@@ -248,11 +249,11 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
 
 /// The model of what there is, unless that is not wanted either.
 fn rest(state: &TrainingState, reporter: &Reporter<Trained>) -> Result<Made, Refusal> {
-    guarded(|| state.model(&reporter.abandoned())).map_err(Refusal::new).and_then(|result| match result {
+    match guarded(|| state.model(&reporter.abandoned()))? {
         Ok(model) => file_of(model),
         Err(TrainingError::Cancelled) => Err(Refusal::new("no model was made of them")),
         Err(error) => Err(error.into()),
-    })
+    }
 }
 
 fn file_of(model: ReducedModel) -> Result<Made, Refusal> {

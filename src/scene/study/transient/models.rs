@@ -4,6 +4,7 @@ use super::data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 use super::march::{By, March, MarchedBy};
 use super::timed_march::{Timed, timed_march};
 use super::{Row, Runner};
+use crate::host::clock::Stopwatch;
 use crate::scene::error::RunError;
 use crate::scene::outcome::Findings;
 use crate::scene::table::Table;
@@ -12,7 +13,6 @@ use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlModel, TpwlTraining
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::training::{TrajectoryTraining, on_one_thread, train_trajectories};
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Most modes in a table of losses.
 const MOST_LOSSES: usize = 300;
@@ -175,7 +175,7 @@ impl Runner<'_, '_> {
 
     /// Full marches that models are trained by, where it is not the study's own.
     pub(super) fn trainings(&self, own: &Trajectory) -> Result<Vec<Trajectory>, RunError> {
-        let (frame, begun) = (own.transient.frame.name(), Instant::now());
+        let (frame, begun) = (own.transient.frame.name(), Stopwatch::start());
         let transients = self.study.training_marches(&own.transient);
         let mut trained = Vec::with_capacity(transients.len());
         let mut cut_short = Vec::new();
@@ -191,7 +191,7 @@ impl Runner<'_, '_> {
         }
         if !trained.is_empty() {
             let moments = trained.iter().map(|trajectory| trajectory.moments.clone()).collect();
-            let wall_s = begun.elapsed().as_secs_f64();
+            let wall_s = begun.seconds();
             (self.tell)(Row::Trained { frame: own.transient.frame, wall_s, moments, cut_short });
         }
         Ok(trained)
@@ -203,9 +203,9 @@ impl Runner<'_, '_> {
         frame: Frame,
         trainings: &[Trajectory],
     ) -> Result<Model, RunError> {
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         let model = Arc::new(train_trajectories(&self.grid, trainings, training, self.setting.observer)?);
-        let (name, wall_s) = (reduced_name(frame), begun.elapsed().as_secs_f64());
+        let (name, wall_s) = (reduced_name(frame), begun.seconds());
         let model = Model { name, frame, kind: Kind::Reduced(model), wall_s };
         (self.tell)(Row::Model(model.clone()));
         Ok(model)
@@ -221,7 +221,7 @@ impl Runner<'_, '_> {
     ) -> Result<(), RunError> {
         let mut first: Option<Arc<TpwlModel>> = None;
         for selection in linearised.selections() {
-            let begun = Instant::now();
+            let begun = Stopwatch::start();
             let (asked, known, trainings) = (linearised.clone(), first.clone(), Arc::clone(trainings));
             // Nothing can interrupt it: a cancel need not wait.
             let model = Arc::new(on_one_thread(self.setting.observer, move || match &known {
@@ -237,7 +237,7 @@ impl Runner<'_, '_> {
                 name = format!("{name}.{label}");
             }
             let kind = Kind::Linearised { model, label, weightings: linearised.weightings.clone() };
-            let model = Model { name, frame, kind, wall_s: begun.elapsed().as_secs_f64() };
+            let model = Model { name, frame, kind, wall_s: begun.seconds() };
             (self.tell)(Row::Model(model.clone()));
             models.push(model);
         }

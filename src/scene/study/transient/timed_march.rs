@@ -1,12 +1,12 @@
 //! A march with the seconds of each of its steps, told moment by moment.
 
 use super::{MarchedBy, Row};
+use crate::host::clock::Stopwatch;
 use crate::scene::error::RunError;
 use crate::scene::study::question::Tell;
 use crate::solver::full::transient::{Marching, Moment, State, Trajectory, Transient, TransientObserver, march};
 use crate::solver::observer::{Observer, Progress};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
 
 /// Moments whose fields are told, of each march, where that is wanted.
 const PICTURES: f64 = 400.0;
@@ -64,7 +64,7 @@ struct StepClock<'a> {
 
 /// When the step under way began, the seconds of those before, the last time reached, and from when on fields are due.
 struct Steps {
-    begun: Option<Instant>,
+    begun: Option<Stopwatch>,
     seconds: Vec<f64>,
     time: f64,
     next_picture: f64,
@@ -85,7 +85,7 @@ impl Observer for StepClock<'_> {
 impl TransientObserver for StepClock<'_> {
     fn moment(&self, moment: &Moment) {
         let mut steps = self.steps();
-        let seconds = steps.begun.map_or(0.0, |begun| begun.elapsed().as_secs_f64());
+        let seconds = steps.begun.map_or(0.0, |begun| begun.seconds());
         if steps.begun.is_some() {
             steps.seconds.push(seconds);
         }
@@ -95,7 +95,7 @@ impl TransientObserver for StepClock<'_> {
         if let Some(Listener { march, tell, .. }) = &self.told {
             tell(Row::Moment { march: Arc::clone(march), moment: *moment, seconds });
         }
-        steps.begun = Some(Instant::now());
+        steps.begun = Some(Stopwatch::start());
     }
 
     fn wants_state(&self) -> bool {
@@ -113,6 +113,6 @@ impl TransientObserver for StepClock<'_> {
             tell(Row::State { march: Arc::clone(march), state: Arc::new(state.clone()) });
         }
         // The picture is no part of the step.
-        steps.begun = Some(Instant::now());
+        steps.begun = Some(Stopwatch::start());
     }
 }

@@ -6,6 +6,7 @@
 //! second FFT over the mirrored domain would, halves the number of transforms, and leaves the spacing across free.
 
 use super::convolution::{Convolution, KernelError};
+use crate::host::pool::{self, on_all_cores};
 use crate::solver::physics::contact::Ellipse;
 use rayon::prelude::*;
 use realfft::num_complex::Complex64;
@@ -91,7 +92,8 @@ impl Strips {
         heights.sort_unstable_by(f64::total_cmp);
         heights.dedup_by(|next, kept| *next - *kept <= Self::SAME);
         let mut values = vec![0.0; heights.len() * columns];
-        values.par_chunks_exact_mut(columns).zip(&heights).for_each(|(values, &v)| {
+        pool::each_chunk(&mut values, columns, 1, |place, values| {
+            let v = heights[place];
             // The corner before the first strip is that behind it, mirrored.
             let mut before = -corner(0.5 * hx, v);
             for (d, value) in values.iter_mut().enumerate() {
@@ -126,32 +128,30 @@ impl PointFlexibility {
         let mut kernel = Self { nx, ny, hx, factor, y, edges, spectrum, convolution, blocks };
         let strips = Strips::new(&kernel);
         // Spectra of the kernels of one ordinate j against all cells, in parallel over j.
-        let rows = (0..ny)
-            .into_par_iter()
-            .map(|j| {
-                let mut out = vec![0.0; frequencies * m];
-                let mut circular = vec![0.0; length * m];
-                let at = |v: f64| strips.up_to(v);
-                let y = kernel.y[j];
-                for (signal, edges) in circular.chunks_exact_mut(length).zip(kernel.edges.windows(2)) {
-                    let (lower, upper) = (at(y - edges[0]), at(y - edges[1]));
-                    let (mirror_lower, mirror_upper) = (at(y + edges[0]), at(y + edges[1]));
-                    for d in 0..nx - 1 {
-                        let near = lower.0 * lower.1[d] - upper.0 * upper.1[d];
-                        let value = near + (mirror_upper.0 * mirror_upper.1[d] - mirror_lower.0 * mirror_lower.1[d]);
-                        (signal[d], signal[(length - d) % length]) = (value, value);
-                    }
+        let row = |j: usize| {
+            let mut out = vec![0.0; frequencies * m];
+            let mut circular = vec![0.0; length * m];
+            let at = |v: f64| strips.up_to(v);
+            let y = kernel.y[j];
+            for (signal, edges) in circular.chunks_exact_mut(length).zip(kernel.edges.windows(2)) {
+                let (lower, upper) = (at(y - edges[0]), at(y - edges[1]));
+                let (mirror_lower, mirror_upper) = (at(y + edges[0]), at(y + edges[1]));
+                for d in 0..nx - 1 {
+                    let near = lower.0 * lower.1[d] - upper.0 * upper.1[d];
+                    let value = near + (mirror_upper.0 * mirror_upper.1[d] - mirror_lower.0 * mirror_lower.1[d]);
+                    (signal[d], signal[(length - d) % length]) = (value, value);
                 }
-                for (cell, signal) in circular.chunks_exact_mut(length).enumerate() {
-                    for (k, value) in kernel.convolution.kernel(signal)?.into_iter().enumerate() {
-                        out[k * m + cell] = value;
-                    }
+            }
+            for (cell, signal) in circular.chunks_exact_mut(length).enumerate() {
+                for (k, value) in kernel.convolution.kernel(signal)?.into_iter().enumerate() {
+                    out[k * m + cell] = value;
                 }
-                Ok(out)
-            })
-            .collect::<Result<Vec<Vec<f64>>, KernelError>>()?;
+            }
+            Ok(out)
+        };
+        let rows = on_all_cores(|| (0..ny).into_par_iter().map(row).collect::<Result<Vec<Vec<f64>>, KernelError>>())?;
         let mut spectrum = vec![0.0; frequencies * ny * m];
-        spectrum.par_chunks_mut(ny * m).enumerate().for_each(|(k, matrix)| {
+        pool::each_chunk(&mut spectrum, ny * m, 1, |k, matrix| {
             for (cell, column) in matrix.chunks_exact_mut(ny).enumerate() {
                 for (value, row) in column.iter_mut().zip(&rows) {
                     *value = row[k * m + cell];
@@ -188,7 +188,12 @@ impl PointFlexibility {
 
     /// The former of every distance; computed once, as many entries take more than they.
     pub fn column_blocks(&self) -> &[Vec<f64>] {
-        self.blocks.get_or_init(|| (0..self.nx).into_par_iter().map(|d| self.column_block(d)).collect())
+        if let Some(blocks) = self.blocks.get() {
+            return blocks;
+        }
+        // Computed before it is stored: a thread that waits for its share may come here again.
+        let blocks = on_all_cores(|| (0..self.nx).into_par_iter().map(|d| self.column_block(d)).collect());
+        self.blocks.get_or_init(|| blocks)
     }
 
     /// One entry of K: deformation of a node by unit pressure at another; both are indices of node arrays.
@@ -206,6 +211,10 @@ impl PointFlexibility {
 
     /// Δ = K P over node arrays.
     pub fn apply(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut PointScratch) {
+        on_all_cores(|| self.apply_in_pool(pressure, deformation, scratch));
+    }
+
+    fn apply_in_pool(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut PointScratch) {
         let (nx, ny, m) = (self.nx, self.ny, self.ny - 1);
         let (length, frequencies) = (self.convolution.len(), self.convolution.frequencies());
         let needed = self.convolution.work();

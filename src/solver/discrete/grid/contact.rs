@@ -7,6 +7,7 @@
 use super::GridError;
 use super::line::{FIRST_UNKNOWN, INLET, ReferenceGrid};
 use super::point::{PointGrid, PointGridSpec};
+use crate::host::pool::on_all_cores;
 use crate::solver::discrete::elasticity::{Flexibility, PointScratch, Scratch};
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
@@ -302,15 +303,13 @@ fn column_by_column<S: Default + Send>(
     apply: impl Fn(&[f64], &mut [f64], &mut S) + Sync,
 ) -> Mat<f64> {
     let n = columns.nrows();
-    let done: Vec<Vec<f64>> = (0..columns.ncols())
-        .into_par_iter()
-        .map_init(S::default, |scratch, j| {
-            let input: Vec<f64> = columns.col(j).iter().copied().collect();
-            let mut output = vec![0.0; n];
-            apply(&input, &mut output, scratch);
-            output
-        })
-        .collect();
+    let one = |scratch: &mut S, j: usize| {
+        let input: Vec<f64> = columns.col(j).iter().copied().collect();
+        let mut output = vec![0.0; n];
+        apply(&input, &mut output, scratch);
+        output
+    };
+    let done: Vec<Vec<f64>> = on_all_cores(|| (0..columns.ncols()).into_par_iter().map_init(S::default, one).collect());
     Mat::from_fn(n, columns.ncols(), |i, j| done[j][i])
 }
 

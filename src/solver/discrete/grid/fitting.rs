@@ -323,7 +323,8 @@ impl GridSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::physics::contact::{MoesRequest, Quantity, si_from_moes};
+    use crate::solver::parameters::Quantity;
+    use crate::solver::physics::contact::{MoesRequest, si_from_moes};
 
     fn at(kind: ContactKind, m: f64, l: f64) -> OperatingPoint {
         si_from_moes(&MoesRequest::new(kind, m, l)).unwrap()

@@ -4,6 +4,7 @@ use super::across::Profile;
 use super::march::{Aside, Beside, Course, HeatBalance, March};
 use super::surfaces::MovingSource;
 use super::{POINTS, Station};
+use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::cubic;
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use rayon::prelude::*;
@@ -79,7 +80,7 @@ impl Lines {
             line.march.prepare(&course.through(&line.states), Some(aside));
         };
         match parallel {
-            true => lines.par_iter_mut().zip(&mut *asides).for_each(prepare),
+            true => on_all_cores(|| lines.par_iter_mut().zip(&mut *asides).for_each(prepare)),
             false => lines.iter_mut().zip(&mut *asides).for_each(prepare),
         }
         // From the axis to the edge, as what the pressure drives flows aside: in front of the contact, where the film turns

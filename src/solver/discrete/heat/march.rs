@@ -10,6 +10,7 @@ use super::station::{Limit, Made, Neighbours, Place, Side, Station};
 use super::surfaces::MovingSource;
 use crate::solver::discrete::grid::stretched;
 use crate::solver::discrete::reynolds::generalized::NodeState;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Temperatures along and across the film of a line contact.
@@ -113,7 +114,7 @@ pub struct Course<'a> {
 }
 
 /// Where heat comes from and where it goes, in one unit: integrals over the film up to where it ruptures.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeatBalance {
     /// Made by shear.
     pub sheared: f64,

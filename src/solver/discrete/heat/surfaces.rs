@@ -43,6 +43,7 @@ impl MovingSource {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solver::physics::bodies::Material;
 
     fn integral(source: &MovingSource, flux: &[f64], i: usize) -> f64 {
         let (before, own) = source.before(i, flux);
@@ -66,11 +67,10 @@ mod tests {
     #[test]
     fn a_uniform_source_makes_bloks_flash_temperature() {
         let (q, half, speed): (f64, f64, f64) = (3e8, 1.5e-4, 4.0);
-        let (rho, c, k): (f64, f64, f64) = (7850.0, 460.0, 47.0);
-        let blok = 2.0 * q * (2.0 * half / speed).sqrt() / (std::f64::consts::PI * rho * c * k).sqrt();
+        let per_flux = std::f64::consts::PI.sqrt() * Material::STEEL.heat.effusivity();
+        let blok = 2.0 * q * (2.0 * half / speed).sqrt() / per_flux;
         let x: Vec<f64> = (0..=400).map(|k| -half + 2.0 * half * f64::from(k) / 400.0).collect();
-        let rise = integral(&MovingSource::new(&x), &vec![q; x.len()], 400)
-            / (std::f64::consts::PI * rho * c * k * speed).sqrt();
+        let rise = integral(&MovingSource::new(&x), &vec![q; x.len()], 400) / (per_flux * speed.sqrt());
         assert!((rise / blok - 1.0).abs() < 1e-12, "{rise} {blok}");
     }
 }

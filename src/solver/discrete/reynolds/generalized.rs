@@ -8,8 +8,8 @@
 
 use super::film_integrals::{FilmLoad, FilmRule, KnownFilm, LAST_STEP, PRODUCTION_RULE, film_integrals_near};
 use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
+use crate::host::pool;
 use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
-use rayon::prelude::*;
 
 /// Gradients taken by one task.
 const SHARE: usize = 2048;
@@ -221,13 +221,10 @@ impl PlaneGradient {
     /// The gradients at all nodes, on all threads where `parallel` says so.
     pub fn field(&self, values: &[f64], out: &mut [[f64; 2]], parallel: bool) {
         let ny = self.across().max(1);
-        let of = |(i, column): (usize, &mut [[f64; 2]])| {
+        let least = if parallel { SHARE.div_ceil(ny) } else { usize::MAX };
+        pool::each_chunk(out, ny, least, |i, column| {
             column.iter_mut().enumerate().for_each(|(j, gradient)| *gradient = self.at(values, i, j));
-        };
-        match parallel {
-            true => out.par_chunks_mut(ny).enumerate().with_min_len(SHARE.div_ceil(ny)).for_each(of),
-            false => out.chunks_mut(ny).enumerate().for_each(of),
-        }
+        });
     }
 
     /// The gradient at a node, given by its index.

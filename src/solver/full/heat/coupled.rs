@@ -1,15 +1,16 @@
 //! Pressure, film and temperatures in turns: on a line, or on all lines along X of a plane.
 
 use super::mixing::Mixing;
-use super::temperatures::Temperatures;
-use crate::solver::discrete::heat::{Lines, MovingSource, Profile, WarmFilm};
+use super::temperatures::{NodeArrays, Temperatures};
+use crate::solver::discrete::heat::{Lines, MovingSource, Profile, Spread, WarmFilm};
 use crate::solver::discrete::reynolds::generalized::{NodeState, PlaneGradient};
 use crate::solver::discrete::space::Grid;
-use crate::solver::full::newton_space::NewtonSpace;
-use crate::solver::full::solution::{Problem, Report, Termination};
+use crate::solver::full::newton_space::{NewtonSpace, Turn};
+use crate::solver::full::problem::Problem;
+use crate::solver::full::report::{Report, Termination};
 use crate::solver::full::system::{SolveOptions, System, is_at_rest};
 use crate::solver::observer::Observer;
-use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::physics::lubricant::{Cavitation, ScaledHeat};
 use std::sync::Arc;
 
 /// How turns go on.
@@ -27,21 +28,6 @@ impl Pace {
     pub const QUICK: Self = Self { turns: 120, least_share: 0.25, shortest_step: 1.0 };
     /// Where that does not settle.
     pub const SLOW: Self = Self { turns: 120, least_share: 0.06, shortest_step: 1.0 / 16.0 };
-}
-
-/// What a step of pressure and film has to keep to between two marches.
-#[derive(Clone, Copy, Debug)]
-pub struct Turn {
-    /// Largest change of P.
-    pub largest_step: f64,
-    /// Largest share of the film that it may take away.
-    pub film_loss: f64,
-    /// Backtracking ends at this share of it.
-    pub shortest_step: f64,
-    /// Whether there is backtracking at all.
-    pub looks_back: bool,
-    /// Whether it is the last one, solved for all but to rounding.
-    pub last: bool,
 }
 
 /// A step of pressure and film, relative, and a change of θ that end the turns.
@@ -106,6 +92,27 @@ impl Coupled {
                 *state = NodeState { pressure: pressure[node], gradient: slopes, film: system.film[node] };
             }
         }
+    }
+
+    /// The temperatures of a state.
+    pub fn temperatures<S: NewtonSpace>(
+        &self,
+        system: &System<S>,
+        problem: &Problem,
+        heat: &ScaledHeat,
+    ) -> Temperatures {
+        let (grid, lines) = (system.space.grid(), &self.lines);
+        let fields = NodeArrays {
+            x: grid.abscissae().0,
+            y: grid.across(),
+            first: S::FIRST_COLUMN,
+            pressure: &system.pressure,
+            film: &system.film,
+            stress: system.warm.as_ref().map_or(&[][..], |warm| &warm.stress),
+        };
+        let places = fields.x[fields.first..].iter().flat_map(|x| fields.y.iter().map(|y| (*x, *y)));
+        let theta: Vec<Profile> = Spread::new(lines.x(), &lines.y, places).profiles(lines).collect();
+        Temperatures::marched(lines, &theta, &fields, (problem, heat))
     }
 
     /// Takes turns until they change nothing any more.

@@ -8,97 +8,10 @@ mod plane_tests;
 mod temperatures;
 #[cfg(test)]
 mod tests;
+mod turns;
 
-pub(in crate::solver) use mixing::Mixing;
-pub(in crate::solver) use temperatures::{ENDURED_K, NodeArrays, mid_stress_pa};
-pub use temperatures::{Rises, Temperatures};
-
-use super::newton_space::NewtonSpace;
-use super::solution::{Problem, Report, Solution, SolveError};
-use super::solver::{Solver, Start, warm_state};
-use crate::solver::observer::Observer;
-use crate::solver::physics::lubricant::{Cavitation, ScaledHeat};
-pub use coupled::Turn;
 pub(in crate::solver) use coupled::one_sided;
-use coupled::{Coupled, Pace};
-use std::sync::Arc;
-
-/// Accuracy of the isothermal solution that everything begins with.
-const ISOTHERMAL: f64 = 1e-3;
-
-/// Solves a contact with heat: from a former solution with heat, if that leads to none from the contact without heat.
-pub(super) fn solve<S: NewtonSpace>(
-    solver: &mut Solver<S>,
-    problem: Problem,
-    start: Start<'_>,
-    observer: &dyn Observer,
-) -> Result<Solution, SolveError> {
-    let Some(heat) = problem.heat else { return solver.solve_problem(problem, start, observer) };
-    let mut spent = Report::empty();
-    if let Start::From(former) = start
-        && former.heat.is_some()
-        && former.problem.point.kind == problem.point.kind
-    {
-        let solution = from(solver, problem, &heat, (former, Pace::QUICK), spent, observer)?;
-        if solution.report.ended() {
-            return Ok(solution);
-        }
-        spent = solution.report;
-    }
-    // The front of rupture comes to its place much faster by complementarity, whose pressures those of a penalty are
-    // told by.
-    let fast = by_complementarity(&problem);
-    let options = solver.options;
-    solver.options.tolerance = ISOTHERMAL;
-    let cold = solver.solve_problem(fast.isothermal(), start, observer);
-    solver.options = options;
-    let cold = cold?;
-    spent.add(&cold.report);
-    if !cold.converged() {
-        return Ok(Solution { problem, report: spent, ..cold });
-    }
-    let solution = from(solver, problem, &heat, (&cold, Pace::QUICK), spent, observer)?;
-    if solution.report.ended() {
-        return Ok(solution);
-    }
-    from(solver, problem, &heat, (&cold, Pace::SLOW), solution.report, observer)
-}
-
-/// The same problem with a film that ruptures by complementarity, where a penalty would.
-fn by_complementarity(problem: &Problem) -> Problem {
-    let mut fast = *problem;
-    if fast.lubricant.cavitation == Cavitation::Penalty {
-        fast.lubricant.cavitation = Cavitation::Complementarity;
-    }
-    fast
-}
-
-/// Solves a contact from a solution with heat or without; `report` goes on.
-fn from<S: NewtonSpace>(
-    solver: &mut Solver<S>,
-    problem: Problem,
-    heat: &ScaledHeat,
-    (former, pace): (&Solution, Pace),
-    mut report: Report,
-    observer: &dyn Observer,
-) -> Result<Solution, SolveError> {
-    let mut system = solver.system_for(&problem)?;
-    warm_state(&mut system, &problem, former);
-    if problem.lubricant.cavitation == Cavitation::Penalty && former.multiplier.len() == system.pressure.len() {
-        // The pressure at which a penalty is the multiplier.
-        for (p, multiplier) in system.pressure.iter_mut().zip(&former.multiplier) {
-            *p -= multiplier / solver.options.penalty;
-        }
-        let h_0 = system.h_0;
-        system.deform();
-        system.set_h_0(h_0);
-    }
-    report.attempts += 1;
-    let mut coupled = Coupled::new(&system, former.heat.as_deref());
-    coupled.turn(&mut system, &problem, (&solver.options, pace), observer, &mut report);
-    coupled.look(&system);
-    let temperatures = Temperatures::of(&coupled, &system, &problem, heat);
-    system.warm = None;
-    solver.system = Some(system);
-    Ok(Solution { heat: Some(Arc::new(temperatures)), ..solver.solution(problem, report)? })
-}
+pub(in crate::solver) use mixing::Mixing;
+pub(in crate::solver) use temperatures::{NodeArrays, mid_stress_pa};
+pub use temperatures::{Rises, Temperatures};
+pub(super) use turns::solve;

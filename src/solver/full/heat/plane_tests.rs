@@ -3,8 +3,9 @@
 use super::tests::{EYRING, point, solved, warm};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
+use crate::solver::physics::bodies::Material;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{BodyHeat, Cavitation, Heat, Lubricant, OilHeat, ShearLaw};
+use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, OilHeat, ShearLaw};
 
 const COARSE: PointGridSpec = PointGridSpec::uniform(0.05, 0.1, (-3.0, 1.8, -1.6));
 
@@ -40,7 +41,7 @@ fn what_is_made_leaves_through_bodies_and_with_the_oil_in_a_plane_as_well() {
         let heat = found.heat.as_ref().unwrap();
         let residual = heat.balance.residual();
         assert!(residual.abs() < bar, "{shear:?}, {speed_m_per_s} m/s: {residual:e} of {:?}", heat.balance);
-        assert!(heat.balance.sheared > 0.0 && heat.warnings().next().is_none());
+        assert!(heat.balance.sheared > 0.0 && heat.too_hot().or(heat.heat_lost()).is_none());
     }
 }
 
@@ -63,17 +64,20 @@ fn film_traction_and_temperature_converge_with_the_grid() {
 #[test]
 fn a_ball_is_the_same_from_wherever_it_is_begun_and_whichever_body_is_faster() {
     let mut solver = PointSolver::new(COARSE).unwrap();
-    let glass = BodyHeat { conductivity: 1.1, heat_capacity: 840.0, density: 2500.0 };
+    let [glass, steel] = [Material::GLASS, Material::STEEL].map(|material| material.heat);
     let pair = |bodies| warm(EYRING, Heat { bodies, ..Heat::default() });
-    let cold = solved(&mut solver, &ball(0.3), pair([glass, BodyHeat::STEEL]));
-    let other = solved(&mut solver, &ball(-0.3), pair([BodyHeat::STEEL, glass]));
-    let next = solver.solve(&ball(0.33), pair([glass, BodyHeat::STEEL]), Start::From(&cold), &()).unwrap();
-    let back = solver.solve(&ball(0.3), pair([glass, BodyHeat::STEEL]), Start::From(&next), &()).unwrap();
+    let cold = solved(&mut solver, &ball(0.3), pair([glass, steel]));
+    let other = solved(&mut solver, &ball(-0.3), pair([steel, glass]));
+    let next = solver.solve(&ball(0.33), pair([glass, steel]), Start::From(&cold), &()).unwrap();
+    let back = solver.solve(&ball(0.3), pair([glass, steel]), Start::From(&next), &()).unwrap();
     assert!(next.converged() && back.report.newton_iterations < cold.report.newton_iterations);
     let [a, b, c] = [&cold, &other, &back].map(|solution| solution.heat.clone().unwrap());
     assert!((cold.scalars.h_c / back.scalars.h_c - 1.0).abs() < 2e-5);
     assert!((a.central.surfaces_k[0] - c.central.surfaces_k[0]).abs() < 1e-2);
-    assert!((a.central.surfaces_k[0] - b.central.surfaces_k[1]).abs() < 1e-2);
+    assert!((cold.scalars.h_c / other.scalars.h_c - 1.0).abs() < 2e-5);
+    for side in 0..2 {
+        assert!((a.central.surfaces_k[side] - b.central.surfaces_k[1 - side]).abs() < 1e-2);
+    }
     assert!((cold.traction_coefficient() + other.traction_coefficient()).abs() < 1e-5);
     assert!(a.central.surfaces_k[0] > 2.0 * a.central.surfaces_k[1], "glass keeps the heat");
 }

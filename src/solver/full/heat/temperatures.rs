@@ -1,12 +1,9 @@
 //! The temperatures of a solved contact.
 
-use super::coupled::Coupled;
 use crate::solver::discrete::heat::{HeatBalance, Lines, MovingSource, POINTS, Profile, Spread, WarmFilm};
-use crate::solver::discrete::space::Grid;
-use crate::solver::full::newton_space::NewtonSpace;
-use crate::solver::full::solution::Problem;
-use crate::solver::full::system::System;
+use crate::solver::full::problem::Problem;
 use crate::solver::physics::lubricant::{LimitingStress, ScaledHeat};
+use crate::solver::warning::{ENDURED_K, Warning};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -19,14 +16,11 @@ pub struct Rises {
     pub surfaces_k: [f64; 2],
 }
 
-/// Temperature \[K\] above which lubricants decompose: 300 °C.
-pub(in crate::solver) const ENDURED_K: f64 = 573.0;
-
 /// Heat that is lost without a word, relative: on a line, and in a plane, whose cells are larger.
 const LARGEST_RESIDUAL: [f64; 2] = [3e-3, 1e-2];
 
 /// The temperatures of a contact with heat. Arrays run as those of the solution, over X and, fastest, over Y.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Temperatures {
     /// Abscissae X, those of the nodes of the solution.
     pub x: Vec<f64>,
@@ -36,11 +30,10 @@ pub struct Temperatures {
     pub rise_k: Vec<Profile>,
     /// H there.
     pub thickness: Vec<f64>,
-    /// τ̄_m, the stress at mid-film over η₀u_mR/a², at the nodes of the solution, as it is without a limit; positive where
-    /// the film moves faster the farther it is from body 1.
+    /// τ̄_m, the stress at mid-film over η₀u_mR/a², at the nodes of the solution, without a limit; positive where body 2
+    /// is the faster one.
     pub shear_stress: Vec<f64>,
-    /// Shear stress at mid-film \[Pa\] at the nodes of the solution, positive where body 1 pulls; zero where the film is
-    /// ruptured.
+    /// The same in Pa, cut where the lubricant has a limit; zero where no pressure is.
     pub mid_stress_pa: Vec<f64>,
     /// At X = 0.
     pub central: Rises,
@@ -51,17 +44,19 @@ pub struct Temperatures {
     /// Temperature at the inlet \[K\].
     pub inlet_k: f64,
     /// Abscissae of the stations of the march, and how surfaces warm there, for whoever goes on from here.
+    #[serde(skip)]
     pub(super) stations: Vec<f64>,
+    #[serde(skip)]
     pub(super) source: Arc<MovingSource>,
 }
 
-/// Shear stress at mid-film \[Pa\] of a film whose τ̄_m is given, positive where body 1 pulls, cut where the lubricant has a
-/// limit; zero where no pressure is.
+/// Shear stress at mid-film \[Pa\] of a film whose τ̄_m is given, cut where the lubricant has a limit; zero where no
+/// pressure is.
 pub(in crate::solver) fn mid_stress_pa(problem: &Problem, heat: &ScaledHeat, stress: f64, pressure: f64) -> f64 {
     if pressure <= 0.0 {
         return 0.0;
     }
-    let felt = -stress * heat.stress_scale_pa;
+    let felt = stress * heat.stress_scale_pa;
     let carried = |limit: LimitingStress| limit.carried(felt.abs(), pressure * problem.fluid.hertz_pressure_pa());
     let carried = problem.lubricant.limiting_stress.map_or(f64::INFINITY, carried);
     carried.min(felt.abs()).copysign(felt)
@@ -139,49 +134,17 @@ impl Temperatures {
         self.rise_k.iter().map(Rises::of)
     }
 
-    /// A sentence where the film is hotter than oils endure.
-    pub fn too_hot(&self) -> Option<String> {
+    /// A warning if the film is hotter than oils endure.
+    pub fn too_hot(&self) -> Option<Warning> {
         let hottest = self.inlet_k + self.rise_k.iter().flatten().fold(0.0f64, |hottest, rise| hottest.max(*rise));
-        (hottest > ENDURED_K).then(|| {
-            format!(
-                "the film reaches {hottest:.0} K: oils decompose above {ENDURED_K} K, and no law was measured there"
-            )
-        })
+        (hottest > ENDURED_K).then_some(Warning::TooHot { temperature_k: hottest })
     }
 
-    /// That sentence, and one where heat is lost between the stations.
-    pub fn warnings(&self) -> impl Iterator<Item = String> {
-        let residual = self.balance.residual().abs();
+    /// A warning if heat is lost between the stations.
+    pub fn heat_lost(&self) -> Option<Warning> {
+        let share = self.balance.residual().abs();
         let most = LARGEST_RESIDUAL[usize::from(self.y.len() > 1)];
-        let lossy = (residual > most).then(|| {
-            format!(
-                "{:.1} % of the heat that is made goes nowhere: the grid is too coarse for this film's temperatures",
-                100.0 * residual
-            )
-        });
-        self.too_hot().into_iter().chain(lossy)
-    }
-
-    /// Those of a state.
-    pub(super) fn of<S: NewtonSpace>(
-        coupled: &Coupled,
-        system: &System<S>,
-        problem: &Problem,
-        heat: &ScaledHeat,
-    ) -> Self {
-        let grid = system.space.grid();
-        let fields = NodeArrays {
-            x: grid.abscissae().0,
-            y: grid.across(),
-            first: S::FIRST_COLUMN,
-            pressure: &system.pressure,
-            film: &system.film,
-            stress: system.warm.as_ref().map_or(&[][..], |warm| &warm.stress),
-        };
-        let places = fields.x[fields.first..].iter().flat_map(|x| fields.y.iter().map(|y| (*x, *y)));
-        let spread = Spread::new(coupled.lines.x(), &coupled.lines.y, places);
-        let theta: Vec<Profile> = spread.profiles(&coupled.lines).collect();
-        Self::marched(&coupled.lines, &theta, &fields, (problem, heat))
+        (share > most).then_some(Warning::HeatLost { share })
     }
 
     /// Those of lines that were marched through given states at their stations, and of the nodes of a contact between

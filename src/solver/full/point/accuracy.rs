@@ -3,6 +3,7 @@
 
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::solution::Solution;
+use crate::solver::warning::Warning;
 
 /// Curvature of the film across the side lobes beyond which they are called unresolved. For M 13…1000, H_min is 2 % too
 /// small at a curvature of 0.1, 8 % at 0.45, 20 to 25 % at 1.2, and too small by a factor 3 at 6.
@@ -94,17 +95,15 @@ pub fn side_lobe_curvature(solution: &Solution) -> f64 {
     }
 }
 
-/// A sentence where the grid is too wide across to resolve the side lobes in which H_min lies.
-pub fn resolution_warning(solution: &Solution) -> Option<String> {
+/// A warning if the grid is too wide across to resolve the side lobes in which H_min lies.
+pub fn resolution_warning(solution: &Solution) -> Option<Warning> {
     let spacing = |w: &[f64]| (w[1] >= solution.scalars.y_h_min).then(|| w[1] - w[0]);
     let spacing = solution.y.windows(2).find_map(spacing)?;
     let curvature = side_lobe_curvature(solution);
     (curvature > UNRESOLVED_CURVATURE).then(|| {
         // The curvature falls with the square of the spacing.
         let wanted = spacing * (0.5 * UNRESOLVED_CURVATURE / curvature).sqrt();
-        format!(
-            "H_min is not resolved: the side lobes are too narrow for the spacing of {spacing:.3} across them; H_c is not affected; take {wanted:.3} or less, or the graded grid"
-        )
+        Warning::SideLobesUnresolved { spacing, wanted }
     })
 }
 

@@ -2,11 +2,13 @@
 //! share it, and no arithmetic is added. Inside the blocks rows are pivoted. It serves as a preconditioner, so single
 //! precision loses nothing.
 
+use crate::host::pool::{both, on_all_cores};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::perm::PermRef;
 use faer::{Accum, MatMut, MatRef, Par};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Products of entries on one side between two questions whether to go on: some ten milliseconds, and all of a 301×41
@@ -43,7 +45,7 @@ pub struct BlockRow<'a> {
 }
 
 impl BlockTridiagonal {
-    /// Resizes to `blocks` × `blocks` blocks of `size` × `size` entries; [`Self::rows_mut`] clears them. New ones are of
+    /// Resizes to `blocks` × `blocks` blocks of `size` × `size` entries; [`Self::fill`] clears them. New ones are of
     /// memory that the system clears when it is first touched, so that this takes no time that nobody can stop.
     pub fn reset(&mut self, size: usize, blocks: usize) {
         (self.size, self.blocks) = (size, blocks);
@@ -60,17 +62,17 @@ impl BlockTridiagonal {
         self.permuted.resize(2 * size, 0.0);
     }
 
-    /// All block rows, cleared, to be filled in.
-    pub fn rows_mut(&mut self) -> impl rayon::iter::IndexedParallelIterator<Item = BlockRow<'_>> {
-        use rayon::prelude::*;
+    /// Clears all block rows and lets `row` fill them in, on all cores. Returns `None` if `row` did so for one of them.
+    pub fn fill(&mut self, row: impl Fn(BlockRow<'_>) -> Option<()> + Sync + Send) -> Option<()> {
         let square = (self.size * self.size).max(1);
-        let couplings = self.lower.par_chunks_exact_mut(square).zip(self.upper.par_chunks_exact_mut(square));
-        self.diagonal.par_chunks_exact_mut(square).zip(couplings).enumerate().map(
-            |(index, (diagonal, (lower, upper)))| {
+        on_all_cores(|| {
+            let couplings = self.lower.par_chunks_exact_mut(square).zip(self.upper.par_chunks_exact_mut(square));
+            let blocks = self.diagonal.par_chunks_exact_mut(square).zip(couplings).enumerate();
+            blocks.try_for_each(|(index, (diagonal, (lower, upper)))| {
                 [&mut *diagonal, &mut *lower, &mut *upper].into_iter().for_each(|block| block.fill(0.0));
-                BlockRow { index, diagonal, lower, upper }
-            },
-        )
+                row(BlockRow { index, diagonal, lower, upper })
+            })
+        })
     }
 
     /// Factorises in place. Every few milliseconds `go_on` is asked; `false` when it said no: then these are no
@@ -89,7 +91,7 @@ impl BlockTridiagonal {
                 return false;
             }
             let steps = from..from + stride;
-            rayon::join(
+            both(
                 || eliminate(steps.clone(), size, left, left_upper, left_lower, (left_order, left_inverse), false),
                 || eliminate(steps.clone(), size, right, right_lower, right_upper, (right_order, right_inverse), true),
             );
@@ -119,7 +121,7 @@ impl BlockTridiagonal {
         let (work_left, work_right) = self.permuted.split_at_mut(size);
         let orders = &self.permutation;
         let (diagonal, lower, upper) = (&self.diagonal, &self.lower, &self.upper);
-        rayon::join(
+        both(
             || forward(size, &diagonal[..from], &lower[..from], &orders[..middle * size], left, work_left, false),
             || {
                 let order = &orders[(middle + 1) * size..];
@@ -134,7 +136,7 @@ impl BlockTridiagonal {
         }
         lu_solve(size, &diagonal[from..to], &orders[middle * size..(middle + 1) * size], center, work_left);
         let center = &*center;
-        rayon::join(
+        both(
             || backward(size, &upper[..from], left, center, false),
             || backward(size, &lower[to..end], right, center, true),
         );
@@ -290,7 +292,6 @@ fn lu_solve(size: usize, factors: &[f32], order: &[usize], values: &mut [f32], w
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rayon::prelude::*;
 
     #[test]
     fn solves_systems_with_few_and_many_blocks() {
@@ -306,7 +307,7 @@ mod tests {
             // The second time in what the first one has left.
             for _ in 0..2 {
                 matrix.reset(size, blocks);
-                matrix.rows_mut().for_each(|row| {
+                let filled = matrix.fill(|row| {
                     for c in 0..size {
                         for r in 0..size {
                             let i = row.index * size + r;
@@ -319,7 +320,9 @@ mod tests {
                             }
                         }
                     }
+                    Some(())
                 });
+                assert!(filled.is_some());
                 let n = size * blocks;
                 let want: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
                 let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| entry(i, j) * want[j]).sum()).collect();

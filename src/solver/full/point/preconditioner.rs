@@ -5,7 +5,6 @@ use super::block_tridiagonal::BlockTridiagonal;
 use crate::solver::discrete::grid::PointGrid;
 use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, SOUTH, STENCIL, WEST, WEST2};
 use crate::solver::full::newton_space::{Factors, ScaledRows};
-use rayon::prelude::*;
 
 /// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three
 /// are no faster.
@@ -51,7 +50,7 @@ impl PlaneMatrix {
             }
         }
         let (kernel, d_h32) = (&self.kernel, &self.d_h);
-        let assembled = self.matrix.rows_mut().try_for_each(|row| {
+        let assembled = self.matrix.fill(|row| {
             if !go_on() {
                 return None;
             }

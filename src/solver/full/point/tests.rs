@@ -1,14 +1,16 @@
 //! Behaviour of full point solves: derivatives, limits, starts, grids, cancellation, what the estimates say.
 
-use super::*;
+use super::{Accuracy, resolution_warning};
 use crate::solver::discrete::grid::PointGridSpec;
-use crate::solver::discrete::reynolds::{Node, RowGeometry, row};
+use crate::solver::discrete::reynolds::{Node, PENALTY, RowGeometry, row};
+use crate::solver::discrete::space::PlaneSpace;
 use crate::solver::full::tests::assert_derivatives;
-use crate::solver::full::{PointSolver, Solution, SolveError, Start, Termination};
+use crate::solver::full::{PointSolver, Problem, Solution, SolveError, Start, System, Termination};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{
     DensityLaw, Fluidity, Lubricant, ScaledFluid, ShearLaw, Sliding, ViscosityLaw,
 };
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 const COARSE: PointGridSpec = PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0));
@@ -167,7 +169,7 @@ fn two_grids_estimate_the_error_and_a_coarse_one_warns() {
     assert!((3.0..5.5).contains(&(first.h_c.error / second.h_c.error)), "{first:?} {second:?}");
     assert!(Accuracy::of(&fine, &coarse).is_none());
     assert!(Accuracy::of(&coarse, &solve(spec(0.04), &at(210.0, 10.0))).is_none());
-    assert!(resolution_warning(&coarse).is_some_and(|sentence| sentence.contains("H_min")));
+    assert!(resolution_warning(&coarse).is_some_and(|warning| warning.to_string().contains("H_min")));
     let light = solve(PointGridSpec { dx: 0.08, dy: 0.05, ..COARSE }, &at(20.0, 5.0));
     assert_eq!(resolution_warning(&light), None);
 }

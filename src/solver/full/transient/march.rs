@@ -6,7 +6,7 @@ use super::pace::{Pace, TimeStep};
 use super::signal::{InputError, Inputs};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use crate::solver::discrete::grid::LineGrid;
-use crate::solver::full::solution::expect_kind;
+use crate::solver::full::problem::expect_kind;
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::limits::Number;
 use crate::solver::observer::{Observer, Progress};

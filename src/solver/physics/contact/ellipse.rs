@@ -4,7 +4,8 @@
 //! ½X² + ½g_y Y² where a³ = 3 w R_x J_x/(π E′), κ solves J_x/J_y = R_y/R_x, and J_x = ⅔ R_D(0, κ², 1),
 //! J_y = ⅔ R_D(0, 1, κ²): Johnson, Contact Mechanics, section 4.2, in the integrals of DLMF 19.16.
 
-use super::{ContactError, accept};
+use super::error::ContactError;
+use super::limits::Limit;
 use ellip::elliprd;
 use std::f64::consts::PI;
 
@@ -31,7 +32,7 @@ impl Ellipse {
     /// # Errors
     /// When the ratio lies outside [`Ellipse::RADIUS_RATIOS`].
     pub fn of_ratio(radius_ratio: f64) -> Result<Self, ContactError> {
-        accept("radius ratio R_y/R_x", radius_ratio, "", Self::RADIUS_RATIOS)?;
+        Limit { name: "radius ratio R_y/R_x", unit: "", range: Self::RADIUS_RATIOS }.accept(radius_ratio)?;
         Ok(Self::near(radius_ratio))
     }
 

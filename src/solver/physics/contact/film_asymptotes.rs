@@ -108,6 +108,16 @@ pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
     (iso.powf(2.0 * s / 3.0) + piezo.powf(-s / 8.0)).powf(1.0 / s)
 }
 
+/// Returns the central film thickness H_c in units of a²/R that Moes' formula gives for M and L.
+pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {
+    let film = moes_film(kind, moes);
+    match kind {
+        // (a/R)² = (8/π) M √(2U) of a line, (3M/2)^⅔ √(2U) of a circle, and h/R = Ĥ √(2U).
+        ContactKind::Line => film * std::f64::consts::PI / (8.0 * moes.m),
+        ContactKind::Point => film * (1.5 * moes.m).powf(-2.0 / 3.0),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -76,7 +76,6 @@ fn maximum_between(mut low: f64, mut high: f64, value: &dyn Fn(f64) -> f64) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solver::physics::contact::Quantity;
 
     fn close(shear: LargestShear, stress: f64, depth: f64, within: f64) {
         assert!((shear.over_hertz_pressure - stress).abs() < 1e-3, "{shear:?}, {stress}");
@@ -104,7 +103,7 @@ mod tests {
     #[test]
     fn an_ellipse_does_not_care_how_it_is_turned() {
         let ball = OperatingPoint { kind: ContactKind::Point, load: 50.0, ..OperatingPoint::TABLE_2_1 };
-        let [long, short] = [5.0, 0.2].map(|ratio| Quantity::RadiusRatio.at(&ball, ratio));
+        let [long, short] = [5.0, 0.2].map(|ratio| OperatingPoint { radius_y_m: Some(ratio * ball.radius_m), ..ball });
         let [one, other] = [long, short].map(|point| largest_shear(&point, 0.3));
         assert!((one.over_hertz_pressure / other.over_hertz_pressure - 1.0).abs() < 1e-9, "{one:?} {other:?}");
         let depth = short.ellipse().kappa * one.depth_over_half_width;

@@ -1,13 +1,12 @@
 //! Numbers with units as people type them: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
 
-use crate::solver::physics::contact::{ContactKind, Quantity};
 use std::f64::consts::PI;
 
 /// 0 °C in K.
 pub const KELVIN: f64 = 273.15;
 
-/// What a typed number measures. Results are in SI units: m, m/s, N, N/m, Pa, Pa·s, m²/s, 1/Pa, K, kg/m³, s, and plain
-/// ratios.
+/// What a typed number measures. Results are in SI units: m, m/s, N, N/m, Pa, Pa·s, m²/s, 1/Pa, K, 1/K, kg/m³, s, and
+/// plain ratios.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dimension {
     /// m.
@@ -34,6 +33,8 @@ pub enum Dimension {
     PressureCoefficient,
     /// K.
     Temperature,
+    /// 1/K.
+    PerKelvin,
     /// kg/m³.
     Density,
     /// s.
@@ -87,27 +88,6 @@ const ROTATION: Units = &[("rpm", PI / 30.0), ("1/min", PI / 30.0), ("U/min", PI
 const KINEMATIC: Units = &[("cSt", 1e-6), ("mm²/s", 1e-6), ("m²/s", 1.0), ("St", 1e-4)];
 
 impl Dimension {
-    /// What a quantity of a contact measures.
-    pub fn of(quantity: Quantity, kind: ContactKind) -> Self {
-        match (quantity, kind) {
-            (Quantity::Radius | Quantity::RadiusY, _) => Self::Length,
-            (Quantity::Speed, _) => Self::Speed { radius_m: None },
-            (Quantity::Load, ContactKind::Line) => Self::LineLoad,
-            (Quantity::Load, ContactKind::Point) => Self::Force,
-            (Quantity::Modulus, _) => Self::Pressure,
-            (Quantity::Viscosity, _) => Self::Viscosity { density: None },
-            (Quantity::Alpha, _) => Self::PressureCoefficient,
-            (
-                Quantity::M
-                | Quantity::L
-                | Quantity::RadiusRatio
-                | Quantity::SlideToRollRatio
-                | Quantity::NewtonianPlateauRatio,
-                _,
-            ) => Self::Ratio,
-        }
-    }
-
     /// Its name with the article.
     pub fn name(self) -> &'static str {
         match self {
@@ -120,9 +100,29 @@ impl Dimension {
             Self::KinematicViscosity => "a kinematic viscosity",
             Self::PressureCoefficient => "a pressure–viscosity coefficient",
             Self::Temperature => "a temperature",
+            Self::PerKelvin => "a temperature coefficient",
             Self::Density => "a density",
             Self::Time => "a time",
             Self::Ratio => "a ratio",
+        }
+    }
+
+    /// The SI unit of its values; empty for a ratio.
+    pub fn si_unit(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Speed { .. } => "m/s",
+            Self::Force => "N",
+            Self::LineLoad => "N/m",
+            Self::Pressure => "Pa",
+            Self::Viscosity { .. } => "Pa·s",
+            Self::KinematicViscosity => "m²/s",
+            Self::PressureCoefficient => "1/Pa",
+            Self::Temperature => "K",
+            Self::PerKelvin => "1/K",
+            Self::Density => "kg/m³",
+            Self::Time => "s",
+            Self::Ratio => "",
         }
     }
 
@@ -148,6 +148,7 @@ impl Dimension {
                 &[("1/GPa", 1e-9), ("GPa-1", 1e-9), ("1/Pa", 1.0), ("Pa-1", 1.0), ("1/MPa", 1e-6), ("mm²/N", 1e-6)]
             }
             Self::Temperature => &[("°C", 1.0), ("C", 1.0), ("K", 1.0), ("°F", 5.0 / 9.0), ("F", 5.0 / 9.0)],
+            Self::PerKelvin => &[("1/K", 1.0), ("K-1", 1.0)],
             Self::Density => &[("kg/m³", 1.0), ("g/cm³", 1e3), ("kg/l", 1e3)],
             Self::Time => &[("ms", 1e-3), ("µs", 1e-6), ("s", 1.0)],
             Self::Ratio => &[("%", 1e-2), ("‰", 1e-3)],
@@ -340,10 +341,13 @@ mod tests {
             Dimension::KinematicViscosity,
             Dimension::PressureCoefficient,
             Dimension::Temperature,
+            Dimension::PerKelvin,
             Dimension::Density,
             Dimension::Time,
             Dimension::Ratio,
         ] {
+            let si = dimension.si_unit();
+            assert!(si.is_empty() || dimension.units().contains(&(si, 1.0)), "{dimension:?}");
             for (unit, _) in dimension.units() {
                 let typed = parse(&format!("2 {unit}"), dimension, "").expect(unit);
                 assert_eq!(typed, parse("2", dimension, unit).expect(unit), "{unit}");

@@ -1,6 +1,6 @@
 //! How a film ruptures where the gap opens.
 
-use super::LubricantError;
+use super::error::LubricantError;
 use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 

@@ -3,7 +3,7 @@
 //! Sources: Dymond & Malhotra 1988 for Tait's equation; Doolittle 1951 for the viscosity; both in the form of Bair
 //! 2007, *High Pressure Rheology for Quantitative Elastohydrodynamics*, isothermal.
 
-use super::{LubricantError, check_constant};
+use super::error::{LubricantError, check_constant};
 use serde::{Deserialize, Serialize};
 
 /// Tait's equation of state, (3.37).

@@ -1,9 +1,13 @@
 //! Heat: the thermal constants of a lubricant and of both bodies, their ranges, and what they amount to in one contact.
 
+use super::error::{LubricantError, check_constant};
+use super::laws::ViscosityLaw;
+use super::scaled::ScaledFluid;
 use super::warm::WarmFluid;
-use super::{LubricantError, ScaledFluid, ViscosityLaw, check_constant};
 use crate::solver::limits::Number;
+use crate::solver::physics::bodies::{BodyHeat, surface_speeds};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::warning::{SMALLEST_PECLET, Warning};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -38,18 +42,6 @@ pub struct FreeVolumeHeat {
     pub occupied_expansion: f64,
 }
 
-/// Thermal constants of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BodyHeat {
-    /// Thermal conductivity \[W/(m K)\].
-    pub conductivity: f64,
-    /// Specific heat capacity \[J/(kg K)\].
-    pub heat_capacity: f64,
-    /// Density \[kg/m³\].
-    pub density: f64,
-}
-
 /// A film that warms itself: what it needs to be computed. η₀ and α are those at the inlet's temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -58,7 +50,7 @@ pub struct Heat {
     pub inlet_temperature: f64,
     /// The lubricant.
     pub oil: OilHeat,
-    /// The bodies: the first one moves with u_m (1 + SRR/2), the second with u_m (1 − SRR/2).
+    /// Body 1, which moves with u_m (1 − SRR/2), and body 2, which moves with u_m (1 + SRR/2).
     pub bodies: [BodyHeat; 2],
 }
 
@@ -80,29 +72,15 @@ impl Default for OilHeat {
     }
 }
 
-impl BodyHeat {
-    /// Bearing steel.
-    pub const STEEL: Self = Self { conductivity: 47.0, heat_capacity: 460.0, density: 7850.0 };
-}
-
-impl Default for BodyHeat {
-    fn default() -> Self {
-        Self::STEEL
-    }
-}
-
 impl Default for Heat {
     fn default() -> Self {
-        Self { inlet_temperature: 313.15, oil: OilHeat::default(), bodies: [BodyHeat::STEEL; 2] }
+        Self { inlet_temperature: 313.15, oil: OilHeat::default(), bodies: [BodyHeat::default(); 2] }
     }
 }
 
 /// Largest |SRR| of a contact that is computed with heat: beyond it one surface stands all but still, and heat leaves
 /// the contact through it by ways that no moving source describes.
 pub const LARGEST_HEATED_SRR: f64 = 1.95;
-
-/// Péclet number u_i a/(2κ_s) of a surface under which heat flows upstream within the body, which is left out.
-pub const SMALLEST_PECLET: f64 = 5.0;
 
 impl Heat {
     /// Refuses constants that no oil or body has, naming them.
@@ -162,7 +140,7 @@ pub struct ScaledHeat {
     pub heat: Heat,
     /// The laws at temperatures.
     pub fluid: WarmFluid,
-    /// Speeds of the surfaces.
+    /// ū_1 and ū_2, the speeds of body 1 and body 2.
     pub speeds: [f64; 2],
     /// κ = 12/λ̄: the pressure gradient in the scale of stresses, τ̄ = τ̄_m + κ H P_X (ζ − ½).
     pub gradient: f64,
@@ -183,8 +161,7 @@ impl ScaledHeat {
     pub(super) fn new(heat: Heat, fluid: &ScaledFluid, point: &OperatingPoint) -> Self {
         let (radius, speed, half_width) = (point.radius_m, point.speed_m_per_s, point.hertz().half_width_m);
         let Heat { inlet_temperature, oil, bodies } = heat;
-        let half_slip = 0.5 * point.sliding.slide_to_roll_ratio;
-        let speeds = [1.0 + half_slip, 1.0 - half_slip];
+        let speeds = surface_speeds(1.0, point.sliding.slide_to_roll_ratio);
         let stored = oil.density * oil.heat_capacity;
         let cube = half_width.powi(3);
         let flux = oil.conductivity * radius * half_width.powf(-1.5);
@@ -204,22 +181,16 @@ impl ScaledHeat {
         }
     }
 
-    /// A sentence where a surface moves so slowly that heat flows upstream within its body.
-    pub fn warning(&self, point: &OperatingPoint) -> Option<String> {
+    /// A warning if a surface moves so slowly that heat flows upstream within its body, which is left out.
+    pub fn warning(&self, point: &OperatingPoint) -> Option<Warning> {
         let half_width = point.hertz().half_width_m;
         let peclet = |body: &BodyHeat, speed: f64| {
             let diffusivity = body.conductivity / (body.density * body.heat_capacity);
             point.speed_m_per_s * speed * half_width / (2.0 * diffusivity)
         };
         let [first, second] = [0, 1].map(|i| peclet(&self.heat.bodies[i], self.speeds[i]));
-        let smallest = first.min(second);
-        (smallest < SMALLEST_PECLET).then(|| {
-            format!(
-                "the Péclet number of body {} is {smallest:.2}: below {SMALLEST_PECLET} heat flows upstream within it, \
-                 and its surface is colder than the theory of moving sources says",
-                if first <= second { 1 } else { 2 }
-            )
-        })
+        let (body, peclet) = if first <= second { (1, first) } else { (2, second) };
+        (peclet < SMALLEST_PECLET).then_some(Warning::SmallPeclet { body, peclet })
     }
 }
 
@@ -238,15 +209,16 @@ mod tests {
         close(heat.gradient * heat.stress_scale_pa, point.hertz().pressure_pa * a / r);
         close(heat.conduction, 0.14 * r * r / (870.0 * 2000.0 * u * a.powi(3)));
         close(heat.shear, heat.stress_scale_pa.powi(2) / eta * a / (870.0 * 2000.0 * 313.15 * u));
-        close(heat.surfaces[0], 0.14 * r * a.powf(-1.5) / (PI * 7850.0 * 460.0 * 47.0 * u).sqrt());
+        close(heat.surfaces[0], 0.14 * r * a.powf(-1.5) / (PI * u).sqrt() / BodyHeat::default().effusivity());
     }
 
     #[test]
     fn constants_outside_their_ranges_are_named() {
         let refused = |heat: Heat| heat.check(ViscosityLaw::Roelands, false).unwrap_err().to_string();
         assert!(refused(Heat { inlet_temperature: 20.0, ..Heat::default() }).contains("inlet temperature"));
-        let cold = BodyHeat { conductivity: f64::NAN, ..BodyHeat::STEEL };
-        assert!(refused(Heat { bodies: [BodyHeat::STEEL, cold], ..Heat::default() }).contains("body 2's thermal"));
+        let steel = BodyHeat::default();
+        let cold = BodyHeat { conductivity: f64::NAN, ..steel };
+        assert!(refused(Heat { bodies: [steel, cold], ..Heat::default() }).contains("body 2's thermal"));
         let missing = Heat::default().check(ViscosityLaw::Roelands, true).unwrap_err().to_string();
         assert!(missing.contains("free_volume") && missing.contains("8e-4"), "{missing}");
         for srr in [2.0, -3.0, f64::NAN] {

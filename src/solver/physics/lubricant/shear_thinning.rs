@@ -4,7 +4,8 @@
 //! second Newtonian plateau as (3.40) does: η = μ(p) \[NPR + (1 − NPR) F\]. The film integrals (3.24) ask for the
 //! fluidity μ/η.
 
-use super::{LubricantError, check_constant, elementary};
+use super::elementary;
+use super::error::{LubricantError, check_constant};
 use crate::solver::physics::contact::{OperatingPoint, Sliding};
 use serde::{Deserialize, Serialize};
 

@@ -3,9 +3,11 @@
 //! Sources: Roelands 1966 for the viscosity, with S₀ = β (T₀ − 138)/(ln η₀ + 9.67); Dowson & Higginson's density times
 //! 1 − β_ρ ΔT; Tait's and Doolittle's laws with volumes that change with temperature as in Bair 2007.
 
+use super::elementary;
+use super::free_volume::{Doolittle, Tait};
 use super::heat::Heat;
-use super::{CAVITATION_FLOOR_PA, DensityLaw, Doolittle, LOG_VISCOSITY_CEILING, ScaledFluid, Tait, ViscosityLaw};
-use super::{ROELANDS_PRESSURE_PA, elementary};
+use super::laws::{CAVITATION_FLOOR_PA, DensityLaw, LOG_VISCOSITY_CEILING, ROELANDS_PRESSURE_PA, ViscosityLaw};
+use super::scaled::ScaledFluid;
 
 /// Temperature \[K\] at which Roelands' viscosity is infinite.
 const ROELANDS_TEMPERATURE_K: f64 = 138.0;
@@ -76,7 +78,7 @@ impl WarmFluid {
         let rise = warm.map(|warm| t0 * (warm - 1.0));
         let zero = [0.0; N];
         let mut out = Across::default();
-        match fluid.laws.density {
+        match fluid.density {
             DensityLaw::Tait(tait) => {
                 for (i, &rise) in rise.iter().enumerate() {
                     let [volume, volume_p, volume_t] = self.volume(tait, p, rise);
@@ -106,7 +108,7 @@ impl WarmFluid {
         }
         // ln(η/η₀), of which the fluidity is made at the end.
         let mut log_viscosity = zero;
-        match fluid.laws.viscosity {
+        match fluid.viscosity {
             ViscosityLaw::Barus => {
                 for i in 0..N {
                     log_viscosity[i] = fluid.alpha_hertz * p / ph - self.heat.oil.viscosity_temperature * rise[i];

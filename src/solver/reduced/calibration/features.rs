@@ -1,22 +1,17 @@
 //! What is known of a reduced solution, and what was measured of it.
 
+use crate::solver::parameters::{Quantity, Scale};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
-use crate::solver::physics::lubricant::roelands_exponent;
-use crate::solver::reduced::ReducedSolution;
-use crate::solver::reduced::domain::{CIRCLES, Domain};
+use crate::solver::reduced::{Domain, ReducedSolution};
 
-/// Features of a contact without sliding: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.
+/// Features of every reduced solution: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.
 pub(super) const FEATURES: usize = 5;
-/// Those of one in a model that knows ellipses: ln(R_y/R) as well; or many oils: Roelands' exponent; or heat: ln(|SRR| +
-/// 0.01).
-pub(super) const ONE_MORE: usize = FEATURES + 1;
-/// Those of one in a model that knows sliding: ln(|SRR| + 0.01) and NPR as well.
-pub(super) const SLIDING_FEATURES: usize = FEATURES + 2;
-/// Those of one in a model of heat of many oils: ln(|SRR| + 0.01), ln u_m and by how much the film warms.
-pub(super) const HEATED_FEATURES: usize = FEATURES + 3;
-/// Those of one in a model of many oils that thin under shear: Roelands' exponent, ln(|SRR| + 0.01), ln(p_H a/R) and by how
-/// much a limiting stress cuts the traction.
-pub(super) const MOST_FEATURES: usize = FEATURES + 4;
+/// Most features.
+pub(super) const MOST_FEATURES: usize = FEATURES + MOST_FURTHER;
+/// Most features beside these.
+const MOST_FURTHER: usize = 6;
+/// Errors of every reduced solution: of H_c, H_min and the state.
+pub(super) const ERRORS: usize = 3;
 /// The two features among them that are no place but a sign of the error.
 pub(super) const SIGNS: std::ops::Range<usize> = 3..5;
 /// Modes at the end of the basis whose share is a sign of what it lacks.
@@ -56,121 +51,120 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// H_c, H_min, state, of evidence about sliding and heat traction, and of that about heat the rise.
-    pub(super) fn values(&self, beside: Beside) -> impl Iterator<Item = f64> {
+    /// The first errors: of H_c, H_min, state, traction, and the temperature rise.
+    pub(super) fn values(&self, count: usize) -> impl Iterator<Item = f64> {
         let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        [self.h_c, self.h_min, self.state, known(self.traction), known(self.rise)].into_iter().take(beside.quantities())
+        [self.h_c, self.h_min, self.state, known(self.traction), known(self.rise)].into_iter().take(count)
     }
 }
 
-/// What the contacts of a model have beside M, L and α.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Beside {
-    /// Nothing.
-    Nothing,
-    /// R_y/R.
-    Shape,
-    /// Roelands' exponent.
-    Oil,
-    /// SRR and NPR.
+/// A feature that some models have beside those of every one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Feature {
+    /// ln(|SRR| + 0.01).
     Sliding,
-    /// SRR, and heat.
-    Heat,
-    /// SRR and u_m, and heat.
-    HeatOfOils,
-    /// Roelands' exponent, SRR and stresses.
-    SlidingOfOils,
+    /// NPR, or another quantity as it is.
+    Linear(Quantity),
+    /// The logarithm of a quantity.
+    Log(Quantity),
+    /// The logarithm of the temperature rise at mid-film.
+    Rise,
+    /// The logarithm of the share of traction that a limiting stress cuts.
+    Cut,
 }
 
-impl Beside {
-    /// All of them.
-    pub(super) const ALL: [Self; 7] =
-        [Self::Nothing, Self::Shape, Self::Oil, Self::Sliding, Self::Heat, Self::HeatOfOils, Self::SlidingOfOils];
+/// The features and errors of a model's calibration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeatureSet {
+    further: [Option<Feature>; MOST_FURTHER],
+    /// Errors that are estimated: of H_c, H_min, state, then traction, then the temperature rise.
+    pub(super) errors: usize,
+}
 
+/// Quantities whose features are named below, or are among those of every solution.
+const NAMED: [Quantity; 9] = [
+    Quantity::M,
+    Quantity::L,
+    Quantity::Alpha,
+    Quantity::Viscosity,
+    Quantity::Radius,
+    Quantity::Modulus,
+    Quantity::SlideToRollRatio,
+    Quantity::NewtonianPlateauRatio,
+    Quantity::RadiusRatio,
+];
+
+impl FeatureSet {
     /// Those of a model's domain.
     pub fn of(domain: &Domain) -> Self {
-        if domain.eyring.is_some() {
-            return Self::SlidingOfOils;
-        }
-        match (domain.heat, domain.sliding, domain.oils) {
-            (Some(_), _, Some(_)) => Self::HeatOfOils,
-            (Some(_), _, None) => Self::Heat,
-            (None, Some(_), _) => Self::Sliding,
-            (None, None, Some(_)) => Self::Oil,
-            (None, None, None) if domain.radius_ratio == CIRCLES => Self::Nothing,
-            (None, None, None) => Self::Shape,
-        }
+        let (space, heat, slides) = (&domain.space, domain.heats(), domain.slides());
+        let lubricants = space.varies_lubricant() && !heat;
+        let stresses = lubricants && domain.thins();
+        let warmth = heat && space.knows(Quantity::Speed);
+        let first = [
+            (slides, Feature::Sliding),
+            (slides && space.varies(Quantity::NewtonianPlateauRatio), Feature::Linear(Quantity::NewtonianPlateauRatio)),
+            (warmth, Feature::Log(Quantity::Speed)),
+            (warmth, Feature::Rise),
+            (lubricants, Feature::Linear(Quantity::RoelandsExponent)),
+            (stresses, Feature::Log(Quantity::StressUnit)),
+            (stresses, Feature::Cut),
+            (space.of_ellipses(), Feature::Log(Quantity::RadiusRatio)),
+        ];
+        let first = first.into_iter().filter(|(has, _)| *has).map(|(_, feature)| feature);
+        let other = space.axes.iter().filter(|axis| !space.is_si_box() && !NAMED.contains(&axis.quantity));
+        let other = other.map(|axis| match axis.scale {
+            Scale::Linear => Feature::Linear(axis.quantity),
+            Scale::Log => Feature::Log(axis.quantity),
+        });
+        let mut further = [None; MOST_FURTHER];
+        further.iter_mut().zip(first.chain(other)).for_each(|(place, feature)| *place = Some(feature));
+        Self { further, errors: ERRORS + usize::from(slides) + usize::from(heat) }
     }
 
-    /// The number of features.
-    pub(super) fn features(self) -> usize {
-        match self {
-            Self::Nothing => FEATURES,
-            Self::Shape | Self::Oil | Self::Heat => ONE_MORE,
-            Self::Sliding => SLIDING_FEATURES,
-            Self::HeatOfOils => HEATED_FEATURES,
-            Self::SlidingOfOils => MOST_FEATURES,
-        }
-    }
-
-    /// Whether a calibration may have so many features: those of former versions lack the last one of many oils.
-    pub(super) fn has_had(self, features: usize) -> bool {
-        let former = matches!(self, Self::HeatOfOils | Self::SlidingOfOils);
-        features == self.features() || former && features + 1 == self.features()
-    }
-
-    /// The number of errors that are told: of H_c, H_min, state, then traction, then the rise of temperature.
-    pub(super) fn quantities(self) -> usize {
-        match self {
-            Self::Nothing | Self::Shape | Self::Oil => 3,
-            Self::Sliding | Self::SlidingOfOils => 4,
-            Self::Heat | Self::HeatOfOils => 5,
-        }
+    /// Returns the number of features.
+    pub(super) fn count(&self) -> usize {
+        FEATURES + self.further.iter().flatten().count()
     }
 }
 
-/// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, of a model that knows
-/// sliding ln(|SRR| + 0.01) and NPR, of one that knows ellipses ln(R_y/R), of heat of many oils ln(|SRR| + 0.01), ln u_m and
-/// the logarithm of the rise at mid-film, and of many oils that thin under shear ln(|SRR| + 0.01), Roelands' exponent,
-/// ln(p_H a/R) of the contact with the trained stress and the logarithm of the share of traction that is cut.
+/// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, and what the model's
+/// [`FeatureSet`] adds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features {
     pub(super) values: [f64; MOST_FEATURES],
-    pub(super) beside: Beside,
+    pub(super) count: usize,
+    pub(super) errors: usize,
 }
 
 impl Features {
-    /// The features of a reduced solution in a model whose contacts have so much beside M, L and α, to which it is the
-    /// contact at this point.
-    pub fn of(solution: &ReducedSolution, point: &OperatingPoint, beside: Beside) -> Self {
+    /// Returns the features of a reduced solution, given the contact that it is to the model.
+    pub fn of(solution: &ReducedSolution, point: &OperatingPoint, set: &FeatureSet) -> Self {
         let ReducedSolution { coefficients, residual_estimate: residual, .. } = solution;
         let Moes { m, l } = point.moes();
         let norm = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
         // Modes that an iteration was tried without are no sign.
         let used = coefficients.iter().rposition(|c| *c != 0.0).map_or(0, |last| last + 1);
         let last = norm(&coefficients[used.saturating_sub(LAST_MODES)..used]) / norm(coefficients);
-        let srr = (point.sliding.slide_to_roll_ratio.abs() + SLOW).ln();
-        let npr = point.sliding.newtonian_plateau_ratio.unwrap_or(1.0);
         let (residual, last) = (residual.max(1e-300).ln(), last.max(1e-300).ln());
-        let rise = solution.heat.as_ref().map_or(0.0, |heat| heat.central.mid_film_k.abs());
-        let cut = solution.cut.filter(|cut| cut.is_finite()).unwrap_or(0.0);
-        let [first, second, third, fourth] = match beside {
-            Beside::Shape => [point.radius_ratio().ln(), 0.0, 0.0, 0.0],
-            Beside::Oil => [roelands_exponent(point), 0.0, 0.0, 0.0],
-            Beside::HeatOfOils => [srr, point.speed_m_per_s.ln(), (rise + COOL_K).ln(), 0.0],
-            Beside::SlidingOfOils => {
-                [srr, roelands_exponent(point), point.gradient_stress_pa().ln(), (cut + LITTLE).ln()]
+        let further = |feature: &Feature| match feature {
+            Feature::Sliding => (point.sliding.slide_to_roll_ratio.abs() + SLOW).ln(),
+            Feature::Linear(quantity) => quantity.of(point).unwrap_or(1.0),
+            Feature::Log(quantity) => quantity.of(point).unwrap_or(1.0).ln(),
+            Feature::Rise => {
+                let rise = solution.heat.as_ref().map_or(0.0, |heat| heat.central.mid_film_k.abs());
+                (rise + COOL_K).ln()
             }
-            Beside::Nothing | Beside::Sliding | Beside::Heat => [srr, npr, 0.0, 0.0],
+            Feature::Cut => (solution.cut.filter(|cut| cut.is_finite()).unwrap_or(0.0) + LITTLE).ln(),
         };
-        Self { values: [m.ln(), l, point.alpha_per_pa.ln(), residual, last, first, second, third, fourth], beside }
-    }
-
-    pub(super) fn used(&self) -> &[f64] {
-        &self.values[..self.beside.features()]
+        let mut values = [0.0; MOST_FEATURES];
+        let every = [m.ln(), l, point.alpha_per_pa.ln(), residual, last];
+        let own = every.into_iter().chain(set.further.iter().flatten().map(further));
+        values.iter_mut().zip(own).for_each(|(place, value)| *place = value);
+        Self { values, count: set.count(), errors: set.errors }
     }
 
     pub(super) fn finite(&self) -> bool {
-        self.used().iter().all(|v| v.is_finite())
+        self.values.iter().take(self.count).all(|v| v.is_finite())
     }
 }

@@ -5,7 +5,6 @@ use super::steps::kept_surplus;
 use super::{AROUND, Estimated, LEAST_EVIDENCE};
 use crate::solver::reduced::dense;
 use faer::Mat;
-use serde::{Deserialize, Serialize};
 
 /// Nearest evidence that corrects the likely error.
 const NEAR: usize = 16;
@@ -28,7 +27,7 @@ const OWN_RIDGES: [f64; 6] = [1.0, 3.0, 10.0, 30.0, 100.0, 1e6];
 const MOST_LEVERAGE: f64 = 0.5;
 
 /// How one relative error depends on the features.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Quantity {
     /// Coefficients of a quadratic law's terms.
     pub law: Vec<f64>,

@@ -17,9 +17,10 @@ fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
             let place = [2.0 + 3.0 * a, 2.0 + 18.0 * b, -19.0 + c];
             let residual = -8.0 + k + (4.0 * a).sin();
             let error = residual - 2.0 + (6.0 * a).cos() * b + (0.3 + b) * n;
-            let values = [place[0], place[1], place[2], residual, -12.0, 0.0, 0.0, 0.0, 0.0];
+            let mut values = [0.0; MOST_FEATURES];
+            values[..FEATURES].copy_from_slice(&[place[0], place[1], place[2], residual, -12.0]);
             Evidence {
-                features: Features { values, beside: Beside::Nothing },
+                features: Features { values, count: FEATURES, errors: ERRORS },
                 errors: Measured {
                     h_c: error.exp(),
                     h_min: (error - 1.0).exp(),
@@ -148,7 +149,8 @@ fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
     let mut cases = synthetic(count, seed);
     for case in &mut cases {
         let srr = if rng.f64() < 0.1 { 0.0 } else { rng.f64() };
-        (case.features.values[5], case.features.values[6], case.features.beside) = (srr, rng.f64(), Beside::Sliding);
+        (case.features.values[5], case.features.values[6]) = (srr, rng.f64());
+        (case.features.count, case.features.errors) = (FEATURES + 2, ERRORS + 1);
         case.errors.traction = (srr > 0.0).then(|| case.errors.h_c * (2.0 - 3.0 * srr + rng.f64()).exp());
     }
     cases
@@ -157,7 +159,7 @@ fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
 #[test]
 fn traction_has_a_bound_of_its_own_where_a_model_knows_sliding() {
     let calibration = Calibration::fit(&sliding(1000, 4)).unwrap();
-    assert!(calibration.is_of(Beside::Sliding) && calibration.sound() && calibration.evidence() == 1000);
+    assert!(calibration.sound() && calibration.evidence() == 1000);
     let fresh = sliding(4000, 5);
     let slides: Vec<&Evidence> = fresh.iter().filter(|case| case.errors.traction.is_some()).collect();
     let ratio = |case: &&Evidence| {
@@ -175,11 +177,11 @@ fn traction_has_a_bound_of_its_own_where_a_model_knows_sliding() {
 fn the_rise_has_a_bound_of_its_own_where_a_model_knows_heat() {
     let mut cases = sliding(400, 8);
     for case in &mut cases {
-        case.features.beside = Beside::Heat;
+        case.features.errors = ERRORS + 2;
         case.errors.rise = Some(3.0 * case.errors.h_c);
     }
     let calibration = Calibration::fit(&cases).unwrap();
-    assert!(calibration.is_of(Beside::Heat) && calibration.sound() && calibration.by_full_solutions());
+    assert!(calibration.sound() && calibration.by_full_solutions());
     let estimate = calibration.estimate(&cases[7].features);
     assert!((estimate.rise.unwrap().bound / estimate.h_c.bound / 3.0 - 1.0).abs() < 0.1, "{estimate:?}");
     assert!(estimate.traction.is_some());
@@ -193,7 +195,8 @@ fn cut(count: usize, seed: u64) -> Vec<Evidence> {
         let values = &mut case.features.values;
         (values[5], values[6], values[7], values[8]) = (rng.f64(), rng.f64(), rng.f64(), -6.0 * rng.f64());
         let size = 0.01f64.powf(1.0 + values[8] / 6.0);
-        (case.features.beside, case.errors.traction) = (Beside::SlidingOfOils, Some(size * case.errors.h_c));
+        (case.features.count, case.features.errors) = (FEATURES + 4, ERRORS + 1);
+        case.errors.traction = Some(size * case.errors.h_c);
     }
     cases
 }
@@ -206,7 +209,7 @@ fn bounds_of_tractions_follow_what_a_limit_cuts() {
     };
     let median = |learned: &[Evidence], fresh: &[Evidence]| {
         let calibration = Calibration::fit(learned).unwrap();
-        assert!(calibration.is_of(Beside::SlidingOfOils) && calibration.sound());
+        assert!(calibration.sound());
         let ratio = |case: &Evidence| {
             calibration.estimate(&case.features).traction.unwrap().bound / case.errors.traction.unwrap()
         };
@@ -221,54 +224,38 @@ fn bounds_of_tractions_follow_what_a_limit_cuts() {
 }
 
 #[test]
-fn calibrations_of_former_versions_say_what_they_did() {
-    let mut cases = cut(300, 4);
-    cases.iter_mut().for_each(|case| case.features.values[8] = 0.0);
-    let whole = Calibration::fit(&cases).unwrap();
-    let mut former = whole.clone();
-    // Theirs lack the last feature: its range, its place, and the terms that it is in.
-    former.ranges.pop();
-    let coordinates = whole.ranges.len() - SIGNS.len();
-    former.places = whole.places.chunks(coordinates).flat_map(|place| &place[..coordinates - 1]).copied().collect();
-    let others = quadratic(&[1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0]);
-    for quantity in &mut former.quantities {
-        let kept = quantity.law.iter().zip(&others).filter(|(_, kept)| **kept > 0.0);
-        quantity.law = kept.map(|(law, _)| *law).collect();
-    }
-    assert!(former.is_of(Beside::SlidingOfOils) && former.sound());
-    for case in cut(20, 5) {
-        let [own, without] = [&whole, &former].map(|known| known.estimate(&case.features).traction.unwrap());
-        assert!((own.bound / without.bound - 1.0).abs() < 1e-9, "{own:?} {without:?}");
-    }
-    former.ranges.pop();
-    assert!(!former.is_of(Beside::SlidingOfOils) && !former.sound(), "no other number was ever theirs");
-}
-
-#[test]
-fn what_files_keep_is_the_whole_calibration() {
-    let stored = |calibration: &Calibration| postcard::to_allocvec(calibration).unwrap();
-    let calibration = Calibration::fit(&synthetic(300, 6)).unwrap();
-    assert_eq!(postcard::from_bytes::<Calibration>(&stored(&calibration)).unwrap(), calibration);
-    // What was not measured is no number, and equals nothing: the bytes tell more.
-    let bytes = stored(&Calibration::fit(&sliding(300, 6)).unwrap());
-    assert_eq!(stored(&postcard::from_bytes(&bytes).unwrap()), bytes);
-}
-
-#[test]
-fn in_small_whole_numbers_nothing_of_a_calibration_is_lost_and_some_that_are_missing_are_noticed() {
-    let stored = |calibration: &Calibration| postcard::to_allocvec(calibration).unwrap();
+fn a_calibration_is_its_numbers_and_missing_ones_are_noticed() {
+    // What was not measured is no number, and equals nothing.
+    let text = |calibration: &Calibration| format!("{calibration:?}");
     for evidence in [synthetic(300, 6), sliding(300, 6)] {
         let calibration = Calibration::fit(&evidence).unwrap();
-        let (laws, mut numbers) = calibration.in_steps().unwrap();
-        let again = Calibration::from_steps(laws.clone(), 300, &mut numbers.clone().into_iter()).unwrap();
-        assert_eq!(stored(&again), stored(&calibration));
-        assert!(Calibration::from_steps(laws.clone(), usize::MAX, &mut numbers.clone().into_iter()).is_none());
-        numbers.pop();
-        assert!(Calibration::from_steps(laws, 300, &mut numbers.into_iter()).is_none());
+        let again = Calibration::from_parts(calibration.parts()).unwrap();
+        assert_eq!(text(&again), text(&calibration));
+        let lies: [fn(&mut CalibrationParts); 7] = [
+            |parts| {
+                parts.places.pop();
+            },
+            |parts| {
+                parts.surplus[1].pop();
+            },
+            |parts| {
+                parts.surplus.pop();
+            },
+            |parts| {
+                parts.laws[0].pop();
+            },
+            |parts| {
+                parts.ranges.pop();
+            },
+            |parts| parts.laws[2][3] = f64::NAN,
+            |parts| parts.laws.iter_mut().for_each(Vec::clear),
+        ];
+        for (k, lie) in lies.into_iter().enumerate() {
+            let mut parts = calibration.parts();
+            lie(&mut parts);
+            assert!(Calibration::from_parts(parts).is_none(), "lie {k}");
+        }
     }
-    let mut finer = Calibration::fit(&synthetic(300, 6)).unwrap();
-    finer.quantities[0].surplus[7] += 1e-3;
-    assert!(finer.in_steps().is_none(), "as those of former versions, which stay as they are");
 }
 
 #[test]

@@ -5,11 +5,13 @@ use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::heat::Profile;
 use crate::solver::full::Problem;
 use crate::solver::observer::Observer;
-use crate::solver::physics::contact::{OperatingPoint, Quantity};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
-use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Stop, Warmth};
+use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Stop};
 use crate::solver::reduced::start::{Guess, film_number};
+use crate::solver::reduced::warmth::Warmth;
 
 /// A converged online iteration.
 pub(super) struct Found {
@@ -169,6 +171,7 @@ pub(super) fn walk(
 mod tests {
     use super::super::{Online, operators_of};
     use super::*;
+    use crate::solver::parameters::ParameterSpace;
     use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
     use crate::solver::physics::lubricant::Lubricant;
     use crate::solver::reduced::Sampling;
@@ -176,7 +179,7 @@ mod tests {
     use crate::solver::reduced::model::ReducedModel;
     use crate::solver::reduced::start;
     use crate::solver::training::small::{line_grid, oils};
-    use crate::solver::training::{Plan, QuantityBox, Range, TrainingSpec, random_points, train};
+    use crate::solver::training::{Plan, TrainingSpec, random_points, train};
     use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -255,15 +258,10 @@ mod tests {
     #[test]
     fn iterations_of_heavy_lines_begin_near_the_solutions_that_are_kept() {
         // The heaviest corner of Table 3.1, α p_H up to 44.
-        let corner = QuantityBox {
-            radius: (3e-3, 4e-3),
-            speed: (6.0, 10.0),
-            load: (3e5, 5e5),
-            alpha: (1.4e-8, 2e-8),
-            ..QuantityBox::TABLE_3_1
-        };
+        let corner = [(3e-3, 4e-3), (6.0, 10.0), (3e5, 5e5), (1.4e-8, 2e-8)];
+        let corner = ParameterSpace::si_box(corner, 231e9, 0.01);
         let plan = Plan::Grid { nodes: [2, 3, 3, 3] };
-        let spec = TrainingSpec::new(Range::Box(corner), (1.0, 500.0), line_grid(400), plan);
+        let spec = TrainingSpec::new(corner, (1.0, 500.0), line_grid(400), plan);
         let spec = TrainingSpec { pressure_loss: 1e-8, sampling: Sampling::All, evidence: 0, ..spec };
         let kept = train(&spec, &()).unwrap();
         let mut coarse = kept.clone();

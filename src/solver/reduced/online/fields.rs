@@ -1,6 +1,7 @@
 //! From a reduced solution back to fields: the only large-scale work online, on request.
 
-use super::{Online, ReducedError, ReducedSolution, operators_of};
+use super::{Online, ReducedError, operators_of};
+use crate::host::pool;
 use crate::solver::discrete::grid::{ContactGrid, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, Spread, apply};
 use crate::solver::discrete::nodes::{Laws, Nodes};
@@ -8,9 +9,9 @@ use crate::solver::discrete::reynolds::generalized::{FilmTreatment, NodeState, P
 use crate::solver::full::heat::{NodeArrays, Temperatures, one_sided};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination, scalars_of};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::ReducedSolution;
 use crate::solver::reduced::dense;
 use crate::solver::reduced::operators::{Stations, carried, cut_off};
-use rayon::prelude::*;
 use std::sync::Arc;
 
 impl Online {
@@ -246,11 +247,10 @@ impl Fields {
         let profiles = Spread::new(&at, &lines.y, places).profiles(&lines).collect::<Vec<Profile>>();
         let skipped = first * across;
         let mut stress = vec![0.0; pressure.len()];
-        stress.par_iter_mut().zip(&profiles).enumerate().skip(skipped).with_min_len(SHARE).for_each(
-            |(node, (stress, theta))| {
-                laws.node(state(node), &apply(&ACROSS.to_rule, theta), stress);
-            },
-        );
+        pool::each(&mut stress[skipped..], SHARE, |k, stress| {
+            let node = skipped + k;
+            laws.node(state(node), &apply(&ACROSS.to_rule, &profiles[node]), stress);
+        });
         let counted = |(node, p): (usize, &f64)| carried(grid.kind(), x[node / across], *p);
         let pressure: Vec<f64> = pressure.iter().enumerate().map(counted).collect();
         let arrays = NodeArrays { x: &x, y, first, pressure: &pressure, film, stress: &stress };

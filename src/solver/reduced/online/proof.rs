@@ -4,6 +4,7 @@ use super::attempt::{Watch, attempt};
 use super::operators_of;
 use super::settings::ReducedOptions;
 use crate::solver::full::Problem;
+use crate::solver::parameters::Metric;
 use crate::solver::reduced::kriging::Kriging;
 use crate::solver::reduced::model::{ReducedModel, Snapshot};
 use crate::solver::reduced::start::{self, Guess};
@@ -28,9 +29,13 @@ impl ReducedModel {
         let options = ReducedOptions::default();
         let mut operators = operators_of(self, served, &options);
         // Kriging takes as long as all the rest, and hardly any window needs it.
-        let (kriging, heat) = (OnceCell::new(), self.domain.heat.is_some());
-        let kriged =
-            |problem: &Problem| kriging.get_or_init(|| Kriging::of(served, heat)).as_ref()?.start(&problem.point);
+        let kriging = OnceCell::new();
+        let kriged = |problem: &Problem| {
+            kriging
+                .get_or_init(|| Kriging::of(served, Metric::of_starts(&self.domain.space)))
+                .as_ref()?
+                .start(&problem.point)
+        };
         let from_both_ends = (0..snapshots.len()).map(|k| match k % 2 {
             0 => snapshots[k / 2],
             _ => snapshots[snapshots.len() - 1 - k / 2],

@@ -1,9 +1,9 @@
 //! How the online phase is run, and why it may give no result.
 
 use crate::solver::full::SolveError;
+use crate::solver::parameters::CIRCLES;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::domain::CIRCLES;
 
 /// Why a reduced solve gives no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -16,7 +16,7 @@ pub(super) use reach::support;
 pub(crate) use reach::{cut_off, fronts, passed_rows};
 
 use self::bending::{Bent, Kept};
-use self::reach::{each_passed, passed};
+use self::reach::{BEFORE, each_passed, passed};
 use super::support::{StateRows, Support};
 use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::nodes::Nodes;
@@ -29,8 +29,6 @@ use faer::reborrow::ReborrowMut;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use std::ops::Range;
 
-/// Nodes before B at which pressures are looked at: k of (D.17).
-const BEFORE: usize = 5;
 /// The pressure that counts as negative in (D.17), of a line and of a plane: smaller ones are what the basis leaves. Of
 /// lines it leaves so little that B one node too far, with a pressure of −1e-4 there, is by far their largest error of
 /// H_min.

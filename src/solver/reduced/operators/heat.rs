@@ -2,8 +2,6 @@
 //! temperatures along every few nodes of a line, or of a few lines of a plane, with pressure and film held, in turns.
 //! Temperatures need no basis.
 
-use super::Operators;
-use super::newton::{Case, OnlineOutcome, RowObserver, Slopes, Stop, Wanted};
 use super::support::Place;
 use crate::solver::discrete::grid::{ContactGrid, INLET, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, RULE, Spread, WarmFilm, apply};
@@ -11,6 +9,7 @@ use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::Problem;
 use crate::solver::full::heat::{Mixing, Rises, one_sided};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::warmth::Warmth;
 use std::sync::Arc;
 
 /// Stations along a line contact, at least. With 90 of them tractions of fast contacts that hardly slide are off by 1.5 %.
@@ -29,16 +28,6 @@ const ORDINATES: [f64; 11] = [1.5, 1.2, 1.05, 0.95, 0.85, 0.75, 0.62, 0.48, 0.32
 /// Pressures behind X = 0 up to which the film of a plane counts as ruptured where its traction is summed up: what modes leave
 /// there is no more. In light contacts, whose films hardly thicken under pressure, it would add 1 % to that.
 const LEFT: f64 = 1e-4;
-
-/// What ends turns over what ends Newton's steps alone: a relative step of pressure and film, and a change of θ. A kelvin
-/// is 3e-3.
-const TOLERANCES: (f64, f64) = (10.0, 10.0);
-
-/// A step of pressure and film and a change of θ below which states are mixed.
-const NEAR: f64 = 0.1;
-
-/// Least share of a change of temperatures that is taken.
-const LEAST_SHARE: f64 = 0.06;
 
 /// The nodes of a grid at which temperatures are marched.
 pub(crate) struct Stations {
@@ -161,7 +150,7 @@ pub(super) struct Heated {
     /// ξ of the stations, and Y of the lines in units of b.
     reference: Vec<f64>,
     ordinates: Vec<f64>,
-    lines: Lines,
+    pub(super) lines: Lines,
     /// X of the support.
     x: Vec<f64>,
     /// Places in the support at which rows want a film.
@@ -169,26 +158,10 @@ pub(super) struct Heated {
     /// How these have their temperatures, and the film's temperatures on the support.
     interpolation: Interpolation,
     film: WarmFilm,
-    mixing: Mixing,
+    pub(super) mixing: Mixing,
     /// p̃, H₀ and θ before a turn and after it.
-    from: Vec<f64>,
+    pub(super) from: Vec<f64>,
     image: Vec<f64>,
-}
-
-/// The temperatures of a reduced solution.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Warmth {
-    /// θ = (T − T₀)/T₀ at the stations of the march, line after line, from body 1 to body 2.
-    pub theta: Vec<Profile>,
-    /// Rises above T₀ at X = 0 (and Y = 0).
-    pub central: Rises,
-}
-
-impl Warmth {
-    /// The highest temperature of the film \[K\] by that at the inlet.
-    pub fn hottest_k(&self, inlet_k: f64) -> f64 {
-        inlet_k * (1.0 + self.theta.iter().flatten().fold(0.0, |hottest: f64, theta| hottest.max(*theta)))
-    }
 }
 
 impl Heated {
@@ -239,7 +212,7 @@ impl Heated {
     }
 
     /// Begins a contact at a scale, at given temperatures where there are any.
-    fn begin(&mut self, support: &[Place], scale: f64, theta: &[Profile]) {
+    pub(super) fn begin(&mut self, support: &[Place], scale: f64, theta: &[Profile]) {
         for line in &mut self.lines.lines {
             line.march.begin(&self.reference, scale);
         }
@@ -255,7 +228,7 @@ impl Heated {
     }
 
     /// P, its gradient and H at the stations, from P, K P, P_ξ and P_Y on the support and the films there.
-    fn look(&mut self, fields: &[f64], films: &[f64], scale: f64) {
+    pub(super) fn look(&mut self, fields: &[f64], films: &[f64], scale: f64) {
         let count = films.len();
         for (line, looked) in self.lines.lines.iter_mut().zip(&self.looked) {
             for (state, &k) in line.states.iter_mut().zip(&looked.stations) {
@@ -271,7 +244,7 @@ impl Heated {
     }
 
     /// Marches once and takes a share of the change; returns the largest one.
-    fn march(&mut self, problem: &Problem, share: f64, tolerance: f64) -> f64 {
+    pub(super) fn march(&mut self, problem: &Problem, share: f64, tolerance: f64) -> f64 {
         let Some(course) = problem.course(&[]) else { return f64::NAN };
         let changed = self.lines.march(&course, (share, tolerance), false);
         for (&k, theta) in self.films.iter().zip(self.interpolation.theta(&self.lines)) {
@@ -280,7 +253,7 @@ impl Heated {
         changed
     }
 
-    fn state(lines: &Lines, (coefficients, h_0): (&[f64], f64), out: &mut Vec<f64>) {
+    pub(super) fn state(lines: &Lines, (coefficients, h_0): (&[f64], f64), out: &mut Vec<f64>) {
         out.clear();
         out.extend_from_slice(coefficients);
         out.push(h_0);
@@ -288,7 +261,7 @@ impl Heated {
     }
 
     /// Mixes the state that a turn led to with those before it.
-    fn mix(&mut self, coefficients: &mut [f64], h_0: &mut f64) {
+    pub(super) fn mix(&mut self, coefficients: &mut [f64], h_0: &mut f64) {
         Self::state(&self.lines, (coefficients, *h_0), &mut self.image);
         self.mixing.improve(&self.from, &mut self.image);
         let (mixed, rest) = self.image.split_at(coefficients.len());
@@ -297,71 +270,8 @@ impl Heated {
         self.lines.put(&rest[1..]);
     }
 
-    fn warmth(&self, inlet_k: f64) -> Warmth {
+    pub(super) fn warmth(&self, inlet_k: f64) -> Warmth {
         let theta = self.lines.stations().map(|station| station.theta).collect();
         Warmth { theta, central: Rises::central(&self.lines, inlet_k) }
-    }
-}
-
-impl Operators {
-    /// The temperatures of the last turns; none of a model that knows no heat.
-    pub fn warmth(&self, problem: &Problem) -> Option<Warmth> {
-        Some(self.heated.as_ref()?.warmth(problem.heat.as_ref()?.heat.inlet_temperature))
-    }
-
-    /// Takes turns of one march and one Newton step on (p̃, H₀) each until neither changes anything, from temperatures at
-    /// the stations, or cold.
-    pub fn turns(
-        &mut self,
-        case: &Case<'_>,
-        (coefficients, h_0): (&mut [f64], &mut f64),
-        theta: &[Profile],
-        stop: Stop,
-        mut observer: Option<RowObserver<'_>>,
-    ) -> OnlineOutcome {
-        let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
-        let Some(heated) = self.heated.as_mut() else { return outcome };
-        heated.begin(&self.support.places, case.scale, theta);
-        self.state.spread(self.support.own, None, coefficients, &mut self.scratch.fields);
-        self.scratch.nodes.forget();
-        let (mut changed, mut share, mut before) = (1e-3f64, 1.0f64, f64::INFINITY);
-        for turn in 1..=stop.max_newton {
-            outcome.iterations = turn;
-            self.lay_films(case, *h_0);
-            let Some(heated) = self.heated.as_mut() else { return outcome };
-            heated.look(&self.scratch.fields, &self.scratch.films, case.scale);
-            Heated::state(&heated.lines, (coefficients, *h_0), &mut heated.from);
-            changed = heated.march(case.problem, share, (1e-2 * changed).clamp(stop.tolerance, 1e-3));
-            outcome.residual = self.evaluate(case, coefficients, *h_0, Wanted::Step(Slopes::Usual));
-            if !self.linear_step(case.problem, case.scale, coefficients, observer.is_some()) {
-                return outcome;
-            }
-            if let Some(observer) = observer.as_mut() {
-                self.show(case, (coefficients, *h_0), observer);
-            }
-            let omega = self.damping(case.scale);
-            outcome.step = self.take_step(omega, coefficients, h_0);
-            if !(outcome.step.is_finite() && changed.is_finite()) {
-                return outcome;
-            }
-            if omega == 1.0 && outcome.step < TOLERANCES.0 * stop.tolerance && changed < TOLERANCES.1 * stop.tolerance {
-                outcome.converged = true;
-                break;
-            }
-            let Some(heated) = self.heated.as_mut() else { return outcome };
-            let now = outcome.step.max(changed);
-            if now < NEAR && omega == 1.0 && changed > outcome.step {
-                // Newton's steps need no help; where these are small it is the temperatures that take their time.
-                heated.mix(coefficients, h_0);
-                self.state.spread(self.support.own, None, coefficients, &mut self.scratch.fields);
-            } else {
-                // Temperatures that swing with the pressure come to rest when they follow it by less.
-                let swings = changed > 0.8 * before;
-                share = if swings { (0.75 * share).max(LEAST_SHARE) } else { (1.5 * share).min(1.0) };
-                heated.mixing.forget();
-            }
-            before = changed;
-        }
-        outcome.unless_absurd()
     }
 }

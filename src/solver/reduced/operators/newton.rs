@@ -1,7 +1,7 @@
 //! The Newton iteration on reduced operators. Nothing here is of large scale, and nothing is allocated inside an
 //! iteration.
 
-use super::Operators;
+use super::assembled::Operators;
 use super::front::{Changed, Front, Moved};
 use super::least_squares::LeastSquares;
 use super::support::seen;

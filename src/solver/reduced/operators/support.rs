@@ -144,3 +144,11 @@ impl StateRows {
         self.gradients.chunks_exact(self.values.len())
     }
 }
+
+/// K V_p of so many modes at some nodes, as far as a basis of deformations represents it where there is one.
+pub(super) fn deformed_at(window: &Window, projected: Option<&Mat<f64>>, nodes: &[usize], modes: usize) -> Mat<f64> {
+    match projected {
+        Some(projected) => Mat::from_fn(nodes.len(), modes, |i, k| projected[(nodes[i], k)]),
+        None => window.pressure.flexed_at(nodes, modes),
+    }
+}

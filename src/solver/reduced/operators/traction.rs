@@ -1,10 +1,9 @@
 //! The traction (3.41) by a window's rule, over nodes of its own: it is asked for once, when Newton's steps have ended, so
 //! that they know nothing of its nodes.
 
-use super::deformed_at;
 use super::heat::{Heated, Interpolation, carried};
 use super::shaped::Shaped;
-use super::support::{StateRows, Support};
+use super::support::{StateRows, Support, deformed_at};
 use crate::solver::discrete::grid::stretched;
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::heat::mid_stress_pa;

@@ -2,8 +2,9 @@
 
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{Input, Inputs, Moment, Trajectory};
-use crate::solver::reduced::domain::digits;
-use crate::solver::reduced::{CIRCLES, Domain, Trust};
+use crate::solver::limits::digits;
+use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
+use crate::solver::reduced::{Domain, Trust};
 use serde::{Deserialize, Serialize};
 
 /// How far an input may leave its trained range, in widths of it, and how much faster than trained it may change: what
@@ -159,17 +160,15 @@ impl TrajectoryDomain {
         let steps = trajectories.iter().filter_map(step);
         Some(Self {
             reference: Domain {
-                m: range(|problem| problem.moes.m),
-                l: range(|problem| problem.moes.l),
-                alpha_per_pa: range(|problem| problem.point.alpha_per_pa),
-                max_hertz_pressure_pa: range(|problem| problem.point.hertz().pressure_pa).1,
-                viscosity_pa_s: problem.point.viscosity_pa_s,
+                contact: problem.point.kind,
+                space: ParameterSpace::of([
+                    Axis::new(Quantity::M, range(|problem| problem.moes.m)),
+                    Axis::new(Quantity::L, range(|problem| problem.moes.l)),
+                    Axis::new(Quantity::Alpha, range(|problem| problem.point.alpha_per_pa)),
+                ])
+                .limited([(Quantity::HertzPressure, (0.0, range(|problem| problem.point.hertz().pressure_pa).1))])
+                .fixing([(Quantity::Viscosity, problem.point.viscosity_pa_s)]),
                 lubricant: problem.lubricant,
-                sliding: None,
-                radius_ratio: CIRCLES,
-                oils: None,
-                heat: None,
-                eyring: None,
             },
             radius: Reach::of(trajectories, |input| input.radius),
             speed: Reach::of(trajectories, |input| input.speed),
@@ -208,7 +207,7 @@ impl TrajectoryDomain {
     pub fn left_by(&self, trajectory: &Trajectory) -> Vec<String> {
         let mut said = Vec::new();
         if let Trust::Outside(why) = self.reference.trust(&trajectory.problem) {
-            said.push(why);
+            said.push(why.to_string());
         }
         let moments = &trajectory.moments;
         for (name, reach, get) in self.reaches() {
@@ -230,7 +229,7 @@ impl TrajectoryDomain {
     /// In what a march of a contact along inputs will leave what was trained; none where it stays within it.
     pub fn leaves(&self, problem: &Problem, inputs: &Inputs, duration: f64) -> Option<String> {
         if let Trust::Outside(why) = self.reference.trust(problem) {
-            return Some(why);
+            return Some(why.to_string());
         }
         let (own, given) = (self.reference.lubricant.cavitation, problem.lubricant.cavitation);
         if own != given {

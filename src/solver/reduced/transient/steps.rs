@@ -9,10 +9,11 @@ use crate::solver::discrete::grid::{LineGrid, ReferenceGrid, dot};
 use crate::solver::full::transient::{Conditions, Effort, Frame, History, Marching, Moment, State, Step, Transient};
 use crate::solver::full::{Scalars, Termination};
 use crate::solver::observer::Observer;
+use crate::solver::parameters::distance;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::operators::{Case, Iterate, Stop, cut_off};
-use crate::solver::reduced::{ReducedError, Window, dense, distance};
+use crate::solver::reduced::{ReducedError, Window, dense};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

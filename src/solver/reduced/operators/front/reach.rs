@@ -1,12 +1,13 @@
 //! Where the boundary is in a node array, and where it may come.
 
-use super::BEFORE;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::Window;
 
 /// Nodes that B may move beyond where it was in any of the trainings.
 const MARGIN: usize = 4;
+/// Nodes before B at which pressures are looked at: k of (D.17).
+pub(super) const BEFORE: usize = 5;
 
 /// Of each line along X the first column of a node array behind which no pressure is positive.
 pub(crate) fn fronts(grid: &ContactGrid, pressure: impl Fn(usize) -> f64) -> Vec<usize> {

@@ -1,0 +1,151 @@
+//! A request becomes an answer: one function for the window, the commands, studies, bindings and campaigns, so that all
+//! of them report the same numbers, the same trust and the same warnings.
+
+use super::{Answer, ContactResult, EngineError, ReducedFacts, Request};
+use crate::scene::Effort;
+use crate::solver::full::heat::Temperatures;
+use crate::solver::full::point::resolution_warning;
+use crate::solver::full::{ContactSolver, Problem, Start};
+use crate::solver::observer::Observer;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
+use crate::solver::warning::Warning;
+use std::time::Instant;
+
+/// What solves a request, with the work space that its owner keeps.
+pub enum Solver<'a> {
+    /// The full system on the solver's grid, from a start.
+    Full(&'a mut ContactSolver, Start<'a>),
+    /// A reduced model with its operators and the solutions that it remembers.
+    Reduced(&'a mut Online),
+}
+
+/// Solves a request. Not converging is an answer, as is a full solve that the observer cancels.
+///
+/// # Errors
+/// When the request is refused, or the observer cancels a reduced solve.
+pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) -> Result<Answer, EngineError> {
+    let problem = Problem::new(&request.point, request.lubricant)?;
+    let mut answer = match solver {
+        Solver::Full(solver, start) => in_full(request, solver, start, observer)?,
+        Solver::Reduced(online) => by_model(request, &problem, online, observer)?,
+    };
+    let ContactResult { warnings, traction, scalars, reduced, .. } = &mut answer.result;
+    if let Some(solution) = answer.solution.as_ref().filter(|_| scalars.is_some()) {
+        warnings.extend(solution.grid_warning());
+        warnings.extend(resolution_warning(solution));
+        warnings.extend(problem.heat.as_ref().and_then(|heat| heat.warning(&problem.point)));
+        warnings.extend(solution.heat.as_deref().and_then(Temperatures::too_hot));
+        let heat = solution.heat.as_deref().filter(|_| reduced.is_none());
+        warnings.extend(heat.and_then(Temperatures::heat_lost));
+    }
+    warnings.extend(Warning::of_hertz_pressure(request.point.hertz().pressure_pa));
+    let doubt = traction.zip(*scalars).and_then(|(traction, scalars)| problem.doubts_traction(traction, &scalars));
+    warnings.extend(doubt.map(Warning::from));
+    Ok(answer)
+}
+
+fn in_full(
+    request: &Request,
+    solver: &mut ContactSolver,
+    start: Start<'_>,
+    observer: &dyn Observer,
+) -> Result<Answer, EngineError> {
+    let clock = Instant::now();
+    let solution = solver.solve(&request.point, request.lubricant, start, observer)?;
+    let wall_s = clock.elapsed().as_secs_f64();
+    let solution = solver.judged(solution);
+    let report = &solution.report;
+    let (nx, ny) = (solution.x.len(), solution.y.len());
+    let (nodes, dofs) = match request.point.kind {
+        // Its node arrays have one node outside the inlet.
+        ContactKind::Line => ((nx - 1, 1), nx - 2),
+        ContactKind::Point => ((nx, ny), (nx - 2) * (ny - 1) + 1),
+    };
+    let (newton_iterations, linear_iterations) = (report.newton_iterations, Some(report.linear_iterations));
+    let effort = Effort { nodes, dofs, newton_iterations, linear_iterations, wall_s };
+    let mut result = ContactResult::new(request, Some(&solution), None, effort);
+    if !solution.converged() {
+        result.warnings.push(Warning::NotConverged {
+            ending: report.termination.describe().to_owned(),
+            newton_iterations,
+            attempts: report.attempts,
+            residual_norm: report.residual_norm,
+        });
+    }
+    result.warnings.extend(report.cautious_front.then_some(Warning::CavitationBoundaryOscillated));
+    Ok(Answer { request: request.clone(), result, solution: Some(solution) })
+}
+
+fn by_model(
+    request: &Request,
+    problem: &Problem,
+    online: &mut Online,
+    observer: &dyn Observer,
+) -> Result<Answer, EngineError> {
+    // Operators belong to the model: the time is the solve's alone.
+    online.prepare(&problem.point);
+    let clock = Instant::now();
+    let solved = online.solve_watched(&problem.point, request.lubricant, observer);
+    let wall_s = clock.elapsed().as_secs_f64();
+    let model = &online.model;
+    let (mut warnings, own) = (Vec::new(), model.domain.lubricant.cavitation);
+    let trust = solved.as_ref().map_or_else(|_| model.trust(problem), |solved| solved.trust.clone());
+    let trained = trust == Trust::Trained;
+    warnings.extend(outside(trust));
+    // Complementarity is the limit of both other laws for a large penalty and a flooded inlet: a model that was trained
+    // with it serves them.
+    let asked = request.lubricant.cavitation;
+    if own == Cavitation::Penalty && asked != own && problem.supply.is_none() {
+        warnings.push(Warning::CavitationOfTraining { asked: asked.name().to_owned() });
+    }
+    let window = window_of(model, &problem.point)?;
+    let mut facts = ReducedFacts {
+        size: window.size(),
+        window: model.window_for(&problem.point),
+        trained,
+        residual_estimate: None,
+        error: None,
+    };
+    let mut effort = Effort {
+        nodes: window.grid.nodes(),
+        dofs: facts.size.pressure + 1,
+        newton_iterations: 0,
+        linear_iterations: None,
+        wall_s,
+    };
+    let (mut solution, mut traction) = (None, None);
+    match solved {
+        Ok(solved) => {
+            (facts.window, facts.size.pressure) = (solved.window, solved.coefficients.len());
+            (facts.residual_estimate, facts.error) = (Some(solved.residual_estimate), solved.error);
+            (effort.dofs, effort.newton_iterations) = (facts.size.pressure + 1, solved.iterations);
+            warnings.extend(solved.stands_in.then_some(Warning::NeighbouringModel));
+            traction = solved.traction;
+            // A Newtonian film does not feel the sliding, but its traction does.
+            solution = Some(online.reconstruct(&solved)?.of_problem(*problem));
+        }
+        Err(ReducedError::Cancelled) => return Err(EngineError::Cancelled),
+        Err(error) => {
+            effort.newton_iterations = error.without_solution().ok_or_else(|| error.clone())?;
+            warnings.push(Warning::NoReducedSolution { reason: error.to_string() });
+        }
+    }
+    let result = ContactResult::new(request, solution.as_ref(), Some((facts, own, traction)), effort);
+    Ok(Answer { request: request.clone(), result: ContactResult { warnings, ..result }, solution })
+}
+
+/// The warning of a model that was not trained for a contact.
+pub(super) fn outside(trust: Trust) -> Option<Warning> {
+    match trust {
+        Trust::Trained => None,
+        Trust::Outside(outside) => Some(Warning::OutsideTrainedRange { outside }),
+    }
+}
+
+/// The local model that serves a contact.
+pub(super) fn window_of<'a>(model: &'a ReducedModel, point: &OperatingPoint) -> Result<&'a Window, EngineError> {
+    let none = || EngineError::Study(format!("the reduced model `{}` holds no window", model.title));
+    model.windows.get(model.window_for(point)).ok_or_else(none)
+}

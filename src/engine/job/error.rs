@@ -1,0 +1,51 @@
+//! Why a job ended early, each as one sentence.
+
+use serde::{Deserialize, Serialize};
+use std::any::Any;
+use std::fmt::Display;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Why a job ended early.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+pub enum JobError {
+    /// The system has no thread left.
+    #[error("no thread could be had for this work")]
+    NoThread,
+    /// The work panicked.
+    #[error(transparent)]
+    Panicked(#[from] Panicked),
+    /// The work is refused or has no result.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl JobError {
+    /// The work is refused for a reason.
+    pub fn failed(reason: impl Display) -> Self {
+        Self::Failed(reason.to_string())
+    }
+}
+
+impl From<String> for JobError {
+    fn from(sentence: String) -> Self {
+        Self::Failed(sentence)
+    }
+}
+
+/// A panic, as a sentence.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[error("the solver stopped unexpectedly ({0}); the window and your work are not affected")]
+pub struct Panicked(String);
+
+/// Runs something that may panic.
+///
+/// # Errors
+/// When it does.
+pub fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, Panicked> {
+    catch_unwind(AssertUnwindSafe(run)).map_err(|payload| Panicked(panic_text(&*payload).to_owned()))
+}
+
+fn panic_text(payload: &(dyn Any + Send)) -> &str {
+    let text = payload.downcast_ref::<&str>().copied();
+    text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given")
+}

@@ -1,0 +1,155 @@
+//! What a reduced model holds, as text for people.
+
+use crate::solver::discrete::grid::GridSpec;
+use crate::solver::full::transient::{Inputs, Signal};
+use crate::solver::limits::digits;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::reduced::transient::TrajectoryModel;
+use crate::solver::reduced::{Domain, ReducedModel, Scheme, Window};
+use std::fmt::Write;
+
+/// A model in time for people.
+pub fn describe_in_time(model: &TrajectoryModel) -> String {
+    let (domain, window) = (&model.domain, &model.window);
+    let mut text = format!("{}\n  line contacts in time, frame {:?}\n", model.title, model.frame);
+    // Writing to a string cannot fail.
+    text.push_str(&describe_domain(&domain.reference));
+    for (name, reach) in [("load", domain.load), ("speed", domain.speed), ("radius", domain.radius)] {
+        let (from, to) = reach.range;
+        let _ = match reach.varies() {
+            true => writeln!(text, "  {name} {from:.4}…{to:.4} of its reference, {:.4} per unit of T", reach.rate),
+            false => writeln!(text, "  {name} at rest"),
+        };
+    }
+    let _ = writeln!(text, "  steps of T {:.6}", domain.step);
+    if domain.only.is_some() {
+        text.push_str("  one course of inputs: along others nothing is known of its errors\n");
+    }
+    let ruptures = match window.cavitation {
+        Cavitation::Penalty => format!("γ̄ {:e}", window.penalty),
+        other => other.name().to_owned(),
+    };
+    let scheme = match window.scheme {
+        Scheme::Galerkin => String::new(),
+        other => format!(", {}", other.name()),
+    };
+    let (size, sampling) = (window.size(), window.sampling);
+    let _ = writeln!(text, "  {}; {size} ({sampling:?}{scheme}), {ruptures}", grid_of(window));
+    for (k, local) in model.locals.iter().enumerate() {
+        let (size, sampling) = (local.window.size(), local.window.sampling);
+        let _ = writeln!(text, "  local basis {}: {size} ({sampling:?})", k + 1);
+    }
+    for (k, start) in model.starts.iter().enumerate() {
+        let p = &start.point;
+        let _ = writeln!(
+            text,
+            "  training {}: R {} m, u_m {} m/s, w {} N/m, T up to {:.4}, {}",
+            k + 1,
+            p.radius_m,
+            p.speed_m_per_s,
+            p.load,
+            start.duration,
+            driven(&start.inputs)
+        );
+    }
+    for line in &model.log {
+        let _ = writeln!(text, "  {line}");
+    }
+    text
+}
+
+/// What varies, in the words of a scene.
+fn driven(inputs: &Inputs) -> String {
+    let all = [("radius", &inputs.radius), ("speed", &inputs.speed), ("load", &inputs.load)];
+    let told = |(name, signal): (&str, &Signal)| match signal {
+        Signal::Constant => None,
+        Signal::Sampled { times, .. } => Some(format!("{name} by {} samples", times.len())),
+        other => Some(format!("{name} {other:?}")),
+    };
+    let told: Vec<String> = all.into_iter().filter_map(told).collect();
+    if told.is_empty() { "at rest".to_owned() } else { told.join(", ") }
+}
+
+/// The grid of a window.
+fn grid_of(window: &Window) -> String {
+    match window.grid.spec() {
+        GridSpec::Uniform { dx, domain } => {
+            format!("uniform, dx {dx}, {}…{}", domain.0, domain.1)
+        }
+        GridSpec::Graded { nodes, domain, registered } => {
+            let registered = if registered { ", registered" } else { "" };
+            format!("graded, {nodes} nodes, ξ {}…{}{registered}", domain.0, domain.1)
+        }
+        GridSpec::Plane(spec) => {
+            let ((nx, ny), (from, to, edge)) = (window.grid.nodes(), spec.domain);
+            format!("{nx}×{ny} nodes, X {from}…{to}, Y {edge}…0")
+        }
+    }
+}
+
+/// The varied, limited and fixed quantities of a domain, and the laws of its lubricant, a line each.
+fn describe_domain(domain: &Domain) -> String {
+    let interval = |quantity: Quantity, (low, high): (f64, f64)| {
+        let (unit, scale) = quantity.reading_unit(domain.contact);
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        let [low, high] = [low, high].map(|value| digits(value / scale));
+        let ends = if low == high { low } else { format!("{low}…{high}") };
+        format!("{} {ends}{unit}", quantity.short())
+    };
+    let space = &domain.space;
+    let axes =
+        space.axes.iter().map(|axis| interval(axis.quantity, domain.interval(axis.quantity).unwrap_or(axis.ends)));
+    let limits = space.limits.iter().filter(|(limited, _)| !space.gives(*limited));
+    let limits = limits.map(|(limited, ends)| interval(*limited, *ends));
+    let fixed = space.fixed.iter().map(|(fixed, value)| interval(*fixed, (*value, *value)));
+    let constants = space.constants.iter().map(|axis| interval(axis.quantity, axis.ends));
+    let lists: [(&str, Vec<String>); 4] = [
+        ("varies", axes.collect()),
+        ("limits", limits.collect()),
+        ("fixes", fixed.collect()),
+        ("any", constants.collect()),
+    ];
+    let lists = lists.into_iter().filter(|(_, list)| !list.is_empty());
+    let mut text: String = lists.map(|(name, list)| format!("  {name}: {}\n", list.join(", "))).collect();
+    let Lubricant { density, viscosity, shear, heat, .. } = domain.lubricant;
+    let _ = writeln!(text, "  density {density:?}, viscosity {viscosity:?}, shear {shear:?}");
+    if let Some(heat) = heat {
+        let _ = writeln!(text, "  thermal, inlet {} K", heat.inlet_temperature);
+    }
+    text
+}
+
+/// The model for people.
+pub fn describe(model: &ReducedModel) -> String {
+    let mut text = format!("{}\n  {} contacts\n", model.title, model.contact().name());
+    text.push_str(&describe_domain(&model.domain));
+    for window in &model.windows {
+        let grid = grid_of(window);
+        let shapes = window
+            .shapes
+            .as_ref()
+            .map_or_else(String::new, |shapes| format!(", R_y/R {}…{}", shapes.radius_ratio.0, shapes.radius_ratio.1));
+        let scheme = match window.scheme {
+            Scheme::Galerkin => String::new(),
+            other => format!(", {}", other.name()),
+        };
+        let _ = writeln!(
+            text,
+            "  window M {}…{}{shapes}: {grid}; {} snapshots, {} ({:?}{scheme}), {}",
+            window.m.0,
+            window.m.1,
+            window.snapshots.len(),
+            window.size(),
+            window.sampling,
+            match window.cavitation {
+                Cavitation::Penalty => format!("γ̄ {:e}", window.penalty),
+                other => other.name().to_owned(),
+            }
+        );
+    }
+    for line in &model.log {
+        let _ = writeln!(text, "  {line}");
+    }
+    text
+}

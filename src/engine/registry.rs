@@ -1,0 +1,139 @@
+//! Finds reduced models by what they cover.
+
+use crate::solver::full::Problem;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::solver::reduced::{Domain, Trust};
+use std::cmp::Ordering;
+use std::mem::discriminant;
+
+/// How well a domain serves a contact; the smallest one is taken.
+///
+/// A domain that covers the contact comes first, of several the one for its shape with the smallest range. Where none does,
+/// the nearest is the one with the same kind of heat, of shear law and of shape, then with the same lubricant, then with the
+/// nearest M.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Remoteness {
+    outside: bool,
+    kinds: [u8; 4],
+    far: f64,
+}
+
+impl Remoteness {
+    fn of(domain: &Domain, problem: Option<&Problem>, point: &OperatingPoint, lubricant: &Lubricant) -> Self {
+        let outside = problem.is_none_or(|problem| domain.trust(problem) != Trust::Trained);
+        let other_shape = domain.space.of_ellipses() != (point.radius_ratio() != 1.0);
+        if !outside {
+            return Self { outside, kinds: [other_shape.into(), 0, 0, 0], far: extent(domain) };
+        }
+        let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
+        let law = match (discriminant(&domain.lubricant.shear) == discriminant(&lubricant.shear), thins(lubricant)) {
+            (true, _) => 0,
+            (false, thinning) => 1 + u8::from(thinning != thins(&domain.lubricant)),
+        };
+        let other_heat = domain.heats() != lubricant.heat.is_some();
+        let other_lubricant = !domain.is_of(lubricant);
+        let ((low, high), m) = (domain.m(), point.moes().m);
+        let far = (low / m).max(m / high).max(1.0).ln();
+        Self { outside, kinds: [other_heat.into(), law, other_shape.into(), other_lubricant.into()], far }
+    }
+
+    fn cmp(&self, other: &Self) -> Ordering {
+        let kinds = (self.outside, self.kinds).cmp(&(other.outside, other.kinds));
+        kinds.then(self.far.total_cmp(&other.far))
+    }
+}
+
+/// Logarithmic size of a domain in M, L, α, η₀ and p_H.
+fn extent(domain: &Domain) -> f64 {
+    let quantities = [Quantity::M, Quantity::L, Quantity::Alpha, Quantity::Viscosity, Quantity::HertzPressure];
+    let widths = quantities.iter().filter_map(|quantity| domain.interval(*quantity));
+    widths.map(|(low, high)| (high / low.max(1e-3 * high)).ln()).sum()
+}
+
+/// Returns the model that serves a contact with a lubricant: of those that cover it the one with the smallest range, else
+/// the nearest. `None` if there is none of the contact's kind.
+pub fn best<'a, T>(
+    models: impl IntoIterator<Item = (T, &'a Domain)>,
+    point: &OperatingPoint,
+    lubricant: &Lubricant,
+) -> Option<T> {
+    let problem = Problem::new(point, *lubricant).ok();
+    let of_kind = models.into_iter().filter(|(_, domain)| domain.contact == point.kind);
+    let judged = of_kind.map(|(model, domain)| (Remoteness::of(domain, problem.as_ref(), point, lubricant), model));
+    judged.min_by(|(a, _), (b, _)| a.cmp(b)).map(|(_, model)| model)
+}
+
+/// True if two models are alternatives: of the same kind of contact, heat, shear law and shape, with loads in common.
+pub fn alike(one: &Domain, other: &Domain) -> bool {
+    let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats());
+    let law = |domain: &Domain| discriminant(&domain.lubricant.shear);
+    kind(one) == kind(other) && law(one) == law(other) && loads_in_common(one, other) > 0.0
+}
+
+/// Returns the loads that two models have in common, in ln M.
+pub fn loads_in_common(one: &Domain, other: &Domain) -> f64 {
+    let (a, b) = (one.m(), other.m());
+    (a.1.min(b.1) / a.0.max(b.0)).ln()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::catalogue;
+    use crate::scene::named_lubricant::SQUALANE_PIP;
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
+    use crate::solver::physics::lubricant::Heat;
+
+    fn serves(point: &OperatingPoint, lubricant: &Lubricant) -> &'static str {
+        best(catalogue().iter().map(|entry| (entry.name, &entry.domain)), point, lubricant).unwrap()
+    }
+
+    #[test]
+    fn a_contact_is_served_by_the_model_of_its_shape_and_lubricant() {
+        let at = |kind, m| si_from_moes(&MoesRequest::new(kind, m, 5.0)).unwrap();
+        let (circle, light, line) =
+            (at(ContactKind::Point, 50.0), at(ContactKind::Point, 6.0), at(ContactKind::Line, 50.0));
+        let ellipse = Quantity::RadiusRatio.at(&circle, 2.0);
+        let oil = Lubricant::default();
+        let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..oil };
+        let warm = Lubricant { heat: Some(Heat::default()), ..oil };
+        for (point, lubricant, wanted) in [
+            (circle, oil, "point"),
+            (Quantity::RadiusRatio.at(&circle, 1.0), oil, "point"),
+            (ellipse, oil, "ellipse"),
+            (light, oil, "point_light"),
+            (at(ContactKind::Point, 900.0), oil, "point"),
+            (line, oil, "line"),
+            (ellipse, SQUALANE_PIP, "point_shear"),
+            (line, SQUALANE_PIP, "line_shear"),
+            (line, eyring, "line_sliding"),
+            (circle, eyring, "point_sliding"),
+            (ellipse, eyring, "point_sliding"),
+            (light, eyring, "point_light_sliding"),
+            (line, warm, "line_heat"),
+            (circle, warm, "point_heat"),
+            (ellipse, warm, "point_heat"),
+        ] {
+            assert_eq!(serves(&point, &lubricant), wanted, "{point:?}");
+        }
+    }
+
+    #[test]
+    fn of_models_that_cover_a_contact_the_one_with_the_smallest_range_serves() {
+        let wide = catalogue().iter().find(|entry| entry.name == "line").unwrap().domain.clone();
+        let mut narrow = wide.clone();
+        narrow.space.axis_mut(Quantity::M).unwrap().ends = (20.0, 80.0);
+        let models = [("wide", &wide), ("narrow", &narrow)];
+        let at = |m| si_from_moes(&MoesRequest::new(ContactKind::Line, m, 5.0)).unwrap();
+        let oil = Lubricant::default();
+        assert_eq!(best(models, &at(40.0), &oil), Some("narrow"));
+        assert_eq!(best(models, &at(100.0), &oil), Some("wide"));
+        assert_eq!(best(models, &at(40.0), &SQUALANE_PIP), Some("wide"), "the first of equals");
+        assert_eq!(
+            best([("wide", &wide)], &si_from_moes(&MoesRequest::new(ContactKind::Point, 40.0, 5.0)).unwrap(), &oil),
+            None
+        );
+    }
+}

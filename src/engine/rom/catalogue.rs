@@ -1,0 +1,38 @@
+//! Catalogue entry of a model file, read without its arrays.
+
+use super::container::{Contents, ModelKind};
+use super::error::ModelFileError;
+use super::sound::domain;
+use crate::engine::checked_file::hash_of;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::Domain;
+
+/// Facts about a model from the directory of its file. No array is decoded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Catalogue {
+    /// Steady or transient.
+    pub kind: ModelKind,
+    /// Kind of contact.
+    pub contact: ContactKind,
+    /// Title for people.
+    pub title: String,
+    /// Trained range; for a transient model that of its reference contacts.
+    pub domain: Domain,
+    /// Size of the file \[bytes\].
+    pub bytes: usize,
+    /// Hash of the content.
+    pub hash: u64,
+}
+
+impl Catalogue {
+    /// Reads the entry from the content of a file. Does not check the hash.
+    ///
+    /// # Errors
+    /// When it is foreign, of another version, cut off, or its directory is damaged.
+    pub fn of(bytes: &[u8]) -> Result<Self, ModelFileError> {
+        let contents = Contents::unchecked(bytes)?;
+        let (title, ..) = contents.texts();
+        let (kind, contact, domain) = (contents.kind(), contents.contact(), domain(&contents)?);
+        Ok(Self { kind, contact, title, domain, bytes: bytes.len(), hash: hash_of(bytes) })
+    }
+}

@@ -1,0 +1,24 @@
+//! Reduced models in files (`.rom`): one container for steady and transient models.
+
+mod calibrations;
+mod catalogue;
+mod container;
+mod error;
+mod multiples;
+mod saved;
+mod snapshots;
+mod sound;
+mod steady;
+mod transient;
+mod window;
+
+pub use catalogue::Catalogue;
+pub use container::ModelKind;
+pub use error::ModelFileError;
+pub use saved::SavedModel;
+pub(super) use saved::{from_own_bytes, read_watched, to_bytes};
+
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod transient_tests;

@@ -1,0 +1,47 @@
+//! Checks of a file's content before a model is built from it.
+
+use super::container::Contents;
+use super::error::{ModelFileError, damaged};
+use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
+use crate::solver::reduced::Domain;
+
+/// Reads the trained range: the one place where the type of the range meets the file.
+///
+/// # Errors
+/// When it makes no sense.
+pub(super) fn domain(contents: &Contents<'_>) -> Result<Domain, ModelFileError> {
+    contents.domain().filter(sound_domain).ok_or(damaged("its domain"))
+}
+
+/// Whether a grid has these rows, at least one, in ascending order.
+pub(super) fn are_rows(rows: &[usize], grid: &ContactGrid) -> bool {
+    rows.is_sorted_by(|a, b| a < b) && rows.last().is_some_and(|&row| row < grid.unknowns())
+}
+
+/// Whether two numbers are the ends of an interval within 0…`most`.
+pub(super) fn sound_interval((low, high): (f64, f64), most: f64) -> bool {
+    0.0 <= low && low <= high && high <= most
+}
+
+/// Whether a range makes sense: one that varies SRR is of a lubricant that thins or warms under shear, and one of such a
+/// lubricant gives SRR.
+fn sound_domain(domain: &Domain) -> bool {
+    let (space, slides) = (&domain.space, domain.slides());
+    let most = if domain.heats() { LARGEST_HEATED_SRR } else { f64::MAX };
+    space.check().is_ok()
+        && domain.lubricant.check().is_ok()
+        && (slides || !space.slides())
+        && (!slides || space.gives(Quantity::SlideToRollRatio))
+        && domain.srr().is_none_or(|ends| sound_interval(ends, most))
+}
+
+/// Entries of node arrays on a grid, without building it.
+pub(super) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
+    Ok(match grid {
+        GridSpec::Graded { nodes, .. } => nodes.saturating_add(1),
+        GridSpec::Uniform { dx, domain: (from, to) } => (((to - from) / dx).round() as usize).saturating_add(2),
+        GridSpec::Plane(spec) => spec.check().map(|(nx, ny)| nx * ny)?,
+    })
+}

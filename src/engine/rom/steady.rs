@@ -1,0 +1,253 @@
+//! Steady models in files.
+
+use super::calibrations;
+use super::container::{Contents, Heading, ModelKind, Writer};
+use super::error::{ModelFileError, damaged};
+use super::snapshots;
+use super::sound::{domain, entries, sound_interval};
+use super::window::{
+    Rounding, WindowEntry, read_basis, read_deformation, read_window, shapes, write_basis, write_window,
+};
+use crate::solver::discrete::grid::{ContactGrid, GridSpec};
+use crate::solver::observer::Observer;
+use crate::solver::parameters::Metric;
+use crate::solver::physics::contact::{Ellipse, Moes};
+use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::reduced::{
+    Calibration, Domain, FeatureSet, PodBasis, ReducedModel, Scheme, Shapes, SharedBasis, Snapshot, Window,
+};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Names of the modes and of the singular values of a basis that all windows share.
+const SHARED: [&str; 2] = ["shared/pressure", "shared/singular_values"];
+
+/// Section of a steady model: everything that is neither its range nor an array.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Steady {
+    grids: Vec<GridSpec>,
+    windows: Vec<WindowEntry>,
+}
+
+/// Encodes a model as the content of its file. Returns `None` if that fails.
+pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
+    let heat = model.domain.heats();
+    let (rounding, windows) = (Rounding::Steady { heat }, model.windows.iter().collect::<Vec<_>>());
+    let first = model.windows.first()?;
+    let mut writer = Writer::default();
+    let all = model.windows.iter().all(|window| window.pressure.combined().is_some());
+    if let Some(shared) = first.pressure.combined().filter(|_| all) {
+        let [accuracy, _] = rounding.accuracies(first);
+        write_basis(&mut writer, SHARED, &shared.shared.basis, (first.grid.nodes().1, accuracy))?;
+    }
+    let (mut grids, mut entries) = (Vec::new(), Vec::new());
+    for (k, window) in model.windows.iter().enumerate() {
+        let spec = window.grid.spec();
+        let grid = grids.iter().position(|grid| *grid == spec).unwrap_or(grids.len());
+        if grid == grids.len() {
+            grids.push(spec);
+        }
+        let other = Some(first).filter(|_| k > 0);
+        entries.push(write_window(&mut writer, (k, window, grid), rounding, (all, other))?);
+    }
+    snapshots::write(&mut writer, &windows, true)?;
+    calibrations::write(&mut writer, &windows)?;
+    writer.seal(&Heading {
+        kind: ModelKind::Steady,
+        contact: model.contact(),
+        title: &model.title,
+        domain: &model.domain,
+        model: &Steady { grids, windows: entries },
+        scene: &model.scene,
+        log: &model.log,
+    })
+}
+
+/// Reads a model. Does not solve training contacts.
+///
+/// # Errors
+/// When its parts do not fit each other, or when the observer cancels.
+pub(super) fn decode(contents: &Contents<'_>, observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
+    let domain = domain(contents)?;
+    let Steady { grids, windows } = contents.model().ok_or(damaged("its windows"))?;
+    check_windows(&domain, &windows)?;
+    let counts: Vec<usize> = windows.iter().map(|window| window.snapshots).collect();
+    let evidence: Vec<usize> = windows.iter().map(|window| window.evidence).collect();
+    let snapshots = snapshots::read(contents, &counts).ok_or(damaged("snapshots"))?;
+    let calibrations = calibrations::read(contents, &evidence).ok_or(damaged("calibration"))?;
+    check_sizes(contents, &domain, (&grids, &windows))?;
+    let grids: Vec<ContactGrid> = grids.iter().map(GridSpec::build).collect::<Result<_, _>>()?;
+    let grids: Vec<&ContactGrid> =
+        windows.iter().map(|window| grids.get(window.grid)).collect::<Option<_>>().ok_or(damaged("its grids"))?;
+    if grids.iter().any(|grid| grid.kind() != contents.contact()) {
+        return Err(damaged("windows of different contacts"));
+    }
+    wanted(observer)?;
+    let shared = shared_basis(contents, &grids).ok_or(damaged("shared bases"))?;
+    let deformations = deformations(contents, &grids).ok_or(damaged("bases"))?;
+    let parts = windows.into_par_iter().zip(grids).zip(deformations).zip(snapshots).zip(calibrations).enumerate();
+    let windows = parts.map(|(k, ((((entry, grid), deformation), snapshots), calibration))| {
+        wanted(observer)?;
+        let on = (grid.clone(), shared.as_ref());
+        let window = read_window(contents, (k, &entry), on, deformation, snapshots)?;
+        of_domain(&domain, &entry, Window { calibration, ..window })
+    });
+    let windows = windows.collect::<Result<_, _>>()?;
+    let (title, scene, log) = contents.texts();
+    Ok(ReducedModel { title, domain, windows, scene, log })
+}
+
+/// Solves each window at two of its own snapshots.
+///
+/// # Errors
+/// When a window does not give the H_c that it was trained from, or when the observer cancels.
+pub(super) fn prove(model: &ReducedModel, observer: &dyn Observer) -> Result<(), ModelFileError> {
+    let windows = model.windows.par_iter().enumerate();
+    let proved = windows.map(|(k, window)| {
+        wanted(observer)?;
+        if model.reproduces_snapshots(k) { Ok(()) } else { Err(ModelFileError::Unproven { m: window.m }) }
+    });
+    proved.collect::<Vec<_>>().into_iter().collect()
+}
+
+/// # Errors
+/// When the observer cancels.
+fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
+    if observer.cancelled() { Err(ModelFileError::Cancelled) } else { Ok(()) }
+}
+
+/// Refuses windows that do not fit the trained range.
+fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFileError> {
+    let (ellipses, anchored) = (domain.space.of_ellipses(), domain.space.varies_lubricant());
+    // Ellipses with heat are those of many oils, and none thins under shear.
+    if ellipses && (domain.thins() || (domain.heats() && !anchored)) {
+        return Err(damaged("its parts"));
+    }
+    // Those of ellipses ascend for each shape, those around anchors with these.
+    let from = |window: &WindowEntry| window.m.map_or(f64::NAN, |m| m.0);
+    let ascending = ellipses || anchored || windows.is_sorted_by(|a, b| from(a) <= from(b));
+    let sound = |window: &WindowEntry| window.m.is_some_and(|m| sound_interval(m, f64::MAX));
+    if windows.is_empty() || !ascending || !windows.iter().all(sound) {
+        return Err(damaged("ranges of its windows"));
+    }
+    if anchored {
+        let placed = |window: &WindowEntry| window.anchor.is_some_and(|(m, l)| Moes { m, l }.check().is_ok());
+        let one_grid = windows.windows(2).all(|pair| matches!(pair, [a, b] if a.grid == b.grid));
+        if !(one_grid && windows.iter().all(placed)) {
+            return Err(damaged("oils"));
+        }
+    } else if windows.iter().any(|window| window.anchor.is_some()) {
+        return Err(damaged("oils"));
+    }
+    let ratios =
+        |(low, high): (f64, f64)| Ellipse::of_ratio(low).is_ok() && Ellipse::of_ratio(high).is_ok() && low < high;
+    let shaped = |window: &WindowEntry| window.radius_ratio.is_some() == ellipses;
+    if !windows.iter().all(|window| shaped(window) && window.radius_ratio.is_none_or(ratios)) {
+        return Err(damaged("shapes"));
+    }
+    let cavitation = domain.lubricant.cavitation;
+    let (penalty, heat) = (cavitation == Cavitation::Penalty, domain.heats());
+    if !penalty && (cavitation != Cavitation::Complementarity || heat || ellipses) {
+        return Err(damaged("rupture"));
+    }
+    if heat && windows.iter().any(|window| window.scheme != Scheme::Galerkin) {
+        return Err(damaged("heat"));
+    }
+    if !domain.slides() && windows.iter().any(|window| window.traction) {
+        return Err(damaged("traction"));
+    }
+    if windows.iter().any(|window| window.snapshots == 0) {
+        return Err(damaged("snapshots"));
+    }
+    Ok(())
+}
+
+/// Refuses a model that would take more memory than a file of its size can need, before grids and bases are built. A window
+/// has no more modes than snapshots, or, with ranges of thermal constants, than singular values. Each node takes at least
+/// a byte.
+fn check_sizes(
+    contents: &Contents<'_>,
+    domain: &Domain,
+    (grids, windows): (&[GridSpec], &[WindowEntry]),
+) -> Result<(), ModelFileError> {
+    let others = domain.heats() && !domain.space.constants.is_empty();
+    let solutions = |k: usize, window: &WindowEntry| match contents.shape(&format!("windows/{k}/singular_values")) {
+        Some([known]) if others => *known,
+        _ => window.snapshots,
+    };
+    let all: usize = windows.iter().enumerate().map(|(k, window)| solutions(k, window)).sum();
+    let each = grids.iter().map(entries).collect::<Result<Vec<_>, _>>()?;
+    let mut nodes = each.into_iter().fold(0, usize::saturating_add);
+    for (k, window) in windows.iter().enumerate() {
+        let rows = entries(grids.get(window.grid).ok_or(damaged("its grids"))?)?;
+        nodes = nodes.saturating_add(rows);
+        let fits = |shape: Option<&[usize]>, most: usize| {
+            shape.is_none_or(|shape| matches!(shape, [own, columns] if *own == rows && *columns <= most))
+        };
+        let [pressure, deformation] = shapes(contents, k);
+        if !(fits(pressure, solutions(k, window)) && fits(deformation, all)) {
+            return Err(damaged("bases"));
+        }
+    }
+    if nodes > contents.bytes { Err(damaged("grids")) } else { Ok(()) }
+}
+
+/// Reads the basis that all windows share, if there is one. Returns `None` if it is damaged.
+fn shared_basis(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Option<Arc<SharedBasis>>> {
+    if contents.shape(SHARED[0]).is_none() {
+        return Some(None);
+    }
+    let grid = grids.first()?;
+    let alike = grids.iter().all(|other| other.spec() == grid.spec());
+    let basis = read_basis(contents, SHARED, grid.len()).filter(|_| alike)?;
+    Some(Some(Arc::new(SharedBasis::new(basis, grid))))
+}
+
+/// Reads the deformation basis of each window. A window without one shares that of the first. Returns `None` if one is
+/// damaged.
+fn deformations(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Vec<Arc<PodBasis>>> {
+    let own = grids.par_iter().enumerate().map(|(k, grid)| read_deformation(contents, k, grid.len()));
+    let own: Vec<Option<PodBasis>> = own.collect::<Option<_>>()?;
+    let mut own = own.into_iter().map(|basis| basis.map(Arc::new));
+    let first = own.next()??;
+    let len = grids.first()?.len();
+    let others = own.zip(grids.iter().skip(1));
+    let others = others.map(|(own, grid)| own.or_else(|| (grid.len() == len).then(|| Arc::clone(&first))));
+    std::iter::once(Some(Arc::clone(&first))).chain(others).collect()
+}
+
+/// Completes a window with what follows from the trained range.
+///
+/// # Errors
+/// When it does not fit that.
+fn of_domain(domain: &Domain, entry: &WindowEntry, mut window: Window) -> Result<Window, ModelFileError> {
+    window.anchor = entry.anchor.map(|(m, l)| Moes { m, l });
+    if window.anchor.is_some() {
+        window.metric = Metric::of_solutions(&domain.space);
+    }
+    window.cavitation = domain.lubricant.cavitation;
+    let (lines, columns) = match window.cavitation {
+        Cavitation::Penalty => (0, 0),
+        _ => (window.grid.lines(), window.grid.nodes().0),
+    };
+    let ruptures = |s: &Snapshot| s.fronts.len() == lines && s.fronts.iter().all(|front| *front <= columns);
+    if !window.snapshots.iter().all(ruptures) {
+        return Err(damaged("rupture"));
+    }
+    if let Some(ratios) = entry.radius_ratio {
+        let ContactGrid::Point(grid) = &window.grid else { return Err(damaged("shapes")) };
+        let shapes = Shapes::new(grid, &window.pressure.basis().modes, ratios).map_err(|_| damaged("shapes"))?;
+        window.shapes = Some(shapes);
+    }
+    let shaped = |s: &Snapshot| s.point.radius_y_m.is_some() == entry.radius_ratio.is_some();
+    if !window.snapshots.iter().all(shaped) {
+        return Err(damaged("shapes"));
+    }
+    let known = |known: &Calibration| known.sound() && known.is_of(&FeatureSet::of(domain));
+    if !window.calibration.as_ref().is_none_or(known) {
+        return Err(damaged("calibration"));
+    }
+    Ok(window)
+}

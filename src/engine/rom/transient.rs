@@ -1,0 +1,202 @@
+//! Transient models in files.
+//!
+//! Modes are rounded to twelve digits of the pressures, everything else is stored to the last digit. A march with the model
+//! that was read agrees with that of the model that was written to some seven digits.
+
+use super::container::{Contents, Heading, ModelKind, Writer};
+use super::error::{ModelFileError, damaged};
+use super::snapshots;
+use super::sound::{domain, entries};
+use super::window::{Rounding, WindowEntry, read_deformation, read_window, shapes, write_window};
+use crate::solver::discrete::grid::{ContactGrid, GridSpec};
+use crate::solver::full::Problem;
+use crate::solver::full::transient::{Frame, Inputs};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::{Cavitation, Sliding};
+use crate::solver::reduced::transient::{
+    CoupledMarch, LocalBasis, Reach, TrajectoryDomain, TrajectoryModel, TrajectoryStart, only_course,
+};
+use crate::solver::reduced::{SharedBasis, Window};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Entries of a basis at most: real ones have some 10⁵.
+const MOST_ENTRIES: usize = 5_000_000;
+/// How far, over their own size, the coefficients of a steady contact may lie from those of the training.
+const PROVEN: f64 = 0.1;
+/// Names of the arrays.
+const STARTS: &str = "starts/coefficients";
+const CENTRES: &str = "local/centres";
+
+/// Section of a transient model: everything that is neither the range of its reference contacts nor an array. The first
+/// window covers all states, the others have local bases that combine its modes.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TransientModel {
+    frame: Frame,
+    /// Trained ranges of the inputs over their references.
+    radius: Reach,
+    speed: Reach,
+    load: Reach,
+    /// Length of the steps.
+    step: f64,
+    grid: GridSpec,
+    windows: Vec<WindowEntry>,
+    starts: Vec<Start>,
+}
+
+/// Beginning of a training and its inputs; the coefficients are an array.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Start {
+    /// Radius, speed, load, modulus, viscosity and coefficient of a line contact.
+    point: [f64; 6],
+    sliding: Sliding,
+    inputs: Inputs,
+    duration: f64,
+    h_0: f64,
+    fronts: Vec<usize>,
+}
+
+/// Encodes a model as the content of its file. Returns `None` if that fails.
+pub(super) fn encode(model: &TrajectoryModel) -> Option<Vec<u8>> {
+    let TrajectoryModel { title, frame, window, locals, starts, domain, scene, log } = model;
+    let windows: Vec<&Window> = std::iter::once(window).chain(locals.iter().map(|local| &local.window)).collect();
+    let mut writer = Writer::default();
+    let write = |(k, own): (usize, &&Window)| {
+        let other = Some(window).filter(|_| k > 0);
+        write_window(&mut writer, (k, own, 0), Rounding::Transient, (true, other))
+    };
+    let entries = windows.iter().enumerate().map(write).collect::<Option<_>>()?;
+    snapshots::write(&mut writer, &windows, false)?;
+    let modes = window.pressure.count().max(1);
+    let coefficients: Vec<f64> = starts.iter().flat_map(|start| &start.coefficients).copied().collect();
+    let centres: Vec<f64> = locals.iter().flat_map(|local| &local.centre).copied().collect();
+    writer.table(STARTS, &[coefficients.len() / modes, modes], &coefficients)?;
+    writer.table(CENTRES, &[centres.len() / modes, modes], &centres)?;
+    let start = |start: &TrajectoryStart| Start {
+        point: start.point.quantities(),
+        sliding: start.point.sliding,
+        inputs: start.inputs.clone(),
+        duration: start.duration,
+        h_0: start.h_0,
+        fronts: start.fronts.clone(),
+    };
+    let TrajectoryDomain { reference, radius, speed, load, step, .. } = domain;
+    writer.seal(&Heading {
+        kind: ModelKind::Transient,
+        contact: ContactKind::Line,
+        title,
+        domain: reference,
+        model: &TransientModel {
+            frame: *frame,
+            radius: *radius,
+            speed: *speed,
+            load: *load,
+            step: *step,
+            grid: window.grid.spec(),
+            windows: entries,
+            starts: starts.iter().map(start).collect(),
+        },
+        scene,
+        log,
+    })
+}
+
+/// Solves the steady contacts where the first and the last training began.
+///
+/// # Errors
+/// When the model does not find these contacts.
+pub(super) fn prove(model: &Arc<TrajectoryModel>) -> Result<(), ModelFileError> {
+    let proven = |start: &TrajectoryStart| {
+        let problem = Problem::new(&start.point, model.domain.reference.lubricant).ok()?;
+        let found = CoupledMarch::begin(model, problem, start.inputs.at(0.0)).ok()?;
+        let square = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
+        let off = square(&mut found.coefficients().iter().zip(&start.coefficients).map(|(own, other)| own - other));
+        Some(off <= PROVEN * PROVEN * square(&mut start.coefficients.iter().copied()))
+    };
+    let all =
+        [model.starts.first(), model.starts.last()].into_iter().flatten().all(|start| proven(start) == Some(true));
+    if all { Ok(()) } else { Err(ModelFileError::UnprovenInTime) }
+}
+
+/// Reads a model. Does not solve training contacts.
+///
+/// # Errors
+/// When its parts do not fit each other.
+pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFileError> {
+    let reference = domain(contents)?;
+    let stored: TransientModel = contents.model().ok_or(damaged("its windows"))?;
+    let TransientModel { frame, radius, speed, load, step, grid, windows, starts } = stored;
+    let only = only_course(starts.iter().map(|start| &start.inputs));
+    let domain = TrajectoryDomain { reference, radius, speed, load, only, step };
+    let cavitation = domain.reference.lubricant.cavitation;
+    let ruptures = !matches!(cavitation, Cavitation::MassConserving { .. });
+    if !ruptures || domain.reference.slides() || !domain.is_sound() {
+        return Err(damaged("its domain"));
+    }
+
+    // Nothing is built that is larger than what the file can hold.
+    let nodes = match grid {
+        GridSpec::Graded { registered: true, .. } | GridSpec::Plane(_) => return Err(damaged("grid")),
+        GridSpec::Uniform { .. } | GridSpec::Graded { .. } => entries(&grid)?,
+    };
+    if nodes > contents.bytes {
+        return Err(damaged("grid"));
+    }
+    let fits = |shape: Option<&[usize]>| matches!(shape, Some([rows, modes]) if *rows == nodes && nodes.saturating_mul(*modes) <= MOST_ENTRIES);
+    if !shapes(contents, 0).into_iter().all(fits) {
+        return Err(damaged("bases"));
+    }
+    let grid = ContactGrid::Line(grid.line()?);
+    let counts: Vec<usize> = windows.iter().map(|window| window.snapshots).collect();
+    let mut snapshots = snapshots::read(contents, &counts).ok_or(damaged("rupture"))?.into_iter();
+    let sound_fronts = |fronts: &[usize]| {
+        let lines = if cavitation == Cavitation::Penalty { 0 } else { grid.lines() };
+        fronts.len() == lines && fronts.iter().all(|front| *front <= grid.nodes().0)
+    };
+    let deformation = read_deformation(contents, 0, grid.len()).flatten().ok_or(damaged("bases"))?;
+    let deformation = Arc::new(deformation);
+    let mut read = |k: usize, entry: &WindowEntry, shared: Option<&Arc<SharedBasis>>| {
+        let own = snapshots.next().unwrap_or_default();
+        let boundaries = own.is_empty() == (cavitation == Cavitation::Penalty);
+        if !boundaries || !own.iter().all(|snapshot| sound_fronts(&snapshot.fronts)) {
+            return Err(damaged("rupture"));
+        }
+        let window = read_window(contents, (k, entry), (grid.clone(), shared), Arc::clone(&deformation), own)?;
+        Ok(Window { cavitation, ..window })
+    };
+    let mut entries = windows.iter().enumerate();
+    let window = entries.next().map(|(k, entry)| read(k, entry, None)).ok_or(damaged("its windows"))??;
+    let modes = window.pressure.count();
+    let locals = if windows.len() > 1 {
+        let shared = Arc::new(SharedBasis::new(window.pressure.basis().clone(), &grid));
+        let centres = contents.matrix(CENTRES, windows.len() - 1).filter(|centres| centres.ncols() == modes);
+        let centres = centres.ok_or(damaged("local bases"))?;
+        let local = |(centre, (k, entry)): (_, (usize, &WindowEntry))| {
+            let window = read(k, entry, Some(&shared))?;
+            let made_of_it = window.pressure.combined().is_some();
+            let centre: faer::RowRef<'_, f64> = centre;
+            let local = LocalBasis { window, centre: centre.iter().copied().collect() };
+            if made_of_it { Ok(local) } else { Err(damaged("local bases")) }
+        };
+        centres.row_iter().zip(entries).map(local).collect::<Result<_, _>>()?
+    } else {
+        Vec::new()
+    };
+    let of_starts = contents.matrix(STARTS, starts.len()).filter(|own| own.ncols() == modes);
+    let of_starts = of_starts.ok_or(damaged("beginnings of its trainings"))?;
+    let start = |(start, own): (Start, faer::RowRef<'_, f64>)| {
+        let Start { point, sliding, inputs, duration, h_0, fronts } = start;
+        let point = OperatingPoint::from_quantities(ContactKind::Line, point, sliding);
+        let finite = h_0.is_finite() && sliding.slide_to_roll_ratio.is_finite() && sound_fronts(&fronts);
+        let driven = duration.is_finite() && duration >= 0.0 && inputs.check(duration).is_ok();
+        let coefficients = own.iter().copied().collect();
+        let sound = finite && driven && point.check().is_ok();
+        sound.then_some(TrajectoryStart { point, inputs, duration, coefficients, h_0, fronts })
+    };
+    let starts: Option<Vec<TrajectoryStart>> = starts.into_iter().zip(of_starts.row_iter()).map(start).collect();
+    let starts = starts.ok_or(damaged("beginnings of its trainings"))?;
+    let (title, scene, log) = contents.texts();
+    Ok(TrajectoryModel { title, frame, window, locals, starts, domain, scene, log })
+}

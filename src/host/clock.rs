@@ -1,0 +1,33 @@
+//! Monotonic time and today's date.
+
+use std::time::{Duration, Instant};
+use time::{Date, OffsetDateTime};
+
+/// Time of the last change of a file.
+pub type FileTime = std::time::SystemTime;
+
+/// Measures the time since it was started.
+#[derive(Clone, Copy, Debug)]
+pub struct Stopwatch(Instant);
+
+impl Stopwatch {
+    /// Starts now.
+    pub fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    /// Time since the start.
+    pub fn elapsed(&self) -> Duration {
+        self.0.elapsed()
+    }
+
+    /// Time since the start \[s\].
+    pub fn seconds(&self) -> f64 {
+        self.elapsed().as_secs_f64()
+    }
+}
+
+/// Today's date (UTC).
+pub fn today() -> Date {
+    OffsetDateTime::now_utc().date()
+}

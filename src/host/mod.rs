@@ -1,0 +1,6 @@
+//! The machine below the program: its clock, its threads, and the pool for parallel work. Everything else reads time and
+//! starts threads here, so that another platform needs another `host` and nothing more.
+
+pub mod clock;
+pub mod pool;
+pub mod worker;

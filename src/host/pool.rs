@@ -1,0 +1,190 @@
+//! Parallel work on the cores of the machine. All of it starts here, and never in the global pool of rayon: after a
+//! `fork` that pool has no threads in the child, which would wait for them forever.
+
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::OnceLock;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// Longest time between two questions of [`on_one_thread`] whether to go on.
+const PATIENCE: Duration = Duration::from_millis(10);
+
+/// The pool of a process, followed by those of the processes that were forked from it.
+struct Pool {
+    process: u32,
+    /// `None` if the system has no threads.
+    threads: Option<ThreadPool>,
+    next: OnceLock<Box<Pool>>,
+}
+
+static FIRST: OnceLock<Box<Pool>> = OnceLock::new();
+
+/// The pool of this process, made at the first call.
+fn of_this_process() -> Option<&'static ThreadPool> {
+    // Only these systems fork; others need not have numbers of processes.
+    let process = if cfg!(unix) { std::process::id() } else { 0 };
+    let mut place = &FIRST;
+    loop {
+        match place.get() {
+            Some(pool) if pool.process == process => return pool.threads.as_ref(),
+            Some(pool) => place = &pool.next,
+            None => {
+                #[cfg(test)]
+                tests::forbid_the_global_pool();
+                let threads = ThreadPoolBuilder::new().build().ok();
+                // Where another thread was faster, the next turn finds its pool.
+                let _ = place.set(Box::new(Pool { process, threads, next: OnceLock::new() }));
+            }
+        }
+    }
+}
+
+/// Does `work`, whose parallel parts run on all cores. Within other parallel work it stays in the pool of that.
+pub fn on_all_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    if rayon::current_thread_index().is_some() {
+        return work();
+    }
+    match of_this_process() {
+        Some(pool) => pool.install(work),
+        None => {
+            // The calling thread becomes the only one of a pool.
+            let _alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+            work()
+        }
+    }
+}
+
+/// Number of threads that parallel work at this place is spread over.
+pub fn threads() -> usize {
+    on_all_cores(rayon::current_num_threads)
+}
+
+/// Number of cores of the machine.
+pub fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Does `work` in a new pool of that many threads.
+pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    match ThreadPoolBuilder::new().num_threads(threads).build() {
+        Ok(pool) => pool.install(work),
+        Err(_) => on_all_cores(work),
+    }
+}
+
+/// Does `work` on all cores but one, which is left to the window and its live picture.
+pub fn on_spare_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    on_threads(cores().saturating_sub(1).max(1), work)
+}
+
+/// Does `work` on a new thread while the calling one asks whether to `go_on`. Returns `None` after a no; the thread then
+/// finishes, and its result is dropped.
+///
+/// The thread is alone in its pool: sums that are split by the number of threads, and with them a model, are the same to
+/// the last bit on every machine.
+pub fn on_one_thread<T: Send + 'static>(
+    go_on: impl Fn() -> bool,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Option<T> {
+    if !go_on() {
+        return None;
+    }
+    // Without another thread the work is done here, equal to rounding.
+    let Ok(pool) = ThreadPoolBuilder::new().num_threads(1).build() else { return Some(on_all_cores(work)) };
+    let (sender, receiver) = channel();
+    pool.spawn(move || {
+        // A panic is passed on to the receiver; after a no there is none.
+        let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
+    });
+    loop {
+        match receiver.recv_timeout(PATIENCE) {
+            Ok(Ok(done)) => return Some(done),
+            Ok(Err(panic)) => resume_unwind(panic),
+            Err(RecvTimeoutError::Timeout) if go_on() => {}
+            Err(_) => return None,
+        }
+    }
+}
+
+/// Does both at once.
+pub fn both<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    on_all_cores(|| rayon::join(a, b))
+}
+
+/// Calls `work` for every item with its index; on several threads if each of them gets at least `least` items.
+pub fn each<T: Send>(items: &mut [T], least: usize, work: impl Fn(usize, &mut T) + Sync + Send) {
+    if items.len() / 2 < least {
+        return items.iter_mut().enumerate().for_each(|(k, item)| work(k, item));
+    }
+    on_all_cores(|| items.par_iter_mut().enumerate().with_min_len(least).for_each(|(k, item)| work(k, item)));
+}
+
+/// The same for chunks of `size` items.
+pub fn each_chunk<T: Send>(items: &mut [T], size: usize, least: usize, work: impl Fn(usize, &mut [T]) + Sync + Send) {
+    if items.len().div_ceil(size) / 2 < least {
+        return items.chunks_mut(size).enumerate().for_each(|(k, chunk)| work(k, chunk));
+    }
+    on_all_cores(|| items.par_chunks_mut(size).enumerate().with_min_len(least).for_each(|(k, chunk)| work(k, chunk)));
+}
+
+/// Results of `work` for every item with its index, in the order of the items, on all threads; each thread works with
+/// tools made by `tool`.
+///
+/// # Errors
+/// The first error of `work`; the remaining items are left out.
+pub fn map_with<T: Sync, W, R: Send, E: Send>(
+    items: &[T],
+    tool: impl Fn() -> W + Sync + Send,
+    work: impl Fn(&mut W, usize, &T) -> Result<R, E> + Sync + Send,
+) -> Result<Vec<R>, E> {
+    let one = |tool: &mut W, (index, item): (usize, &T)| work(tool, index, item);
+    on_all_cores(|| items.par_iter().enumerate().map_init(tool, one).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    /// Lets parallel work outside of [`on_all_cores`] panic in all unit tests.
+    pub(super) fn forbid_the_global_pool() {
+        let no_thread = |_| Err(io::Error::other("the global pool is not used"));
+        let refused = ThreadPoolBuilder::new().spawn_handler(no_thread).build_global();
+        assert!(refused.is_err());
+    }
+
+    #[test]
+    fn parallel_work_runs_in_the_pool_of_this_process_alone() {
+        let count = AtomicUsize::new(0);
+        let mut items = vec![0; 1000];
+        each(&mut items, 10, |k, item| {
+            assert!(rayon::current_thread_index().is_some());
+            count.fetch_add(1, Ordering::Relaxed);
+            *item = k;
+        });
+        assert!(count.into_inner() == 1000 && items.iter().enumerate().all(|(k, item)| k == *item));
+        each_chunk(&mut items, 3, usize::MAX, |k, chunk| {
+            assert!(rayon::current_thread_index().is_none() && chunk[0] == 3 * k);
+        });
+        assert_eq!(
+            map_with(&items, || (), |(), k, item| if k < 2000 { Ok(k + item) } else { Err(()) }).unwrap()[7],
+            14
+        );
+        assert_eq!(both(|| 1, || 2), (1, 2));
+        assert!(std::panic::catch_unwind(|| items.par_iter().for_each(|_| ())).is_err(), "not in the global pool");
+        assert_eq!(on_threads(3, threads), 3);
+    }
+
+    #[test]
+    fn work_on_one_thread_is_left_when_nobody_wants_it() {
+        assert_eq!(on_one_thread(|| true, threads), Some(1));
+        assert_eq!(on_one_thread(|| false, || 1), None);
+        let asked = AtomicUsize::new(0);
+        let wait = || std::thread::sleep(50 * PATIENCE);
+        assert_eq!(on_one_thread(|| asked.fetch_add(1, Ordering::Relaxed) < 2, wait), None);
+        assert!(std::panic::catch_unwind(|| on_one_thread(|| true, || panic!("broken"))).is_err());
+    }
+}

@@ -1,0 +1,104 @@
+//! The laws of the lubricant that a contact states: density, viscosity, shear thinning, cavitation, heat.
+
+use super::fields::{ContactSpec, Field};
+use super::given::ShearName;
+use super::refusal::{Refusal, refuse};
+use crate::solver::limits::Number;
+use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, OilHeat, ShearLaw};
+
+/// What has no effect without heat.
+const THERMAL: [Field; 6] = [
+    Field::InletTemperature,
+    Field::OilThermal,
+    Field::ViscosityTemperature,
+    Field::DensityTemperature,
+    Field::Body1,
+    Field::Body2,
+];
+
+impl ContactSpec {
+    /// The laws that it starts from: those of its named lubricant, or of its scene.
+    pub(super) fn named_laws(&self) -> Lubricant {
+        self.lubricant.map(|named| named.laws).or(self.laws).unwrap_or_default()
+    }
+
+    /// All laws.
+    pub(super) fn lubricant(&self) -> Result<Lubricant, Refusal> {
+        let mut lubricant = self.sheared(self.named_laws())?;
+        lubricant.heat = self.heated()?;
+        if let Some(npr) = self.npr.filter(|npr| *npr < 1.0 && lubricant.shear == ShearLaw::Newtonian) {
+            let constants = "the lubricant has no shear constants; only 1 (Newtonian) is accepted";
+            return refuse(Field::Npr, format!("<npr> is {}, but {constants}", Number(npr)));
+        }
+        lubricant.density = self.density.unwrap_or(lubricant.density);
+        lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
+        lubricant.cavitation = match (self.cavitation.unwrap_or_default(), self.supply_film) {
+            (Cavitation::MassConserving { .. }, Some(film)) => Cavitation::MassConserving { supply_film_m: Some(film) },
+            (cavitation, None) => cavitation,
+            (_, Some(_)) => {
+                return refuse(
+                    Field::SupplyFilm,
+                    "<supply-film> needs <cavitation=mass-conserving>: no other cavitation model has a gap that is filled in \
+                     part",
+                );
+            }
+        };
+        Ok(lubricant)
+    }
+
+    /// A lubricant with the stated shear thinning and limiting stress.
+    fn sheared(&self, lubricant: Lubricant) -> Result<Lubricant, Refusal> {
+        let stress = |law: &str| {
+            let needed = "needs <shear-stress> in Pa; 5e6 is customary for mineral oils";
+            self.shear_stress.ok_or_else(|| Refusal::new(Field::ShearStress, format!("<shear={law}> {needed}")))
+        };
+        let carreau = self.shear == Some(ShearName::Carreau);
+        if let Some(field) = [Field::ShearBeta, Field::ShearN].into_iter().find(|field| self.states(*field) && !carreau)
+        {
+            return refuse(field, "<shear-beta> and <shear-n> belong to <shear=carreau>; leave them out or add it");
+        }
+        let npr = 0.0;
+        let shear = match self.shear {
+            None | Some(ShearName::Newtonian) if self.shear_stress.is_some() => {
+                let sentence = "<shear-stress> belongs to <shear=eyring> or carreau; leave it out or add one";
+                return refuse(Field::ShearStress, sentence);
+            }
+            None => lubricant.shear,
+            Some(ShearName::Newtonian) => ShearLaw::Newtonian,
+            Some(ShearName::Eyring) => ShearLaw::Eyring { critical_stress: stress("eyring")?, npr },
+            Some(ShearName::Carreau) => {
+                let critical_stress = stress("carreau")?;
+                let Some(n) = self.shear_n else {
+                    let sentence = "<shear=carreau> needs <shear-n>, its power-law exponent between 0.05 and 1";
+                    return refuse(Field::ShearN, sentence);
+                };
+                ShearLaw::Carreau { critical_stress, beta: self.shear_beta.unwrap_or(2.0), n, npr }
+            }
+        };
+        // A law of the film's own takes the place of a stress that only bent the traction.
+        let own_limit = lubricant.limiting_stress.filter(|_| self.shear.is_none() || shear == ShearLaw::Newtonian);
+        Ok(Lubricant { shear, limiting_stress: self.limiting_stress.or(own_limit), ..lubricant })
+    }
+
+    /// Heat; `None` without it.
+    fn heated(&self) -> Result<Option<Heat>, Refusal> {
+        if self.heat != Some(true) {
+            let without = |field: Field| format!("<{}> has no effect without <heat>; add it", field.facts().name);
+            let useless = THERMAL.into_iter().find(|field| self.states(*field));
+            return useless.map_or(Ok(None), |field| refuse(field, without(field)));
+        }
+        let constants = self.thermal.unwrap_or_default();
+        let mut oil = self.lubricant.map_or(constants.oil, |named| named.heat);
+        if let Some([heat_capacity, conductivity, density]) = self.oil_thermal {
+            oil = OilHeat { heat_capacity, conductivity, density, ..oil };
+        }
+        oil.viscosity_temperature = self.viscosity_temperature.unwrap_or(oil.viscosity_temperature);
+        oil.density_temperature = self.density_temperature.unwrap_or(oil.density_temperature);
+        let [first, second] = constants.bodies;
+        Ok(Some(Heat {
+            inlet_temperature: self.inlet_temperature.unwrap_or(constants.inlet_temperature),
+            oil,
+            bodies: [self.body1.unwrap_or(first), self.body2.unwrap_or(second)],
+        }))
+    }
+}

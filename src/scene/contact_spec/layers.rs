@@ -1,0 +1,101 @@
+//! A contact over another one: what a line of a table leaves out is its scene's.
+
+use super::fields::{ContactSpec, Field};
+use crate::scene::at::At;
+use crate::scene::experiment::Experiment;
+use crate::solver::physics::contact::ContactKind;
+
+/// The fields that [`At`] has.
+const NUMBERS: [Field; 9] = [
+    Field::Radius,
+    Field::RadiusY,
+    Field::Speed,
+    Field::Load,
+    Field::Modulus,
+    Field::Viscosity,
+    Field::Alpha,
+    Field::MoesM,
+    Field::MoesL,
+];
+
+impl ContactSpec {
+    /// Line or point contact.
+    pub fn kind(&self) -> ContactKind {
+        self.contact.unwrap_or_default()
+    }
+
+    /// This contact, with what it leaves out from another one. What says the same thing in other fields takes the place
+    /// of the other one's.
+    pub(super) fn over(self, mut base: Self) -> Self {
+        let states = |fields: &[Field]| fields.iter().any(|field| self.states(*field));
+        if states(&[Field::MoesM, Field::MoesL]) || base.moes_m.is_some() {
+            NUMBERS.into_iter().for_each(|field| base.forget(field));
+        }
+        let oil = states(&[Field::Oil, Field::Temperature]);
+        let named = self.lubricant.is_some_and(|named| named.viscosity_pa_s.is_some());
+        for (replaced, field) in [
+            (self.kind() != base.kind(), Field::Load),
+            (self.kind() == ContactKind::Line, Field::RadiusY),
+            (states(&[Field::E1, Field::Nu1, Field::E2, Field::Nu2]), Field::Modulus),
+            (oil || named, Field::Viscosity),
+            (oil, Field::Alpha),
+            (states(&[Field::Grid, Field::Dx, Field::Dy, Field::Domain]), Field::Grid),
+        ] {
+            if replaced {
+                base.forget(field);
+            }
+        }
+        let own_alpha = self.alpha.is_some();
+        let mut all = self.filled_from(base);
+        if !own_alpha && all.named_laws().own_coefficient().is_some() {
+            all.alpha = None;
+        }
+        all
+    }
+}
+
+impl From<At> for ContactSpec {
+    fn from(at: At) -> Self {
+        match at {
+            At::Si { radius, radius_y, speed, load, modulus, viscosity, alpha } => Self {
+                radius: Some(radius),
+                radius_y,
+                speed: Some(speed),
+                load: Some(load),
+                modulus: Some(modulus),
+                viscosity: Some(viscosity),
+                alpha: Some(alpha),
+                ..Self::default()
+            },
+            At::Moes { m, l, radius, radius_y, speed, load, modulus, viscosity, alpha } => Self {
+                moes_m: Some(m),
+                moes_l: Some(l),
+                radius,
+                radius_y,
+                speed,
+                load,
+                modulus,
+                viscosity,
+                alpha,
+                ..Self::default()
+            },
+        }
+    }
+}
+
+impl From<&Experiment> for ContactSpec {
+    fn from(experiment: &Experiment) -> Self {
+        let Experiment { contact, lubricant, at, sliding, grid, .. } = *experiment;
+        Self {
+            contact: Some(contact),
+            laws: Some(lubricant),
+            cavitation: Some(lubricant.cavitation),
+            heat: Some(lubricant.heat.is_some()),
+            thermal: lubricant.heat,
+            srr: Some(sliding.slide_to_roll_ratio),
+            npr: sliding.newtonian_plateau_ratio,
+            grid: Some(grid),
+            ..Self::from(at)
+        }
+    }
+}

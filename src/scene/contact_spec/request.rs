@@ -1,0 +1,148 @@
+//! From a stated contact to what is to be solved. Everything is checked here, once.
+
+use super::fields::{ContactSpec, Field};
+use super::given::{MethodName, OilGrade};
+use super::refusal::{Refusal, refuse};
+use crate::scene::answer::Request;
+use crate::scene::at::At;
+use crate::scene::grid::Grid;
+use crate::scene::method::{Method, ModelSource};
+use crate::solver::limits::Number;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactError, OperatingPoint, reduced_modulus};
+use crate::solver::physics::engineering::{Grade, Oil, OilFamily, OilState};
+use crate::solver::physics::lubricant::{Lubricant, Sliding};
+
+/// The six SI quantities.
+const SI: [Field; 6] = [Field::Radius, Field::Speed, Field::Load, Field::Modulus, Field::Viscosity, Field::Alpha];
+/// What is known of the motion, with its ranges.
+const SLIDING: [(Field, Quantity); 2] =
+    [(Field::Srr, Quantity::SlideToRollRatio), (Field::Npr, Quantity::NewtonianPlateauRatio)];
+/// The constants of one body and of the other one.
+const BODIES: [Field; 4] = [Field::E1, Field::Nu1, Field::E2, Field::Nu2];
+
+impl ContactSpec {
+    /// What is to be solved, and how.
+    ///
+    /// # Errors
+    /// With the field that contradicts another one, is missing, or outside any sense.
+    pub fn request(&self) -> Result<Request, Refusal> {
+        let lubricant = self.lubricant()?;
+        let grid_model = self.rom.clone().map_or(ModelSource::Embedded, ModelSource::File);
+        let full = self.method != Some(MethodName::Reduced);
+        if full && self.rom.is_some() && self.grid != Some(Grid::Model) {
+            return refuse(
+                Field::Rom,
+                "<rom> has no effect here; add <method=reduced>, or <grid=model> for a full solution on the model's grid",
+            );
+        }
+        let point = self.operating_point(&lubricant)?;
+        let grid = self.grid_for(full, &point)?;
+        let method = if full { Method::Full } else { Method::reduced(grid_model.clone()) };
+        Ok(Request { point, lubricant, grid, grid_model, method })
+    }
+
+    /// The operating point of a contact with these laws.
+    ///
+    /// # Errors
+    /// With the field that is missing, contradicts another one, or is outside any sense.
+    pub fn operating_point(&self, lubricant: &Lubricant) -> Result<OperatingPoint, Refusal> {
+        for (field, quantity) in SLIDING {
+            let (low, high) = quantity.range();
+            if let Some(value) = self.number(field).filter(|value| !(low..=high).contains(value)) {
+                let (name, value) = (field.facts().name, Number(value));
+                return refuse(
+                    field,
+                    format!("<{name}> is {value}, but must be a finite number between {low} and {high}"),
+                );
+            }
+        }
+        let modulus = self.reduced_modulus()?;
+        let oil = self.oil_state()?;
+        let named = self.lubricant.and_then(|named| named.viscosity_pa_s);
+        let viscosity = self.viscosity.or(oil.map(|oil| oil.viscosity_pa_s)).or(named);
+        let own_alpha = lubricant.own_coefficient();
+        if let (Some(_), Some(own)) = (self.alpha, own_alpha) {
+            let sentence = format!("<alpha> follows from the lubricant's viscosity law ({own:.4e} 1/Pa); leave it out");
+            return refuse(Field::Alpha, sentence);
+        }
+        let alpha = own_alpha.or(self.alpha).or(oil.map(|oil| oil.alpha_per_pa));
+        let at = self.numbers([self.radius, self.speed, self.load, modulus, viscosity, alpha])?;
+        let point = at.point(self.kind()).map_err(|error| self.of_contact(&error))?;
+        let slide_to_roll_ratio = self.srr.unwrap_or(0.0);
+        Ok(OperatingPoint { sliding: Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: self.npr }, ..point })
+    }
+
+    /// The six SI quantities, or Moes' numbers with those of them that are known.
+    fn numbers(&self, given: [Option<f64>; 6]) -> Result<At, Refusal> {
+        let (radius_y, [radius, speed, load, modulus, viscosity, alpha]) = (self.radius_y, given);
+        if let (Some(m), Some(l)) = (self.moes_m, self.moes_l) {
+            return Ok(At::Moes { m, l, radius, radius_y, speed, load, modulus, viscosity, alpha });
+        }
+        if let Some((_, missing)) = self.moes_m.zip(Some(Field::MoesL)).or(self.moes_l.zip(Some(Field::MoesM))) {
+            return refuse(missing, "<moes-m> and <moes-l> belong together; give both");
+        }
+        if let [Some(radius), Some(speed), Some(load), Some(modulus), Some(viscosity), Some(alpha)] = given {
+            return Ok(At::Si { radius, radius_y, speed, load, modulus, viscosity, alpha });
+        }
+        let missing: Vec<Field> =
+            SI.into_iter().zip(given).filter(|(_, given)| given.is_none()).map(|(field, _)| field).collect();
+        let marks: Vec<String> = missing.iter().map(|field| format!("<{}>", field.facts().name)).collect();
+        let (first, marks) = (missing.first().copied().unwrap_or(Field::Radius), marks.join(", "));
+        let instead = "or <moes-m> and <moes-l> instead";
+        refuse(first, format!("the operating point is incomplete: give {marks} too, {instead}"))
+    }
+
+    /// E′, as it is stated or of both bodies.
+    fn reduced_modulus(&self) -> Result<Option<f64>, Refusal> {
+        let Some(stated) = BODIES.into_iter().find(|field| self.states(*field)) else { return Ok(self.modulus) };
+        if self.modulus.is_some() {
+            return refuse(Field::Modulus, "<modulus> and <e1> <nu1> <e2> <nu2> say the same thing; give one of both");
+        }
+        let (Some(e1), Some(nu1), Some(e2), Some(nu2)) = (self.e1, self.nu1, self.e2, self.nu2) else {
+            let missing = BODIES.into_iter().find(|field| !self.states(*field)).unwrap_or(stated);
+            return refuse(missing, "two bodies need all of <e1>, <nu1>, <e2> and <nu2>");
+        };
+        reduced_modulus(e1, nu1, e2, nu2).map(Some).map_err(|error| {
+            let sentence = error.to_string();
+            let field = BODIES.into_iter().find(|field| sentence.contains(&format!(" {} is", field.facts().name)));
+            Refusal::new(field.unwrap_or(stated), sentence)
+        })
+    }
+
+    /// The oil of a grade at its temperature.
+    fn oil_state(&self) -> Result<Option<OilState>, Refusal> {
+        let (OilGrade(grade), temperature_k) = match (self.oil, self.temperature) {
+            (Some(grade), Some(temperature)) => (grade, temperature),
+            (Some(_), None) => return refuse(Field::Temperature, "<oil> needs a temperature; give <temperature> too"),
+            (None, Some(_)) => {
+                return refuse(Field::Oil, "<temperature> needs an oil; give <oil> too, as ISO VG 68");
+            }
+            (None, None) => return Ok(None),
+        };
+        if self.viscosity.is_some() || self.lubricant.is_some() {
+            return refuse(Field::Oil, "<oil> says what <viscosity> and <lubricant> say; give one of them");
+        }
+        let family = OilFamily::Mineral;
+        let oil = Oil { grade: Grade::IsoVg(grade), family, temperature_k, density_15: family.usual_density() };
+        oil.state().map(Some).map_err(|error| Refusal::new(Field::Oil, format!("<oil>: {error}")))
+    }
+
+    /// The refusal of an operating point, of the field that it is about.
+    fn of_contact(&self, error: &ContactError) -> Refusal {
+        let sentence = error.to_string();
+        let quantity = match error {
+            ContactError::OutOfRange { quantity, .. } => quantity,
+            ContactError::LineAcross | ContactError::Concave { .. } => "radius-y",
+            ContactError::Overdetermined { .. } => return Refusal::new(Field::MoesM, sentence),
+        };
+        match quantity {
+            "Moes number M" if self.moes_m.is_some() => Refusal::new(Field::MoesM, format!("<moes-m>: {sentence}")),
+            "Moes number L" if self.moes_l.is_some() => Refusal::new(Field::MoesL, format!("<moes-l>: {sentence}")),
+            _ => match Field::named(quantity).filter(|field| self.states(*field)) {
+                Some(field) => Refusal::new(field, sentence.replacen(quantity, &format!("<{quantity}>"), 1)),
+                None => Refusal::new(Field::Contact, sentence),
+            },
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Fields in the words of each interface.
+
+use super::fields::Field;
+use super::words::Words;
+
+impl Words {
+    /// The word of a field.
+    pub fn of(self, field: Field) -> String {
+        let facts = field.facts();
+        match self {
+            Self::Flags => format!("--{}", facts.name),
+            Self::Keywords if field.is_switch() => format!("{}=True", facts.name),
+            Self::Keywords => format!("{}=", facts.name.replace('-', "_")),
+            Self::Columns => facts.column.to_owned(),
+            Self::Scene => format!("`{}`", facts.name.replace('-', "_")),
+            Self::Variables => format!("`{}`", facts.variable),
+        }
+    }
+
+    /// A field with a value.
+    pub fn with(self, field: Field, value: &str) -> String {
+        match self {
+            Self::Keywords => format!("{}\"{value}\"", self.of(field)),
+            Self::Flags | Self::Columns | Self::Scene | Self::Variables => format!("{} {value}", self.of(field)),
+        }
+    }
+
+    /// A sentence in which fields stand as `<radius-y>` or `<grid=model>`.
+    pub fn spelled(self, sentence: &str) -> String {
+        let (mut said, mut rest) = (String::new(), sentence);
+        while let Some((before, after)) = rest.split_once('<') {
+            said.push_str(before);
+            match after.split_once('>').and_then(|(mark, tail)| Some((self.marked(mark)?, tail))) {
+                Some((word, tail)) => {
+                    said.push_str(&word);
+                    rest = tail;
+                }
+                None => {
+                    said.push('<');
+                    rest = after;
+                }
+            }
+        }
+        said + rest
+    }
+
+    /// The word of what stands between angle brackets; none where that is no field.
+    fn marked(self, mark: &str) -> Option<String> {
+        match mark.split_once('=') {
+            None => Field::named(mark).map(|field| self.of(field)),
+            Some((name, value)) => Field::named(name).map(|field| self.with(field, value)),
+        }
+    }
+
+    /// What it is, with its unit and its note, for a list of options.
+    pub fn help(self, field: Field) -> String {
+        let facts = field.facts();
+        let unit = match facts.units() {
+            ["", _] => String::new(),
+            [line, point] if line == point => format!(" in {line}"),
+            [line, point] => format!(" in {line} (line) or {point} (point)"),
+        };
+        format!("{}{unit}{}", facts.about, self.spelled(facts.note))
+    }
+}

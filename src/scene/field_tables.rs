@@ -1,0 +1,49 @@
+//! The fields of a solution as tables.
+
+use super::table::Table;
+use crate::solver::full::{Shear, Solution};
+
+/// The fields of a solution at its nodes: X, Y, P, H and their SI twins, λ or θ where it has one, and the rises of
+/// temperature at mid-film and of both surfaces where heat was computed.
+pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
+    let mut columns = vec!["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"];
+    if !solution.multiplier.is_empty() {
+        columns.push("lambda");
+    }
+    if !solution.fraction.is_empty() {
+        columns.push("theta");
+    }
+    let heat = solution.heat.as_deref();
+    if heat.is_some() {
+        columns.extend(["mid_film_rise_k", "surface_1_rise_k", "surface_2_rise_k"]);
+    }
+    let mut table = Table::new(name, &columns);
+    let hertz = solution.problem.point.hertz();
+    let (a, b, film_scale) = (hertz.half_width_m, hertz.half_length_m, solution.problem.point.film_scale_m());
+    let row = |(x, y, p, h)| vec![x, y, p, h, x * a, y * b, p * hertz.pressure_pa, h * film_scale];
+    table.rows.extend(solution.nodes().map(row));
+    for (row, value) in table.rows.iter_mut().zip(solution.multipliers().chain(solution.fractions())) {
+        row.push(value);
+    }
+    for (row, at) in table.rows.iter_mut().zip(heat.iter().flat_map(|heat| heat.rises())) {
+        row.push(at.mid_film_k);
+        row.extend(at.surfaces_k);
+    }
+    table
+}
+
+/// Heights Z at which [`film_shear_table`] looks.
+const HEIGHTS: usize = 11;
+
+/// Shear across the film in the plane Y = 0: X, Z = z/h, the stress τ_zx and the shear rate ∂u/∂z.
+pub fn film_shear_table(name: impl Into<String>, solution: &Solution) -> Table {
+    let mut table = Table::new(name, &["X", "Z", "tau_zx_pa", "rate_per_s"]);
+    let heights: [f64; HEIGHTS] = std::array::from_fn(|k| k as f64 / (HEIGHTS - 1) as f64);
+    let field = solution.shear_field(&heights);
+    for (k, height) in heights.into_iter().enumerate() {
+        let places = solution.profile().zip(field.chunks_exact(HEIGHTS));
+        let row = |(x, shear): (f64, &Shear)| vec![x, height, shear.stress_pa, shear.rate_per_s];
+        table.rows.extend(places.filter_map(|((x, ..), at)| Some((x, at.get(k)?))).map(row));
+    }
+    table
+}

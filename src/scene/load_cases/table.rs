@@ -1,0 +1,238 @@
+//! A table of load cases: where it is, how it is read, and its lines.
+
+use super::columns::{Column, accepted, titles};
+use super::error::CasesError;
+use super::line::request;
+use crate::scene::answer::Request;
+use crate::scene::check::MAX_POINTS;
+use crate::scene::examples;
+use crate::scene::experiment::Experiment;
+use csv_core::ReadFieldResult;
+use serde::{Deserialize, Serialize};
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+/// Largest table that is read \[bytes\].
+const MAX_BYTES: u64 = 32 << 20;
+
+/// Where a table of load cases is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum CaseTable {
+    /// In a CSV file.
+    File(PathBuf),
+    /// Here, as it was pasted.
+    Text(String),
+}
+
+/// One line of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadCase {
+    /// Its line in the table, from 1.
+    pub line: usize,
+    /// What it is called; empty where it has no name.
+    pub name: String,
+    /// What is to be solved, or why that makes no sense.
+    pub request: Result<Request, String>,
+}
+
+impl CaseTable {
+    /// Reads the table; `resolve` finds a file of the scene's.
+    ///
+    /// # Errors
+    /// When it cannot be read, or its titles make no sense. A bad line is refused by itself.
+    pub fn cases(
+        &self,
+        experiment: &Experiment,
+        resolve: &dyn Fn(&Path) -> PathBuf,
+    ) -> Result<Vec<LoadCase>, CasesError> {
+        match self {
+            Self::Text(text) => cases(text, experiment),
+            Self::File(path) => cases(&text_of(&resolve(path))?, experiment),
+        }
+    }
+
+    /// The titles that a table may have, besides names.
+    pub fn accepted() -> String {
+        accepted()
+    }
+
+    /// The table in a file, as a text that can be edited.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn pasted(path: &Path) -> Result<Self, CasesError> {
+        text_of(path).map(Self::Text)
+    }
+}
+
+fn text_of(path: &Path) -> Result<String, CasesError> {
+    if let Some(text) = examples::text_of(path) {
+        return Ok(text.to_owned());
+    }
+    let unreadable = |reason: String| CasesError::Read { path: path.to_owned(), reason };
+    let file = std::fs::File::open(path).map_err(|error| unreadable(error.to_string()))?;
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(error.to_string()))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(unreadable(format!("it is larger than {} MiB", MAX_BYTES >> 20)));
+    }
+    String::from_utf8(bytes).map_err(|_| unreadable("it is no UTF-8 text; save it as CSV in UTF-8".to_owned()))
+}
+
+/// What separates cells: tabs where they were pasted from a spreadsheet, semicolons where commas are decimal.
+fn delimiter(text: &str) -> u8 {
+    let titles = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
+    [b'\t', b';'].into_iter().find(|&mark| titles.contains(char::from(mark))).unwrap_or(b',')
+}
+
+fn cases(text: &str, experiment: &Experiment) -> Result<Vec<LoadCase>, CasesError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut columns: Option<Vec<(Column, String)>> = None;
+    let mut cases = Vec::new();
+    for (line, record) in records(text) {
+        let cells: Vec<&str> = record.iter().map(|cell| cell.trim()).collect();
+        if cells.iter().all(|cell| cell.is_empty()) {
+            continue;
+        }
+        let Some(columns) = &columns else {
+            columns = Some(titles(line, &cells)?);
+            continue;
+        };
+        if cases.len() == MAX_POINTS {
+            return Err(CasesError::TooLong);
+        }
+        let name = columns.iter().zip(&cells).find(|((column, _), _)| *column == Column::Name);
+        let name = name.map_or(String::new(), |(_, cell)| (*cell).to_owned());
+        cases.push(LoadCase { line, name, request: request(columns, &cells, experiment) });
+    }
+    if cases.is_empty() { Err(CasesError::Empty) } else { Ok(cases) }
+}
+
+/// The cells of each record, with the line in which it begins, from 1.
+fn records(text: &str) -> Vec<(usize, Vec<String>)> {
+    let mut reader = csv_core::ReaderBuilder::new().delimiter(delimiter(text)).build();
+    let (mut input, mut out) = (text.as_bytes(), vec![0; text.len() + 1]);
+    let (mut records, mut cells, mut cell) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut line, mut begin) = (1, 1);
+    loop {
+        if cells.is_empty() && cell.is_empty() {
+            begin = line + input.iter().take_while(|byte| byte.is_ascii_whitespace()).filter(|&&b| b == b'\n').count();
+        }
+        let (result, read, written) = reader.read_field(input, &mut out);
+        let (done, rest) = input.split_at_checked(read).unwrap_or((input, &[]));
+        line += done.iter().filter(|&&byte| byte == b'\n').count();
+        input = rest;
+        cell.extend(out.iter().take(written));
+        match result {
+            // At the end of the input the next call ends the field; the output has room for all of it.
+            ReadFieldResult::InputEmpty | ReadFieldResult::OutputFull => {}
+            ReadFieldResult::Field { record_end } => {
+                cells.push(String::from_utf8_lossy(&cell).into_owned());
+                cell.clear();
+                if record_end {
+                    records.push((begin, std::mem::take(&mut cells)));
+                }
+            }
+            ReadFieldResult::End => return records,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+    use crate::solver::physics::engineering::{Grade, Oil, OilFamily};
+
+    fn read(text: &str) -> Result<Vec<LoadCase>, CasesError> {
+        cases(text, &Scene::at_moes(40.0, 10.0).experiment())
+    }
+
+    fn point(case: &LoadCase) -> OperatingPoint {
+        case.request.as_ref().unwrap().point
+    }
+
+    #[test]
+    fn units_stand_in_titles_or_cells_and_cells_are_separated_as_spreadsheets_do() {
+        let wanted = [0.012, 3.0, 3e5, 2.31e11, 0.02, 2e-8];
+        for text in [
+            "radius,speed,load,modulus,viscosity,alpha\n0.012,3,3e5,2.31e11,0.02,2e-8\n",
+            "R [mm]; u_m; w (N/mm); E'; eta_0; alpha\r\n12; 3 m/s; 300; 231 GPa; 20 mPa·s; 20 1/GPa\r\n",
+            "\u{feff}R [mm];u;w;E' [GPa];η₀ [mPa·s];α [1/GPa]\n12,0;3,0;300 N/mm;231;20;20\n",
+            "\n#note\tR [mm]\tu\tw\tmodulus\tviscosity\talpha\nold\t12\t3\t300 kN/m\t231 GPa\t20 cP\t20 1/GPa\n",
+        ] {
+            let cases = read(text).unwrap();
+            let got = point(&cases[0]).quantities();
+            assert!(got.iter().zip(wanted).all(|(got, wanted)| (got / wanted - 1.0).abs() < 1e-12), "{text}: {got:?}");
+        }
+    }
+
+    #[test]
+    fn moes_numbers_oils_and_named_lubricants_are_understood() {
+        let text = "name,contact,M,L,R [mm],u,w,E' [GPa],oil,temperature,lubricant,srr\n\
+                    a,point,40,10,,,,,,,,5 %\n\
+                    b,line,,,12,3,300 N/mm,231,ISO VG 68,60,,\n\
+                    c,point,,,12.7,0.5,20,123.8,,,squalane-pip,0.1\n";
+        let cases = read(text).unwrap();
+        let [a, b, c] = [0, 1, 2].map(|k| point(&cases[k]));
+        assert!((a.moes().m - 40.0).abs() < 1e-9 && a.kind == ContactKind::Point);
+        assert_eq!(a.sliding.slide_to_roll_ratio, 0.05);
+        let oil =
+            Oil { grade: Grade::IsoVg(68.0), family: OilFamily::Mineral, temperature_k: 333.15, density_15: 880.0 };
+        assert_eq!((b.viscosity_pa_s, b.alpha_per_pa), {
+            let state = oil.state().unwrap();
+            (state.viscosity_pa_s, state.alpha_per_pa)
+        });
+        assert_eq!(c.viscosity_pa_s, 0.0705);
+        assert_eq!(
+            cases.iter().map(|case| (case.line, case.name.as_str())).collect::<Vec<_>>(),
+            [(2, "a"), (3, "b"), (4, "c")]
+        );
+    }
+
+    #[test]
+    fn what_a_line_leaves_out_is_the_scenes() {
+        let here = Scene { at: OperatingPoint::TABLE_2_1.into(), ..Scene::at_moes(40.0, 10.0) };
+        let cases = cases("load\n1e5\n2e5\n", &here.experiment()).unwrap();
+        assert_eq!(point(&cases[1]), OperatingPoint { load: 2e5, ..OperatingPoint::TABLE_2_1 });
+        let ball = super::cases("contact\npoint\n", &here.experiment()).unwrap();
+        assert!(ball[0].request.as_ref().unwrap_err().contains("give load too"));
+    }
+
+    #[test]
+    fn a_bad_line_is_refused_by_itself_and_bad_titles_refuse_the_table() {
+        let head = "radius,speed,load,modulus,viscosity,alpha,oil,temperature,contact,M,L,srr";
+        for (line, part) in [
+            ("0.012,3,-3e5,2e11,0.02,2e-8", "load is -300000 N"),
+            ("0.012,3,abc,2e11,0.02,2e-8", "load: “abc” is no number"),
+            ("0.012,3,3 m,2e11,0.02,2e-8", "load: “m” is no unit of a load per length"),
+            ("0.012,3,,2e11,0.02,", "give load, alpha too"),
+            (",,,,,,,,,40,,", "M and L belong together"),
+            ("0.012,3,3e5,2e11,,,ISO VG 69,60", "69 is no ISO viscosity grade"),
+            ("0.012,3,3e5,2e11,,,thick,60", "oil: “thick” is none; write it like ISO VG 68"),
+            ("0.012,3,3e5,2e11,,,68", "needs a temperature"),
+            ("0.012,3,3e5,2e11,0.02,,68,60", "give one of them"),
+            ("0.012,3,3e5,2e11,0.02,2e-8,,,ellipsoid", "“ellipsoid” is none"),
+            ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,nan", "srr"),
+            ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,11", "srr is 11, but must be a finite number between -10 and 10"),
+            ("1,2,3,4,5,6,7,8,9,10,11,12,13", "13 cells are there, but 12 titles"),
+            ("0.012,3,3e5,2e11,0.02,2e-8,,,point,40,10", "M and L leave"),
+        ] {
+            let cases = read(&format!("{head}\n{line}\n0.012,3,3e5,2e11,0.02,2e-8\n")).unwrap();
+            let why = cases[0].request.as_ref().expect_err(line);
+            assert!(why.contains(part), "{line}: {why}");
+            assert!(cases[1].request.is_ok() && cases[1].line == 3, "the line after it stands");
+        }
+        for (text, part) in [
+            ("", "is empty"),
+            ("radius,speed\n", "is empty"),
+            ("radius,laod\n1,1\n", "“laod” is unknown"),
+            ("radius,R\n1,1\n", "two columns"),
+            ("radius [kg]\n1\n", "“kg” is no unit of a length"),
+        ] {
+            let why = read(text).unwrap_err().to_string();
+            assert!(why.contains(part), "{text}: {why}");
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! How a solve ended.
+
+use serde::{Deserialize, Serialize};
+
+/// Why a solve stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Termination {
+    /// The step fell below the tolerance.
+    Converged,
+    /// The iteration limit was reached.
+    IterationLimit,
+    /// The effort of a whole solve was spent, see [`most_newton`].
+    ///
+    /// [`most_newton`]: super::most_newton
+    Effort,
+    /// The iterates left every sensible range.
+    Diverged,
+    /// The pressures left the range of the viscosity law.
+    OccupiedVolume,
+    /// The observer asked to stop.
+    Cancelled,
+}
+
+impl Termination {
+    /// One sentence for people.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::IterationLimit => {
+                "stopped at the iteration limit; try a start from a converged neighbour, a finer grid or a longer inlet"
+            }
+            Self::Effort => {
+                "was given up after its effort was spent; try a start from a converged neighbour, another grid or an easier contact"
+            }
+            Self::Diverged => "diverged; try a start from a converged neighbour, a smaller load or a finer grid",
+            Self::OccupiedVolume => {
+                "met pressures at which the lubricant's relative volume falls under its occupied volume, where Doolittle's law ends; use a smaller load or another lubricant"
+            }
+            Self::Cancelled => "was cancelled",
+        }
+    }
+}
+
+/// How a solution was obtained.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Why it stopped.
+    pub termination: Termination,
+    /// Newton steps, all attempts together.
+    pub newton_iterations: usize,
+    /// Krylov iterations, all attempts together.
+    pub linear_iterations: usize,
+    /// Starts that were tried (1 when the first one converged).
+    pub attempts: usize,
+    /// Residual 2-norm before each Newton step: rows weighted by √w so that it approximates the L2 norm over the
+    /// domain.
+    pub residuals: Vec<f64>,
+    /// Size of each Newton step: ‖Δz‖/‖z‖ for a line, max|ΔP| for a point contact.
+    pub steps: Vec<f64>,
+    /// Residual 2-norm of the solution.
+    pub residual_norm: f64,
+    /// Whether a rupture front was seen to cycle between two sets of nodes, and was moved node by node from then on.
+    #[serde(default)]
+    pub cautious_front: bool,
+}
+
+impl Report {
+    /// Nothing tried yet.
+    pub(crate) fn empty() -> Self {
+        Self {
+            termination: Termination::IterationLimit,
+            newton_iterations: 0,
+            linear_iterations: 0,
+            attempts: 0,
+            residuals: Vec::new(),
+            steps: Vec::new(),
+            residual_norm: f64::NAN,
+            cautious_front: false,
+        }
+    }
+
+    /// Counts what another solve took; what came of it last counts.
+    pub(super) fn add(&mut self, other: &Self) {
+        self.termination = other.termination;
+        self.newton_iterations += other.newton_iterations;
+        self.linear_iterations += other.linear_iterations;
+        self.attempts += other.attempts;
+        self.residuals.extend_from_slice(&other.residuals);
+        self.steps.extend_from_slice(&other.steps);
+        self.residual_norm = other.residual_norm;
+        self.cautious_front |= other.cautious_front;
+    }
+
+    /// Whether no further start needs to be tried.
+    pub(super) fn ended(&self) -> bool {
+        use Termination::{Cancelled, Converged, Effort};
+        self.attempts > 0 && matches!(self.termination, Converged | Cancelled | Effort)
+    }
+}

@@ -1,0 +1,9 @@
+//! The two bodies of a contact: material, radii, surface speeds and roughness of each, and what they amount to together.
+
+mod body;
+mod material;
+mod pair;
+
+pub use body::{Body, Transverse};
+pub use material::{BodyHeat, MATERIALS, Material};
+pub use pair::{Bodies, BodyError, film_regime, surface_speeds};

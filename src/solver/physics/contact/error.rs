@@ -1,0 +1,41 @@
+//! Why an operating point is refused.
+
+use crate::solver::limits::Number;
+
+/// Why an operating point is refused. Each message names the quantity, its value and what would be accepted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// A quantity is NaN, infinite, or outside its valid range.
+    #[error("{quantity} is {}{unit}, but must be a finite number between {min:e} and {max:e}{unit}", Number(*value))]
+    OutOfRange {
+        /// Name of the quantity as the field calls it.
+        quantity: &'static str,
+        /// The value given.
+        value: f64,
+        /// Unit with a leading space, or empty.
+        unit: &'static str,
+        /// Smallest accepted value.
+        min: f64,
+        /// Largest accepted value.
+        max: f64,
+    },
+    /// A radius across was given for a line contact.
+    #[error("a line contact has no radius across (radius-y): leave it out, or take a point contact")]
+    LineAcross,
+    /// The bodies together are concave across.
+    #[error(
+        "radius-y is {} m, but the bodies must be convex together in both directions: R_y is what 1/R_y = 1/R_y1 + 1/R_y2 \
+         leaves of a body and a groove, whose own radius counts as negative and must be the larger one; a positive number \
+         is accepted", Number(*radius_y)
+    )]
+    Concave {
+        /// The radius given \[m\].
+        radius_y: f64,
+    },
+    /// More quantities were fixed than M and L leave free.
+    #[error("M and L leave two quantities to follow, but {given} are all given; leave out at least one of them")]
+    Overdetermined {
+        /// The given quantities.
+        given: &'static str,
+    },
+}

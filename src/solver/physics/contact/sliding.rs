@@ -1,0 +1,36 @@
+//! The sliding of a contact.
+
+use serde::{Deserialize, Serialize};
+
+/// What a shear-thinning lubricant feels in its film, and the traction of any.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
+pub struct Sliding {
+    /// Slide-to-roll ratio SRR = (u₂ − u₁)/u_m, (3.25).
+    pub slide_to_roll_ratio: f64,
+    /// Newtonian plateau ratio NPR of (3.40); the lubricant's own where there is none.
+    pub newtonian_plateau_ratio: Option<f64>,
+}
+
+impl Sliding {
+    /// Pure rolling with the lubricant's own plateau ratio.
+    pub const NONE: Self = Self { slide_to_roll_ratio: 0.0, newtonian_plateau_ratio: None };
+
+    /// What SRR and NPR add to the distance (3.20) of two contacts. Films are even in SRR; they change by some 4 % up
+    /// to SRR = 1 and by some 40 % from NPR 0.2 to 1, and the weights follow that.
+    pub fn distance(self, other: Self) -> f64 {
+        let plateau = |sliding: Self| sliding.newtonian_plateau_ratio.unwrap_or(1.0);
+        let srr = self.slide_to_roll_ratio.abs() - other.slide_to_roll_ratio.abs();
+        0.03 * srr.powi(2) + 0.3 * (plateau(self) - plateau(other)).powi(2)
+    }
+
+    /// The sliding at 0 ≤ t ≤ 1 on the way to another one.
+    pub fn towards(self, other: Self, t: f64) -> Self {
+        let between = |from: f64, to: f64| from + (to - from) * t;
+        let plateaus = self.newtonian_plateau_ratio.zip(other.newtonian_plateau_ratio);
+        Self {
+            slide_to_roll_ratio: between(self.slide_to_roll_ratio, other.slide_to_roll_ratio),
+            newtonian_plateau_ratio: plateaus
+                .map_or(other.newtonian_plateau_ratio, |(from, to)| Some(between(from, to))),
+        }
+    }
+}

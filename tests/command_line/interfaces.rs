@@ -1,0 +1,107 @@
+//! One contact by every command and by studies: the same numbers, the same trust, the same warnings.
+
+use crate::commands::{json, program};
+use crate::common::scratch::Scratch;
+use crate::common::six_contacts::Stated;
+use ehl_explorer::engine::{Workbench, run_scene};
+use serde_json::Value;
+
+/// What an interface says of a contact: named numbers, NaN if it has none, and the warnings as one sentence.
+type Said = (Vec<f64>, String);
+
+const NAMES: [&str; 6] = ["H_c", "H_min", "traction", "reduced.trained", "reduced.h_c_error_bound", "hertz.p_h_pa"];
+
+fn of_object(object: &Value) -> Said {
+    let number = |name: &&str| {
+        let value = name.split('.').fold(object, |object, name| &object[name]);
+        value.as_bool().map(|truth| f64::from(u8::from(truth))).or(value.as_f64()).unwrap_or(f64::NAN)
+    };
+    (NAMES.iter().map(number).collect(), object["warning"].as_str().unwrap_or_default().to_owned())
+}
+
+/// The first row of a table; `tag` stands before the names of results.
+fn of_table(csv: &str, tag: &str) -> Said {
+    let mut lines = csv.lines();
+    let titles: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = lines.next().unwrap();
+    // The warning is the last cell, and may hold commas.
+    let numbers: Vec<&str> = row.splitn(titles.len(), ',').collect();
+    let (warning, numbers) = numbers.split_last().unwrap();
+    let number = |name: &&str| {
+        let known = |title: &&str| {
+            *title == format!("{tag}{name}") || *title == *name || *title == "p_h_pa" && *name == "hertz.p_h_pa"
+        };
+        let place = titles.iter().position(known).unwrap_or_else(|| panic!("{name} is no column of {titles:?}"));
+        numbers[place].parse().unwrap_or(f64::NAN)
+    };
+    assert_eq!(titles.last(), Some(&"warning"));
+    (NAMES.iter().map(number).collect(), warning.trim_matches('"').to_owned())
+}
+
+fn same(said: &Said, wanted: &Said, by: &str) {
+    for ((name, a), b) in NAMES.iter().zip(&said.0).zip(&wanted.0) {
+        assert!(a == b || a.is_nan() && b.is_nan(), "{by}: {name} is {a}, not {b}");
+    }
+    assert_eq!(said.1, wanted.1, "{by}");
+}
+
+#[test]
+fn six_contacts_are_answered_alike_by_commands_and_studies() {
+    let folder = Scratch::new("six-contacts");
+    for contact in Stated::all() {
+        let (name, options) = (contact.name(), contact.options());
+        let with = |words: &[&str]| {
+            let mut words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
+            words.extend(options.iter().cloned());
+            program(&words.iter().map(String::as_str).collect::<Vec<_>>())
+        };
+        let solved = json(&with(&["solve", "--json", "--method", "reduced"]));
+        let wanted = of_object(&solved);
+        assert_eq!(solved["method"], "reduced", "{name}: {solved}");
+        assert_eq!(solved["reduced"]["trained"], contact.trained(), "{name}: {solved}");
+        let warnings = solved["warnings"].as_array().cloned().unwrap_or_default();
+        let texts: Vec<&str> = warnings.iter().map(|warning| warning["text"].as_str().unwrap()).collect();
+        assert_eq!(texts.join("; "), wanted.1, "{name}");
+        let kinds: Vec<&str> = warnings.iter().map(|warning| warning["kind"].as_str().unwrap()).collect();
+        assert_eq!(kinds.contains(&"outside_trained_range"), !contact.trained(), "{name}: {kinds:?}");
+        assert!(contact.says().is_none_or(|words| texts[0].contains(words)), "{name}: {texts:?}");
+
+        let srr = contact.srr();
+        let varied = format!("srr={srr}:{srr}:1");
+        let sweep = with(&["sweep", &varied, "--method", "reduced"]);
+        same(&of_table(&String::from_utf8(sweep.stdout).unwrap(), ""), &wanted, &format!("{name}, sweep"));
+        same(&of_object(&json(&with(&["sweep", &varied, "--method", "reduced", "--json"]))), &wanted, name);
+
+        if let Some(table) = contact.table() {
+            let table = folder.write("cases.csv", table).to_str().unwrap().to_owned();
+            let cases = ["cases", &table, "--method", "reduced"];
+            let text = String::from_utf8(program(&cases).stdout).unwrap();
+            same(&of_table(&text, "reduced."), &wanted, &format!("{name}, cases"));
+            same(&of_object(&json(&program(&[&cases[..], &["--json"]].concat()))), &wanted, name);
+        }
+
+        let methods = "methods: [Reduced(model: Embedded)]";
+        let studies = [
+            format!("Point({methods})"),
+            format!("Sweep(over: [(vary: SlideToRollRatio, values: List([{srr:?}]))], {methods})"),
+        ];
+        let [point, sweep] = studies.map(|study| {
+            run_scene(&contact.scene(&study), &mut Workbench::new(""), &())
+                .unwrap_or_else(|why| panic!("{name}: {why}"))
+        });
+        let value = |name: &&str| {
+            point.found.values.iter().find(|value| value.name == *name).map_or(f64::NAN, |value| value.value)
+        };
+        let said =
+            point.found.warnings.iter().map(|warning| warning.trim_start_matches("reduced: ")).collect::<Vec<_>>();
+        same(&(NAMES.iter().map(value).collect(), said.join("; ")), &wanted, &format!("{name}, Point"));
+        same(&of_table(&sweep.tables[0].to_csv(), "reduced."), &wanted, &format!("{name}, Sweep"));
+        for warning in texts {
+            assert!(
+                sweep.found.warnings.iter().any(|said| said.ends_with(warning)),
+                "{name}: {:?}",
+                sweep.found.warnings
+            );
+        }
+    }
+}
