@@ -8,11 +8,10 @@ use super::layouts::Layout;
 use super::purpose::{Purpose, Written};
 use super::sheets::Form;
 use super::tab::Tab;
-use super::traction::{Served, Sweep};
-use super::training::TrainingCommand;
-use super::transient::InTimeCommand;
+use crate::app::tabs::training::TrainingCommand;
+use crate::app::tabs::transient::TransientCommand;
 use crate::scene::Scene;
-use egui::{Context, Id, Key, KeyboardShortcut, Modifiers};
+use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, ThemePreference};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -75,12 +74,8 @@ pub enum Command {
     LockAxes,
     /// Let the axes of a tab stand still, or no more.
     LockAxesOf(Tab),
-    /// Light theme.
-    LightTheme,
-    /// Dark theme.
-    DarkTheme,
-    /// The system's theme.
-    SystemTheme,
+    /// Use a theme.
+    Theme(ThemePreference),
     /// Light presentations whatever the theme, or no more.
     LightPresentation,
     /// Larger text and lines.
@@ -139,16 +134,8 @@ pub enum Command {
     CloseHeadline,
     /// Put the sentence about the last file away.
     Dismiss,
-    /// Draw a curve by a reduced model.
-    FollowSweep(Box<(Sweep, Served)>),
-    /// Go to a place on the axis of the traction curve.
-    GoAlong(f64),
-    /// Full solutions along the traction curve where no model was trained for it.
-    FillAlong,
-    /// Stop the full solutions along the traction curve.
-    StopAlong,
-    /// What becomes of contacts in time.
-    InTime(InTimeCommand),
+    /// Change transient runs or the moment that is shown.
+    Transient(TransientCommand),
     /// Compare all reduced models that can be.
     CompareModels,
     /// What becomes of trainings and of what they made.
@@ -157,7 +144,6 @@ pub enum Command {
 
 /// A command as menus show it.
 pub struct Item {
-    /// The menu.
     pub menu: &'static str,
     /// Its group there; a line stands between groups.
     pub group: u8,
@@ -219,9 +205,9 @@ pub static MENUS: &[Item] = {
         item("View", 2, C::Arrange(Layout::Teach), "Layout: Teach", "arrange tabs preset lecture", None),
         item("View", 2, C::Arrange(Layout::Engineer), "Layout: Engineer", "arrange tabs preset bearing", None),
         item("View", 2, C::Arrange(Layout::ModelReduction), "Layout: Model reduction", "arrange tabs preset", None),
-        item("View", 3, C::LightTheme, "Light theme", "colours colors mode", None),
-        item("View", 3, C::DarkTheme, "Dark theme", "colours colors mode", None),
-        item("View", 3, C::SystemTheme, "System theme", "colours colors mode", None),
+        item("View", 3, C::Theme(ThemePreference::Light), "Light theme", "colours colors mode", None),
+        item("View", 3, C::Theme(ThemePreference::Dark), "Dark theme", "colours colors mode", None),
+        item("View", 3, C::Theme(ThemePreference::System), "System theme", "colours colors mode", None),
         item("View", 4, C::LargerText, "Larger text", "zoom font size scale", Some((CTRL, Key::Plus))),
         item("View", 4, C::SmallerText, "Smaller text", "zoom font size scale", Some((CTRL, Key::Minus))),
         item("View", 4, C::NormalText, "Normal text", "zoom font size scale", Some((CTRL, Key::Num0))),

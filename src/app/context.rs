@@ -6,9 +6,7 @@ use super::command::Command;
 use super::controls::Entries;
 use super::display::Thresholds;
 use super::document::{Document, Edit};
-use super::traction::TractionView;
-use super::training::Training;
-use super::transient::TransientView;
+use crate::app::tabs::transient::TransientRuns;
 use std::path::Path;
 
 /// What is shown: to be looked at, not to be changed.
@@ -18,12 +16,8 @@ pub struct Context<'a> {
     pub document: &'a Document,
     /// What came of it.
     pub answers: &'a Answers,
-    /// Traction and film along one quantity.
-    pub traction: &'a TractionView,
-    /// Contacts in time.
-    pub transient: &'a TransientView,
-    /// Trainings.
-    pub training: &'a Training,
+    /// Transient runs.
+    pub transient: &'a TransientRuns,
     /// What was refused, by the names of fields.
     pub entries: &'a Entries,
     /// Whether tabs say why, for teaching.

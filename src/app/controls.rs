@@ -2,6 +2,7 @@
 
 use super::numbers;
 use super::theme::Palette;
+use crate::app::refusal::Refusal;
 use crate::engine::job::Standing;
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
@@ -29,7 +30,7 @@ impl Entries {
     }
 
     /// Records why an entry was refused, or that it was accepted.
-    pub fn answer(&mut self, name: &'static str, result: Result<(), String>) {
+    pub fn answer(&mut self, name: &'static str, result: Result<(), Refusal>) {
         match result {
             Ok(()) => {
                 self.messages.remove(name);
@@ -37,7 +38,7 @@ impl Entries {
             }
             Err(message) => {
                 self.last = Some(name);
-                self.messages.insert(name, message);
+                self.messages.insert(name, message.to_string());
             }
         }
     }
@@ -230,7 +231,7 @@ pub fn typed_field(
     value: f64,
     width: f32,
     tooltip: &str,
-    read: impl Fn(&str) -> Result<f64, String>,
+    read: impl Fn(&str) -> Result<f64, Refusal>,
 ) -> Option<f64> {
     let shown = if value.is_infinite() { "∞".to_owned() } else { numbers::significant(value) };
     let mut text = entries.buffers.get(name).cloned().unwrap_or_else(|| shown.clone());

@@ -3,6 +3,7 @@
 use super::answers::picture::Cuts;
 use super::numbers;
 use super::units::Units;
+use crate::app::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 
 /// Relative errors of a film from which on the badge uses another word.
@@ -23,21 +24,21 @@ impl Thresholds {
     ///
     /// # Errors
     /// A sentence.
-    pub fn check(&self) -> Result<(), String> {
+    pub fn check(&self) -> Result<(), Refusal> {
         let (least, most) = Self::RANGE;
         let Self { verified, far_off } = *self;
         if least <= verified && verified < far_off && far_off <= most {
             return Ok(());
         }
         let percent = |share: f64| numbers::quantity(100.0 * share, "%");
-        Err(format!(
+        Err(Refusal::new(format!(
             "“Verified” up to {} and “Far off” from {}: the first must be smaller than the second, and both between {} \
              and {}",
             percent(verified),
             percent(far_off),
             percent(least),
             percent(most)
-        ))
+        )))
     }
 }
 

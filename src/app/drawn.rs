@@ -4,7 +4,7 @@
 use super::context::Context;
 use super::document::Key;
 use super::in_use::InUse;
-use super::transient::Setup;
+use crate::app::tabs::transient::Setup;
 use crate::scene::Scene;
 use crate::solver::training::TrainingSpec;
 use egui::{Color32, Id, Ui};
@@ -17,15 +17,13 @@ const COMING: f32 = 0.7;
 /// What something drawn belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Owner {
-    /// A contact.
     Contact(Key),
     /// A reduced model, as it is truncated.
     Model(InUse),
     /// A contact by a reduced model.
     ContactByModel(Key, InUse),
-    /// A contact in time.
-    InTime(Arc<Setup>),
-    /// A training.
+    /// A transient contact.
+    Transient(Arc<Setup>),
     Training(Box<TrainingSpec>),
     /// The question of a scene.
     Question(Box<Scene>),
@@ -40,8 +38,8 @@ impl Owner {
             Self::Contact(key) => *key == document.key(),
             Self::Model(model) => serves(model),
             Self::ContactByModel(key, model) => *key == document.key() && serves(model),
-            Self::InTime(setup) => **setup == Setup::of(document, context.file),
-            Self::Training(spec) => context.training.job().is_some() || document.training_spec() == Some(spec.as_ref()),
+            Self::Transient(setup) => **setup == Setup::of(document, context.file),
+            Self::Training(spec) => document.training_spec() == Some(spec.as_ref()),
             Self::Question(scene) => asks_the_same(scene, &document.to_scene()),
         }
     }
@@ -55,7 +53,6 @@ pub fn asks_the_same(a: &Scene, b: &Scene) -> bool {
 /// Something drawn: what it is called, what it belongs to, and whether it is grey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
-    /// What it is.
     pub name: &'static str,
     /// What it belongs to.
     pub of: Owner,

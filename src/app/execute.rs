@@ -1,20 +1,19 @@
 //! What commands and choices of the palette do.
 
-use super::Explorer;
-use super::answers::jobs::wake;
 use super::command::Command;
 use super::context::Commands;
 use super::desk::files::Pending;
 use super::display::Display;
-use super::export;
 use super::layouts::Layout;
 use super::presentation::{Presentation, enlargement};
 use super::purpose::Purpose;
 use super::session::Place;
 use super::tab::Tab;
-use super::traction;
-use super::transient::Setup;
 use super::units::Units;
+use super::wake::wake;
+use super::{Explorer, export};
+use crate::app::refusal::Refusal;
+use crate::app::tabs::transient::Setup;
 use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
 
@@ -55,18 +54,18 @@ impl Explorer {
             }
             Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers)),
             Command::Pin => desk.answers.pin(),
-            Command::Unpin => desk.answers.pins.clear(),
+            Command::Unpin => desk.answers.unpin_all(),
             Command::Settings => self.settings.open = true,
             Command::SetThresholds(thresholds) => desk.display.thresholds = thresholds,
             Command::Palette => self.palette.open(ctx),
             Command::Presentation => self.present(ctx),
             Command::Overlay => {
-                let overlay = &mut desk.views.profiles.choices.overlay;
+                let overlay = &mut desk.tabs.profiles.choices.overlay;
                 *overlay = !*overlay;
                 self.show(Tab::Profiles);
             }
             Command::Difference => {
-                let difference = &mut desk.views.profiles.choices.difference;
+                let difference = &mut desk.tabs.profiles.choices.difference;
                 *difference = !*difference;
                 self.show(Tab::Profiles);
             }
@@ -90,9 +89,10 @@ impl Explorer {
                 front.into_iter().for_each(|tab| self.desk.lock(tab, locked));
             }
             Command::LockAxesOf(tab) => desk.lock(tab, !desk.locked.contains(&tab)),
-            Command::LightTheme => self.set_theme(ctx, ThemePreference::Light),
-            Command::DarkTheme => self.set_theme(ctx, ThemePreference::Dark),
-            Command::SystemTheme => self.set_theme(ctx, ThemePreference::System),
+            Command::Theme(theme) => {
+                desk.display.theme = theme;
+                ctx.set_theme(theme);
+            }
             Command::LightPresentation => desk.display.light_presentation = !desk.display.light_presentation,
             Command::LargerText => self.set_zoom(self.desk.display.zoom * 1.1),
             Command::SmallerText => self.set_zoom(self.desk.display.zoom / 1.1),
@@ -106,26 +106,12 @@ impl Explorer {
             Command::Verify => desk.answers.verify(ctx, &desk.document),
             Command::EstimateGridError => desk.answers.estimate_grid_error(ctx),
             Command::SolveAlong => {
-                let choices = &desk.views.traction.choices;
-                desk.traction.start_markers(ctx, &desk.document, &desk.answers, choices, false);
+                desk.tabs.traction.solve_along(ctx, &desk.document, &desk.answers);
                 self.show(Tab::Traction);
-            }
-            Command::FillAlong => {
-                let choices = &desk.views.traction.choices;
-                desk.traction.start_markers(ctx, &desk.document, &desk.answers, choices, true);
-            }
-            Command::StopAlong => desk.traction.stop_markers(),
-            Command::FollowSweep(asked) => {
-                let (sweep, served) = *asked;
-                desk.traction.follow(ctx, &desk.answers.store, sweep, served);
-            }
-            Command::GoAlong(place) => {
-                let edit = traction::edit_along(&desk.document, &desk.views.traction.choices, place);
-                desk.edit(edit, "traction");
             }
             Command::RunInTime => {
                 let setup = Setup::of(&desk.document, desk.files.path.as_deref());
-                desk.transient.start(ctx, &desk.answers.store, setup);
+                desk.transient.start(ctx, desk.answers.store(), setup);
                 self.show(Tab::Transient);
             }
             Command::Train => {
@@ -145,21 +131,19 @@ impl Explorer {
             Command::Manual if self.help.manual.is_open() => self.help.manual.close(),
             Command::Manual => {
                 let front = self.tabs_in_front().next();
-                self.help.manual.open_at(front.map_or("start.md", Tab::page));
+                self.help.manual.open_at(front.map_or("start.md", |tab| self.desk.tabs.of(tab).about().page));
             }
             Command::Keyboard => self.help.manual.open_at("keyboard.md"),
             Command::About => self.help.about = true,
-            Command::InTime(command) => desk.transient.execute(ctx, &desk.answers.store, command),
-            Command::CompareModels => desk.training.compare(ctx, &desk.answers, &desk.document),
-            Command::Training(command) => desk.training.execute(ctx, &mut desk.answers, command),
+            Command::Transient(command) => desk.transient.execute(ctx, desk.answers.store(), command),
+            Command::CompareModels => desk.tabs.training.work.compare(ctx, &desk.answers, &desk.document),
+            Command::Training(command) => desk.tabs.training.work.execute(ctx, &mut desk.answers, command),
             Command::Edit(edit, field) => desk.edit(edit, field),
-            Command::Refuse(field, why) => desk.entries.answer(field, Err(why.to_owned())),
+            Command::Refuse(field, why) => desk.entries.answer(field, Err(Refusal::new(why))),
             Command::Go(tab) => self.show(tab),
             Command::Cut(cuts) => desk.display.cuts = cuts,
             Command::RemovePin(place) => {
-                if place < desk.answers.pins.len() {
-                    desk.answers.pins.remove(place);
-                }
+                desk.answers.unpin(place);
             }
             Command::UseModel(wanted) => _ = desk.answers.use_model(wanted.model),
             Command::OpenPath(path) => desk.request(ctx, Pending::Open(path)),
@@ -205,11 +189,6 @@ impl Explorer {
             front.into_iter().for_each(|tab| self.desk.lock(tab, true));
             self.desk.fit_plots = true;
         }
-    }
-
-    fn set_theme(&mut self, ctx: &Context, theme: ThemePreference) {
-        self.desk.display.theme = theme;
-        ctx.set_theme(theme);
     }
 
     fn set_zoom(&mut self, zoom: f32) {

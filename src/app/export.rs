@@ -66,14 +66,14 @@ fn row_in(picture: &Picture, length_m: f64, (x, p, film): (f64, f64, f64)) -> [O
 /// curve on its own nodes in columns of its own.
 pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     const COLUMNS: [&str; 6] = ["X", "P", "H", "x_m", "p_pa", "h_m"];
-    let picture = answers.picture.as_ref()?;
-    let full = answers.comparison.as_ref().and(answers.full.as_ref());
+    let picture = answers.picture()?;
+    let full = answers.comparison().and(answers.full());
     let mut comments = vec![describe(picture), picture.origin.describe()];
     let mut header: Vec<String> = COLUMNS.map(str::to_owned).to_vec();
     if full.is_some() {
         header.extend(["P_full", "H_full"].map(str::to_owned));
     }
-    for pin in &answers.pins {
+    for pin in answers.pins() {
         comments.push(format!("pin{}: {}; {}", pin.number, describe(&pin.picture), pin.picture.origin.describe()));
         header.extend(COLUMNS.map(|column| format!("pin{}.{column}", pin.number)));
     }
@@ -94,7 +94,7 @@ pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
         })
         .collect();
     let pinned: Vec<Vec<[Option<f64>; 6]>> = answers
-        .pins
+        .pins()
         .iter()
         .map(|pin| pin.picture.solution.along(cuts.y).into_iter().map(|node| profile_row(&pin.picture, node)).collect())
         .collect();
@@ -116,28 +116,21 @@ pub fn profile_across(picture: &Picture, x: f64) -> String {
     csv(&comments, &["Y", "P", "H", "y_m", "p_pa", "h_m"], rows)
 }
 
-/// The rows of the read-outs: name, dimensionless value, value with unit.
-pub fn readouts(answers: &Answers) -> Vec<(&'static str, String, String)> {
-    let Some(picture) = &answers.picture else { return Vec::new() };
-    let (scalars, scale, p_h) =
-        (&picture.solution.scalars, picture.key.point.film_scale_m(), picture.key.point.hertz().pressure_pa);
-    vec![
-        ("H_c", numbers::significant(scalars.h_c), numbers::length(scalars.h_c * scale)),
-        ("H_min", numbers::significant(scalars.h_min), numbers::length(scalars.h_min * scale)),
-        ("P_max", numbers::significant(scalars.p_max), numbers::pressure(scalars.p_max * p_h)),
-        ("traction", numbers::significant(picture.traction), String::new()),
-    ]
-}
-
 /// The read-outs as a tab-separated table for a clipboard.
 pub fn readouts_table(answers: &Answers) -> String {
     let mut out = String::from("quantity\tdimensionless\tdimensional\n");
-    if let Some(picture) = &answers.picture {
-        let moes = picture.key.point.moes();
-        let _ok = writeln!(out, "M\t{}\t\nL\t{}\t", numbers::significant(moes.m), numbers::significant(moes.l));
-    }
-    for (name, value, unit) in readouts(answers) {
-        let _ok = writeln!(out, "{name}\t{value}\t{}", unit.replace(numbers::THIN, " "));
+    let Some(picture) = answers.picture() else { return out };
+    let (moes, s) = (picture.key.point.moes(), &picture.solution.scalars);
+    let rows = [
+        ("M", moes.m, String::new()),
+        ("L", moes.l, String::new()),
+        ("H_c", s.h_c, numbers::length(picture.central_film_m())),
+        ("H_min", s.h_min, numbers::length(picture.minimum_film_m())),
+        ("P_max", s.p_max, numbers::pressure(picture.largest_pressure_pa())),
+        ("traction", picture.traction, String::new()),
+    ];
+    for (name, value, unit) in rows {
+        let _ok = writeln!(out, "{name}\t{}\t{}", numbers::significant(value), unit.replace(numbers::THIN, " "));
     }
     out
 }

@@ -1,7 +1,9 @@
 //! The reduced model as it is used: with the truncation that the document asks for.
 
-use super::answers::jobs::wake;
-use super::document::Key;
+use super::document::{Document, Key};
+use super::model_source::Models;
+use super::wake::wake;
+use crate::app::refusal::Refusal;
 use crate::engine::job::Job;
 use crate::engine::{Store, Workbench};
 use crate::scene::{At, Grid, Method, ModelSource, Scene, Study, StudyRow, View};
@@ -14,7 +16,6 @@ use std::sync::Arc;
 /// A model and its truncation: what a study judges, and by which it knows later whether it is out of date.
 #[derive(Clone, Debug)]
 pub struct InUse {
-    /// The model.
     pub model: Arc<ReducedModel>,
     pressure_loss: Option<f64>,
     /// Set where the deformation goes through its basis.
@@ -34,6 +35,12 @@ impl InUse {
     pub fn new(model: &Arc<ReducedModel>, view: &View) -> Self {
         let deformation_loss = view.projected_deformation.then(|| view.deformation_loss.unwrap_or(0.0));
         Self { model: Arc::clone(model), pressure_loss: view.pressure_loss, deformation_loss }
+    }
+
+    /// Returns the model that serves a document's contact, under the document's view.
+    pub fn of(document: &Document, models: &Models) -> Option<Self> {
+        let model = models.of(&document.point, &document.lubricant)?;
+        Some(Self::new(model, &document.view))
     }
 
     /// The method that studies know it by, where it stands in place of the embedded model.
@@ -57,10 +64,10 @@ impl InUse {
     ///
     /// # Errors
     /// When that range holds none.
-    pub fn question(&self, title: &str, study: Study) -> Result<Scene, String> {
+    pub fn question(&self, title: &str, study: Study) -> Result<Scene, Refusal> {
         let none = "the model’s range holds no admissible contact to test";
         let points = random_points(&self.trained_range(), self.model.contact(), 1, 1);
-        let point = OperatingPoint { sliding: Sliding::NONE, ..*points.first().ok_or(none)? };
+        let point = OperatingPoint { sliding: Sliding::NONE, ..*points.first().ok_or_else(|| Refusal::new(none))? };
         Ok(question(title, &Key { point, lubricant: self.model.domain.lubricant }, Grid::Model, study))
     }
 
@@ -104,7 +111,6 @@ pub fn question(title: &str, key: &Key, grid: Grid, study: Study) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::document::Document;
     use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
 
     #[test]

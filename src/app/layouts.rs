@@ -47,7 +47,7 @@ impl Layout {
     pub fn tree(self, width: f32) -> Tree<Tab> {
         let groups = self.groups(width >= WIDE);
         let listed: Vec<Tab> = groups.iter().flat_map(|group| group.iter().copied()).collect();
-        let rest = || Tab::ALL.into_iter().filter(|tab| !listed.contains(tab));
+        let rest = || Tab::ALL.iter().copied().filter(|tab| !listed.contains(tab));
         let mut tiles = Tiles::default();
         let mut beside: Vec<TileId> = Vec::new();
         for (k, group) in groups.iter().enumerate() {

@@ -7,6 +7,7 @@ use super::controls::{message_ui, warning_ui};
 use super::document::Document;
 use super::purpose::Purpose;
 use super::theme::Palette;
+use crate::app::refusal::Refusal;
 use crate::scene::study::load_cases::LoadCases;
 use crate::scene::{At, CaseTable, CasesError, LoadCase, Method, Scene, Study};
 use egui::{Button, Checkbox, Context, FontId, ScrollArea, TextEdit, Ui, Window, vec2};
@@ -46,7 +47,6 @@ impl LoadCasesWindow {
         self.open
     }
 
-    /// Opens it.
     pub fn open(&mut self) {
         self.open = true;
     }
@@ -60,8 +60,8 @@ impl LoadCasesWindow {
     ///
     /// # Errors
     /// A sentence when it cannot be read.
-    pub fn read(&mut self, path: &Path) -> Result<(), String> {
-        if let CaseTable::Text(text) = CaseTable::pasted(path).map_err(|error| error.to_string())? {
+    pub fn read(&mut self, path: &Path) -> Result<(), Refusal> {
+        if let CaseTable::Text(text) = CaseTable::pasted(path)? {
             self.text = text;
         }
         Ok(())

@@ -67,7 +67,6 @@ impl Manual {
         self.page = PAGES.iter().position(|page| page.file == file).unwrap_or_default();
     }
 
-    /// Closes it.
     pub fn close(&mut self) {
         self.open = false;
     }
@@ -148,6 +147,8 @@ mod tests {
     use crate::app::Explorer;
     use crate::app::command::MENUS;
     use crate::app::tab::Tab;
+    use crate::app::tabs::View as _;
+    use crate::app::tabs::all::Tabs;
     use egui::accesskit::Role;
     use egui::{Key, ModifierNames, Modifiers};
     use egui_kittest::Harness;
@@ -185,7 +186,7 @@ mod tests {
         press(&mut harness, Key::Escape);
         assert!(!reads(&harness, PAGES[PAGES.len() - 1].title()), "Escape closes it");
         press(&mut harness, Key::F1);
-        let tour = PAGES.iter().find(|page| page.file == Tab::Profiles.page()).unwrap();
+        let tour = PAGES.iter().find(|page| page.file == Tabs::default().profiles.about().page).unwrap();
         assert!(reads(&harness, tour.title()), "it opens at the page of the tab in front");
         press(&mut harness, Key::F1);
         assert!(!reads(&harness, tour.title()), "a second F1 closes it");
@@ -193,7 +194,8 @@ mod tests {
 
     #[test]
     fn every_tab_has_a_page() {
-        assert!(Tab::ALL.into_iter().all(|tab| PAGES.iter().any(|page| page.file == tab.page())));
+        let tabs = Tabs::default();
+        assert!(Tab::ALL.iter().all(|tab| PAGES.iter().any(|page| page.file == tabs.of(*tab).about().page)));
     }
 
     #[test]

@@ -3,7 +3,8 @@
 //! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`] puts it into a native one.
 
 mod answers;
-mod color_map;
+mod badge;
+mod caption;
 mod command;
 mod context;
 mod controls;
@@ -13,375 +14,35 @@ mod document;
 mod drawn;
 mod examples;
 mod execute;
+mod explorer;
 mod export;
 mod figure;
 mod form;
+mod formulas;
 mod in_use;
 mod layouts;
 mod lessons;
 mod load_cases;
 mod manual;
 mod model_source;
+mod notice;
 mod numbers;
 mod palette;
 mod panels;
+mod plot;
 mod presentation;
 mod purpose;
+mod refusal;
 mod seen;
 mod session;
 mod sheets;
 mod tab;
 mod tabs;
 mod theme;
-mod traction;
-mod training;
-mod transient;
 mod units;
+mod wake;
+mod window;
 
-use crate::engine::Store;
-use crate::solver::physics::contact::ContactKind;
-use crate::solver::reduced::ReducedModel;
-use answers::jobs::wake;
-use command::Command;
-use context::Commands;
-use desk::{Desk, Opened};
-use document::Document;
-use drawn::Drawn;
-use egui::{CentralPanel, Panel, ScrollArea, Ui};
-use egui_tiles::Tree;
-use examples::Examples;
-use layouts::Layout;
-use lessons::{Lessons, OnScreen};
-use model_source::Models;
-use palette::Palette;
-use panels::help::Help;
-use panels::settings::Settings;
-use session::{Keeper, Place};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::{Duration, Instant};
-use tab::Tab;
-use tabs::Tabs;
-
-/// By which the system knows the window, and the session its folder.
-const APP_ID: &str = "ehl-explorer";
-
-/// Opens the window, on a scene or on the last session, and returns when it is closed.
-///
-/// # Errors
-/// One sentence when the scene cannot be read or there is no display.
-pub fn run(scene: Option<PathBuf>) -> Result<(), String> {
-    let mut explorer = Explorer::with_embedded_models();
-    if let Some(folder) = eframe::storage_dir(APP_ID) {
-        explorer.lessons.look_in(&folder.join("lessons"));
-        explorer = explorer.keeping_trainings_in(&folder).keeping_session_in(&folder, scene.is_none());
-    }
-    if let Some(path) = &scene {
-        let of_the_session = explorer.desk.files.notice.take();
-        explorer.open_scene(path)?;
-        let files = &mut explorer.desk.files;
-        files.notice = of_the_session.or_else(|| files.notice.take());
-    }
-    let options = eframe::NativeOptions {
-        viewport: explorer.place.window().with_app_id(APP_ID).with_title("EHL Explorer"),
-        renderer: eframe::Renderer::Glow,
-        // The session is kept by its own keeper. What the toolkit would keep is not checked, nor written as a whole.
-        persist_window: false,
-        persistence_path: Some(PathBuf::new()),
-        ..eframe::NativeOptions::default()
-    };
-    eframe::run_native(
-        APP_ID,
-        options,
-        Box::new(move |creation| {
-            // A session that ended in the midst of a presentation begins in a window.
-            creation.egui_ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(false));
-            Ok(Box::new(explorer))
-        }),
-    )
-    .map_err(|error| {
-        let error = error.to_string();
-        let reason = error.rsplit(": ").next().unwrap_or(&error).trim_end_matches('.');
-        format!(
-            "no window can be opened here ({reason}); without a display use the headless commands \
-             `ehl-explorer solve`, `ehl-explorer run` or `ehl-explorer bench`"
-        )
-    })
-}
-
-/// A presentation on a screen that is no higher has no read-outs \[points\].
-const LOW: f32 = 500.0;
-/// Width of all tabs below which their titles stand close.
-const NARROW: f32 = 900.0;
-/// Least height of the read-outs.
-const READOUTS: f32 = 24.0;
-
-/// The window.
-pub struct Explorer {
-    desk: Desk,
-    tree: Tree<Tab>,
-    palette: Palette,
-    help: Help,
-    settings: Settings,
-    lessons: Lessons,
-    examples: Examples,
-    drawn: Vec<Drawn>,
-    frame_s: f64,
-    installed: bool,
-    place: Place,
-    keeper: Option<Keeper>,
-}
-
-impl Explorer {
-    /// A window with one reduced model, or without any: the full solver then draws every other picture.
-    pub fn new(model: Option<Arc<ReducedModel>>) -> Self {
-        Self::with_models(Models::only(model), Store::default())
-    }
-
-    /// A window with all models that are part of the program.
-    pub fn with_embedded_models() -> Self {
-        let store = Store::default();
-        Self::with_models(Models::embedded(&store), store)
-    }
-
-    fn with_models(models: Models, store: Store) -> Self {
-        Self {
-            desk: Desk::new(Document::default(), models, store),
-            tree: Layout::default().tree(Place::default().size.0),
-            lessons: Lessons::default(),
-            examples: Examples::default(),
-            palette: Palette::default(),
-            help: Help::default(),
-            settings: Settings::default(),
-            drawn: Vec::new(),
-            frame_s: 0.0,
-            installed: false,
-            place: Place::default(),
-            keeper: None,
-        }
-    }
-
-    /// Leaves the system's file dialogs alone; the path fields remain. For tests.
-    pub fn without_system_dialogs(mut self) -> Self {
-        self.desk.files.native_dialogs = false;
-        self
-    }
-
-    /// Lets a frame wait for the reduced model for as long as this, however busy the machine is. For tests.
-    pub fn waiting_for_answers(mut self, patience: Duration) -> Self {
-        self.desk.answers.be_patient(patience);
-        self
-    }
-
-    /// Keeps trainings in a folder while they run, and offers to go on with what is found there.
-    pub fn keeping_trainings_in(mut self, folder: &Path) -> Self {
-        self.desk.training.keep_in(folder);
-        self
-    }
-
-    /// Restores the last session of a folder, its document too where wanted, and keeps this one there.
-    pub fn keeping_session_in(mut self, folder: &Path, with_document: bool) -> Self {
-        session::restore(&mut self, folder, with_document);
-        match Keeper::new(folder) {
-            Ok(keeper) => self.keeper = Some(keeper),
-            Err(sentence) => self.desk.files.notice = Some(Err(sentence)),
-        }
-        self
-    }
-
-    /// One frame: what was asked for in the panels is done before the tabs are drawn, so that the picture follows
-    /// within the frame.
-    pub fn ui(&mut self, ui: &mut Ui) {
-        let begin = Instant::now();
-        let ctx = ui.ctx().clone();
-        if !self.installed {
-            self.installed = true;
-            theme::install(&ctx);
-            ctx.set_theme(self.desk.display.theme);
-            self.desk.training.look(&ctx);
-        }
-        self.scale(&ctx);
-        self.palette.begin(&ctx);
-        self.desk.figures.begin(ui);
-        drawn::begin(&ctx);
-        self.desk.receive();
-        let asked = self.desk.files.asks() || self.desk.figures.asks() || self.palette.is_open();
-        let mut commands = Commands::default();
-        if !asked {
-            commands.extend(Command::pressed(&ctx));
-        }
-        self.panels(ui, &mut commands);
-        self.execute_all(&ctx, &mut commands);
-        self.answer_opened(&ctx);
-        let here = self.desk.document.point;
-        self.desk.views.regimes.follow(here.kind, here.moes());
-        self.desk.answers.refresh(&ctx, &self.desk.document);
-        self.desk.follow_cuts();
-        self.lessons_ui(ui, &mut commands);
-        let in_time = self.shows_in_time();
-        // A presentation on a very low screen leaves their room to the plots.
-        let room = self.desk.presentation.is_none() || ctx.content_rect().height() > LOW;
-        if room {
-            self.readouts_ui(ui, in_time);
-        }
-        if let Some(headline) = self.desk.headline.as_ref().filter(|_| self.desk.presentation.is_none()) {
-            Panel::top("headline").show(ui, |ui| headline.ui(ui, &mut commands));
-        }
-        CentralPanel::no_frame().show(ui, |ui| {
-            let narrow = ui.available_width() < NARROW;
-            self.tree.ui(&mut Tabs { desk: &mut self.desk, commands: &mut commands, narrow }, ui);
-        });
-        self.drawn = drawn::all(&ctx);
-        self.desk.files_ui(ui);
-        self.desk.figures_ui(&ctx);
-        panels::help::ui(&ctx, &mut self.help);
-        self.settings.ui(&ctx, &self.desk, &mut commands);
-        self.examples.ui(&ctx, &mut commands);
-        self.desk.load_cases.ui(&ctx, &self.desk.document, &mut commands);
-        commands.extend(self.palette.ui(&ctx, &self.desk));
-        self.settle(&ctx);
-        self.execute_all(&ctx, &mut commands);
-        self.keep_session(&ctx);
-        // What a plot or a command changed shows in the next frame.
-        if !self.desk.answers.is_answer_to(&self.desk.document) {
-            ctx.request_repaint();
-        }
-        self.frame_s = begin.elapsed().as_secs_f64();
-    }
-
-    /// What the contact, or the moment that is looked at, amounts to.
-    fn readouts_ui(&self, ui: &mut Ui, in_time: bool) {
-        Panel::bottom("readouts").show(ui, |ui| {
-            // Whatever they are of, nothing above them moves.
-            ui.set_min_height(READOUTS);
-            let context = self.desk.context();
-            if !in_time || !panels::moment::ui(ui, &context) {
-                panels::readouts::ui(ui, &context);
-            }
-        });
-    }
-
-    /// The panel of lessons, where it is open.
-    fn lessons_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
-        if !self.lessons.is_open() {
-            return;
-        }
-        let screen = OnScreen {
-            point: self.desk.document.point,
-            plateau_ratio: self.desk.document.plateau_ratio(),
-            lubricant: self.desk.document.lubricant,
-            tabs: layouts::seen(&self.tree),
-            pins: self.desk.answers.pins.len(),
-            checked: self.desk.answers.comparison.is_some() && self.desk.answers.picture_is_current(),
-        };
-        // Tabs beside each other on a small screen keep their width.
-        let below = ui.ctx().content_rect().width() < lessons::BESIDE && screen.tabs.len() > 1;
-        let panel = match below {
-            true => Panel::bottom("lessons below").exact_size(lessons::HEIGHT),
-            false => Panel::right("lessons").exact_size(lessons::WIDTH),
-        };
-        let lessons = &mut self.lessons;
-        panel.resizable(false).show(ui, |ui| lessons.ui(ui, &screen, commands));
-    }
-
-    /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done
-    /// without asking.
-    fn answer_opened(&mut self, ctx: &egui::Context) {
-        match self.desk.opened.take() {
-            None => {}
-            Some(Opened::Scene(tab)) => {
-                self.show(tab);
-                if tab == Tab::Results {
-                    self.desk.run_study(wake(ctx));
-                }
-            }
-            Some(Opened::Campaign(folder)) => {
-                self.show(Tab::Results);
-                self.desk.watch_campaign(folder, wake(ctx));
-            }
-        }
-    }
-
-    /// Records finished gestures, and starts what waited for the sliders to rest.
-    fn settle(&mut self, ctx: &egui::Context) {
-        let gesture = ctx.input(|i| i.pointer.any_down());
-        let desk = &mut self.desk;
-        if !gesture {
-            desk.history.commit(&desk.document);
-        }
-        desk.answers.settle(ctx, &desk.document);
-        desk.transient.settle(ctx, &desk.answers.store);
-        // A contact that is being solved is waited for.
-        desk.fit_plots &= desk.answers.coming() && !desk.answers.picture_is_current();
-    }
-
-    /// Hands what has changed in this frame to the keeper of the session.
-    fn keep_session(&mut self, ctx: &egui::Context) {
-        let Some(mut keeper) = self.keeper.take() else { return };
-        self.place.follow(ctx);
-        if let Some(sentence) = keeper.follow(self) {
-            self.desk.files.notice = Some(Err(sentence));
-        }
-        self.keeper = Some(keeper);
-    }
-
-    /// The panels around the tabs that are drawn before them.
-    fn panels(&mut self, ui: &mut Ui, commands: &mut Commands) {
-        let (desk, frame_s) = (&mut self.desk, self.frame_s);
-        // What is typed belongs to the panels while they are drawn.
-        let (mut entries, mut own_laws) = (std::mem::take(&mut desk.entries), desk.own_lubricant);
-        let context = desk.context();
-        if context.presenting {
-            let locked = !desk.locked.is_empty();
-            Panel::bottom("presentation").show(ui, |ui| {
-                panels::presentation::ui(ui, &context, locked, &mut entries, commands);
-            });
-        } else {
-            Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, desk, commands));
-            Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, desk, frame_s, commands));
-            let ((least, most), width) = (Place::SLIDERS, self.place.sliders);
-            let sliders = Panel::left("sliders").default_size(width).size_range(least..=most).show(ui, |ui| {
-                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    panels::operating_point::ui(ui, &context, &mut entries, commands);
-                    panels::bodies::ui(ui, context.document, &mut entries, commands);
-                    panels::lubricant::ui(ui, context.document, &mut own_laws, &mut entries, commands);
-                    panels::model::ui(ui, &context, commands);
-                    panels::plane::ui(ui, &context, commands);
-                    ui.add_space(8.0);
-                });
-            });
-            self.place.sliders = sliders.response.rect.width().clamp(least, most);
-        }
-        (desk.entries, desk.own_lubricant) = (entries, own_laws);
-    }
-
-    /// Opens a scene, as File → Open does.
-    ///
-    /// # Errors
-    /// A sentence when it cannot be read; what is on the screen stays.
-    pub fn open_scene(&mut self, path: &Path) -> Result<(), String> {
-        self.desk.open_path(path)
-    }
-
-    /// The tabs that can be seen.
-    fn tabs_in_front(&self) -> impl Iterator<Item = Tab> {
-        layouts::seen(&self.tree).into_iter()
-    }
-
-    /// Whether nothing but contacts in time can be seen: the read-outs are of their moment then.
-    fn shows_in_time(&self) -> bool {
-        let line = self.desk.document.point.kind == ContactKind::Line;
-        let in_time = |tab| matches!(tab, Tab::Transient | Tab::Tpwl | Tab::ContactMap);
-        line && self.desk.document.no_transient().is_none() && self.tabs_in_front().all(in_time)
-    }
-}
-
-impl eframe::App for Explorer {
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        Self::ui(self, ui);
-    }
-
-    fn persist_egui_memory(&self) -> bool {
-        false
-    }
-}
+pub use explorer::Explorer;
+pub use refusal::Refusal;
+pub use window::run;

@@ -135,10 +135,8 @@ mod tests {
     use crate::scene::named_lubricant::{SQUALANE_PIP, by_name};
     use crate::solver::full::Problem;
     use crate::solver::parameters::Quantity;
-    use crate::solver::physics::contact::ContactKind;
-    use crate::solver::physics::contact::{MoesRequest, Sliding, si_from_moes};
-    use crate::solver::physics::lubricant::ShearLaw;
-    use crate::solver::physics::lubricant::{Heat, LimitingStress, ViscosityLaw};
+    use crate::solver::physics::contact::{ContactKind, MoesRequest, Sliding, si_from_moes};
+    use crate::solver::physics::lubricant::{Heat, LimitingStress, ShearLaw, ViscosityLaw};
     use crate::solver::reduced::Trust;
 
     fn line() -> OperatingPoint {

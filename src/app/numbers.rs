@@ -1,5 +1,6 @@
 //! Numbers as people read them: four significant digits, a thin space before the unit, and typed numbers back again.
 
+use crate::app::refusal::Refusal;
 use crate::engine::job::Standing;
 use crate::scene::table::is_whole;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
@@ -136,7 +137,7 @@ pub fn contact(point: &OperatingPoint) -> String {
 ///
 /// # Errors
 /// A sentence that repeats what was typed.
-pub fn parse(text: &str) -> Result<f64, String> {
+pub fn parse(text: &str) -> Result<f64, Refusal> {
     let plain: String = text
         .trim()
         .chars()
@@ -148,11 +149,11 @@ pub fn parse(text: &str) -> Result<f64, String> {
         })
         .collect();
     if plain.is_empty() {
-        return Err("a number is needed here".to_owned());
+        return Err(Refusal::new("a number is needed here"));
     }
     match plain.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(format!("“{}” is no number; write it like 12.5 or 2.2e3", text.trim())),
+        _ => Err(Refusal::new(format!("“{}” is no number; write it like 12.5 or 2.2e3", text.trim()))),
     }
 }
 

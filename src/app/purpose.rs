@@ -28,7 +28,6 @@ pub enum Purpose {
 pub enum Written {
     /// A reduced model.
     Model,
-    /// A table.
     Table,
     /// A drawing.
     Svg,
@@ -36,7 +35,6 @@ pub enum Written {
     Png,
     /// A page.
     Html,
-    /// Arrays.
     Arrays,
 }
 

@@ -1,10 +1,8 @@
 //! What the window shows and does, for those who look at it from outside: the tests.
 
-use super::Explorer;
 use super::answers::PassedOver;
-use super::panels;
 use super::tab::Tab;
-use super::tabs;
+use super::{Explorer, badge, panels};
 use crate::scene::Table;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
@@ -38,7 +36,7 @@ impl Explorer {
 
     /// Nodes along X and across of the picture's grid.
     pub fn nodes(&self) -> Option<(usize, usize)> {
-        self.desk.answers.picture.as_ref().map(|p| (p.solution.x.len(), p.solution.y.len()))
+        self.desk.answers.picture().map(|p| (p.solution.x.len(), p.solution.y.len()))
     }
 
     /// Where the profiles cut a point contact: X of the one across, Y of the one along.
@@ -49,7 +47,7 @@ impl Explorer {
     /// Largest pressures of the drawn profiles: along X, and across where there is one.
     pub fn profile_peaks(&self) -> Option<(f64, Option<f64>)> {
         let peak = |curve: &[egui_plot::PlotPoint]| curve.iter().map(|p| p.y).reduce(f64::max);
-        self.desk.answers.picture.as_ref().and_then(|p| Some((peak(&p.pressure)?, peak(&p.across.pressure))))
+        self.desk.answers.picture().and_then(|p| Some((peak(&p.pressure)?, peak(&p.across.pressure))))
     }
 
     /// Estimated relative grid errors of H_c and H_min, when they belong to the sliders.
@@ -59,12 +57,12 @@ impl Explorer {
 
     /// The first words of the trust badge.
     pub fn badge(&self) -> String {
-        tabs::badge::verdict(&self.desk.answers, self.desk.display.thresholds).title
+        badge::verdict(&self.desk.answers, self.desk.display.thresholds).title
     }
 
     /// What the trust badge says after its first words; symbols stand in braces.
     pub fn badge_detail(&self) -> String {
-        tabs::badge::verdict(&self.desk.answers, self.desk.display.thresholds).detail
+        badge::verdict(&self.desk.answers, self.desk.display.thresholds).detail
     }
 
     /// Whether a reduced model was trained for the contact, and what a reader must know of its picture, one sentence each;
@@ -72,7 +70,7 @@ impl Explorer {
     pub fn trust(&self) -> Option<(bool, Vec<String>)> {
         let answers = &self.desk.answers;
         let said = answers.current_picture()?.warnings.iter().map(ToString::to_string);
-        match &answers.passed_over {
+        match answers.passed_over() {
             None => Some((true, said.collect())),
             Some(PassedOver::Outside(why)) => Some((false, std::iter::once(why.clone()).chain(said).collect())),
             Some(_) => None,
@@ -86,17 +84,17 @@ impl Explorer {
 
     /// Whether the study of the open scene runs.
     pub fn running_study(&self) -> bool {
-        self.desk.views.results.standing().is_some()
+        self.desk.tabs.results.standing().is_some()
     }
 
     /// Whether all expectations of the open scene were met, once its study has ended.
     pub fn verdict(&self) -> Option<bool> {
-        self.desk.views.results.verdict()
+        self.desk.tabs.results.verdict()
     }
 
     /// The table of a name that the study of the open scene has given so far, as CSV.
     pub fn result_table(&self, name: &str) -> Option<String> {
-        self.desk.views.results.table(name).map(Table::to_csv)
+        self.desk.tabs.results.table(name).map(Table::to_csv)
     }
 
     /// The tab in front.
@@ -106,7 +104,7 @@ impl Explorer {
 
     /// Whether a training or a comparison runs.
     pub fn training(&self) -> bool {
-        self.desk.training.standing().is_some()
+        self.desk.tabs.training.work.standing().is_some()
     }
 
     /// Title of the reduced model in use.
@@ -116,7 +114,7 @@ impl Explorer {
 
     /// Whether a study of the Accuracy tab runs.
     pub fn studying(&self) -> bool {
-        self.desk.views.accuracy.standing().is_some()
+        self.desk.tabs.accuracy.works()
     }
 
     /// Whether a contact is taken through time, or about to be.
@@ -145,14 +143,14 @@ impl Explorer {
     /// Contacts of the traction curve on the screen, when it is the one that was asked for last, and full solutions
     /// beside it.
     pub fn traction_contacts(&self) -> (Option<usize>, usize) {
-        let view = &self.desk.traction;
+        let view = &self.desk.tabs.traction.sweeps;
         let curve = view.curve.as_ref().filter(|_| view.curve_is_current());
         (curve.map(|curve| curve.samples.len()), view.markers.as_ref().map_or(0, |markers| markers.samples.len()))
     }
 
     /// Whether full solutions along the traction curve are being computed.
     pub fn solving_along(&self) -> bool {
-        self.desk.traction.full.standing().is_some()
+        self.desk.tabs.traction.sweeps.full.standing().is_some()
     }
 
     /// SRR and NPR of the sliders.

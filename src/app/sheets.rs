@@ -2,9 +2,10 @@
 //! it, beside the window.
 
 use super::answers::Answers;
-use super::answers::jobs::wake;
 use super::document::Document;
 use super::purpose::{Purpose, Written};
+use super::wake::wake;
+use crate::app::refusal::Refusal;
 use crate::engine::job::{Background, Job, Standing};
 use crate::engine::{EngineError, Workbench};
 use crate::scene::{Method, Sheet, answer_or_full};
@@ -56,7 +57,7 @@ impl Sheets {
     /// Begins the sheet of the contact of a document.
     pub fn begin(&mut self, ctx: &Context, (document, answers): (&Document, &Answers), form: Form) {
         let (key, grid) = (document.key(), document.grid);
-        let mut bench = Workbench::on(&answers.store, "");
+        let mut bench = Workbench::on(answers.store(), "");
         let mut methods = vec![Method::Full];
         if let Some(in_use) = answers.in_use(document).filter(|_| answers.trust(document) == Some(Trust::Trained)) {
             methods.push(in_use.method());
@@ -82,10 +83,10 @@ impl Sheets {
     }
 
     /// The sheet once it is made, or why there is none.
-    pub fn receive(&mut self) -> Option<Result<Purpose, String>> {
+    pub fn receive(&mut self) -> Option<Result<Purpose, Refusal>> {
         let mut made = None;
         self.work.receive(|purpose| made = Some(Ok(purpose)));
-        made.or_else(|| self.work.message.take().map(Err))
+        made.or_else(|| self.work.message.take().map(|why| Err(Refusal::new(why))))
     }
 
     /// How far it is.

@@ -31,13 +31,10 @@ pub struct Palette {
     dark: bool,
     /// The background on which text has least contrast.
     paper: Color32,
-    /// Pressure.
     pub pressure: Color32,
     /// Film thickness.
     pub film: Color32,
-    /// Deformation.
     pub deformation: Color32,
-    /// Traction.
     pub traction: Color32,
     /// Hertz and published formulas, always dashed.
     pub reference: Color32,
@@ -49,7 +46,6 @@ pub struct Palette {
     pub warning: Color32,
     /// Something is wrong.
     pub wrong: Color32,
-    /// Text.
     pub text: Color32,
     /// Quiet text and outlines.
     pub quiet: Color32,

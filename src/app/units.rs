@@ -45,7 +45,6 @@ impl Units {
         Manner::of(ctx).units
     }
 
-    /// The other ones.
     pub fn other(self) -> Self {
         match self {
             Self::Dimensionless => Self::Si,

@@ -4,7 +4,7 @@
 //! former picture stays, in grey, the window goes on, and the answer comes when it comes. A panic in there takes
 //! nothing down.
 
-use super::Ask;
+use super::ask::Ask;
 use crate::engine::job::{Ending, Job, Queue, Reporter, Standing, Wake};
 use crate::engine::{Answer, Solver, Store, answer};
 use crate::scene::{Grid, Method};

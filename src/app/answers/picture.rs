@@ -88,7 +88,6 @@ pub struct Picture {
     pub key: Key,
     /// How.
     pub origin: Origin,
-    /// The solution.
     pub solution: Arc<Solution>,
     /// Where its curves lie in a point contact.
     cuts: Cuts,

@@ -1,14 +1,13 @@
 //! What can be done now, and why the rest cannot.
 
-use super::Desk;
+use super::workspace::Desk;
 use crate::app::answers::MOST_PINS;
 use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::Origin;
 use crate::app::command::Command;
-use crate::app::traction::sweep;
+use crate::app::tabs::traction::sweep;
 use crate::app::units::Units;
 use crate::solver::physics::contact::ContactKind;
-use egui::ThemePreference;
 
 const NO_PICTURE: &str = "There is no picture yet";
 const RUNS_ALREADY: &str = "It runs already";
@@ -16,7 +15,7 @@ const RUNS_ALREADY: &str = "It runs already";
 impl Desk {
     /// Whether what a command switches is on; `None` of commands that switch nothing.
     pub fn state(&self, command: &Command) -> Option<bool> {
-        let (profiles, theme) = (&self.views.profiles.choices, self.display.theme);
+        let (profiles, theme) = (&self.tabs.profiles.choices, self.display.theme);
         match command {
             Command::Overlay => Some(profiles.overlay),
             Command::Difference => Some(profiles.difference),
@@ -24,9 +23,7 @@ impl Desk {
             Command::SiUnits => Some(self.display.units == Units::Si),
             Command::LockAxes => Some(!self.locked.is_empty()),
             Command::Presentation => Some(self.presentation.is_some()),
-            Command::LightTheme => Some(theme == ThemePreference::Light),
-            Command::DarkTheme => Some(theme == ThemePreference::Dark),
-            Command::SystemTheme => Some(theme == ThemePreference::System),
+            Command::Theme(wanted) => Some(theme == *wanted),
             _ => None,
         }
     }
@@ -36,21 +33,21 @@ impl Desk {
         let (refused, why) = match command {
             Command::Undo => (!self.history.can_undo(&self.document), "Nothing has been changed"),
             Command::Redo => (!self.history.can_redo(), "Nothing has been undone"),
-            Command::CopyReadouts | Command::ExportProfiles => (self.answers.picture.is_none(), NO_PICTURE),
-            Command::Pin if self.answers.picture.is_some() => {
-                (self.answers.pins.len() >= MOST_PINS, "As many curves are pinned as can be told apart")
+            Command::CopyReadouts | Command::ExportProfiles => (self.answers.picture().is_none(), NO_PICTURE),
+            Command::Pin if self.answers.picture().is_some() => {
+                (self.answers.pins().len() >= MOST_PINS, "As many curves are pinned as can be told apart")
             }
             Command::Pin => (true, NO_PICTURE),
-            Command::Unpin => (self.answers.pins.is_empty(), "Nothing is pinned"),
+            Command::Unpin => (self.answers.pins().is_empty(), "Nothing is pinned"),
             Command::Overlay | Command::Difference => {
-                let full = self.answers.picture.as_ref().is_none_or(|picture| picture.origin == Origin::Full);
+                let full = self.answers.picture().is_none_or(|picture| picture.origin == Origin::Full);
                 (full, "The picture is the full solution itself")
             }
             Command::EstimateGridError => return grid_error(self),
-            Command::SolveAlong => match self.traction.full.standing() {
+            Command::SolveAlong => match self.tabs.traction.sweeps.full.standing() {
                 Some(_) => (true, RUNS_ALREADY),
                 None => (
-                    sweep(&self.document, &self.answers, &self.views.traction.choices).is_none(),
+                    sweep(&self.document, &self.answers, &self.tabs.traction.choices).is_none(),
                     "A Newtonian lubricant has no plateau ratio to vary",
                 ),
             },
@@ -58,11 +55,14 @@ impl Desk {
                 Some(_) => (true, RUNS_ALREADY),
                 None => return self.document.no_transient(),
             },
-            Command::Train => match self.training.standing() {
+            Command::Train => match self.tabs.training.work.standing() {
                 Some(_) => (true, "A training or comparison runs already"),
-                None => (self.training.left_behind, "First resume or discard the training that was left unfinished"),
+                None => (
+                    self.tabs.training.work.left_behind,
+                    "First resume or discard the training that was left unfinished",
+                ),
             },
-            Command::Cancel => (self.works().is_empty() && self.answers.jobs.running().is_empty(), "Nothing runs"),
+            Command::Cancel => (self.works().is_empty() && self.answers.running().is_empty(), "Nothing runs"),
             _ => return None,
         };
         refused.then_some(why)
@@ -72,7 +72,7 @@ impl Desk {
 fn grid_error(desk: &Desk) -> Option<&'static str> {
     if desk.document.point.kind == ContactKind::Line {
         Some("Only the grid of a point contact is estimated")
-    } else if desk.answers.jobs.busy(JobKind::Estimate) {
+    } else if desk.answers.runs(JobKind::Estimate) {
         Some(RUNS_ALREADY)
     } else {
         let there = desk.answers.can_estimate();

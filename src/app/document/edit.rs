@@ -1,6 +1,8 @@
 //! Every change of the document that can be asked for, and the one place where it is made.
 
-use super::{Document, Shape};
+use super::experiment::Document;
+use super::shape::Shape;
+use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::NamedLubricant;
 use crate::scene::{LoadFollower, LubricantFollower, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
@@ -16,7 +18,6 @@ use crate::solver::training::TrainingSpec;
 pub enum Edit {
     /// M and L.
     Moes(Moes),
-    /// One quantity.
     Quantity(Quantity, f64),
     /// One quantity that was typed in SI units and stays.
     Typed(Quantity, f64),
@@ -57,7 +58,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when it is refused; the document is unchanged then.
-    pub fn edit(&mut self, edit: Edit) -> Result<(), String> {
+    pub fn edit(&mut self, edit: Edit) -> Result<(), Refusal> {
         match edit {
             Edit::Moes(moes) => return self.set_moes(moes),
             Edit::Quantity(quantity, value) => return self.set_quantity(quantity, value),

@@ -1,6 +1,7 @@
 //! The document in the words of engineers: an oil at a temperature, two bodies.
 
-use super::Document;
+use super::experiment::Document;
+use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::of_laws;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::{Bodies, Material};
@@ -16,11 +17,10 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when there is no such oil, or the lubricant's own law fixes α; the document is unchanged then.
-    pub fn set_oil(&mut self, oil: Oil) -> Result<(), String> {
+    pub fn set_oil(&mut self, oil: Oil) -> Result<(), Refusal> {
         if self.lubricant.own_coefficient().is_some() {
-            return Err(
-                "the lubricant’s own viscosity law fixes α; choose Mineral oil above to enter a grade".to_owned()
-            );
+            let why = "the lubricant’s own viscosity law fixes α; choose Mineral oil above to enter a grade";
+            return Err(Refusal::new(why));
         }
         let point = self.of_oil(&oil)?;
         self.accept(point)?;
@@ -34,7 +34,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the bodies make no contact; the document is unchanged then.
-    pub fn set_bodies(&mut self, bodies: Bodies) -> Result<(), String> {
+    pub fn set_bodies(&mut self, bodies: Bodies) -> Result<(), Refusal> {
         let (point, lubricant) = self.of_bodies(&bodies)?;
         self.set_contact(point, lubricant)?;
         self.view.bodies = Some(bodies);
@@ -68,8 +68,8 @@ impl Document {
         self.view.bodies.filter(|bodies| self.of_bodies(bodies) == Ok((self.point, self.lubricant)))
     }
 
-    fn of_oil(&self, oil: &Oil) -> Result<OperatingPoint, String> {
-        let state = oil.state().map_err(|error| error.to_string())?;
+    fn of_oil(&self, oil: &Oil) -> Result<OperatingPoint, Refusal> {
+        let state = oil.state()?;
         Ok(OperatingPoint { viscosity_pa_s: state.viscosity_pa_s, alpha_per_pa: state.alpha_per_pa, ..self.point })
     }
 
@@ -78,7 +78,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the contact cannot be computed with heat; the document is unchanged then.
-    pub fn switch_heat(&mut self, on: bool) -> Result<(), String> {
+    pub fn switch_heat(&mut self, on: bool) -> Result<(), Refusal> {
         let oil = of_laws(&self.lubricant).map(|named| named.heat).unwrap_or_default();
         let entered = self.view.bodies.filter(|bodies| bodies.reduced_modulus_pa() == Ok(self.point.modulus_pa));
         let bodies = entered.map_or(Heat::default().bodies, |bodies| bodies.heat());
@@ -91,7 +91,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the bodies make no contact; the document is unchanged then.
-    pub fn set_material(&mut self, body: usize, material: Material) -> Result<(), String> {
+    pub fn set_material(&mut self, body: usize, material: Material) -> Result<(), Refusal> {
         if let Some(mut bodies) = self.bodies_in_force() {
             bodies.0[body] = bodies.0[body].of(material);
             return self.set_bodies(bodies);
@@ -102,8 +102,8 @@ impl Document {
     }
 
     /// The contact and the lubricant's laws that the bodies make of the present ones.
-    fn of_bodies(&self, bodies: &Bodies) -> Result<(OperatingPoint, Lubricant), String> {
-        let point = bodies.contact(self.point).map_err(|error| error.to_string())?;
+    fn of_bodies(&self, bodies: &Bodies) -> Result<(OperatingPoint, Lubricant), Refusal> {
+        let point = bodies.contact(self.point)?;
         let heat = self.lubricant.heat.map(|heat| Heat { bodies: bodies.heat(), ..heat });
         Ok((point, Lubricant { heat, ..self.lubricant }))
     }

@@ -1,6 +1,7 @@
 //! What was typed stays: quantities that are held, and what moves instead of them when M or L moves.
 
-use super::Document;
+use super::experiment::Document;
+use crate::app::refusal::Refusal;
 use crate::scene::{LoadFollower, LubricantFollower};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::Moes;
@@ -34,7 +35,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the value is refused; the document is unchanged then.
-    pub fn type_quantity(&mut self, quantity: Quantity, value: f64) -> Result<(), String> {
+    pub fn type_quantity(&mut self, quantity: Quantity, value: f64) -> Result<(), Refusal> {
         self.set_quantity(quantity, value)?;
         self.view.held.set(quantity, true);
         Ok(())
@@ -45,7 +46,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence that names what is held, where nothing is left to give way.
-    pub fn followers_for(&self, m_moves: bool, l_moves: bool) -> Result<Followers, String> {
+    pub fn followers_for(&self, m_moves: bool, l_moves: bool) -> Result<Followers, Refusal> {
         let chosen = self.followers();
         let free = |pair: &Followers| {
             let (with_m, with_l) = movers(*pair);
@@ -63,12 +64,13 @@ impl Document {
         std::iter::once(chosen).chain(possible).find(free).ok_or_else(|| {
             let held: Vec<&str> = Quantity::SI.into_iter().filter(|q| self.holds(*q)).map(Quantity::name).collect();
             let moving = if m_moves { "M" } else { "L" };
-            format!("{moving} cannot move: {} are held; free one of them by its lock", held.join(", "))
+            let held = held.join(", ");
+            Refusal::new(format!("{moving} cannot move: {held} are held; free one of them by its lock"))
         })
     }
 
     /// What a move to M and L would change of both.
-    pub(super) fn followers_to(&self, wanted: Moes) -> Result<Followers, String> {
+    pub(super) fn followers_to(&self, wanted: Moes) -> Result<Followers, Refusal> {
         let here = self.point.moes();
         let moved = |from: f64, to: f64| (to / from - 1.0).abs() > 1e-12;
         self.followers_for(moved(here.m, wanted.m), moved(here.l, wanted.l))

@@ -1,6 +1,6 @@
 //! Undo and redo as snapshots of the document.
 
-use super::Document;
+use super::experiment::Document;
 
 /// Undo and redo as snapshots. An edit is a whole gesture: it is recorded when the pointer is released.
 #[derive(Debug, Default)]

@@ -1,6 +1,7 @@
 //! Roller, ball or ellipse: the shape of the contact as one choice.
 
-use super::Document;
+use super::experiment::Document;
+use crate::app::refusal::Refusal;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 
@@ -56,7 +57,7 @@ impl Document {
     ///
     /// # Errors
     /// A sentence when the point would be refused; the document is unchanged then.
-    pub fn set_shape(&mut self, shape: Shape) -> Result<(), String> {
+    pub fn set_shape(&mut self, shape: Shape) -> Result<(), Refusal> {
         let here = self.point;
         let kind = if shape == Shape::Roller { ContactKind::Line } else { ContactKind::Point };
         let former = here.radius_y_m.or(self.view.radius_y_m);

@@ -1,6 +1,7 @@
 //! The document: edits, refusals, files, undo.
 
 use super::*;
+use crate::app::document::{History, Shape};
 use crate::scene::named_lubricant::by_name;
 use crate::solver::full::transient::Frame;
 use crate::solver::training::Windows;

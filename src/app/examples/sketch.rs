@@ -176,7 +176,6 @@ pub(super) fn marks(scene: &Scene) -> Vec<Mark> {
     }
 }
 
-/// Draws it.
 pub(super) fn draw(ui: &Ui, area: Rect, scene: &Scene) {
     let palette = Palette::of(ui);
     let hue = |hue: Hue| -> Color32 {

@@ -1,8 +1,8 @@
 //! What a plot draws, noted for print: the same lines, marks, words and images in the coordinates of its axes. Only
 //! while a figure is wanted; what is drawn past the canvas is for the hand and stays on the screen.
 
+use super::sitting::{pixels, rgb, with_sitting};
 use super::texture::known;
-use super::{rgb, with_sitting};
 use crate::scene::drawing::{Beside, Pen, Rgb, Words};
 use crate::scene::{Band, Chart, ChartAxis, Map, Marks, Note, Series};
 use egui::epaint::{ColorMode, TextShape};
@@ -252,7 +252,6 @@ impl<'p, 'a> Canvas<'p, 'a> {
         self.recording
     }
 
-    /// A line.
     pub fn line(&mut self, mut line: Line<'a>) {
         if let Some(recording) = &mut self.recording {
             line.initialize(self.plot.plot_bounds().range_x());
@@ -312,7 +311,6 @@ impl<'p, 'a> Canvas<'p, 'a> {
         self.plot.span(span);
     }
 
-    /// Bars.
     pub fn bar_chart(&mut self, bars: BarChart) {
         if let Some(recording) = &mut self.recording {
             recording.bands(self.plot, &bars);
@@ -328,7 +326,7 @@ impl<'p, 'a> Canvas<'p, 'a> {
             let ends = |axis: &Axis, (from, to): (f64, f64)| (axis.value(from), axis.value(to));
             let [across, up] = &recording.axes;
             let (x, y) = (ends(across, x), ends(up, y));
-            recording.chart.map = Some(Map { x, y, pixels: super::pixels(&image), scale: None });
+            recording.chart.map = Some(Map { x, y, pixels: pixels(&image), scale: None });
         }
         let center = PlotPoint::new(0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1));
         let size = egui::vec2((x.1 - x.0) as f32, (y.1 - y.0) as f32);

@@ -1,11 +1,13 @@
 //! The window in which a figure gets its size, its theme, its words, and leaves.
 
-use super::with_sitting;
-use crate::app::answers::jobs::wake;
+use super::settings::{FigureSettings, SIZES};
+use super::sitting::with_sitting;
 use crate::app::controls::{message_ui, named, standing_ui};
 use crate::app::purpose::{Purpose, Written};
+use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::app::units::Units;
+use crate::app::wake::wake;
 use crate::engine::job::{Background, Job, Standing};
 use crate::scene::drawing::{DPI, Drawing, Pixels};
 use crate::scene::{Chart, Page, drawn};
@@ -13,47 +15,13 @@ use egui::{
     Color32, ColorImage, ComboBox, Context, DragValue, Id, Modal, TextEdit, TextureHandle, TextureOptions, Theme,
     ThemePreference, Ui, vec2,
 };
-use serde::{Deserialize, Serialize};
 
 /// Widths of a column and of a page of journals \[mm\].
 const WIDTHS: [f64; 2] = [85.0, 170.0];
-/// Sizes that a figure can have \[mm\].
-const SIZES: (f64, f64) = (30.0, 500.0);
 /// Room for the preview on the screen.
 const PREVIEW: egui::Vec2 = vec2(430.0, 360.0);
 /// Room for what is set.
 const SETTINGS: f32 = 356.0;
-
-/// What stays from one figure to the next; kept with the session.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct FigureSettings {
-    /// Width \[mm\].
-    pub width_mm: f64,
-    /// Height \[mm\].
-    pub height_mm: f64,
-    /// Resolution of an image.
-    pub dpi: f64,
-    /// Light letters on a dark ground.
-    pub dark: bool,
-    /// Units of its axes.
-    pub units: Units,
-}
-
-impl FigureSettings {
-    /// Whether sizes and resolution are such as can be entered.
-    pub fn is_sound(&self) -> bool {
-        let within = |value: f64, (least, most): (f64, f64)| least <= value && value <= most;
-        within(self.width_mm, SIZES) && within(self.height_mm, SIZES) && within(self.dpi, DPI)
-    }
-}
-
-impl Default for FigureSettings {
-    fn default() -> Self {
-        let Page { width_mm, height_mm, dark, .. } = Page::default();
-        Self { width_mm, height_mm, dpi: 300.0, dark, units: Units::default() }
-    }
-}
 
 /// Which of the plots leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +37,7 @@ struct Dialog {
     choice: Choice,
     title: String,
     caption: String,
-    preview: Option<(Vec<Chart>, Page, Result<TextureHandle, String>)>,
+    preview: Option<(Vec<Chart>, Page, Result<TextureHandle, Refusal>)>,
 }
 
 /// Figures that are wanted.
@@ -378,7 +346,7 @@ impl Dialog {
             let texture = drawing.to_pixels(dpi).map(|pixels| {
                 ui.ctx().load_texture("preview of a figure", color_image(&pixels), TextureOptions::LINEAR)
             });
-            self.preview = Some((chosen, page, texture.map_err(|why| why.to_string())));
+            self.preview = Some((chosen, page, texture.map_err(|why| Refusal::new(why.to_string()))));
         }
         let (rect, response) = ui.allocate_exact_size(PREVIEW, egui::Sense::hover());
         named(ui, response, "Preview of the figure");

@@ -1,5 +1,6 @@
 //! What a step of a lesson waits for.
 
+use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::solver::parameters::Quantity;
@@ -30,7 +31,6 @@ pub struct OnScreen {
     pub point: OperatingPoint,
     /// Its NPR, the lubricant's own where it has none.
     pub plateau_ratio: f64,
-    /// Its lubricant.
     pub lubricant: Lubricant,
     /// Tabs that are seen.
     pub tabs: Vec<Tab>,
@@ -49,9 +49,11 @@ impl Goal {
     ///
     /// # Errors
     /// With what would be accepted.
-    pub fn all(words: &str) -> Result<Vec<Self>, String> {
+    pub fn all(words: &str) -> Result<Vec<Self>, Refusal> {
         let goals = words.split(',').map(str::trim).filter(|words| *words != "read");
-        goals.map(|words| Self::read(words).ok_or_else(|| format!("“{words}” is no goal; {ACCEPTED}"))).collect()
+        goals
+            .map(|words| Self::read(words).ok_or_else(|| Refusal::new(format!("“{words}” is no goal; {ACCEPTED}"))))
+            .collect()
     }
 
     fn read(words: &str) -> Option<Self> {
@@ -63,7 +65,7 @@ impl Goal {
             "contact" => {
                 [ContactKind::Line, ContactKind::Point].into_iter().find(|kind| kind.name() == rest).map(Self::Kind)
             }
-            "tab" => Tab::ALL.into_iter().find(|tab| tab.title() == rest).map(Self::Tab),
+            "tab" => Tab::ALL.iter().find(|tab| tab.title() == rest).map(|tab| Self::Tab(*tab)),
             "lubricant" => {
                 let known = by_name(rest).ok()?;
                 NAMED.iter().find(|named| named.name == known.name).map(Self::Lubricant)
@@ -83,7 +85,6 @@ impl Goal {
         if let Self::Tab(tab) = self { Some(*tab) } else { None }
     }
 
-    /// Whether it holds.
     pub fn holds(&self, screen: &OnScreen) -> bool {
         match self {
             Self::Between(quantity, from, to) => {

@@ -12,15 +12,14 @@
 //! ```
 
 use super::goal::Goal;
+use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 
 /// A lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lesson {
-    /// Its title.
     pub title: String,
-    /// What it is about.
     pub about: String,
     /// The contact it starts from.
     pub point: OperatingPoint,
@@ -33,7 +32,6 @@ pub struct Lesson {
 /// A step of a lesson.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Step {
-    /// Its title.
     pub title: String,
     /// What is to be done, and why.
     pub text: String,
@@ -73,7 +71,7 @@ impl Lesson {
         // Where the text of a line that goes on in the next one belongs.
         let mut in_seen = false;
         for (k, line) in lines {
-            let told = |problem: String| LessonError { line: k + 1, problem };
+            let told = |why: Refusal| LessonError { line: k + 1, problem: why.to_string() };
             if let Some(title) = line.strip_prefix("## ") {
                 if steps.len() == MOST.0 {
                     return Err(refuse(k, "a lesson has at most 50 steps"));
@@ -122,35 +120,33 @@ fn field(line: &str) -> Option<(&str, &str)> {
     ["Start", "Do", "At", "Seen"].contains(&name).then(|| (name, words.trim()))
 }
 
-fn start_of(words: &str) -> Result<(OperatingPoint, &'static NamedLubricant), String> {
+fn start_of(words: &str) -> Result<(OperatingPoint, &'static NamedLubricant), Refusal> {
     let like = "write it like `Start: line contact, M 40, L 10, roelands-oil`";
     let mut parts = words.split(',').map(str::trim);
     let kind = match parts.next() {
         Some("line contact") => ContactKind::Line,
         Some("point contact") => ContactKind::Point,
-        _ => return Err(format!("a lesson starts with a line contact or a point contact; {like}")),
+        _ => return Err(Refusal::new(format!("a lesson starts with a line contact or a point contact; {like}"))),
     };
+    let named = |name: &str| by_name(name).map_err(Refusal::from);
     let rest: Vec<&str> = parts.collect();
     let (point, name) = match *rest {
         ["published", name] => {
-            let known = by_name(name).map_err(|error| error.to_string())?;
+            let known = named(name)?;
             let point = known.studied_contact(kind);
-            (point.ok_or_else(|| format!("{name} has no published contact; {like}"))?, known.name)
+            (point.ok_or_else(|| Refusal::new(format!("{name} has no published contact; {like}")))?, known.name)
         }
         [m, l, name] => {
             let number = |text: &str, name: &str| {
                 let value = text.strip_prefix(name).and_then(|text| text.trim().parse().ok());
-                value.ok_or_else(|| format!("{name} is missing; {like}"))
+                value.ok_or_else(|| Refusal::new(format!("{name} is missing; {like}")))
             };
             let request = MoesRequest::new(kind, number(m, "M")?, number(l, "L")?);
-            (
-                si_from_moes(&request).map_err(|error| error.to_string())?,
-                by_name(name).map_err(|error| error.to_string())?.name,
-            )
+            (si_from_moes(&request)?, named(name)?.name)
         }
-        _ => return Err(like.to_owned()),
+        _ => return Err(Refusal::new(like)),
     };
-    let lubricant = NAMED.iter().find(|named| named.name == name).ok_or_else(|| like.to_owned())?;
+    let lubricant = NAMED.iter().find(|named| named.name == name).ok_or_else(|| Refusal::new(like))?;
     Ok((point, lubricant))
 }
 

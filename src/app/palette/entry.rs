@@ -39,8 +39,11 @@ impl Entry {
 
 /// Everything there is, in its order.
 pub fn all(desk: &Desk) -> Vec<Entry> {
-    let tabs =
-        Tab::ALL.map(|tab| Entry::new("Tab", format!("Go to {}", tab.title()), tab.subjects(), Command::Go(tab)));
+    let go_to = |tab: &Tab| {
+        let name = format!("Go to {}", tab.title());
+        Entry::new("Tab", name, desk.tabs.of(*tab).about().keywords, Command::Go(*tab))
+    };
+    let tabs = Tab::ALL.iter().map(go_to);
     // The palette itself is open already.
     let commands = MENUS.iter().filter(|item| item.command != Command::Palette);
     let commands = commands.map(|item| Entry {
@@ -48,7 +51,7 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
         refusal: desk.refusal(&item.command),
         ..Entry::new(item.menu, item.name.to_owned(), item.synonyms, item.command.clone())
     });
-    let mut entries: Vec<Entry> = tabs.into_iter().chain(commands).collect();
+    let mut entries: Vec<Entry> = tabs.chain(commands).collect();
     let present = Shape::of(&desk.document.point);
     entries.extend(Shape::ALL.map(|shape| {
         let edit = Command::Edit(Edit::Shape(shape), SHAPE);

@@ -4,6 +4,7 @@
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, named, row_name, typed_field, warning_ui};
 use crate::app::document::{Document, Edit};
+use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::bodies::{Bodies, Body, MATERIALS};
 use crate::solver::physics::contact::ContactKind;
@@ -127,7 +128,7 @@ impl Field {
                 // A plane has no radius: it is shown and typed as infinite.
                 let read = |text: &str| match text.trim().to_lowercase().as_str() {
                     "plane" | "flat" | "∞" | "inf" => Ok(f64::INFINITY),
-                    _ => engineering::parse(text, dimension, unit).map(|si| si / scale).map_err(|e| e.to_string()),
+                    _ => engineering::parse(text, dimension, unit).map(|si| si / scale).map_err(Refusal::from),
                 };
                 let value = (self.get)(body).map_or(f64::INFINITY, |si| si / scale);
                 if let Some(typed) = typed_field(ui, entries, name, value, 66.0, self.tip, read) {

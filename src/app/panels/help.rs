@@ -6,7 +6,6 @@ use egui::{Context, Window};
 /// Which Help window is open.
 #[derive(Default)]
 pub struct Help {
-    /// The manual.
     pub manual: Manual,
     /// What this program is.
     pub about: bool,

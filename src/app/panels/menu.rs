@@ -4,6 +4,7 @@ use crate::app::command::{Command, Item, MENUS};
 use crate::app::context::Commands;
 use crate::app::controls::named;
 use crate::app::desk::Desk;
+use crate::app::notice::Notice;
 use crate::app::theme::Palette;
 use egui::{Align, Button, Label, Layout, MenuBar, RichText, Ui};
 
@@ -93,8 +94,8 @@ fn title(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     ui.add(label).on_hover_text(if desk.dirty() { "Changed since it was last saved" } else { "Saved" });
     if let Some(notice) = &desk.files.notice {
         let (text, color) = match notice {
-            Ok(text) => (text, palette.quiet),
-            Err(text) => (text, palette.wrong),
+            Notice::Done(text) | Notice::Short(text) => (text, palette.quiet),
+            Notice::Wrong(text) => (text, palette.wrong),
         };
         if ui.small_button("Dismiss").clicked() {
             commands.push(Command::Dismiss);

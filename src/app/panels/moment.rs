@@ -21,7 +21,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
     let (film, pressure) = (setup.point.film_scale_m(), setup.point.hertz().pressure_pa);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 26.0;
-        if drawn::is_grey(ui.ctx(), "read-outs of the moment", Owner::InTime(Arc::clone(setup)), context) {
+        if drawn::is_grey(ui.ctx(), "read-outs of the moment", Owner::Transient(Arc::clone(setup)), context) {
             ui.disable();
         }
         let films = [("c", h_c, "Central film at this moment"), ("min", value(Quantity::MinimumFilm), SMALLEST)];

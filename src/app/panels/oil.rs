@@ -191,7 +191,7 @@ fn fields_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'stat
         ui.horizontal(|ui| {
             row_name(ui, name_and_symbol(ui, row, "", ""), tip);
             let read = |text: &str| {
-                let si = engineering::parse(text, *dimension, unit).map_err(|error| error.to_string())?;
+                let si = engineering::parse(text, *dimension, unit)?;
                 Ok((si - zero) / scale)
             };
             if let Some(typed) = typed_field(ui, entries, name, (*value - zero) / scale, 78.0, tip, read) {

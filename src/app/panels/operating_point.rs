@@ -7,6 +7,7 @@ use crate::app::controls::{
 };
 use crate::app::document::{Document, Edit, Shape};
 use crate::app::numbers;
+use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
 use crate::engine::Warning;
 use crate::solver::parameters::Quantity;
@@ -150,15 +151,16 @@ fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'sta
 const HELD: [f32; 2] = [62.0, 22.0];
 
 /// The value in SI units of a typed text with or without unit, inside what is accepted.
-fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, String> {
+fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, Refusal> {
     let (unit, scale) = quantity.reading_unit(kind);
-    let value = engineering::parse(text, quantity.dimension(kind), unit).map_err(|error| error.to_string())?;
+    let value = engineering::parse(text, quantity.dimension(kind), unit)?;
     let (low, high) = quantity.range();
     if (low..=high).contains(&value) {
         return Ok(value);
     }
     let [low, high] = [low, high].map(|end| numbers::quantity(end / scale, unit));
-    Err(format!("{} is {}; {low} to {high} are accepted", quantity.name(), numbers::quantity(value / scale, unit)))
+    let value = numbers::quantity(value / scale, unit);
+    Err(Refusal::new(format!("{} is {value}; {low} to {high} are accepted", quantity.name())))
 }
 
 fn hertz_ui(ui: &mut Ui, document: &Document) {

@@ -68,9 +68,9 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 }
 
 fn error_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {
-    let runs = answers.jobs.busy(JobKind::Estimate);
+    let runs = answers.runs(JobKind::Estimate);
     let there = answers.can_estimate();
-    let mesh = answers.full.as_ref().map(|full| full.solution.mesh);
+    let mesh = answers.full().map(|full| full.solution.mesh);
     let spec = mesh.and_then(|mesh| mesh.plane()).unwrap_or(document.plane());
     let (nx, ny) = second_grid(spec).nodes().unwrap_or_default();
     let tip = format!(
@@ -80,7 +80,7 @@ fn error_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
     if button.on_hover_text(&tip).on_disabled_hover_text("A full solution on the chosen grid comes first").clicked() {
         commands.push(Command::EstimateGridError);
     }
-    if let Some(why) = &answers.no_estimate {
+    if let Some(why) = answers.no_estimate() {
         message_ui(ui, why);
     }
     let Some(error) = answers.grid_error().map(|error| error.accuracy) else { return };

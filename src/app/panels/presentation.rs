@@ -26,7 +26,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entrie
                 if named(ui, button, "End the presentation").clicked() {
                     commands.push(Command::Presentation);
                 }
-                let pins = context.answers.pins.len();
+                let pins = context.answers.pins().len();
                 let buttons = [
                     ("Undo", true, "Take the last change back", Command::Undo),
                     ("Unpin", pins > 0, "Remove all pinned curves", Command::Unpin),

@@ -8,19 +8,20 @@ use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
 use crate::solver::physics::bodies::film_regime;
 use crate::solver::physics::contact::ContactKind;
-use egui::{RichText, Ui, text::LayoutJob};
+use egui::text::LayoutJob;
+use egui::{RichText, Ui};
 use std::sync::Arc;
 
 /// The read-outs.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let (answers, document) = (context.answers, context.document);
     let bodies = document.view.bodies.as_ref();
-    let Some(picture) = &answers.picture else {
+    let Some(picture) = answers.picture() else {
         ui.weak("The first picture is being computed");
         return;
     };
     let stale = drawn::is_grey(ui.ctx(), "read-outs", Owner::Contact(picture.key), context);
-    let pin = answers.pins.last();
+    let pin = answers.pins().last();
     let palette = Palette::of(ui);
     let srr = picture.key.point.sliding.slide_to_roll_ratio;
     let scalars = |p: &Picture| p.solution.scalars;
@@ -32,7 +33,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         }
         let s = scalars(picture);
         // What the grid costs stands beside the value it was estimated for.
-        let shown_is_full = answers.full.as_ref().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
+        let shown_is_full = answers.full().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
         let grid_error = answers.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
         let doubt = picture.unphysical;
         let unphysical = doubt.is_some();

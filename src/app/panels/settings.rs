@@ -5,6 +5,7 @@ use crate::app::context::Commands;
 use crate::app::controls::{Entries, heading, row_name, typed_field};
 use crate::app::desk::Desk;
 use crate::app::display::{Display, Thresholds};
+use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::engineering::{self, Dimension};
 use egui::{Context, Id, ThemePreference, Ui, Window};
@@ -24,16 +25,12 @@ const THRESHOLDS: [(&str, &str, &str); 2] = [
 ];
 const PERCENT: f64 = 0.01;
 
-const THEMES: [(ThemePreference, &str, Command); 3] = [
-    (ThemePreference::System, "As the system", Command::SystemTheme),
-    (ThemePreference::Light, "Light", Command::LightTheme),
-    (ThemePreference::Dark, "Dark", Command::DarkTheme),
-];
+const THEMES: [(ThemePreference, &str); 3] =
+    [(ThemePreference::System, "As the system"), (ThemePreference::Light, "Light"), (ThemePreference::Dark, "Dark")];
 
 /// The window, open or closed.
 #[derive(Default)]
 pub struct Settings {
-    /// Whether it is open.
     pub open: bool,
     entries: Entries,
 }
@@ -61,7 +58,7 @@ impl Settings {
             ui.horizontal(|ui| {
                 row_name(ui, name_and_symbol(ui, row, "", ""), tip);
                 let read = |text: &str| {
-                    engineering::parse(text, Dimension::Ratio, "%").map(|si| si / PERCENT).map_err(|e| e.to_string())
+                    engineering::parse(text, Dimension::Ratio, "%").map(|si| si / PERCENT).map_err(Refusal::from)
                 };
                 if let Some(typed) = typed_field(ui, &mut self.entries, name, *value / PERCENT, 70.0, tip, read) {
                     *value = typed * PERCENT;
@@ -89,9 +86,9 @@ impl Settings {
 fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {
     ui.horizontal(|ui| {
         row_name(ui, name_and_symbol(ui, "Colours", "", ""), "Light, dark, or as the system has it");
-        for (theme, name, command) in THEMES {
+        for (theme, name) in THEMES {
             if ui.selectable_label(display.theme == theme, name).clicked() {
-                commands.push(command);
+                commands.push(Command::Theme(theme));
             }
         }
     });

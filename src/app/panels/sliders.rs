@@ -5,6 +5,7 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, RangeSlider, described, explained, named, typed_field};
 use crate::app::document::{Document, Edit, HOME, Shape};
 use crate::app::numbers;
+use crate::app::refusal::Refusal;
 use crate::app::theme::{name_and_symbol, rich};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::ContactKind;
@@ -170,7 +171,7 @@ impl Row {
         let moved = self.slider.show(ui, self.value, width).map(|value| (sign, value));
         let ratio = matches!(self.quantity, Quantity::SlideToRollRatio | Quantity::RadiusRatio);
         let read = |text: &str| match ratio {
-            true => engineering::parse(text, Dimension::Ratio, "").map_err(|error| error.to_string()),
+            true => engineering::parse(text, Dimension::Ratio, "").map_err(Refusal::from),
             false => numbers::parse(text),
         };
         let entered = typed_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip, read);

@@ -15,8 +15,8 @@ const NEWS_S: f64 = 0.12;
 /// The strip at the bottom.
 pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
     ui.horizontal(|ui| {
-        let usual = desk.answers.full_times.median_s();
-        let solves = desk.answers.jobs.running().iter().map(|job| (job.since.elapsed().as_secs_f64(), job));
+        let usual = desk.answers.full_times().median_s();
+        let solves = desk.answers.running().iter().map(|job| (job.since.elapsed().as_secs_f64(), job));
         let solves = solves.filter(|(since_s, _)| *since_s > NEWS_S).map(|(_, job)| solve(job, usual));
         let (works, young): (Vec<_>, Vec<_>) = desk.works().into_iter().partition(|work| work.since_s > NEWS_S);
         if let Some(work) = young.first() {
@@ -41,7 +41,7 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
             }
             [] => {
                 let idle = ui.weak("Ready");
-                if let Some(failure) = desk.answers.failure.as_ref().or(desk.answers.verify_failure.as_ref()) {
+                if let Some(failure) = desk.answers.failure().or(desk.answers.verify_failure()) {
                     let color = Palette::of(ui).wrong;
                     ui.label(RichText::new(&failure.message).small().color(color));
                 } else {
@@ -50,7 +50,7 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let (full, reduced) = (&desk.answers.full_times, &desk.answers.reduced_times);
+            let (full, reduced) = (desk.answers.full_times(), desk.answers.reduced_times());
             let time = |seconds: Option<f64>| seconds.map_or_else(|| "–".to_owned(), numbers::duration);
             ui.weak(format!("full {}", time(full.median_s()))).on_hover_text(format!(
                 "Median of the last {} full solves. Drawing the window takes {}",

@@ -1,7 +1,8 @@
 //! Writing the session on a thread of its own: a change is on disk soon, whether or not another frame is drawn.
 
-use super::{FILE, Session};
-use crate::app::Explorer;
+use super::state::{FILE, Session};
+use crate::app::explorer::Explorer;
+use crate::app::refusal::Refusal;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
@@ -14,7 +15,7 @@ const DELAY: Duration = Duration::from_secs(2);
 pub struct Keeper {
     given: Option<Session>,
     sessions: Option<Sender<Session>>,
-    refusals: Receiver<String>,
+    refusals: Receiver<Refusal>,
     writer: Option<JoinHandle<()>>,
 }
 
@@ -23,8 +24,9 @@ impl Keeper {
     ///
     /// # Errors
     /// A sentence when there is no such folder or no thread.
-    pub fn new(folder: &Path) -> Result<Self, String> {
-        let cannot = |error: std::io::Error| format!("No session can be kept in {}: {error}", folder.display());
+    pub fn new(folder: &Path) -> Result<Self, Refusal> {
+        let cannot =
+            |error: std::io::Error| Refusal::new(format!("No session can be kept in {}: {error}", folder.display()));
         std::fs::create_dir_all(folder).map_err(cannot)?;
         let path = folder.join(FILE);
         let (sessions, given) = channel::<Session>();
@@ -47,7 +49,7 @@ impl Keeper {
     }
 
     /// Hands over what has changed since the last call, and tells why former changes could not be written.
-    pub fn follow(&mut self, explorer: &Explorer) -> Option<String> {
+    pub fn follow(&mut self, explorer: &Explorer) -> Option<Refusal> {
         if !self.given.as_ref().is_some_and(|given| given.is_of(explorer)) {
             let session = Session::of(explorer);
             if let Some(sessions) = &self.sessions {

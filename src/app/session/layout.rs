@@ -14,7 +14,7 @@ pub fn checked(tree: &Tree<Tab>) -> Option<Tree<Tab>> {
     let root = tree.root().filter(|_| tree.tiles.iter().count() <= MOST_TILES)?;
     let mut copy = Copy { from: &tree.tiles, to: Tiles::default(), seen: HashSet::new(), tabs: Vec::new() };
     let root = copy.tile(root)?;
-    for tab in Tab::ALL.into_iter().filter(|tab| !copy.tabs.contains(tab)) {
+    for tab in Tab::ALL.iter().copied().filter(|tab| !copy.tabs.contains(tab)) {
         let pane = copy.to.insert_pane(tab);
         let Some(Tile::Container(container)) = copy.to.get_mut(root) else { return None };
         container.add_child(pane);
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn a_layout_from_before_a_tab_was_added_keeps_its_order_and_gets_the_tab() {
-        let old: Vec<Tab> = Tab::ALL.into_iter().filter(|tab| *tab != Tab::Results).rev().collect();
+        let old: Vec<Tab> = Tab::ALL.iter().copied().filter(|tab| *tab != Tab::Results).rev().collect();
         let tree = checked(&tabs_of(old.clone())).unwrap();
         let panes: Vec<Tab> = match tree.root().and_then(|root| tree.tiles.get(root)) {
             Some(Tile::Container(container)) => {
@@ -116,7 +116,7 @@ mod tests {
         }
         assert!(checked(&cyclic).is_none());
         let mut grid = Tiles::default();
-        let panes = Tab::ALL.into_iter().map(|tab| grid.insert_pane(tab)).collect();
+        let panes = Tab::ALL.iter().copied().map(|tab| grid.insert_pane(tab)).collect();
         let root = grid.insert_grid_tile(panes);
         assert!(checked(&Tree::new(egui::Id::unique("tabs"), root, grid)).is_none());
     }

@@ -42,7 +42,6 @@ impl JobKind {
 pub enum GridChoice {
     /// A reduced model's own grid.
     Existing(ContactGrid),
-    /// A specification.
     Spec(GridSpec),
 }
 
@@ -80,7 +79,6 @@ impl GridChoice {
 /// A full solve that is wanted.
 #[derive(Clone)]
 pub struct FullSolve {
-    /// What for.
     pub kind: JobKind,
     /// What to solve.
     pub key: Key,

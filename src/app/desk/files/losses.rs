@@ -1,6 +1,7 @@
 //! The question before something is lost: it says what that is, and is asked only then.
 
-use super::{Pending, is_model};
+use super::open::is_model;
+use super::state::Pending;
 use crate::app::desk::Desk;
 use egui::{Context, Id, Modal};
 
@@ -25,20 +26,20 @@ impl Desk {
         };
         let study = || {
             let text = "The study of the scene runs: what it has found so far is not saved.";
-            self.views.results.would_lose().then(|| text.to_owned())
+            self.tabs.results.would_lose().then(|| text.to_owned())
         };
         match pending {
             Pending::Open(path) if is_model(path) => Vec::new(),
             Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::OpenScene(_) => {
                 edits().into_iter().chain(study()).collect()
             }
-            Pending::Quit => edits().into_iter().chain(study()).chain(self.training.unkept()).collect(),
-            Pending::Train => self.training.replaced(),
+            Pending::Quit => edits().into_iter().chain(study()).chain(self.tabs.training.work.unkept()).collect(),
+            Pending::Train => self.tabs.training.work.replaced(),
             Pending::DiscardTraining => {
-                let solutions = self.training.unfinished.as_ref().map_or(0, |state| state.solutions());
+                let solutions = self.tabs.training.work.unfinished.as_ref().map_or(0, |state| state.solutions());
                 vec![format!("{solutions} full solutions of the training that was stopped are forgotten.")]
             }
-            Pending::ThrowModelAway => self.training.unsaved().into_iter().collect(),
+            Pending::ThrowModelAway => self.tabs.training.work.unsaved().into_iter().collect(),
         }
     }
 

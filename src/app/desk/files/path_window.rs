@@ -3,7 +3,9 @@
 
 use crate::app::controls::message_ui;
 use crate::app::desk::Desk;
+use crate::app::notice::Notice;
 use crate::app::purpose::{Purpose, Words, Written};
+use crate::app::refusal::Refusal;
 use crate::scene::atomic_file;
 use egui::{Context, Id, Modal, RichText, TextEdit};
 use std::path::{Path, PathBuf};
@@ -14,7 +16,7 @@ use std::time::{Duration, Instant};
 const NO_DIALOG: Duration = Duration::from_millis(700);
 
 /// What the window knows.
-pub(super) struct PathWindow {
+pub struct PathWindow {
     purpose: Purpose,
     path: String,
     message: Option<String>,
@@ -161,19 +163,18 @@ impl Desk {
             Purpose::Inputs => self
                 .document
                 .read_inputs(&path)
-                .map(|()| self.files.notice = Some(Ok(format!("Read {}", path.display())))),
+                .map(|()| self.files.notice = Some(Notice::Done(format!("Read {}", path.display())))),
             Purpose::Cases => self.load_cases.read(&path),
-            Purpose::Beside => self.training.add_beside(&self.answers.store, &path),
-            Purpose::Notes(sheet) => {
-                atomic_file::replace_all(&sheet.notes(&path)).map_err(|error| error.to_string()).map(|()| {
-                    self.files.notice = Some(Ok(format!("Exported {} with its figures beside it", path.display())))
-                })
-            }
+            Purpose::Beside => self.tabs.training.work.add_beside(self.answers.store(), &path),
+            Purpose::Notes(sheet) => atomic_file::replace_all(&sheet.notes(&path)).map_err(Refusal::from).map(|()| {
+                self.files.notice =
+                    Some(Notice::Done(format!("Exported {} with its figures beside it", path.display())))
+            }),
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };
-                atomic_file::replace(&path, &bytes).map_err(|e| e.to_string()).map(|()| {
-                    self.training.saved(&bytes);
-                    self.files.notice = Some(Ok(format!("{done} {}", path.display())));
+                atomic_file::replace(&path, &bytes).map_err(Refusal::from).map(|()| {
+                    self.tabs.training.work.saved(&bytes);
+                    self.files.notice = Some(Notice::Done(format!("{done} {}", path.display())));
                 })
             }
         };
@@ -186,9 +187,9 @@ impl Desk {
             }
             (Err(message), Some(window)) => {
                 window.overwrite = None;
-                window.message = Some(message);
+                window.message = Some(message.to_string());
             }
-            (Err(message), None) => self.files.notice = Some(Err(message)),
+            (Err(why), None) => self.files.notice = Some(Notice::wrong(why)),
         }
     }
 }

@@ -1,15 +1,15 @@
 //! The reduced model along the test trajectory (3.21), and its error against full solutions.
 
-use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
+use super::parts::{CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
 use crate::app::context::Context;
 use crate::app::controls::{message_ui, standing_ui};
 use crate::app::drawn::{self, Owner};
 use crate::app::export;
 use crate::app::figure::Canvas;
 use crate::app::in_use::InUse;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
-use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::plot::axes;
+use crate::app::plot::frame::PlotFrame;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::Background;
@@ -150,15 +150,15 @@ impl Along {
         };
         let methods = vec![in_use.method(), Method::Full];
         let study = Study::Trajectory(Trajectory { range, points: wanted.points, methods });
-        self.work.start(in_use.question("Trajectory", study).map(|question| in_use.ask(ctx, store, question)));
+        let question = in_use.question("Trajectory", study).map_err(|why| why.to_string());
+        self.work.start(question.map(|question| in_use.ask(ctx, store, question)));
     }
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, along: &mut Along, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
-    let along = &mut own.along;
-    along.show(&ctx, &context.answers.store, in_use);
+    along.show(&ctx, context.answers.store(), in_use);
     let kind = in_use.model.contact();
     ui.horizontal_wrapped(|ui| {
         let through = ui.label("Through").on_hover_text("The range in which the parameters swing by (3.21)");
@@ -171,7 +171,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
         choice.response.labelled_by(through.id);
         count(ui, "Contacts", "Equidistant values of c from 0 to 2", &mut along.wanted.points, 11..=1001);
         if run_or_stop(ui, "Follow the trajectory", "Reduced and full solutions along it", &along.work) {
-            along.begin(&ctx, &context.answers.store, in_use, (along.wanted, false));
+            along.begin(&ctx, context.answers.store(), in_use, (along.wanted, false));
         }
         standing_ui(ui, along.work.standing(), "Progress of the trajectory");
     });
@@ -179,7 +179,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
         message_ui(ui, message);
     }
     let Some(results) = &along.results else {
-        super::nothing_yet(ui, "Follow the trajectory to see film and error along it");
+        super::parts::nothing_yet(ui, "Follow the trajectory to see film and error along it");
         return;
     };
     let stale = drawn::is_grey(ui.ctx(), "trajectory", Owner::Model(results.in_use.clone()), context);
@@ -188,7 +188,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
         drawn::fade(ui, false);
     }
     ui.label(rich(&summary(results), 13.5, Palette::of(ui).quiet));
-    super::bound_note(ui, results.steps.iter().map(Step::bound));
+    super::parts::bound_note(ui, results.steps.iter().map(Step::bound));
     film_plot(ui, results, stale, 0.4 * ui.available_height());
     error_plot(ui, results, stale, (ui.available_height() - 4.0).max(110.0));
 }

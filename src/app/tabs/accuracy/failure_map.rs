@@ -1,18 +1,17 @@
 //! Random tests in the M–L plane: where the reduced model fails, and how large its error is elsewhere. A click goes
 //! there.
 
-use super::random_tests::{Results, bound_of, error_of};
-use super::worst::Worst;
-use super::{AccuracyView, CONTACT_COLUMNS, contact_cells, tests_toolbar, worst};
+use super::parts::{CONTACT_COLUMNS, contact_cells, tests_toolbar};
+use super::random_tests::{RandomTests, Results, bound_of, error_of};
+use super::worst::{self, Worst};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::drawn::{self, Owner};
-use crate::app::export;
 use crate::app::in_use::InUse;
-use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::plot::axes;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::{Palette, rich, sequential};
+use crate::app::{export, numbers};
 use crate::scene::study::random_test::{Tested, errors};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use egui::{Color32, Ui};
@@ -106,17 +105,22 @@ const MAP: &str = "Map of the random tests";
 const FIELD: &str = "failure map";
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: &mut Commands, in_use: &InUse) {
-    tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
+pub fn ui(
+    ui: &mut Ui,
+    (map, tests): (&mut Map, &mut RandomTests),
+    context: &Context<'_>,
+    commands: &mut Commands,
+    in_use: &InUse,
+) {
+    tests_toolbar(ui, context.answers.store(), tests, in_use);
     context.entries.message_ui(ui, FIELD);
-    let Some(results) = &own.tests.results else {
-        super::nothing_yet(
+    let Some(results) = &tests.results else {
+        super::parts::nothing_yet(
             ui,
             "Run tests to see where the model fails and how large its error is over its whole range",
         );
         return;
     };
-    let map = &mut own.map;
     ui.horizontal_wrapped(|ui| {
         ui.label("Judged by").on_hover_text("Colours the map and sorts the list");
         let bound = rich("bound on the error of {H_c}", 13.5, ui.visuals().text_color());
@@ -127,7 +131,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, commands: 
         ui.weak(summary(results));
     });
     if map.by == By::Bound {
-        super::bound_note(ui, results.tests.iter().map(bound_of));
+        super::parts::bound_note(ui, results.tests.iter().map(bound_of));
     }
     if map.drawn.as_ref().is_none_or(|d| d.of != stamp(results, map.by)) {
         map.drawn = Some(DrawnTests::new(results, map.by));

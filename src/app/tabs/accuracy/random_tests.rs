@@ -117,7 +117,8 @@ impl RandomTests {
         let (range, compare) = (in_use.trained_range(), compared.min(tests));
         let worst = compare.min(MOST_WORST);
         let study = Study::RandomTest(RandomTest { range, tests, seed, method: in_use.method(), compare, worst });
-        self.work.start(in_use.question("Random tests", study).map(|question| in_use.ask(ctx, store, question)));
+        let question = in_use.question("Random tests", study).map_err(|why| why.to_string());
+        self.work.start(question.map(|question| in_use.ask(ctx, store, question)));
     }
 
     /// Takes in what came.

@@ -4,11 +4,10 @@ use crate::app::answers::jobs::Running;
 use crate::app::context::Context;
 use crate::app::document::Key;
 use crate::app::drawn::{self, Owner};
-use crate::app::export;
-use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::plot::axes;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::{Palette, rich};
+use crate::app::{export, numbers};
 use crate::solver::full::Report;
 use egui::{Grid, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, Points};
@@ -23,11 +22,11 @@ const PLOT: &str = "Newton residuals of the last solve";
 /// The view: the solve that runs, else the last one that ended.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let news = |job: &&Running| job.since.elapsed().as_secs_f64() > NEWS_S && !job.steps.is_empty();
-    if let Some(job) = context.answers.jobs.running().iter().find(news) {
+    if let Some(job) = context.answers.running().iter().find(news) {
         running_ui(ui, job, context);
         return;
     }
-    let Some((key, report)) = &context.answers.last_report else {
+    let Some((key, report)) = context.answers.last_report() else {
         ui.centered_and_justified(|ui| ui.weak("No full solve has finished yet"));
         return;
     };
@@ -56,7 +55,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         }
         ui.end_row();
     });
-    if let Some(c) = context.answers.comparison.as_ref().filter(|_| context.answers.picture_is_current()) {
+    if let Some(c) = context.answers.comparison().filter(|_| context.answers.picture_is_current()) {
         let text = format!("Reduced against full: {}", c.describe());
         ui.label(rich(&text, 13.5, ui.visuals().text_color()));
     }

@@ -1,16 +1,15 @@
 //! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
 
-use super::{AccuracyView, run_or_stop, stale_note};
+use super::parts::{run_or_stop, stale_note};
 use crate::app::answers::REST_S;
 use crate::app::context::Context;
 use crate::app::controls::{message_ui, sentence, spoken, warning_ui};
 use crate::app::document::Key;
 use crate::app::drawn::{self, Owner};
-use crate::app::export;
 use crate::app::in_use::{InUse, question};
-use crate::app::numbers;
-use crate::app::tabs::axes;
+use crate::app::plot::axes;
 use crate::app::theme::{Palette, rich};
+use crate::app::{export, numbers};
 use crate::engine::Store;
 use crate::engine::job::Background;
 use crate::scene::study::error_split::{ErrorSplitStudy, Row};
@@ -120,27 +119,27 @@ impl Split {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
+pub fn ui(ui: &mut Ui, own: &mut Split, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let now = SplitOf { key: context.document.key(), in_use: in_use.clone() };
     start_when_rested(ui, own, context, &now);
     ui.horizontal_wrapped(|ui| {
         let tip = "Solves this contact reduced, reduced with all rows, in full, and in full on the next finer grid";
-        if run_or_stop(ui, "Split the error", tip, &own.split.work) {
-            own.split.start(&ctx, &context.answers.store, now.clone(), false);
+        if run_or_stop(ui, "Split the error", tip, &own.work) {
+            own.start(&ctx, context.answers.store(), now.clone(), false);
         }
-        if let Some((asked, _)) = &own.split.found {
+        if let Some((asked, _)) = &own.found {
             ui.label(numbers::contact(&asked.key.point));
         }
     });
-    if let (Some(message), true) = (&own.split.work.message, own.split.asked.as_ref() == Some(&now)) {
+    if let (Some(message), true) = (&own.work.message, own.asked.as_ref() == Some(&now)) {
         message_ui(ui, message);
     }
     if let Some(Trust::Outside(why)) = context.answers.trust(context.document) {
         warning_ui(ui, &format!("{why}; the split is made on request only"));
     }
-    let Some((asked, split)) = &own.split.found else {
-        super::nothing_yet(ui, "The parts appear when the sliders rest");
+    let Some((asked, split)) = &own.found else {
+        super::parts::nothing_yet(ui, "The parts appear when the sliders rest");
         return;
     };
     let owner = Owner::ContactByModel(asked.key, asked.in_use.clone());
@@ -155,17 +154,17 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
 }
 
 /// Starts by itself once per contact and model, when the sliders rest where the model was trained.
-fn start_when_rested(ui: &Ui, own: &mut AccuracyView, context: &Context<'_>, now: &SplitOf) {
-    let known = own.split.asked.as_ref() == Some(now);
+fn start_when_rested(ui: &Ui, own: &mut Split, context: &Context<'_>, now: &SplitOf) {
+    let known = own.asked.as_ref() == Some(now);
     let trained = Problem::new(&now.key.point, now.key.lubricant)
         .is_ok_and(|problem| now.in_use.model.trust(&problem) == Trust::Trained);
     if known || !trained {
         return;
     }
-    own.split.work.stop();
+    own.work.stop();
     let rested = context.answers.rested_s(ui.input(|i| i.time));
     if rested >= REST_S {
-        own.split.start(ui.ctx(), &context.answers.store, now.clone(), true);
+        own.start(ui.ctx(), context.answers.store(), now.clone(), true);
     } else {
         ui.ctx().request_repaint_after_secs((REST_S - rested) as f32);
     }

@@ -1,14 +1,14 @@
 //! What the calibrated bound is worth: bound against true error of H_c wherever both are known.
 
 use super::failure_map::{By, is_former, stamp, summary};
-use super::random_tests::{Results, bound_of};
-use super::{AccuracyView, tests_toolbar};
+use super::parts::tests_toolbar;
+use super::random_tests::{RandomTests, Results, bound_of};
 use crate::app::context::Context;
 use crate::app::controls::spoken;
 use crate::app::in_use::InUse;
 use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::plot::axes;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
 use crate::engine::{median, rank_correlation};
 use egui::{Grid, Ui, Vec2b};
@@ -82,16 +82,20 @@ impl Scatter {
 }
 
 /// The view.
-pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &InUse) {
-    tests_toolbar(ui, &context.answers.store, &mut own.tests, in_use);
-    let Some(results) = &own.tests.results else {
-        super::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
+pub fn ui(
+    ui: &mut Ui,
+    (shown, tests): (&mut Option<Scatter>, &mut RandomTests),
+    context: &Context<'_>,
+    in_use: &InUse,
+) {
+    tests_toolbar(ui, context.answers.store(), tests, in_use);
+    let Some(results) = &tests.results else {
+        super::parts::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
         return;
     };
     let stale = is_former(ui, results, context);
     ui.weak(summary(results));
-    super::bound_note(ui, results.tests.iter().map(bound_of));
-    let shown = &mut own.truth;
+    super::parts::bound_note(ui, results.tests.iter().map(bound_of));
     if shown.as_ref().is_none_or(|s| s.of != stamp(results, By::Truth)) {
         *shown = Scatter::new(results);
     }
@@ -100,7 +104,7 @@ pub fn ui(ui: &mut Ui, own: &mut AccuracyView, context: &Context<'_>, in_use: &I
             worth_ui(ui, &shown.worth);
             scatter(ui, shown, stale);
         }
-        None => super::nothing_yet(ui, "No test has been compared with a full solution yet"),
+        None => super::parts::nothing_yet(ui, "No test has been compared with a full solution yet"),
     }
 }
 

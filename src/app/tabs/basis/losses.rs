@@ -1,12 +1,13 @@
 //! Singular values and the loss of information, with the tolerances that can be dragged.
 
-use super::{Basis, Field, TRUNCATION};
+use super::curves::Shown;
+use super::field::{Field, TRUNCATION};
 use crate::app::context::{Commands, Context};
 use crate::app::document::Edit;
 use crate::app::figure::Canvas;
 use crate::app::numbers;
-use crate::app::tabs::plot_frame::PlotFrame;
-use crate::app::tabs::{axes, key};
+use crate::app::plot::frame::PlotFrame;
+use crate::app::plot::{axes, key};
 use crate::app::theme::Palette;
 use crate::solver::reduced::Window;
 use egui::{Align2, Color32, RichText, Ui};
@@ -29,7 +30,7 @@ fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> PlotFrame<'a> {
 /// Loss of information against the number of modes, with the tolerances.
 pub fn loss_plot(
     ui: &mut Ui,
-    own: &mut Basis,
+    own: &mut Shown,
     context: &Context<'_>,
     commands: &mut Commands,
     window: &Window,
@@ -126,7 +127,7 @@ fn name(plot: &mut Canvas<'_, '_>, field: Field, points: &[PlotPoint], color: Co
 }
 
 /// Singular values against their number.
-pub fn singular_plot(ui: &mut Ui, own: &Basis, fit: bool, height: f32) {
+pub fn singular_plot(ui: &mut Ui, own: &Shown, fit: bool, height: f32) {
     let palette = Palette::of(ui);
     let Some(curves) = &own.curves else { return };
     axes::show(log_plot(ui, "singular values", height, "Singular value {σ}/{σ_1}"), ui, "Singular values", |plot| {

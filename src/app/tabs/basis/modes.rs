@@ -1,8 +1,10 @@
 //! Shapes of the modes, and where the rows are sampled: along ξ, and over the plane for a point contact.
 
-use super::{Basis, Field, plane};
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
+use super::curves::Shown;
+use super::field::Field;
+use super::plane;
+use crate::app::plot::axes;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::contact::ContactKind;
@@ -22,7 +24,7 @@ const MARK: f32 = 3.0;
 const SHAPES: &str = "Mode shapes";
 
 /// Choices and plots.
-pub fn ui(ui: &mut Ui, view: &mut Basis, fit: bool, window: &Window, height: f32) {
+pub fn ui(ui: &mut Ui, view: &mut Shown, fit: bool, window: &Window, height: f32) {
     let palette = Palette::of(ui);
     let of_points = window.grid.kind() == ContactKind::Point;
     ui.horizontal(|ui| {

@@ -1,10 +1,10 @@
 //! A mode of a point contact over the plane, with the rows that the reduced model evaluates.
 
-use super::Field;
+use super::field::Field;
 use crate::app::figure::Texture;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
-use crate::app::tabs::raster::Raster;
+use crate::app::plot::axes;
+use crate::app::plot::key::{self, Entry, Sample};
+use crate::app::plot::raster::Raster;
 use crate::app::theme::Palette;
 use crate::solver::discrete::grid::PointGrid;
 use crate::solver::reduced::PodBasis;

@@ -1,17 +1,16 @@
 //! Error and time against the numbers of modes and of sampled rows, as curves on which both can be dragged.
 
-use super::TRUNCATION;
+use super::field::TRUNCATION;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, standing_ui};
 use crate::app::document::{Edit, Key};
 use crate::app::drawn::{self, Owner};
-use crate::app::export;
 use crate::app::in_use::{InUse, question};
-use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::grip::Grip;
+use crate::app::plot::axes;
+use crate::app::plot::grip::Grip;
 use crate::app::theme::Palette;
+use crate::app::{export, numbers};
 use crate::engine::job::{Background, Standing};
 use crate::scene::study::model_sizes::{ModelSizes, Row, Varied};
 use crate::scene::{Grid, ModelSource, Study, StudyRow, View};
@@ -45,7 +44,6 @@ impl Sizes {
         self.work.standing()
     }
 
-    /// Stops it.
     pub fn stop(&self) {
         self.work.stop();
     }
@@ -79,7 +77,7 @@ impl Sizes {
         let question = question("Modes and rows", &key, Grid::Model, Study::ModelSizes(study));
         let in_use = InUse::new(model, &View::default());
         *self = Self { of: Some((Arc::clone(model), window)), ..Self::default() };
-        self.work.run(in_use.ask(ui.ctx(), &context.answers.store, question));
+        self.work.run(in_use.ask(ui.ctx(), context.answers.store(), question));
     }
 
     /// All sizes of a kind, the model's own among the rows.

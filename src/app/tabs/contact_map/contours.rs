@@ -11,7 +11,6 @@ pub struct Field<'a> {
     pub x: &'a [f64],
     /// Ordinates.
     pub y: &'a [f64],
-    /// Values.
     pub values: &'a [f64],
 }
 

@@ -1,10 +1,9 @@
 //! The map for other programs: all nodes as a table, and what is said above its picture.
 
-use super::Shown;
+use super::map_view::Shown;
 use crate::app::answers::Answers;
 use crate::app::answers::picture::{Origin, Picture};
-use crate::app::export as tables;
-use crate::app::numbers;
+use crate::app::{export as tables, numbers};
 
 /// All nodes of both halves, X after X, with their SI twins.
 pub fn csv(picture: &Picture) -> String {
@@ -25,8 +24,8 @@ pub fn csv(picture: &Picture) -> String {
 }
 
 /// What a picture of the map has to say beyond the contact: nodes, means, and the light of an interferogram.
-pub fn particulars(answers: &Answers, view: &super::MapView) -> Option<String> {
-    let picture = answers.picture.as_ref()?;
+pub fn particulars(answers: &Answers, view: &super::map_view::MapView) -> Option<String> {
+    let picture = answers.picture()?;
     let rig = &view.rig;
     let (degrees, solution) = (rig.phase.to_degrees(), &picture.solution);
     let optics = format!("n {}, phase {degrees:.0}°, V {}", rig.refractive_index, rig.visibility);

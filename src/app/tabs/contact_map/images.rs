@@ -1,13 +1,13 @@
 //! The map as a texture and its contour lines, made anew only when the solution or what is shown of it changes.
 
 use super::contours::Field;
-use super::{MapView, Shown, mid_film_rises};
+use super::map_view::{MapView, Shown, mid_film_rises};
 use crate::app::answers::picture::Picture;
-use crate::app::color_map;
 use crate::app::figure::{Texture, pixels};
 use crate::app::numbers;
-use crate::app::tabs::color_bar::UNITS;
-use crate::app::tabs::raster::Raster;
+use crate::app::plot::color_bar::UNITS;
+use crate::app::plot::color_map;
+use crate::app::plot::raster::Raster;
 use crate::scene::drawing::encode;
 use crate::solver::full::Solution;
 use egui::{Color32, ColorImage, Context, TextureId};

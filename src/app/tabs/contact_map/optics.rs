@@ -1,6 +1,6 @@
 //! The optics of the interferogram: light, refractive index, phase and visibility, and the formula they stand in.
 
-use super::MapView;
+use super::map_view::MapView;
 use crate::app::controls::{described, named};
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};

@@ -1,10 +1,10 @@
 //! The colour bar beside the map, with its values and their SI twins.
 
 use super::images::{Images, table};
-use super::{MapView, Shown};
+use super::map_view::{MapView, Shown};
 use crate::app::answers::picture::Picture;
-use crate::app::tabs::color_bar::{self, STRIPS, in_gigapascals, in_nanometres};
-use crate::app::tabs::raster;
+use crate::app::plot::color_bar::{self, STRIPS, in_gigapascals, in_nanometres};
+use crate::app::plot::raster;
 use crate::app::units::Scales;
 use egui::{Color32, Ui};
 

@@ -1,13 +1,11 @@
 //! Shear stress and shear rate across the film, between the surfaces Z = 0 and Z = 1, along the axis of the contact.
 
 use crate::app::answers::picture::{Picture, value_at};
-use crate::app::color_map;
-use crate::app::drawn;
 use crate::app::figure::Texture;
-use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::direction::Direction;
+use crate::app::plot::direction::Direction;
+use crate::app::plot::{axes, color_map};
 use crate::app::theme::Palette;
+use crate::app::{drawn, numbers};
 use crate::solver::full::Solution;
 use egui::{ColorImage, Context, Id, Sense, Ui, Vec2b, vec2};
 use egui_plot::{HoverPosition, PlotPoint};
@@ -45,7 +43,6 @@ impl FilmShear {
         }
     }
 
-    /// What it is.
     pub fn tip(self) -> &'static str {
         match self {
             Self::Off => "Pressure and film only",

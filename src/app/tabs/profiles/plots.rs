@@ -3,8 +3,8 @@
 use super::curves::{Scene, cavitated, curve, hover, mark, mark_lifted, rupture, stacked};
 use crate::app::answers::picture::Comparison;
 use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::direction::Direction;
+use crate::app::plot::axes;
+use crate::app::plot::direction::Direction;
 use crate::app::theme::{Palette, THIN_WIDTH, rich};
 use crate::app::units::Scales;
 use egui::{Align2, Ui};

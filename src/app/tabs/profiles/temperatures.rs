@@ -1,19 +1,17 @@
 //! Temperatures of a film with heat: the rises of mid-film and surfaces along X, the film in its true shape coloured by
 //! temperature, and where the heat goes.
 
-use crate::app::color_map;
 use crate::app::context::Context;
 use crate::app::controls::warning_ui;
-use crate::app::drawn;
 use crate::app::figure::Texture;
-use crate::app::numbers;
-use crate::app::tabs::color_bar;
-use crate::app::tabs::direction::Direction;
-use crate::app::tabs::key::{self, Entry, Sample};
-use crate::app::tabs::plot_frame::PlotFrame;
-use crate::app::tabs::{axes, profiles::curves};
+use crate::app::plot::direction::Direction;
+use crate::app::plot::frame::PlotFrame;
+use crate::app::plot::key::{self, Entry, Sample};
+use crate::app::plot::{axes, color_bar, color_map};
+use crate::app::tabs::profiles::curves;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH};
 use crate::app::units::Scales;
+use crate::app::{drawn, numbers};
 use crate::solver::discrete::heat::{HeatBalance, interpolated_across};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::{Rises, Temperatures};

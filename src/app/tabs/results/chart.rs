@@ -1,8 +1,8 @@
 //! Any chart of a study: lines, dots and crosses over its axes.
 
 use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
+use crate::app::plot::axes;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::Palette;
 use crate::scene::{Chart, Marks};
 use egui::{Color32, Ui, Vec2b};

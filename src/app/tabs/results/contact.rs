@@ -4,9 +4,8 @@
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::context::Context;
 use crate::app::drawn::{self, Owner};
-use crate::app::numbers;
-use crate::app::tabs::{badge, formulas};
 use crate::app::theme::{Palette, rich};
+use crate::app::{badge, formulas, numbers};
 use crate::scene::Table;
 use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, ScrollArea, Ui};
@@ -109,8 +108,8 @@ fn force(newtons: f64, kind: ContactKind) -> String {
 
 /// What is shown beside each other: the picture, and the full solution where that is another one of the same contact.
 fn columns<'a>(context: &Context<'a>) -> Option<(&'a Picture, Option<&'a Picture>)> {
-    let picture = context.answers.picture.as_ref()?;
-    let full = context.answers.full.as_ref();
+    let picture = context.answers.picture()?;
+    let full = context.answers.full();
     Some((picture, full.filter(|full| picture.origin != Origin::Full && full.key == picture.key)))
 }
 

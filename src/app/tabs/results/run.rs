@@ -1,5 +1,4 @@
-//! A scene's study at work beside the window, or a campaign that others work on: its rows are kept, and looked at now
-//! and then.
+//! Running study of a scene, or a campaign computed elsewhere. Its rows are stored and evaluated from time to time.
 
 use crate::engine::Workbench;
 use crate::engine::campaign::Status;
@@ -83,7 +82,6 @@ impl Rows {
 
 /// A campaign that is watched.
 pub struct Campaign {
-    /// Its folder.
     pub folder: PathBuf,
     /// How far it is, once that is known.
     pub status: Option<Status>,

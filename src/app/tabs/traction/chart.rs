@@ -1,14 +1,15 @@
 //! The two plots: traction above, film below, on one axis; a press in either goes to a contact.
 
-use super::ShownSweep;
+use super::sweeps::{Choices, Markers, SlideView};
+use super::tab::ShownSweep;
 use crate::app::context::Context;
 use crate::app::document::Key;
 use crate::app::figure::Canvas;
 use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::plot::axes;
+use crate::app::plot::frame::PlotFrame;
+use crate::app::tabs::traction::{Against, Companion, Curve, Sample, Sweep};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
-use crate::app::traction::{Against, Choices, Companion, Curve, Markers, Sample, SlideView, Sweep};
 use crate::solver::full::{PLAUSIBLE_TRACTION, TractionDoubt};
 use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, Points, Text, VLine};

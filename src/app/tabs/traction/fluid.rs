@@ -3,8 +3,8 @@
 
 use crate::app::context::Context;
 use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::plot::axes;
+use crate::app::plot::frame::PlotFrame;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use crate::solver::full::{Problem, Solution};
 use egui::{Align2, Ui};
@@ -34,7 +34,7 @@ struct Met {
 pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &Context<'_>) {
     let key = context.document.key();
     let Ok(problem) = Problem::new(&key.point, key.lubricant) else { return };
-    let picture = context.answers.picture.as_ref().filter(|picture| picture.key == key);
+    let picture = context.answers.picture().filter(|picture| picture.key == key);
     let stress_pa = picture.map(|picture| Arc::clone(&picture.solution)).map(|solution| match &*stress_met {
         Some((of, stress)) if Arc::ptr_eq(of, &solution) => *stress,
         _ => {
@@ -43,7 +43,7 @@ pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &
             stress
         }
     });
-    let picture = context.answers.picture.as_ref().filter(|picture| picture.key == key);
+    let picture = context.answers.picture().filter(|picture| picture.key == key);
     let pressure_pa = picture.map_or(key.point.hertz().pressure_pa, |picture| picture.largest_pressure_pa());
     let met = Met { problem, pressure_pa, stress_pa };
     let mut text = format!("This contact meets pressures up to {}", numbers::pressure(pressure_pa));

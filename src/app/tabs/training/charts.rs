@@ -1,9 +1,11 @@
 //! The training as pictures: where its full solutions lie, and how bad the approximations were that led to them.
 
+use super::chart::Chart;
+use super::trainings::Training;
 use crate::app::context::Context;
 use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
-use crate::app::tabs::axes;
+use crate::app::plot::axes;
 use crate::app::theme::{Palette, faded};
 use crate::solver::training::Plan;
 use egui::{Color32, RichText, Ui};
@@ -26,9 +28,8 @@ fn legible(input: GridInput, height: f32) -> Vec<GridMark> {
 }
 
 /// What the marks mean, above the charts: they leave no corner free.
-pub fn key(ui: &mut Ui, context: &Context<'_>) {
+pub fn key(ui: &mut Ui, chart: &Chart) {
     let palette = Palette::of(ui);
-    let chart = &context.training.chart;
     let searched = chart.solved.iter().filter(|dot| dot.searched).count();
     let failed = chart.bad.iter().filter(|bad| bad.indicator.is_none()).count();
     let entries = [
@@ -45,20 +46,20 @@ pub fn key(ui: &mut Ui, context: &Context<'_>) {
 }
 
 /// How what came of a training looks: it stands back where another one is set up now.
-fn look(ui: &Ui, context: &Context<'_>) -> impl Fn(Color32) -> Color32 + use<> {
-    let training = context.training;
-    let there = !training.chart.solved.is_empty() || !training.chart.bad.is_empty();
+fn look(ui: &Ui, training: &Training, context: &Context<'_>) -> impl Fn(Color32) -> Color32 + use<> {
+    // While it runs it is what is asked, whatever the form shows.
+    let there = training.job().is_none() && !(training.chart.solved.is_empty() && training.chart.bad.is_empty());
     let of = training.spec.as_ref().filter(|_| there).map(|spec| Owner::Training(spec.clone()));
     let grey = of.is_some_and(|of| drawn::is_grey(ui.ctx(), "training", of, context));
     move |color| if grey { faded(color, 0.4) } else { color }
 }
 
 /// The M–L plane: full solutions by how they were decided on, bad approximations, failed reduced solves, the range.
-pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
+pub fn plane(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f32) {
     let palette = Palette::of(ui);
-    let (chart, look) = (&context.training.chart, look(ui, context));
+    let (chart, look) = (&training.chart, look(ui, training, context));
     // What runs, else what would be started.
-    let runs = context.training.spec.as_deref().filter(|_| context.training.job().is_some());
+    let runs = training.spec.as_deref().filter(|_| training.job().is_some());
     let spec = runs.or_else(|| context.document.training_spec());
     let range = spec.map(|spec| spec.domain()).map(|domain| (domain.m(), domain.l()));
     let group = |searched: bool| -> Vec<PlotPoint> {
@@ -102,7 +103,7 @@ pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
                 let crosses = dots("Reduced solve failed", failed, palette.wrong, 6.0).shape(MarkerShape::Cross);
                 plot.points(crosses.allow_hover(false));
             }
-            if let Some(last) = chart.solved.last().filter(|_| context.training.job().is_some()) {
+            if let Some(last) = chart.solved.last().filter(|_| training.job().is_some()) {
                 let ring = dots("", vec![last.at], palette.accent, 8.0).filled(false).id("newest");
                 plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));
             }
@@ -112,10 +113,10 @@ pub fn plane(ui: &mut Ui, context: &Context<'_>, height: f32) {
 
 /// The indicator of every bad approximation against the number of full solutions when it was found; tolerances as
 /// lines.
-pub fn indicator(ui: &mut Ui, context: &Context<'_>, height: f32) {
+pub fn indicator(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f32) {
     let palette = Palette::of(ui);
-    let (chart, look) = (&context.training.chart, look(ui, context));
-    let tolerances: &[f64] = match context.training.spec.as_deref().map(|spec| &spec.plan) {
+    let (chart, look) = (&training.chart, look(ui, training, context));
+    let tolerances: &[f64] = match training.spec.as_deref().map(|spec| &spec.plan) {
         Some(Plan::Adaptive { tolerances, .. }) => tolerances,
         Some(Plan::WorstOfPool { tolerance, .. }) => std::slice::from_ref(tolerance),
         _ => &[],

@@ -1,104 +1,151 @@
-//! The model that was made beside those that were there before it.
+//! Models over the range of a training: the random test of each with the same seed, one after the other, so that none
+//! disturbs the other's times.
 
-use crate::app::command::Command;
-use crate::app::context::{Commands, Context};
-use crate::app::controls::{sentence, warning_ui};
-use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::key::{self, Entry, Sample};
-use crate::app::theme::{Palette, rich};
-use crate::app::training::comparison::{ModelScore, POINTS};
-use egui::{Grid, Ui};
-use egui_plot::{Line, PlotPoints};
+use crate::app::document::Key;
+use crate::app::export;
+use crate::app::in_use::{InUse, question};
+use crate::app::refusal::Refusal;
+use crate::engine::Store;
+use crate::engine::job::{Background, Standing};
+use crate::scene::study::random_test::{RandomTest, Tested, errors, tests};
+use crate::scene::{Findings, Grid, Method, Scene, Study, StudyRow, View};
+use crate::solver::reduced::{ReducedModel, Window};
+use crate::solver::training::{TrainingSpec, random_points};
+use egui::Context;
+use std::sync::Arc;
 
-/// A row: its name, what it is, and what one model has there.
-type Row = (&'static str, &'static str, fn(&ModelScore) -> String);
+/// Random points at which models are compared.
+pub const POINTS: usize = 200;
+/// Seed of those points: the same ones for every pair.
+const SEED: u64 = 31;
 
-/// Height of the errors' distributions.
-const HEIGHT: f32 = 200.0;
-
-/// The table and the distributions of errors, when they are there.
-pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-    let Some(comparison) = context.training.comparison.as_ref().filter(|comparison| comparison.done()) else { return };
-    ui.add_space(4.0);
-    ui.horizontal(|ui| {
-        ui.strong("Models compared");
-        let tip = "The errors of each model at every contact";
-        if ui.button("Export comparison…").on_hover_text(tip).clicked() {
-            commands.push(Command::csv(comparison.csv()));
-        }
-    });
-    ui.weak(format!(
-        "{POINTS} random points of the trained range; errors against full solutions on each model’s own grid"
-    ))
-    .on_hover_text("Uniform random numbers in the range (3.17)");
-    let unknown = comparison.scores.iter().map(|score| score.value("full_failures")).fold(0.0, f64::max);
-    if unknown > 0.0 {
-        warning_ui(ui, &format!("At {unknown} points there is no full solution and so no error"));
-    }
-    let errors = "Relative to the full solution";
-    let rows: [Row; 12] = [
-        ("Full solutions", "All windows", |s| {
-            s.model.windows.iter().map(|window| window.snapshots.len()).sum::<usize>().to_string()
-        }),
-        ("Pressure modes", "Largest window", |s| s.largest(|window| window.pressure.count()).to_string()),
-        ("Sampled rows", "Largest window", |s| s.largest(|window| window.sampled_rows.len()).to_string()),
-        ("Online median", "Time of a reduced solve, beside whatever else runs", |s| {
-            numbers::duration(s.value("median_s"))
-        }),
-        ("Not trained for", "Points outside the range it declares", |s| s.value("untrained").to_string()),
-        ("Failures", "Reduced solves without convergence", |s| s.value("failures").to_string()),
-        ("Error of {H_c}, median", errors, |s| numbers::error_percent(s.value("H_c_error_median"))),
-        ("Error of {H_c}, 95 %", errors, |s| numbers::error_percent(s.value("H_c_error_p95"))),
-        ("Error of {H_c}, largest", errors, |s| numbers::error_percent(s.value("H_c_error_max"))),
-        ("Error of {H_min}, median", errors, |s| numbers::error_percent(s.value("H_min_error_median"))),
-        ("Error of {H_min}, 95 %", errors, |s| numbers::error_percent(s.value("H_min_error_p95"))),
-        ("Error of {H_min}, largest", errors, |s| numbers::error_percent(s.value("H_min_error_max"))),
-    ];
-    Grid::new("model comparison")
-        .num_columns(1 + comparison.scores.len())
-        .min_row_height(16.0)
-        .striped(true)
-        .spacing([18.0, 3.0])
-        .show(ui, |ui| {
-            ui.weak("");
-            for score in &comparison.scores {
-                ui.strong(sentence(&score.name).trim_end_matches('.')).on_hover_text(&score.model.title);
-            }
-            ui.end_row();
-            for (name, tip, value) in rows {
-                ui.label(rich(name, 13.5, ui.visuals().text_color())).on_hover_text(tip);
-                for score in &comparison.scores {
-                    ui.label(value(score));
-                }
-                ui.end_row();
-            }
-        });
-    distributions(ui, &comparison.scores);
+/// What a model is worth.
+pub struct ModelScore {
+    /// What it is called beside the others.
+    pub name: String,
+    pub model: Arc<ReducedModel>,
+    found: Findings,
+    tests: Vec<Tested>,
 }
 
-/// The share of contacts whose error is no larger, for each model.
-fn distributions(ui: &mut Ui, scores: &[ModelScore]) {
-    let palette = Palette::of(ui);
-    let hues =
-        [palette.reference, palette.film, palette.pressure, palette.deformation, palette.accent, palette.warning];
-    let hue = |k: usize| hues[k % hues.len()];
-    let entries =
-        scores.iter().enumerate().map(|(k, score)| Entry::new(score.name.as_str(), hue(k), Sample::Line(2.0)));
-    let name = "Distribution of errors";
-    key::over(ui, HEIGHT, entries, |ui, height| {
-        let plot = axes::plot(ui, "errors of models", height, "Relative error of {H_c}", "Contacts with no more / %")
-            .decades_x(8.0)
-            .include_y(0.0)
-            .include_y(100.0);
-        axes::show(plot, ui, name, |plot| {
-            for (k, score) in scores.iter().enumerate() {
-                let errors = score.errors();
-                let share = 100.0 / errors.len().max(1) as f64;
-                let points = errors.iter().enumerate().filter(|(_, error)| **error > 0.0);
-                let points: PlotPoints<'_> = points.map(|(n, error)| [error.log10(), share * (n + 1) as f64]).collect();
-                plot.line(Line::new(score.name.as_str(), points).color(hue(k)).width(2.0));
+impl ModelScore {
+    /// A value that its random test has found.
+    pub fn value(&self, name: &str) -> f64 {
+        self.found.value(name, None).unwrap_or(f64::NAN)
+    }
+
+    /// Errors of H_c, ascending.
+    pub fn errors(&self) -> Vec<f64> {
+        let mut all: Vec<f64> = self.tests.iter().filter_map(|tested| errors(tested)[0]).collect();
+        all.sort_by(f64::total_cmp);
+        all
+    }
+
+    /// A size of its largest window.
+    pub fn largest(&self, size: fn(&Window) -> usize) -> usize {
+        self.model.windows.iter().map(size).max().unwrap_or(0)
+    }
+}
+
+/// A comparison under way, or done.
+pub struct Comparison {
+    /// What each model is worth that has been tested, in their order.
+    pub scores: Vec<ModelScore>,
+    question: Scene,
+    models: Vec<(String, Arc<ReducedModel>)>,
+    rows: Vec<StudyRow>,
+    work: Background<StudyRow>,
+    ctx: Context,
+    store: Store,
+}
+
+impl Comparison {
+    /// Begins to compare models by their names over the range of a training.
+    ///
+    /// # Errors
+    /// A sentence when the range holds no contact.
+    pub fn start(
+        ctx: &Context,
+        store: &Store,
+        models: Vec<(String, Arc<ReducedModel>)>,
+        spec: &TrainingSpec,
+    ) -> Result<Self, Refusal> {
+        let points = random_points(&spec.range, spec.contact(), 1, SEED);
+        let point = *points.first().ok_or_else(|| Refusal::new("the range holds no points to compare at"))?;
+        let range = spec.range.clone();
+        let test = RandomTest { range, tests: POINTS, seed: SEED, method: Method::EMBEDDED, compare: POINTS, worst: 0 };
+        let key = Key { point, lubricant: spec.lubricant };
+        let mut comparison = Self {
+            scores: Vec::new(),
+            question: question("Comparing models", &key, Grid::Model, Study::RandomTest(test)),
+            models,
+            rows: Vec::new(),
+            work: Background::default(),
+            ctx: ctx.clone(),
+            store: store.clone(),
+        };
+        comparison.test_next();
+        Ok(comparison)
+    }
+
+    /// Every contact with each model's errors of H_c and H_min, as a table.
+    pub fn csv(&self) -> String {
+        let mut header = vec!["M".to_owned(), "L".to_owned()];
+        for score in &self.scores {
+            header.extend(["H_c_error", "H_min_error"].map(|what| format!("{}.{what}", score.name)));
+        }
+        let titles: Vec<&str> = header.iter().map(String::as_str).collect();
+        let comment = |score: &ModelScore| format!("{}: {}", score.name, score.model.title);
+        let comments: Vec<String> = self.scores.iter().map(comment).collect();
+        let count = self.scores.iter().map(|score| score.tests.len()).min().unwrap_or(0);
+        let row = |k: usize| {
+            let moes = self.scores.first().and_then(|score| score.tests.get(k)).map(|tested| tested.0.point.moes());
+            let mut row = vec![moes.map(|moes| moes.m), moes.map(|moes| moes.l)];
+            for score in &self.scores {
+                let [h_c, h_min, ..] = score.tests.get(k).map_or([None; 4], errors);
+                row.extend([h_c, h_min]);
             }
-        });
-    });
+            row
+        };
+        export::csv(&comments, &titles, (0..count).map(row))
+    }
+
+    /// Whether all have been tested.
+    pub fn done(&self) -> bool {
+        self.scores.len() == self.models.len()
+    }
+
+    /// How far it is.
+    pub fn standing(&self) -> Option<Standing> {
+        self.work.standing()
+    }
+
+    pub fn stop(&self) {
+        self.work.stop();
+    }
+
+    fn test_next(&mut self) {
+        if let Some((_, model)) = self.models.get(self.scores.len()) {
+            let in_use = InUse::new(model, &View::default());
+            self.work.run(in_use.ask(&self.ctx, &self.store, self.question.clone()));
+        }
+    }
+
+    /// Takes in what came; a sentence where it ended early for a reason.
+    pub fn receive(&mut self) -> Option<String> {
+        self.work.job()?;
+        let rows = &mut self.rows;
+        self.work.receive(|row| rows.push(row));
+        // Two rows for each point: one that was stopped has fewer.
+        let all = self.rows.len() == 2 * POINTS;
+        if self.work.job().is_none() && self.work.message.is_none() && all {
+            let rows = std::mem::take(&mut self.rows);
+            let found = self.question.study.findings(&self.question.experiment(), &rows);
+            let own = rows.iter().filter_map(|row| if let StudyRow::RandomTest(row) = row { Some(row) } else { None });
+            let (name, model) = self.models[self.scores.len()].clone();
+            self.scores.push(ModelScore { name, model, found, tests: tests(own) });
+            self.test_next();
+        }
+        self.work.message.take()
+    }
 }

@@ -1,12 +1,12 @@
 //! The specification of a training as a form: presets, range, plan, reduction. What makes no sense is refused beside
 //! its field.
 
-use super::TrainingTab;
+use super::tab::TrainingTab;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{heading, named};
 use crate::app::document::Edit;
 use crate::app::form::{Form, choose, row, short};
-use crate::app::training::presets;
+use crate::app::tabs::training::presets;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::contact::ContactKind;
@@ -19,7 +19,7 @@ pub fn ui(ui: &mut Ui, tab: &mut TrainingTab, context: &Context<'_>, commands: &
     let Some(before) = context.document.training_spec() else { return };
     let mut spec = before.clone();
     let mut form = Form::new("training", tab.last, context);
-    ui.add_enabled_ui(context.training.standing().is_none(), |ui| {
+    ui.add_enabled_ui(tab.work.standing().is_none(), |ui| {
         ui.horizontal(|ui| {
             for (name, preset) in presets::of_kind(spec.contact()) {
                 if ui.button(name).on_hover_text("Sets everything below").clicked() {

@@ -1,12 +1,12 @@
 //! The runs as a table, which is the plots' legend too: where each stands at this moment, how far it lies from what it
 //! is compared with, and what it cost.
 
+use super::runs::TransientRuns;
 use crate::app::numbers;
-use crate::app::tabs::in_time::faster;
-use crate::app::tabs::in_time::series;
-use crate::app::tabs::key::Sample;
+use crate::app::plot::key::Sample;
+use crate::app::tabs::transient::shared::faster;
+use crate::app::tabs::transient::{Run, series};
 use crate::app::theme::{Palette, rich};
-use crate::app::transient::{Run, TransientView};
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
 use egui::{Grid, Ui};
@@ -15,12 +15,12 @@ use egui::{Grid, Ui};
 const WIDE: f32 = 520.0;
 
 /// Height of the table.
-pub fn height(view: &TransientView) -> f32 {
+pub fn height(view: &TransientRuns) -> f32 {
     18.0 * (view.setup.as_ref().map_or(0, |setup| setup.runs()).max(view.runs.len()) + 1) as f32
 }
 
 /// The table.
-pub fn ui(ui: &mut Ui, view: &TransientView) {
+pub fn ui(ui: &mut Ui, view: &TransientRuns) {
     let wide = ui.available_width() >= WIDE;
     let quiet = Palette::of(ui).quiet;
     let title = |ui: &mut Ui, text: &str, tip: &str| {
@@ -50,7 +50,7 @@ pub fn ui(ui: &mut Ui, view: &TransientView) {
     });
 }
 
-fn row(ui: &mut Ui, view: &TransientView, k: usize, run: &Run, wide: bool) {
+fn row(ui: &mut Ui, view: &TransientRuns, k: usize, run: &Run, wide: bool) {
     let none = || "–".to_owned();
     sample(ui, view, k);
     let name = ui.label(run.name());
@@ -82,14 +82,14 @@ fn row(ui: &mut Ui, view: &TransientView, k: usize, run: &Run, wide: bool) {
 }
 
 /// A piece of the run's line.
-fn sample(ui: &mut Ui, view: &TransientView, k: usize) {
+fn sample(ui: &mut Ui, view: &TransientRuns, k: usize) {
     let palette = Palette::of(ui);
     let (color, width, style) = series::style(view, k, palette.film, &palette);
     Sample::of_line(style, width).ui(ui, color);
 }
 
 /// Mean of H_c over the window over its stationary start, less 1, in percent.
-fn offset(run: &Run, view: &TransientView) -> Option<f64> {
+fn offset(run: &Run, view: &TransientRuns) -> Option<f64> {
     let study = &view.setup.as_ref()?.study;
     let window = study.window.unwrap_or((0.5 * study.duration, study.duration));
     let mean = run.trajectory.mean(Quantity::CentralFilm, window)?;

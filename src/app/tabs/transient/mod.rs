@@ -1,140 +1,29 @@
-//! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
+//! Transient contacts: their runs, and the views of them (series, profiles, space and time, linearised model).
 
+pub mod badge;
 mod cost;
 mod dials;
+pub mod export;
+mod follow;
 mod form;
+pub mod linearised;
+pub mod method;
+pub mod methods;
+mod player;
 mod profiles;
+pub mod projection;
+pub mod reach;
+mod run;
+mod runs;
+pub mod series;
+mod setup;
+pub mod shared;
+pub mod space_time;
+mod tab;
+mod tpwl;
 
-use super::in_time::{self, series};
-use super::space_time::{self, SpaceTime};
-use crate::app::command::Command;
-use crate::app::context::{Commands, Context};
-use crate::app::form::LastField;
-use crate::app::tabs::take_away::Offer;
-use crate::app::transient::{InTimeCommand, TransientView, export};
-use egui::{ScrollArea, Ui};
-
-/// Width of the form.
-const FORM_WIDTH: f32 = 300.0;
-/// Width from which on the profiles stand beside the series.
-const SIDE_BY_SIDE: f32 = 560.0;
-/// Height of what stands above the series, with the room between plots.
-const HEADS: f32 = 48.0;
-/// Heights below which plots cannot be read.
-const LEAST_HEIGHT: f32 = 96.0;
-
-/// The tab: whether its form is shown, what is being entered there, and what is drawn.
-#[derive(Default)]
-pub struct Transient {
-    form: bool,
-    last: LastField,
-    along: series::Along,
-    map: SpaceTime,
-}
-
-/// What can be taken away from it.
-pub fn offers<'a>(context: &Context<'a>) -> Vec<Offer<'a>> {
-    let view = context.transient;
-    let there = view.runs.iter().any(|run| !run.trajectory.moments.is_empty()).then_some(view);
-    type Text = fn(&TransientView) -> Option<String>;
-    let table = |name, tip, text: Text| {
-        Offer::table(name, tip, there, move |view: &&TransientView| text(view).unwrap_or_default())
-    };
-    let tip = "All moments of every run with their SI twins, each run in columns of its own";
-    vec![
-        table("Series as CSV…", tip, export::series),
-        table("Profiles as CSV…", "Pressure and film of every run at the moment that is shown", export::profiles),
-        space_time::offer(context),
-    ]
-}
-
-impl Transient {
-    /// The tab.
-    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        if let Some(why) = context.document.no_transient() {
-            in_time::elsewhere(ui, context, why, commands);
-            return;
-        }
-        in_time::follow(context, commands);
-        ui.horizontal_top(|ui| {
-            if self.form {
-                ui.vertical(|ui| {
-                    ui.set_width(FORM_WIDTH);
-                    let area = ScrollArea::vertical().id_salt("transient form").auto_shrink(false);
-                    area.show(ui, |ui| form::ui(ui, &mut self.last, context, commands));
-                });
-                ui.separator();
-            }
-            in_time::over_the_time_bar(ui, "transient", context, commands, |ui, commands| {
-                self.results(ui, context, commands);
-            });
-        });
-    }
-
-    fn results(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        let (top, height) = (ui.cursor().top(), ui.available_height());
-        self.buttons(ui, context, commands);
-        ui.horizontal_wrapped(|ui| {
-            dials::ui(ui, context, commands);
-            in_time::badge::ui(ui, context);
-        });
-        in_time::status(ui, context, context.entries.message("transient").filter(|_| !self.form));
-        let view = context.transient;
-        if view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
-            if !in_time::is_coming(context) {
-                ui.weak("Run it in time to see pressure and film follow the inputs.");
-            }
-            return;
-        }
-        let rest = height - (ui.cursor().top() - top);
-        let wanted = ui.vertical(|ui| {
-            in_time::grey_where_stale(ui, context, "contact in time");
-            let room = rest - cost::height(view);
-            let wanted = self.plots(ui, context, room);
-            ui.allocate_ui([ui.available_width(), cost::height(view)].into(), |ui| {
-                ui.set_min_height(cost::height(view));
-                cost::ui(ui, view);
-            });
-            wanted
-        });
-        commands.extend(wanted.inner.map(|time| Command::InTime(InTimeCommand::GoTo(time))));
-    }
-
-    fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        ui.horizontal_wrapped(|ui| {
-            ui.toggle_value(&mut self.form, "Set-up")
-                .on_hover_text("Shows what drives the contact, or leaves the room to plots");
-            in_time::run_button(ui, context, commands);
-        });
-    }
-}
-
-impl Transient {
-    /// The contact over space and time beside its profiles, and the series below; returns the time that was clicked at.
-    fn plots(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
-        let view = context.transient;
-        let several = view.setup.as_ref().is_some_and(|setup| setup.runs() > 1);
-        let parts = if several { [0.5, 0.28, 0.22] } else { [0.58, 0.42, 0.0] };
-        let [upper, middle, lower] = parts.map(|part| (part * (height - HEADS)).max(LEAST_HEIGHT));
-        let upper = upper.max(2.0 * LEAST_HEIGHT);
-        let width = ui.available_width();
-        let map = if width < SIDE_BY_SIDE {
-            let map = self.map.ui(ui, context, upper);
-            profiles::ui(ui, view, context.fit, 0.5 * upper);
-            map
-        } else {
-            let both = ui.horizontal_top(|ui| {
-                let map = ui.vertical(|ui| {
-                    ui.set_width(0.5 * width);
-                    self.map.ui(ui, context, upper)
-                });
-                ui.vertical(|ui| profiles::ui(ui, view, context.fit, 0.5 * upper));
-                map.inner
-            });
-            both.inner
-        };
-        let series = self.along.ui(ui, view, middle, several);
-        let deviation = if several { self.along.deviation(ui, view, lower) } else { None };
-        map.or(series).or(deviation)
-    }
-}
+pub use run::Run;
+pub use runs::{TransientCommand, TransientRuns};
+pub use setup::{Setup, model_in_use};
+pub use tab::Transient;
+pub use tpwl::Tpwl;

@@ -1,12 +1,13 @@
 //! Pressure and film of every run at the moment that is looked at.
 
+use super::runs::TransientRuns;
 use crate::app::figure::Canvas;
 use crate::app::numbers;
-use crate::app::tabs::axes;
-use crate::app::tabs::in_time::series::{drawn, marks, rows, style};
-use crate::app::tabs::plot_frame::PlotFrame;
+use crate::app::plot::axes;
+use crate::app::plot::frame::PlotFrame;
+use crate::app::tabs::transient::Run;
+use crate::app::tabs::transient::series::{drawn, marks, rows, style};
 use crate::app::theme::{Palette, THIN_WIDTH};
-use crate::app::transient::{Run, TransientView};
 use crate::app::units::Scales;
 use crate::solver::full::transient::{Moment, Quantity};
 use egui::{Color32, Id, Ui, Vec2b};
@@ -16,7 +17,7 @@ use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints};
 const X_RANGE: (f64, f64) = (-2.2, 1.6);
 
 /// Both plots, each as high as given.
-pub fn ui(ui: &mut Ui, view: &TransientView, fit: bool, height: f32) {
+pub fn ui(ui: &mut Ui, view: &TransientRuns, fit: bool, height: f32) {
     let palette = Palette::of(ui);
     let most = |quantity: Quantity| {
         let values = view.runs.iter().flat_map(|run| &run.trajectory.moments).map(|moment| moment.value(quantity));
@@ -81,7 +82,7 @@ fn hertz(plot: &mut Canvas<'_, '_>, moment: &Moment, palette: &Palette) {
 
 fn curves(
     plot: &mut Canvas<'_, '_>,
-    view: &TransientView,
+    view: &TransientRuns,
     time: f64,
     (color, palette): (Color32, &Palette),
     of: impl Fn((f64, f64, f64)) -> PlotPoint,

@@ -1,0 +1,183 @@
+//! Full solves for the picture: one thread, newest request first, cancellable, and unable to take the window down.
+
+use super::request::{FullSolve, JobKind, Outcome};
+use crate::app::document::Key;
+use crate::app::wake::wake;
+use crate::engine::job::{Ending, Job, Queue, Reporter};
+use crate::engine::{Answer, Solver, Store, answer};
+use crate::host::clock::Stopwatch;
+use crate::scene::Method;
+use crate::solver::full::Start;
+use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::physics::contact::ContactKind;
+use std::time::Duration;
+
+/// News of a solve.
+enum News {
+    Step(NewtonStep),
+    Krylov(usize),
+    Solved(Box<Answer>),
+}
+
+/// A job as the strip at the bottom shows it.
+pub struct Running {
+    /// What it was asked for.
+    pub kind: JobKind,
+    /// The parameters it is for.
+    pub key: Key,
+    /// Newton steps so far.
+    pub steps: Vec<NewtonStep>,
+    /// Krylov iterations of the present Newton step, where they are counted.
+    pub krylov: usize,
+    /// When it was handed over.
+    pub since: Stopwatch,
+    solved: Option<Box<Answer>>,
+    job: Job<News>,
+}
+
+impl Running {
+    /// Takes in what came; what it has led to, once it has ended.
+    fn receive(&mut self) -> Option<Outcome> {
+        let Self { job, steps, krylov, solved, .. } = self;
+        let ending = job.poll(|news| match news {
+            News::Step(step) => {
+                steps.push(step);
+                *krylov = 0;
+            }
+            News::Krylov(count) => *krylov = count,
+            News::Solved(answer) => *solved = Some(answer),
+        })?;
+        Some(match (ending, solved.take()) {
+            (Ok(()), Some(answer)) => Outcome::Solved(answer),
+            (Ok(()), None) => Outcome::Failed("the solve ended without a result".to_owned()),
+            (Err(why), _) => Outcome::Failed(why.to_string()),
+        })
+    }
+}
+
+/// The solves for the picture that wait or run.
+pub struct Jobs {
+    queue: Queue<FullSolve, News>,
+    running: Vec<Running>,
+}
+
+/// A live solve that ran longer than this is given up for a newer one. A point contact's takes longer: were it given up
+/// at every movement of the hand, the picture would stand still.
+fn live_patience(kind: ContactKind) -> Duration {
+    match kind {
+        ContactKind::Line => Duration::from_millis(80),
+        ContactKind::Point => Duration::from_millis(800),
+    }
+}
+
+impl Jobs {
+    /// Solves with what is in a store.
+    pub fn new(store: &Store) -> Self {
+        let store = store.clone();
+        let queue = Queue::new("solver", JobKind::COUNT, move |request, reporter| solve(&store, &request, reporter));
+        Self { queue, running: Vec::new() }
+    }
+
+    /// Hands a solve over. It replaces one of the same kind that has not started; all but live solves of other
+    /// parameters stop.
+    pub fn submit(&mut self, ctx: &egui::Context, request: FullSolve) {
+        let (kind, key) = (request.kind, request.key);
+        for running in &self.running {
+            match running.kind {
+                JobKind::Live if running.key != key => running.job.give_up_after(live_patience(running.key.point.kind)),
+                JobKind::Live => {}
+                other if running.key != key || other == kind => running.job.stop(),
+                _ => {}
+            }
+        }
+        let job = self.queue.submit(kind as usize, kind.name(), wake(ctx), request);
+        self.running.retain(|running| running.kind != kind || running.job.begun());
+        let since = job.since();
+        self.running.push(Running { kind, key, steps: Vec::new(), krylov: 0, since, solved: None, job });
+    }
+
+    /// What has finished since the last call, with what it was for.
+    pub fn poll(&mut self) -> Vec<(Running, Outcome)> {
+        let mut finished = Vec::new();
+        let mut place = 0;
+        while let Some(running) = self.running.get_mut(place) {
+            match running.receive() {
+                Some(outcome) => finished.push((self.running.remove(place), outcome)),
+                None => place += 1,
+            }
+        }
+        finished
+    }
+
+    /// Everything that waits or runs.
+    pub fn running(&self) -> &[Running] {
+        &self.running
+    }
+
+    /// Whether a job of a kind waits or runs.
+    pub fn busy(&self, kind: JobKind) -> bool {
+        self.running.iter().any(|r| r.kind == kind)
+    }
+
+    /// Stops everything.
+    pub fn cancel_all(&self) {
+        for running in &self.running {
+            running.job.stop();
+        }
+    }
+}
+
+fn solve(store: &Store, request: &FullSolve, reporter: &Reporter<News>) -> Ending {
+    let grid = request.grid.with(store).map_err(|refused| refused.to_string())?;
+    let start = request.start.as_deref().map_or(Start::Cold, Start::From);
+    let asked = request.key.request(request.grid.stated(), Method::Full);
+    let answer = store.with_full_solver(&grid, |solver| answer(&asked, Solver::Full(solver, start), &Steps(reporter)));
+    reporter.send(News::Solved(Box::new(answer.map_err(|refused| refused.to_string())?)));
+    Ok(())
+}
+
+/// Passes Newton steps and Krylov iterations on.
+struct Steps<'a>(&'a Reporter<News>);
+
+impl Observer for Steps<'_> {
+    fn newton_step(&self, step: &NewtonStep) {
+        self.0.send(News::Step(*step));
+    }
+
+    fn krylov_iteration(&self, count: usize) {
+        self.0.send(News::Krylov(count));
+    }
+
+    fn cancelled(&self) -> bool {
+        self.0.cancelled()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::answers::jobs::GridChoice;
+    use crate::solver::discrete::grid::GridSpec;
+    use crate::solver::physics::contact::OperatingPoint;
+    use crate::solver::physics::lubricant::Lubricant;
+
+    #[test]
+    fn a_job_comes_back_with_what_it_was_for() {
+        let mut jobs = Jobs::new(&Store::default());
+        let key = Key { point: OperatingPoint::TABLE_2_1, lubricant: Lubricant::default() };
+        let grid = GridChoice::Spec(GridSpec::EXPLORER);
+        jobs.submit(&egui::Context::default(), FullSolve { kind: JobKind::Verify, key, grid, start: None });
+        let begin = Stopwatch::start();
+        loop {
+            if let Some((job, outcome)) = jobs.poll().pop() {
+                assert_eq!(job.key, key);
+                assert!(!job.steps.is_empty());
+                assert!(matches!(outcome, Outcome::Solved(answer) if answer.result.converged));
+                break;
+            }
+            assert!(begin.elapsed() < Duration::from_secs(300));
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert!(jobs.running().is_empty());
+    }
+}

@@ -1,0 +1,301 @@
+//! How the answers follow the document: by the reduced model, as a rule within the frame, else by the full solver in a
+//! worker; and when the sliders rest, by a full solution that checks the picture.
+
+use super::ask::{Ask, REST_S, quick};
+use super::event::{Event, Wish};
+use super::failure::PassedOver;
+use super::jobs::{FullSolve, GridChoice, JobKind, Running};
+use super::live::Unanswered;
+use super::picture::Cuts;
+use super::state::Answers;
+use crate::app::document::Document;
+use crate::app::in_use::InUse;
+use crate::app::model_source::Models;
+use crate::app::wake::wake;
+use crate::engine::Store;
+use crate::engine::job::{Job, Standing};
+use crate::host::pool::on_spare_cores;
+use crate::solver::discrete::grid::GridSpec;
+use crate::solver::full::Problem;
+use crate::solver::full::point::second_grid;
+use crate::solver::reduced::{ReducedModel, ReducedOptions, Trust};
+use egui::Context;
+use std::sync::Arc;
+use std::time::Duration;
+
+impl Answers {
+    /// Receives what has been read and solved. Called first in every frame.
+    pub fn receive(&mut self) {
+        self.receive_model();
+        for (job, outcome) in self.work.jobs.poll() {
+            self.on(Event::Full(job.kind, job.key, outcome));
+        }
+    }
+
+    /// Recomputes the picture after a change of the document: by the reduced model within the frame, else by the full
+    /// solver in a worker. Called once per frame, after the panels.
+    pub fn refresh(&mut self, ctx: &Context, document: &Document) {
+        if self.work.reading.is_none()
+            && let Some(name) = self.work.models.late_for(&document.point, &document.lubricant)
+        {
+            self.read(ctx, name);
+        }
+        let ask = Ask::of(document, &self.work.models);
+        if self.asked() != Some(ask) {
+            self.follow(ctx, document, Event::Asked(ask, self.untried(document), ctx.input(|i| i.time)));
+        }
+        for (ask, answer) in self.work.live.poll() {
+            let event = match answer {
+                Ok(answer) => Event::Reduced(ask, answer),
+                Err(Unanswered::Stopped) => Event::ReducedStopped(ask),
+                Err(Unanswered::Failed(why)) => Event::ReducedFailed(ask, why),
+            };
+            self.follow(ctx, document, event);
+        }
+    }
+
+    /// Starts the full solution when the sliders have rested. Called last in every frame.
+    pub fn settle(&mut self, ctx: &Context, document: &Document) {
+        if !self.full_is_due() {
+            return;
+        }
+        let rest = self.rested_s(ctx.input(|i| i.time));
+        if rest < REST_S {
+            ctx.request_repaint_after_secs((REST_S - rest) as f32);
+        } else {
+            self.follow(ctx, document, Event::Rested);
+        }
+    }
+
+    /// Solves in full now, even if a full solution is there.
+    pub fn verify(&mut self, ctx: &Context, document: &Document) {
+        self.follow(ctx, document, Event::VerificationAsked);
+    }
+
+    /// Estimates the discretisation error by a solve on a second grid.
+    pub fn estimate_grid_error(&mut self, ctx: &Context) {
+        self.on(Event::EstimateAsked);
+        let Some(full) = self.full().filter(|_| self.full_is_current()) else { return };
+        let Some(spec) = full.solution.mesh.plane() else { return };
+        let (key, start) = (full.key, Some(Arc::clone(&full.solution)));
+        let grid = GridChoice::Spec(GridSpec::Plane(second_grid(spec)));
+        self.work.jobs.submit(ctx, FullSolve { kind: JobKind::Estimate, key, grid, start });
+    }
+
+    /// Cuts all point contacts elsewhere. Called before the plots.
+    pub fn follow_cuts(&mut self, cuts: Cuts) {
+        self.on(Event::Cut(cuts));
+    }
+
+    /// Goes on by an event and starts what is to be computed then.
+    fn follow(&mut self, ctx: &Context, document: &Document, event: Event) {
+        match self.on(event) {
+            None => {}
+            Some(Wish::Full(kind)) => self.submit(ctx, document, kind),
+            Some(Wish::Reduced) => {
+                if let (Some(ask), Some(model)) = (self.asked(), self.model(document).cloned()) {
+                    self.work.live.submit(ctx, ask, model);
+                }
+            }
+        }
+    }
+
+    fn submit(&mut self, ctx: &Context, document: &Document, kind: JobKind) {
+        let key = document.key();
+        // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it:
+        // elsewhere on the grid that was chosen.
+        let chosen = document.chosen_plane();
+        let own = self.passed_over().is_none() || chosen.is_none();
+        let plane = chosen.map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
+        let model = self.model(document).filter(|_| own).map(Arc::as_ref);
+        let grid = GridChoice::of(model, plane, &key.point);
+        let start = match kind {
+            // The truth must not depend on what it checks.
+            JobKind::Verify => None,
+            _ => self.picture().map(|picture| Arc::clone(&picture.solution)),
+        };
+        self.work.jobs.submit(ctx, FullSolve { kind, key, grid, start });
+    }
+
+    /// Returns why the reduced model is not even tried; `None` if it is.
+    fn untried(&self, document: &Document) -> Option<PassedOver> {
+        let heat = document.lubricant.heat.is_some();
+        let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && model.domain.heats() == heat;
+        let shapes = self.model(document).is_some_and(own);
+        match self.trust(document) {
+            _ if self.work.reading.is_some() && !shapes => Some(PassedOver::Reading),
+            None => Some(PassedOver::NoModel),
+            Some(Trust::Outside(why)) => Some(PassedOver::Outside(why.to_string())),
+            Some(Trust::Trained) => None,
+        }
+    }
+
+    /// Begins to read a model of the program. Until it is there the full solver draws the pictures.
+    fn read(&mut self, ctx: &Context, name: &'static str) {
+        let store = self.work.store.clone();
+        self.work.reading = Some(Job::start("Reading a reduced model", wake(ctx), move |reporter| {
+            reporter.send(on_spare_cores(|| store.embedded(name)).map_err(|error| error.to_string())?);
+            Ok(())
+        }));
+    }
+
+    /// Puts the model in use that has been read.
+    fn receive_model(&mut self) {
+        let Some(job) = &mut self.work.reading else { return };
+        // The model may come a while before the word that this was all.
+        let mut read = None;
+        let ended = job.poll(|model| read = Some(model)).is_some();
+        if read.is_none() && !ended {
+            return;
+        }
+        // Who has put one of his own in use meanwhile keeps it; where the build is damaged there is none.
+        self.work.reading = None;
+        match read {
+            Some(model) if !self.work.models.serves(&model) => _ = self.use_model(model),
+            _ => self.models_have_changed(),
+        }
+    }
+
+    /// Puts a reduced model in use and returns the one it replaces: the picture and everything drawn of the model
+    /// follow.
+    pub fn use_model(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
+        let former = self.work.models.put(model);
+        self.models_have_changed();
+        former
+    }
+
+    /// Does without a reduced model.
+    pub fn drop_model(&mut self, model: &Arc<ReducedModel>) {
+        self.work.models.remove(model);
+        self.models_have_changed();
+    }
+
+    fn models_have_changed(&mut self) {
+        self.work.live.forget();
+        self.on(Event::ModelsChanged);
+    }
+
+    /// Returns true if the document has been asked for by [`Self::refresh`].
+    pub fn is_answer_to(&self, document: &Document) -> bool {
+        self.asked() == Some(Ask::of(document, &self.work.models))
+    }
+
+    /// Returns grids, solvers, models and operators.
+    pub fn store(&self) -> &Store {
+        &self.work.store
+    }
+
+    /// Returns the reduced models in use.
+    pub fn models(&self) -> &Models {
+        &self.work.models
+    }
+
+    /// Returns the reduced model that serves a document's contact.
+    pub fn model(&self, document: &Document) -> Option<&Arc<ReducedModel>> {
+        self.work.models.of(&document.point, &document.lubricant)
+    }
+
+    /// Returns the same with the document's truncation.
+    pub fn in_use(&self, document: &Document) -> Option<InUse> {
+        InUse::of(document, &self.work.models)
+    }
+
+    /// Returns the truncation that a document asks for, in the window that serves it.
+    pub fn options(&self, document: &Document) -> ReducedOptions {
+        Ask::of(document, &self.work.models).options
+    }
+
+    /// Returns whether the model was trained for a document's contact.
+    pub fn trust(&self, document: &Document) -> Option<Trust> {
+        let problem = Problem::new(&document.point, document.lubricant).ok()?;
+        self.model(document).map(|model| model.trust(&problem))
+    }
+
+    /// Returns the full solves that wait or run.
+    pub fn running(&self) -> &[Running] {
+        self.work.jobs.running()
+    }
+
+    /// Returns true if a full solve of a kind waits or runs.
+    pub fn runs(&self, kind: JobKind) -> bool {
+        self.work.jobs.busy(kind)
+    }
+
+    /// Returns true if the contact of the sliders is being solved, for its picture or to check it.
+    pub fn busy(&self) -> bool {
+        self.coming() || self.runs(JobKind::Refine) || self.runs(JobKind::Verify)
+    }
+
+    /// Returns true if a picture is on its way.
+    pub fn coming(&self) -> bool {
+        self.work.live.busy() || self.runs(JobKind::Live)
+    }
+
+    /// Returns the progress of the reduced solve for the picture.
+    pub fn standing(&self) -> Option<Standing> {
+        self.work.live.standing()
+    }
+
+    /// Stops all solves.
+    pub fn cancel_all(&self) {
+        self.work.live.stop();
+        self.work.jobs.cancel_all();
+    }
+
+    /// Lets a frame wait for the reduced model for this long, instead of a tenth of a second.
+    pub fn be_patient(&mut self, patience: Duration) {
+        self.work.live.be_patient(patience);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::badge::verdict;
+    use crate::app::display::Thresholds;
+    use crate::engine::embedded;
+    use crate::engine::job::Wake;
+    use std::sync::mpsc::channel;
+    use std::time::Instant;
+
+    #[test]
+    fn a_reduced_solve_that_is_stopped_says_so_and_no_full_one_follows() {
+        let (ctx, document) = (Context::default(), Document::default());
+        let mut answers = Answers::new(Models::only(embedded("line").ok()), Store::default());
+        let ask = Ask::of(&document, answers.models());
+        assert_eq!(answers.on(Event::Asked(ask, None, 0.0)), Some(Wish::Reduced));
+        answers.work.live.endless(ask);
+        answers.refresh(&ctx, &document);
+        assert!(answers.coming() && answers.failure().is_none());
+        assert_eq!(answers.standing().map(|standing| standing.stage).as_deref(), Some("Reduced solve"));
+
+        answers.cancel_all();
+        let begin = Instant::now();
+        while answers.coming() {
+            assert!(begin.elapsed() < Duration::from_secs(60));
+            answers.refresh(&ctx, &document);
+        }
+        let failure = answers.failure().unwrap();
+        assert_eq!((failure.key, failure.message.as_str()), (ask.key, "The reduced solve was cancelled"));
+        assert_eq!(verdict(&answers, Thresholds::default()).title, "Cancelled");
+        assert!(answers.standing().is_none() && answers.running().is_empty() && answers.passed_over().is_none());
+    }
+
+    #[test]
+    fn a_model_is_in_use_as_soon_as_it_is_there_however_long_its_reader_takes_to_end() {
+        let mut answers = Answers::new(Models::only(None), Store::default());
+        let model = embedded("line").unwrap();
+        let (own, (sent, arrived), (end, ended)) = (Arc::clone(&model), channel(), channel::<()>());
+        answers.work.reading = Some(Job::start("Reading", Wake::default(), move |reporter| {
+            reporter.send(own);
+            let _ = (sent.send(()), ended.recv());
+            Ok(())
+        }));
+        arrived.recv().unwrap();
+        answers.receive();
+        assert!(answers.models().contains(&model));
+        drop(end);
+        answers.receive();
+        assert!(answers.models().contains(&model));
+    }
+}

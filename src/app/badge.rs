@@ -1,0 +1,264 @@
+//! The trust badge: how far the picture can be believed, in a glance.
+
+use crate::app::answers::jobs::JobKind;
+use crate::app::answers::picture::{Comparison, Origin, Picture};
+use crate::app::answers::{Answers, PassedOver};
+use crate::app::context::Context;
+use crate::app::controls::{described, named, sentence};
+use crate::app::display::Thresholds;
+use crate::app::numbers;
+use crate::app::theme::{Palette, rich};
+use crate::engine::Warning;
+use crate::solver::full::GridCost;
+use crate::solver::reduced::ErrorEstimate;
+use egui::{Align, Color32, CornerRadius, Frame, Label, Layout, Margin, RichText, Stroke, Ui, vec2};
+
+/// What the badge says.
+pub struct Verdict {
+    /// Its first words.
+    pub title: String,
+    /// What follows.
+    pub detail: String,
+    /// Why, on hover.
+    pub why: String,
+    kind: Kind,
+}
+
+/// How far something can be trusted.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// Nothing is known yet.
+    Neutral,
+    /// It was checked.
+    Verified,
+    /// Right to know.
+    Warning,
+    /// Not to be trusted.
+    Wrong,
+}
+
+/// What can be said of the picture.
+pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
+    let make = |title: &str, detail: String, why: String, kind| Verdict { title: title.to_owned(), detail, why, kind };
+    if let Some(failure) = answers.failure() {
+        let got = failure.report.as_ref().map_or_else(String::new, |r| {
+            format!("{} Newton steps, residual {}", r.newton_iterations, numbers::digits(r.residual_norm, 2))
+        });
+        let (title, kind) =
+            if failure.stopped { ("Cancelled", Kind::Neutral) } else { ("No solution here", Kind::Wrong) };
+        return make(title, got, format!("{}. The last valid picture stays, in grey", failure.message), kind);
+    }
+    let Some(picture) = answers.picture() else {
+        return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);
+    };
+    let waits = answers.runs(JobKind::Live);
+    let full = match () {
+        () if waits && !answers.picture_is_current() => "full solver at work",
+        () if answers.is_quick() => "full solution on a quick grid",
+        () => "full solution",
+    };
+    // Of a picture that is still another contact's nothing is said here.
+    let warned = answers.current_picture().map_or_else(String::new, Picture::warned);
+    match (picture.origin, answers.passed_over()) {
+        (_, Some(PassedOver::Outside(why))) => make(
+            "Outside the reduced model",
+            format!("{full}: {why}"),
+            format!("{warned}The picture is a converged full solution; a reduced model never extrapolates here"),
+            Kind::Warning,
+        ),
+        (_, Some(PassedOver::Failed(why))) => make(
+            "Reduced model failed",
+            full.to_owned(),
+            format!("{}. {warned}The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
+            Kind::Warning,
+        ),
+        (_, Some(PassedOver::Reading)) => make(
+            "Reading the reduced model",
+            full.to_owned(),
+            "The reduced model of such contacts is being read; until it is there the full solver draws the picture".to_owned(),
+            Kind::Neutral,
+        ),
+        (origin, _) if !answers.picture_is_current() => make(
+            "Computing",
+            if origin == Origin::Full { full } else { "reduced model at work" }.to_owned(),
+            "The picture shown belongs to the sliders as they were a moment ago".to_owned(),
+            Kind::Neutral,
+        ),
+        (Origin::Full, _) if answers.is_quick() => make(
+            "Quick grid",
+            format!("full solution on {}", grid(picture)),
+            "A converged full solution on a quick grid, which follows the hand. The chosen grid answers when the sliders rest".to_owned(),
+            Kind::Neutral,
+        ),
+        (Origin::Full, _) => match &picture.unresolved {
+            Some(_) => {
+                let title = if picture.costly_grid { "Grid does not do" } else { "Side lobes unresolved" };
+                make(title, format!("full solution on {}", grid(picture)), warned, Kind::Warning)
+            }
+            None => make(
+                "Verified",
+                if picture.has_plane() { format!("full solution on {}", grid(picture)) } else { full.to_owned() },
+                format!("{warned}No reduced model is loaded for this contact: the picture itself is a converged full solution"),
+                Kind::Verified,
+            ),
+        },
+        (Origin::Reduced { residual_estimate, error, iterations, window, stands_in }, _) => {
+            let how = format!(
+                "{iterations} reduced Newton steps in window {}, residual e_f {}",
+                window + 1,
+                numbers::small(residual_estimate)
+            );
+            let grid_cost = picture.solution.grid_cost.map(GridCost::total).filter(|cost| cost.is_finite());
+            match answers.comparison() {
+                Some(c) if answers.full_is_current() => {
+                    let (title, kind) = match judged(c, thresholds) {
+                        (_, Kind::Verified) if picture.costly_grid => ("Grid does not do", Kind::Warning),
+                        judged => judged,
+                    };
+                    let grid_cost = grid_cost.filter(|cost| *cost > thresholds.far_off);
+                    let why = format!(
+                        "True errors against a full solution on the same grid. {warned}{}{how}",
+                        promised(c, error)
+                    );
+                    make(title, with_grid(c.describe(), grid_cost), why, kind)
+                }
+                _ => {
+                    let neighbour = Warning::NeighbouringModel.to_string();
+                    let (detail, meaning) = match error {
+                        Some(e) => (
+                            format!(
+                                "{{H_c}} within {}, {{H_min}} within {}",
+                                numbers::error_percent(e.h_c.bound),
+                                numbers::error_percent(e.h_min.bound)
+                            ),
+                            "Calibrated bounds: 99 of 100 random contacts of the trained range err by less. They count \
+                             against a full solution on the same grid",
+                        ),
+                        None if stands_in => ("no error bound: a window beside its own answers".to_owned(), neighbour.as_str()),
+                        None => (
+                            format!("no error bound, residual {{e_f}} {}", numbers::small(residual_estimate)),
+                            "The model was not calibrated as it is used here (fewer modes, or an older training). e_f of \
+                             (3.15) says whether the reduced equations are met, not how large the error of the film is",
+                        ),
+                    };
+                    let next = match answers.verify_failure() {
+                        Some(failure) => failure.message.trim_end_matches('.'),
+                        None => "True errors follow with the full solve",
+                    };
+                    let doubtful = answers.verify_failure().is_some() || picture.costly_grid || stands_in;
+                    let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
+                    make("Reduced model", with_grid(detail, grid_cost), format!("{} {warned}{next}. {how}", sentence(meaning)), kind)
+                }
+            }
+        }
+    }
+}
+
+/// What is said of the errors of a model, and of what its grid costs the film.
+fn with_grid(errors: String, cost: Option<f64>) -> String {
+    match cost {
+        Some(cost) => format!("{errors}; the grid costs {{H_c}} {}", numbers::error_percent(cost)),
+        None => errors,
+    }
+}
+
+/// How a picture stands whose true errors are known, by the larger one of its films.
+fn judged(truth: &Comparison, thresholds: Thresholds) -> (&'static str, Kind) {
+    match truth.h_c.abs().max(truth.h_min.abs()) {
+        error if error <= thresholds.verified => ("Verified", Kind::Verified),
+        error if error <= thresholds.far_off => ("Roughly right", Kind::Warning),
+        _ => ("Far off", Kind::Wrong),
+    }
+}
+
+/// The nodes of a point contact's grid, in words.
+fn grid(picture: &Picture) -> String {
+    format!("{}×{} nodes", picture.solution.x.len(), picture.solution.y.len())
+}
+
+/// Whether the truth lies within what was promised.
+fn promised(truth: &Comparison, error: Option<ErrorEstimate>) -> String {
+    let Some(e) = error else { return String::new() };
+    let held = truth.h_c.abs() <= e.h_c.bound && truth.h_min.abs() <= e.h_min.bound;
+    let (h_c, h_min) = (numbers::error_percent(e.h_c.bound), numbers::error_percent(e.h_min.bound));
+    format!("The bounds shown before, {h_c} and {h_min}, {}. ", if held { "held" } else { "did not hold" })
+}
+
+/// Height of its row, which is the same whatever it says: nothing below moves.
+const HEIGHT: f32 = 26.0;
+
+/// The badge in a row of its own, and beside it whose picture is shown where that is not the sliders'.
+pub fn ui(ui: &mut Ui, context: &Context<'_>) {
+    let verdict = verdict(context.answers, context.thresholds);
+    let other = context.answers.picture().filter(|picture| picture.key != context.document.key());
+    let row = vec2(ui.available_width(), HEIGHT);
+    ui.allocate_ui_with_layout(row, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_size(row);
+        pill(ui, verdict.kind, [&verdict.title, &verdict.detail, &verdict.why], "Trust in the picture");
+        if let Some(picture) = other {
+            let of = numbers::contact(&picture.key.point);
+            let color = Palette::of(ui).warning;
+            let note = RichText::new(format!("Grey: the picture belongs to {of}")).small().color(color);
+            ui.add(Label::new(note).truncate());
+        }
+    });
+}
+
+/// A badge: its first words, what follows them, and why; screen readers know it by a name.
+pub fn pill(ui: &mut Ui, kind: Kind, [title, detail, why]: [&str; 3], name: &str) {
+    let palette = Palette::of(ui);
+    let color = match kind {
+        Kind::Neutral => palette.quiet,
+        Kind::Verified => palette.verified,
+        Kind::Warning => palette.warning,
+        Kind::Wrong => palette.wrong,
+    };
+    let fill = color.gamma_multiply(if ui.visuals().dark_mode { 0.22 } else { 0.13 });
+    let ink = palette.ink_on(color, ui.visuals().panel_fill.blend(fill));
+    let frame = Frame::new()
+        .fill(fill)
+        .stroke(Stroke::new(1.0, color.gamma_multiply(0.6)))
+        .corner_radius(CornerRadius::same(10))
+        .inner_margin(Margin::symmetric(10, 2));
+    // Where there is one row only, words give way; elsewhere the badge goes to the next row.
+    let wraps = ui.layout().main_wrap;
+    let response = frame
+        .show(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = 6.0;
+            ui.label(RichText::new(title).strong().color(ink));
+            if !detail.is_empty() {
+                let plain: Color32 = ui.visuals().text_color();
+                let label = Label::new(rich(detail, 13.0, plain));
+                ui.add(if wraps { label.extend() } else { label.truncate() });
+            }
+        })
+        .response;
+    let response = described(ui, named(ui, response, name), &sentence(why));
+    response.on_hover_text(sentence(why));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::answers::picture::Cuts;
+
+    #[test]
+    fn the_word_follows_the_larger_error_of_both_films() {
+        let truth = |h_c, h_min| Comparison {
+            h_c,
+            h_min,
+            traction: None,
+            max_dp: 0.0,
+            cuts: Cuts::default(),
+            pressure: Vec::new(),
+            film: Vec::new(),
+        };
+        for ((h_c, h_min), word) in
+            [((1e-5, -1e-4), "Verified"), ((1e-5, -5e-3), "Roughly right"), ((0.02, 0.0), "Far off")]
+        {
+            assert_eq!(judged(&truth(h_c, h_min), Thresholds::default()).0, word, "{h_c} {h_min}");
+        }
+        let strict = Thresholds { verified: 5e-5, far_off: 9e-5 };
+        assert_eq!(judged(&truth(1e-5, -1e-4), strict).0, "Far off");
+    }
+}

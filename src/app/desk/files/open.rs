@@ -1,0 +1,171 @@
+//! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses
+//! work unasked.
+
+use super::state::Pending;
+use crate::app::desk::{Desk, Opened};
+use crate::app::document::Document;
+use crate::app::notice::Notice;
+use crate::app::panels::headline::Headline;
+use crate::app::purpose::Purpose;
+use crate::app::refusal::Refusal;
+use crate::app::tab::Tab;
+use crate::app::tabs::training::TrainingCommand;
+use crate::engine::campaign::Folder;
+use crate::scene::{Scene, Study};
+use egui::{Context, Ui, ViewportCommand};
+use std::path::{Path, PathBuf};
+
+/// Recent files kept.
+const MOST_RECENT: usize = 8;
+/// The tab that answers a scene's question.
+fn answering(study: &Study) -> Tab {
+    match study {
+        Study::Point(_) => Tab::Profiles,
+        Study::Training(_) => Tab::Training,
+        Study::Transient(_) => Tab::Transient,
+        _ => Tab::Results,
+    }
+}
+
+/// Returns true for the file of a reduced model.
+pub(super) fn is_model(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "rom")
+}
+
+impl Desk {
+    /// Whether there is something to lose.
+    pub fn dirty(&self) -> bool {
+        self.document != *self.files.saved()
+    }
+
+    /// Does something that ends what there is, after asking when there is something to lose.
+    pub fn request(&mut self, ctx: &Context, pending: Pending) {
+        if self.losses(&pending).is_empty() {
+            self.proceed(ctx, pending);
+        } else {
+            self.files.pending = Some(pending);
+        }
+    }
+
+    pub(super) fn proceed(&mut self, ctx: &Context, pending: Pending) {
+        match pending {
+            Pending::New => {
+                self.replace_document(Document::default());
+                self.files.saved = self.document.clone();
+                self.files.path = None;
+                self.files.notice = None;
+            }
+            Pending::OpenDialog => self.ask_path(ctx, Purpose::Open),
+            Pending::Open(path) => {
+                if let Err(why) = self.open_path(&path) {
+                    self.files.notice = Some(Notice::wrong(why));
+                }
+            }
+            Pending::OpenScene(scene) => {
+                if let Err(why) = self.open_untitled(&scene) {
+                    self.files.notice = Some(Notice::wrong(why));
+                }
+            }
+            Pending::Quit => {
+                self.files.quit = true;
+                ctx.send_viewport_cmd(ViewportCommand::Close);
+            }
+            Pending::Train => self.tabs.training.work.start(ctx, &self.document),
+            Pending::DiscardTraining => {
+                self.tabs.training.work.execute(ctx, &mut self.answers, TrainingCommand::Discard)
+            }
+            Pending::ThrowModelAway => {
+                self.tabs.training.work.execute(ctx, &mut self.answers, TrainingCommand::ThrowAway)
+            }
+        }
+    }
+
+    /// Opens a scene, watches a campaign (its folder, or `campaign.ron` in it), or puts a reduced model (`.rom`) in use.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be read; what is on the screen stays.
+    pub fn open_path(&mut self, path: &Path) -> Result<(), Refusal> {
+        if is_model(path) {
+            let model = self.answers.store().model_of_file(path)?;
+            self.answers.use_model(model);
+            self.files.notice = Some(Notice::Done(format!("Using the model {}", path.display())));
+            return Ok(());
+        }
+        if let Some(folder) = Folder::meant(path) {
+            let folder = Folder::open(&folder)?;
+            self.open_path(&folder.scene_path())?;
+            self.files.notice = Some(Notice::Done(format!("Watching the campaign {}", folder.path.display())));
+            self.opened = Some(Opened::Campaign(folder.path));
+            return Ok(());
+        }
+        let scene = Scene::read(path)?;
+        let document = Document::of_scene(scene).map_err(|e| Refusal::new(format!("{}: {e}", path.display())))?;
+        self.replace_document(document);
+        self.files.saved = self.document.clone();
+        self.files.path = Some(path.to_owned());
+        self.remember(path);
+        self.files.notice = Some(Notice::Done(format!("Opened {}", path.display())));
+        self.opened = self.document.scene.as_ref().map(|scene| Opened::Scene(answering(&scene.study)));
+        Ok(())
+    }
+
+    /// Opens a scene that has no file, with its question above the tabs.
+    ///
+    /// # Errors
+    /// A sentence when the explorer cannot solve it; what is on the screen stays.
+    fn open_untitled(&mut self, scene: &Scene) -> Result<(), Refusal> {
+        let document = Document::of_scene(scene.clone())?;
+        self.replace_document(document);
+        self.files.saved = self.document.clone();
+        self.files.path = None;
+        self.files.notice = None;
+        self.headline = Some(Headline::of(scene));
+        self.opened = Some(Opened::Scene(answering(&scene.study)));
+        Ok(())
+    }
+
+    /// Saves to the known path or asks for one.
+    pub fn save(&mut self, ctx: &Context) {
+        match self.files.path.clone() {
+            Some(path) => {
+                if let Err(why) = self.save_to(&path) {
+                    self.files.notice = Some(Notice::wrong(why));
+                }
+            }
+            None => self.ask_path(ctx, Purpose::Save),
+        }
+    }
+
+    pub(super) fn save_to(&mut self, path: &Path) -> Result<(), Refusal> {
+        self.document.to_scene().write(path)?;
+        self.files.saved = self.document.clone();
+        self.files.path = Some(path.to_owned());
+        self.remember(path);
+        self.files.notice = Some(Notice::Done(format!("Saved {}", path.display())));
+        Ok(())
+    }
+
+    /// Puts a scene first among those that were used.
+    pub fn remember(&mut self, path: &Path) {
+        self.files.recent.retain(|p| p != path);
+        self.files.recent.insert(0, path.to_owned());
+        self.files.recent.truncate(MOST_RECENT);
+    }
+
+    /// The windows of this module, dropped files, and the question before closing.
+    pub fn files_ui(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx().clone();
+        let dropped: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
+        if let Some(path) = dropped.into_iter().next() {
+            self.request(&ctx, Pending::Open(path));
+        }
+        let closes = ctx.input(|i| i.viewport().close_requested()) && !self.files.quit;
+        if closes && !self.losses(&Pending::Quit).is_empty() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.files.pending = Some(Pending::Quit);
+        }
+        self.browse_answer(&ctx);
+        self.path_window_ui(&ctx);
+        self.losses_ui(&ctx);
+    }
+}

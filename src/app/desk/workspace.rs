@@ -1,0 +1,209 @@
+//! Everything that lies on the table: the document, what came of it, what is under way, files. Panels and tabs never
+//! see it whole: they are given a [`Context`] and ask for changes by commands.
+
+use super::files::Files;
+use super::opened::Opened;
+use crate::app::answers::Answers;
+use crate::app::answers::picture::Cuts;
+use crate::app::caption;
+use crate::app::context::Context;
+use crate::app::controls::Entries;
+use crate::app::display::Display;
+use crate::app::document::{Document, Edit, History};
+use crate::app::figure::Figures;
+use crate::app::load_cases::LoadCasesWindow;
+use crate::app::model_source::Models;
+use crate::app::notice::Notice;
+use crate::app::panels::headline::Headline;
+use crate::app::presentation::Presentation;
+use crate::app::sheets::Sheets;
+use crate::app::tab::Tab;
+use crate::app::tabs::all::Tabs;
+use crate::app::tabs::transient::TransientRuns;
+use crate::engine::job::{Standing, Wake};
+use crate::engine::{Store, Workbench};
+use crate::solver::discrete::grid::PointGridSpec;
+use crate::solver::reduced::ReducedModel;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What the window works with.
+pub struct Desk {
+    /// What is edited.
+    pub document: Document,
+    /// Undo and redo.
+    pub history: History,
+    /// What came of it.
+    pub answers: Answers,
+    /// Opening, saving, exporting.
+    pub files: Files,
+    /// Theme, size, and where a point contact is cut.
+    pub display: Display,
+    /// Text fields being edited and their messages.
+    pub entries: Entries,
+    /// Whether laws and constants of the lubricant are edited, though it may still have a name.
+    pub own_lubricant: bool,
+    /// Transient runs, which several tabs show.
+    pub transient: TransientRuns,
+    pub tabs: Tabs,
+    /// Plots that leave as figures.
+    pub figures: Figures,
+    /// Tables of load cases.
+    pub load_cases: LoadCasesWindow,
+    /// What the scene asks that was opened from those of the program.
+    pub headline: Option<Headline>,
+    /// The results sheet that is being made.
+    pub sheets: Sheets,
+    /// A presentation under way: plots and sliders only.
+    pub presentation: Option<Presentation>,
+    /// What was just opened and is to be answered.
+    pub opened: Option<Opened>,
+    /// Plots are to be fitted to their data in this frame.
+    pub fit_plots: bool,
+    /// Tabs whose axes stand still.
+    pub locked: Vec<Tab>,
+}
+
+impl Desk {
+    /// A window on a document.
+    pub fn new(document: Document, models: Models, store: Store) -> Self {
+        let mut history = History::default();
+        history.restart(&document);
+        Self {
+            files: Files::new(&document),
+            document,
+            history,
+            answers: Answers::new(models, store),
+            display: Display::default(),
+            entries: Entries::default(),
+            own_lubricant: false,
+            transient: TransientRuns::default(),
+            tabs: Tabs::default(),
+            figures: Figures::default(),
+            load_cases: LoadCasesWindow::default(),
+            headline: None,
+            sheets: Sheets::default(),
+            presentation: None,
+            opened: None,
+            fit_plots: true,
+            locked: Vec::new(),
+        }
+    }
+
+    /// What panels and tabs see of it.
+    pub fn context(&self) -> Context<'_> {
+        Context {
+            document: &self.document,
+            answers: &self.answers,
+            transient: &self.transient,
+            file: self.files.path.as_deref(),
+            entries: &self.entries,
+            cuts: self.display.cuts,
+            thresholds: self.display.thresholds,
+            why: self.display.why,
+            presenting: self.presentation.is_some(),
+            fit: self.fit_plots,
+        }
+    }
+
+    /// Changes the document; a refusal stands beside the field, and what was typed elsewhere is forgotten where the
+    /// change was made.
+    pub fn edit(&mut self, edit: Edit, field: &'static str) {
+        let kind = self.document.point.kind;
+        self.own_lubricant &= !matches!(edit, Edit::Named(_));
+        let result = self.document.edit(edit);
+        if result.is_ok() {
+            self.entries.clear();
+        }
+        self.fit_plots |= self.document.point.kind != kind;
+        self.entries.answer(field, result);
+    }
+
+    /// The window of figures, where one is wanted, and a sheet that is ready. Called when everything else is drawn.
+    pub fn figures_ui(&mut self, ctx: &egui::Context) {
+        let mut figures = std::mem::take(&mut self.figures);
+        let made = figures.ui(ctx, self.display.theme, |tab| self.caption(tab));
+        self.figures = figures;
+        match made.map(Ok).or_else(|| self.sheets.receive()) {
+            Some(Ok(file)) => self.ask_path(ctx, file),
+            Some(Err(why)) => self.files.notice = Some(Notice::Wrong(format!("No sheet: {why}"))),
+            None => {}
+        }
+    }
+
+    /// Lets the axes of a tab stand still, or no more.
+    pub fn lock(&mut self, tab: Tab, locked: bool) {
+        self.locked.retain(|other| *other != tab);
+        if locked {
+            self.locked.push(tab);
+        } else {
+            self.fit_plots = true;
+        }
+    }
+
+    /// Lays the cuts of a point contact within its domain.
+    pub fn follow_cuts(&mut self) {
+        if let Some(PointGridSpec { domain: (from, to, edge), .. }) = self.document.chosen_plane() {
+            let Cuts { x, y } = self.display.cuts;
+            self.display.cuts = Cuts { x: x.clamp(from, to), y: y.clamp(edge, -edge) };
+        }
+        self.answers.follow_cuts(self.display.cuts);
+    }
+
+    /// The reduced model that serves the contact on the screen.
+    pub fn model(&self) -> Option<&Arc<ReducedModel>> {
+        self.answers.model(&self.document)
+    }
+
+    /// Returns the progress of all jobs beside the full solves for the picture.
+    pub fn works(&self) -> Vec<Standing> {
+        let context = self.context();
+        let tabs = Tab::ALL.iter().flat_map(|tab| self.tabs.of(*tab).jobs(&context));
+        let made = [self.sheets.standing(), self.figures.standing()];
+        self.answers.standing().into_iter().chain(tabs).chain(made.into_iter().flatten()).collect()
+    }
+
+    /// Receives what has come since the last frame. Called first in every frame.
+    pub fn receive(&mut self) {
+        self.answers.receive();
+        self.transient.receive(self.answers.store());
+        self.tabs.receive();
+    }
+
+    /// Stops everything that runs; what has been found stays.
+    pub fn stop_all(&mut self) {
+        self.answers.cancel_all();
+        self.transient.stop();
+        self.tabs.stop();
+        self.sheets.stop();
+        self.figures.stop();
+    }
+
+    /// Returns the parameters of the plots of a tab, for the caption of a figure.
+    fn caption(&self, tab: Tab) -> String {
+        let own = self.tabs.of(tab).caption(&self.context());
+        own.unwrap_or_else(|| caption::contact(&self.document.point, &self.document.lubricant))
+    }
+
+    /// Runs the study of the scene on the screen.
+    pub fn run_study(&mut self, wake: Wake) {
+        let base = self.files.path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
+        let bench = Workbench::on(self.answers.store(), base);
+        self.tabs.results.start(self.document.to_scene(), bench, wake);
+    }
+
+    /// Watches a campaign of the scene on the screen.
+    pub fn watch_campaign(&mut self, folder: PathBuf, wake: Wake) {
+        self.tabs.results.watch(self.document.to_scene(), folder, wake);
+    }
+
+    /// Replaces the document, as New and Open do.
+    pub fn replace_document(&mut self, document: Document) {
+        self.history.restart(&document);
+        self.document = document;
+        self.own_lubricant = false;
+        self.headline = None;
+        self.tabs.results.forget();
+        self.entries.clear();
+    }
+}

@@ -1,0 +1,17 @@
+//! What the user edits and what a file holds.
+
+mod edit;
+mod engineering;
+mod experiment;
+mod held;
+mod history;
+pub mod input;
+mod key;
+mod shape;
+mod transient;
+
+pub use edit::Edit;
+pub use experiment::{Document, HOME};
+pub use history::History;
+pub use key::Key;
+pub use shape::Shape;

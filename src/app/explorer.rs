@@ -1,0 +1,308 @@
+//! The explorer: a window in which a contact is dragged and answers at once.
+//!
+//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`] puts it into a native one.
+
+use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::desk::{Desk, Opened};
+use crate::app::document::Document;
+use crate::app::drawn::{self, Drawn};
+use crate::app::examples::Examples;
+use crate::app::layouts::{self, Layout};
+use crate::app::lessons::{self, Lessons, OnScreen};
+use crate::app::model_source::Models;
+use crate::app::notice::Notice;
+use crate::app::palette::Palette;
+use crate::app::panels::help::Help;
+use crate::app::panels::settings::Settings;
+use crate::app::refusal::Refusal;
+use crate::app::session::{self, Keeper, Place};
+use crate::app::tab::Tab;
+use crate::app::tabs::frame::Frame;
+use crate::app::wake::wake;
+use crate::app::{panels, theme};
+use crate::engine::Store;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::ReducedModel;
+use egui::{CentralPanel, Panel, ScrollArea, Ui};
+use egui_tiles::Tree;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A presentation on a screen that is no higher has no read-outs \[points\].
+const LOW: f32 = 500.0;
+/// Width of all tabs below which their titles stand close.
+const NARROW: f32 = 900.0;
+/// Least height of the read-outs.
+const READOUTS: f32 = 24.0;
+
+/// The window.
+pub struct Explorer {
+    pub(super) desk: Desk,
+    pub(super) tree: Tree<Tab>,
+    pub(super) palette: Palette,
+    pub(super) help: Help,
+    pub(super) settings: Settings,
+    pub(super) lessons: Lessons,
+    pub(super) examples: Examples,
+    pub(super) drawn: Vec<Drawn>,
+    pub(super) frame_s: f64,
+    pub(super) installed: bool,
+    pub(super) place: Place,
+    pub(super) keeper: Option<Keeper>,
+}
+
+impl Explorer {
+    /// A window with one reduced model, or without any: the full solver then draws every other picture.
+    pub fn new(model: Option<Arc<ReducedModel>>) -> Self {
+        Self::with_models(Models::only(model), Store::default())
+    }
+
+    /// A window with all models that are part of the program.
+    pub fn with_embedded_models() -> Self {
+        let store = Store::default();
+        Self::with_models(Models::embedded(&store), store)
+    }
+
+    fn with_models(models: Models, store: Store) -> Self {
+        Self {
+            desk: Desk::new(Document::default(), models, store),
+            tree: Layout::default().tree(Place::default().size.0),
+            lessons: Lessons::default(),
+            examples: Examples::default(),
+            palette: Palette::default(),
+            help: Help::default(),
+            settings: Settings::default(),
+            drawn: Vec::new(),
+            frame_s: 0.0,
+            installed: false,
+            place: Place::default(),
+            keeper: None,
+        }
+    }
+
+    /// Leaves the system's file dialogs alone; the path fields remain. For tests.
+    pub fn without_system_dialogs(mut self) -> Self {
+        self.desk.files.native_dialogs = false;
+        self
+    }
+
+    /// Lets a frame wait for the reduced model for as long as this, however busy the machine is. For tests.
+    pub fn waiting_for_answers(mut self, patience: Duration) -> Self {
+        self.desk.answers.be_patient(patience);
+        self
+    }
+
+    /// Keeps trainings in a folder while they run, and offers to go on with what is found there.
+    pub fn keeping_trainings_in(mut self, folder: &Path) -> Self {
+        self.desk.tabs.training.work.keep_in(folder);
+        self
+    }
+
+    /// Restores the last session of a folder, its document too where wanted, and keeps this one there.
+    pub fn keeping_session_in(mut self, folder: &Path, with_document: bool) -> Self {
+        session::restore(&mut self, folder, with_document);
+        match Keeper::new(folder) {
+            Ok(keeper) => self.keeper = Some(keeper),
+            Err(why) => self.desk.files.notice = Some(Notice::wrong(why)),
+        }
+        self
+    }
+
+    /// One frame: what was asked for in the panels is done before the tabs are drawn, so that the picture follows
+    /// within the frame.
+    pub fn ui(&mut self, ui: &mut Ui) {
+        let begin = Instant::now();
+        let ctx = ui.ctx().clone();
+        if !self.installed {
+            self.installed = true;
+            theme::install(&ctx);
+            ctx.set_theme(self.desk.display.theme);
+            self.desk.tabs.training.work.look(&ctx);
+        }
+        self.scale(&ctx);
+        self.palette.begin(&ctx);
+        self.desk.figures.begin(ui);
+        drawn::begin(&ctx);
+        self.desk.receive();
+        let asked = self.desk.files.asks() || self.desk.figures.asks() || self.palette.is_open();
+        let mut commands = Commands::default();
+        if !asked {
+            commands.extend(Command::pressed(&ctx));
+        }
+        self.panels(ui, &mut commands);
+        self.execute_all(&ctx, &mut commands);
+        self.answer_opened(&ctx);
+        let here = self.desk.document.point;
+        self.desk.tabs.regimes.follow(here.kind, here.moes());
+        self.desk.answers.refresh(&ctx, &self.desk.document);
+        self.desk.follow_cuts();
+        self.lessons_ui(ui, &mut commands);
+        let in_time = self.shows_in_time();
+        // A presentation on a very low screen leaves their room to the plots.
+        let room = self.desk.presentation.is_none() || ctx.content_rect().height() > LOW;
+        if room {
+            self.readouts_ui(ui, in_time);
+        }
+        if let Some(headline) = self.desk.headline.as_ref().filter(|_| self.desk.presentation.is_none()) {
+            Panel::top("headline").show(ui, |ui| headline.ui(ui, &mut commands));
+        }
+        CentralPanel::no_frame().show(ui, |ui| {
+            let narrow = ui.available_width() < NARROW;
+            self.tree.ui(&mut Frame { desk: &mut self.desk, commands: &mut commands, narrow }, ui);
+        });
+        self.drawn = drawn::all(&ctx);
+        self.desk.files_ui(ui);
+        self.desk.figures_ui(&ctx);
+        panels::help::ui(&ctx, &mut self.help);
+        self.settings.ui(&ctx, &self.desk, &mut commands);
+        self.examples.ui(&ctx, &mut commands);
+        self.desk.load_cases.ui(&ctx, &self.desk.document, &mut commands);
+        commands.extend(self.palette.ui(&ctx, &self.desk));
+        self.settle(&ctx);
+        self.execute_all(&ctx, &mut commands);
+        self.keep_session(&ctx);
+        // What a plot or a command changed shows in the next frame.
+        if !self.desk.answers.is_answer_to(&self.desk.document) {
+            ctx.request_repaint();
+        }
+        self.frame_s = begin.elapsed().as_secs_f64();
+    }
+
+    /// What the contact, or the moment that is looked at, amounts to.
+    fn readouts_ui(&self, ui: &mut Ui, in_time: bool) {
+        Panel::bottom("readouts").show(ui, |ui| {
+            // Whatever they are of, nothing above them moves.
+            ui.set_min_height(READOUTS);
+            let context = self.desk.context();
+            if !in_time || !panels::moment::ui(ui, &context) {
+                panels::readouts::ui(ui, &context);
+            }
+        });
+    }
+
+    /// The panel of lessons, where it is open.
+    fn lessons_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
+        if !self.lessons.is_open() {
+            return;
+        }
+        let screen = OnScreen {
+            point: self.desk.document.point,
+            plateau_ratio: self.desk.document.plateau_ratio(),
+            lubricant: self.desk.document.lubricant,
+            tabs: layouts::seen(&self.tree),
+            pins: self.desk.answers.pins().len(),
+            checked: self.desk.answers.comparison().is_some() && self.desk.answers.picture_is_current(),
+        };
+        // Tabs beside each other on a small screen keep their width.
+        let below = ui.ctx().content_rect().width() < lessons::BESIDE && screen.tabs.len() > 1;
+        let panel = match below {
+            true => Panel::bottom("lessons below").exact_size(lessons::HEIGHT),
+            false => Panel::right("lessons").exact_size(lessons::WIDTH),
+        };
+        let lessons = &mut self.lessons;
+        panel.resizable(false).show(ui, |ui| lessons.ui(ui, &screen, commands));
+    }
+
+    /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done
+    /// without asking.
+    fn answer_opened(&mut self, ctx: &egui::Context) {
+        match self.desk.opened.take() {
+            None => {}
+            Some(Opened::Scene(tab)) => {
+                self.show(tab);
+                if tab == Tab::Results {
+                    self.desk.run_study(wake(ctx));
+                }
+            }
+            Some(Opened::Campaign(folder)) => {
+                self.show(Tab::Results);
+                self.desk.watch_campaign(folder, wake(ctx));
+            }
+        }
+    }
+
+    /// Records finished gestures, and starts what waited for the sliders to rest.
+    fn settle(&mut self, ctx: &egui::Context) {
+        let gesture = ctx.input(|i| i.pointer.any_down());
+        let desk = &mut self.desk;
+        if !gesture {
+            desk.history.commit(&desk.document);
+        }
+        desk.answers.settle(ctx, &desk.document);
+        desk.transient.settle(ctx, desk.answers.store());
+        // A contact that is being solved is waited for.
+        desk.fit_plots &= desk.answers.coming() && !desk.answers.picture_is_current();
+    }
+
+    /// Hands what has changed in this frame to the keeper of the session.
+    fn keep_session(&mut self, ctx: &egui::Context) {
+        let Some(mut keeper) = self.keeper.take() else { return };
+        self.place.follow(ctx);
+        if let Some(sentence) = keeper.follow(self) {
+            self.desk.files.notice = Some(Notice::wrong(sentence));
+        }
+        self.keeper = Some(keeper);
+    }
+
+    /// The panels around the tabs that are drawn before them.
+    fn panels(&mut self, ui: &mut Ui, commands: &mut Commands) {
+        let (desk, frame_s) = (&mut self.desk, self.frame_s);
+        // What is typed belongs to the panels while they are drawn.
+        let (mut entries, mut own_laws) = (std::mem::take(&mut desk.entries), desk.own_lubricant);
+        let context = desk.context();
+        if context.presenting {
+            let locked = !desk.locked.is_empty();
+            Panel::bottom("presentation").show(ui, |ui| {
+                panels::presentation::ui(ui, &context, locked, &mut entries, commands);
+            });
+        } else {
+            Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, desk, commands));
+            Panel::bottom("jobs").show(ui, |ui| panels::strip::ui(ui, desk, frame_s, commands));
+            let ((least, most), width) = (Place::SLIDERS, self.place.sliders);
+            let sliders = Panel::left("sliders").default_size(width).size_range(least..=most).show(ui, |ui| {
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    panels::operating_point::ui(ui, &context, &mut entries, commands);
+                    panels::bodies::ui(ui, context.document, &mut entries, commands);
+                    panels::lubricant::ui(ui, context.document, &mut own_laws, &mut entries, commands);
+                    panels::model::ui(ui, &context, commands);
+                    panels::plane::ui(ui, &context, commands);
+                    ui.add_space(8.0);
+                });
+            });
+            self.place.sliders = sliders.response.rect.width().clamp(least, most);
+        }
+        (desk.entries, desk.own_lubricant) = (entries, own_laws);
+    }
+
+    /// Opens a scene, as File → Open does.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be read; what is on the screen stays.
+    pub fn open_scene(&mut self, path: &Path) -> Result<(), Refusal> {
+        self.desk.open_path(path)
+    }
+
+    /// The tabs that can be seen.
+    pub(super) fn tabs_in_front(&self) -> impl Iterator<Item = Tab> {
+        layouts::seen(&self.tree).into_iter()
+    }
+
+    /// Whether nothing but contacts in time can be seen: the read-outs are of their moment then.
+    fn shows_in_time(&self) -> bool {
+        let line = self.desk.document.point.kind == ContactKind::Line;
+        let in_time = |tab| matches!(tab, Tab::Transient | Tab::Tpwl | Tab::ContactMap);
+        line && self.desk.document.no_transient().is_none() && self.tabs_in_front().all(in_time)
+    }
+}
+
+impl eframe::App for Explorer {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        Self::ui(self, ui);
+    }
+
+    fn persist_egui_memory(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,222 @@
+//! Lessons: a panel that says what to do, points at the control, sees that it was done, and says what was seen.
+
+use super::goal::{Goal, OnScreen};
+use super::text::Lesson;
+use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::controls::{named, point_at};
+use crate::app::document::Edit;
+use crate::app::tab::Tab;
+use crate::app::theme::Palette;
+use egui::{Button, RichText, ScrollArea, Ui, vec2};
+use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
+use std::path::Path;
+use std::sync::LazyLock;
+
+/// The lessons of the program, each as it is written.
+const TEXTS: [&str; 11] = [
+    include_str!("../../../assets/lessons/01_rigid_to_hertz.md"),
+    include_str!("../../../assets/lessons/02_the_spike.md"),
+    include_str!("../../../assets/lessons/03_four_regimes.md"),
+    include_str!("../../../assets/lessons/04_when_formulas_fail.md"),
+    include_str!("../../../assets/lessons/05_horseshoe.md"),
+    include_str!("../../../assets/lessons/06_from_ball_to_roller.md"),
+    include_str!("../../../assets/lessons/07_stribeck_and_traction.md"),
+    include_str!("../../../assets/lessons/08_shear_thinning.md"),
+    include_str!("../../../assets/lessons/09_a_load_that_breathes.md"),
+    include_str!("../../../assets/lessons/10_what_a_basis_is.md"),
+    include_str!("../../../assets/lessons/11_when_to_trust.md"),
+];
+
+/// They are tested: none is refused.
+static LESSONS: LazyLock<Vec<Lesson>> = LazyLock::new(|| TEXTS.iter().flat_map(|text| Lesson::read(text)).collect());
+
+/// Most lessons of one's own.
+const MOST_OWN: usize = 100;
+/// Width of the panel beside the tabs \[points\].
+pub const WIDTH: f32 = 300.0;
+/// Its height below the tabs \[points\].
+pub const HEIGHT: f32 = 190.0;
+/// Windows of this width have room for it beside tabs that lie beside each other \[points\].
+pub const BESIDE: f32 = 1600.0;
+
+/// The list of lessons, and the one that is under way.
+#[derive(Default)]
+pub struct Lessons {
+    /// Whether the list or a lesson is shown.
+    open: bool,
+    own: Vec<Lesson>,
+    /// Own files that are no lessons, and why.
+    refused: Vec<String>,
+    now: Option<Standing>,
+    cache: CommonMarkCache,
+}
+
+/// A lesson under way.
+struct Standing {
+    lesson: Lesson,
+    step: usize,
+    /// Whether what the step asks for was done; it stays done.
+    done: bool,
+}
+
+impl Lessons {
+    /// Shows the list, or no more.
+    pub fn toggle(&mut self) {
+        self.open = !self.open;
+    }
+
+    /// Whether the panel is to be drawn.
+    pub fn is_open(&self) -> bool {
+        self.open
+    }
+
+    /// Closes the panel; the lesson under way stays where it is.
+    pub fn close(&mut self) {
+        self.open = false;
+    }
+
+    /// Takes in lessons of one's own: files ending in `.md` in a folder, in the order of their names.
+    pub fn look_in(&mut self, folder: &Path) {
+        let Ok(entries) = std::fs::read_dir(folder) else { return };
+        let mut files: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+        files.retain(|path| path.extension().is_some_and(|ending| ending == "md"));
+        files.sort();
+        (self.own, self.refused) = (Vec::new(), Vec::new());
+        for path in files.into_iter().take(MOST_OWN) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let text = std::fs::read_to_string(&path).map_err(|error| error.to_string());
+            match text.and_then(|text| Lesson::read(&text).map_err(|error| error.to_string())) {
+                Ok(lesson) => self.own.push(lesson),
+                Err(why) => self.refused.push(format!("{name}: {why}")),
+            }
+        }
+    }
+
+    /// The panel.
+    pub fn ui(&mut self, ui: &mut Ui, screen: &OnScreen, commands: &mut Commands) {
+        point_at(ui.ctx(), None);
+        if self.now.is_some() {
+            self.lesson_ui(ui, screen, commands);
+        } else {
+            self.list_ui(ui, commands);
+        }
+    }
+
+    fn list_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
+        ui.horizontal(|ui| {
+            ui.heading("Lessons");
+            self.close_ui(ui);
+        });
+        ui.weak("Each starts from a contact of its own; Undo brings yours back.");
+        let mut chosen = None;
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            for (k, lesson) in LESSONS.iter().chain(&self.own).enumerate() {
+                let steps = lesson.steps.len();
+                let width = vec2(ui.available_width(), 0.0);
+                let title = format!("{}. {}", k + 1, lesson.title);
+                let button = Button::new(&title).min_size(width).shortcut_text(format!("{steps} steps"));
+                let response = ui.add(button);
+                if named(ui, response, &title).on_hover_text(&lesson.about).clicked() {
+                    chosen = Some(lesson.clone());
+                }
+            }
+            for why in &self.refused {
+                ui.colored_label(Palette::of(ui).wrong, why);
+            }
+        });
+        if let Some(lesson) = chosen {
+            self.begin(lesson, commands);
+        }
+    }
+
+    fn begin(&mut self, lesson: Lesson, commands: &mut Commands) {
+        commands.push(Command::Go(Tab::Profiles));
+        commands.edit(Edit::Contact(lesson.point, Box::new(lesson.lubricant.laws)), "lesson");
+        // Axes that stand still do so about its contact.
+        commands.push(Command::FitPlots);
+        self.now = Some(Standing { lesson, step: 0, done: false });
+    }
+
+    fn close_ui(&mut self, ui: &mut Ui) {
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let button = ui.button("Close");
+            if named(ui, button, "Close the lessons").clicked() {
+                self.open = false;
+            }
+        });
+    }
+
+    fn lesson_ui(&mut self, ui: &mut Ui, screen: &OnScreen, commands: &mut Commands) {
+        let mut leave = false;
+        let wide = ui.available_width() > 2.0 * WIDTH;
+        let title = self.now.as_ref().map_or_else(String::new, |now| now.lesson.title.clone());
+        ui.horizontal(|ui| {
+            leave = ui.button("All lessons").clicked();
+            if wide {
+                ui.heading(&title);
+            }
+            self.close_ui(ui);
+        });
+        if !wide {
+            ui.heading(&title);
+        }
+        let Self { now, cache, .. } = self;
+        let Some(Standing { lesson, step, done }) = now else { return };
+        let count = lesson.steps.len();
+        let Some(present) = lesson.steps.get(*step) else { return };
+        *done |= present.goals.iter().all(|goal| goal.holds(screen));
+        if !*done {
+            point_at(ui.ctx(), present.control.as_deref().map(super::goal::control));
+        }
+        // Below the text, where it stands still.
+        let below = 2.6 * ui.spacing().interact_size.y;
+        let height = (ui.available_height() - below).max(60.0);
+        ScrollArea::vertical().id_salt(*step).max_height(height).auto_shrink(false).show(ui, |ui| {
+            if *step == 0 {
+                CommonMarkViewer::new().show(ui, cache, &lesson.about);
+                ui.add_space(6.0);
+            }
+            ui.label(RichText::new(&present.title).strong());
+            CommonMarkViewer::new().show(ui, cache, &present.text);
+            for tab in present.goals.iter().filter_map(Goal::tab) {
+                if ui.button(format!("Open {}", tab.title())).clicked() {
+                    commands.push(Command::Go(tab));
+                }
+            }
+            ui.add_space(6.0);
+            if *done {
+                let color = Palette::of(ui).verified;
+                ui.label(
+                    RichText::new(if present.goals.is_empty() { "To be seen" } else { "Done" }).strong().color(color),
+                );
+                ui.label(&present.seen);
+            }
+        });
+        ui.separator();
+        let mut target = *step;
+        ui.horizontal(|ui| {
+            if ui.add_enabled(*step > 0, Button::new("Back")).clicked() {
+                target = *step - 1;
+            }
+            ui.weak(format!("Step {} of {count}", *step + 1));
+            let last = *step + 1 == count;
+            let name = if last { "Finish" } else { "Next" };
+            let next = ui.button(if *done { RichText::new(name).strong() } else { RichText::new(name) });
+            if next.clicked() {
+                if last {
+                    leave = true;
+                } else {
+                    target = *step + 1;
+                }
+            }
+        });
+        if target != *step {
+            (*step, *done) = (target, false);
+            ui.ctx().request_repaint();
+        }
+        if leave {
+            self.now = None;
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! The colour bar beside a map, with its values and their SI twins.
+
+use crate::app::theme::{Palette, rich};
+use crate::app::units::Units;
+use crate::app::{figure, numbers};
+use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
+
+/// Width of the bar with its numbers.
+pub const WIDTH: f32 = 118.0;
+/// Width of the bar itself.
+const BAR: f32 = 16.0;
+/// Strips that it is painted with.
+pub const STRIPS: usize = 128;
+/// Parts of a film's scale, of which those below the smallest film are left out.
+pub const UNITS: f64 = 8.0;
+/// Height that a number wants.
+const ROW: f32 = 15.0;
+
+/// Values that the scale names: round ones from its lower end to its upper one.
+pub fn ticks((low, high): (f64, f64)) -> Vec<f64> {
+    let unit = if low > 0.0 { high / UNITS } else { high / 4.0 };
+    let count = ((high - low) / unit).round() as usize;
+    (0..=count).map(|k| low + unit * k as f64).collect()
+}
+
+/// The bar: its colours from the lower end to the upper one, the values at these, and what a value is in SI units.
+pub fn ui(
+    ui: &mut Ui,
+    title: &str,
+    (colors, (low, high)): (&[Color32], (f64, f64)),
+    height: f32,
+    si: impl Fn(f64) -> String,
+) {
+    let palette = Palette::of(ui);
+    let (area, _) = ui.allocate_exact_size(vec2(WIDTH, height), Sense::hover());
+    let painter = ui.painter();
+    let text = ui.visuals().text_color();
+    let galley = painter.layout_job(rich(title, 13.5, text));
+    painter.galley(pos2(area.left() + 2.0, area.top()), galley, text);
+    let bar = Rect::from_min_max(area.min + vec2(0.0, 24.0), pos2(area.left() + BAR, area.bottom() - 38.0));
+    let at = |t: f32| bar.bottom() - t * bar.height();
+    let strip = bar.height() / colors.len().max(1) as f32;
+    for (k, color) in colors.iter().enumerate() {
+        let top = bar.bottom() - (k + 1) as f32 * strip;
+        painter.rect_filled(Rect::from_min_size(pos2(bar.left(), top), vec2(BAR, strip + 0.6)), 0.0, *color);
+    }
+    painter.rect_stroke(bar, 0.0, Stroke::new(1.0, palette.quiet), egui::StrokeKind::Outside);
+    let small = FontId::proportional(11.5);
+    let ticks = ticks((low, high));
+    let every = (ROW * ticks.len() as f32 / bar.height().max(1.0)).ceil().max(1.0) as usize;
+    for value in ticks.into_iter().step_by(every) {
+        let y = at(((value - low) / (high - low)) as f32);
+        painter.line_segment([pos2(bar.right(), y), pos2(bar.right() + 4.0, y)], Stroke::new(1.0, palette.quiet));
+        let label = numbers::digits(value, 2);
+        painter.text(pos2(bar.right() + 7.0, y), Align2::LEFT_CENTER, label, small.clone(), text);
+        let twin = pos2(bar.right() + 42.0, y);
+        painter.text(twin, Align2::LEFT_CENTER, si(value), small.clone(), palette.quiet);
+    }
+}
+
+/// What the colours mean, for the figure of the map that was drawn last: a title, and in SI units another one with what
+/// a value is multiplied with.
+pub fn on_paper(ui: &Ui, title: &str, (factor, in_si): (f64, &str), (colors, (low, high)): (&[Color32], (f64, f64))) {
+    let (title, factor) = if Units::of(ui.ctx()) == Units::Si { (in_si, factor) } else { (title, 1.0) };
+    figure::scale(ui.ctx(), title, (factor * low, factor * high), colors);
+}
+
+/// As many colours of a table as the bar has strips.
+pub fn strips(table: &[Color32]) -> Vec<Color32> {
+    let last = table.len().saturating_sub(1) as f64;
+    let place = |k: usize| ((k as f64 + 0.5) / STRIPS as f64 * last).round() as usize;
+    (0..STRIPS).filter_map(|k| table.get(place(k)).copied()).collect()
+}
+
+/// A pressure in Pa, as short as it must be beside a bar.
+pub fn in_gigapascals(pascal: f64) -> String {
+    if pascal == 0.0 { "0".to_owned() } else { short(pascal * 1e-9, "GPa") }
+}
+
+/// A film in m, likewise.
+pub fn in_nanometres(metre: f64) -> String {
+    let nanometres = metre * 1e9;
+    if nanometres >= 1000.0 { short(nanometres * 1e-3, "µm") } else { short(nanometres, "nm") }
+}
+
+fn short(value: f64, unit: &str) -> String {
+    format!("{}{}{unit}", numbers::digits(value, 3), numbers::THIN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_names_its_ends_and_round_values_between() {
+        assert_eq!(ticks((0.0, 1.2)).len(), 5);
+        let film = ticks((0.15, 0.4));
+        assert_eq!(film.len(), 6);
+        assert!((film[0] - 0.15).abs() < 1e-12 && (film[5] - 0.4).abs() < 1e-12 && (film[1] - 0.2).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,140 @@
+//! What the curves and marks of a plot mean: by a piece of each above the plot, where it covers nothing, or by a name at
+//! the curve itself.
+
+use crate::app::figure::Canvas;
+use crate::app::plot::axes::TITLE_SIZE;
+use crate::app::theme::{Palette, rich};
+use egui::{Align2, Color32, Pos2, Sense, Shape, Stroke, Ui, vec2};
+use egui_plot::{LineStyle, PlotPoint, Text};
+use std::hash::Hash;
+
+/// Length of a piece of a line.
+const PIECE: f32 = 26.0;
+/// Room between entries.
+const APART: f32 = 16.0;
+/// Room between a piece and its name.
+const BESIDE: f32 = 5.0;
+/// Room of a mark.
+const MARK: f32 = 12.0;
+
+/// How a curve or a mark looks, with its width or radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sample {
+    Line(f32),
+    /// A dashed line.
+    Dashed(f32),
+    /// A dotted line.
+    Dotted(f32),
+    /// A filled circle.
+    Dot(f32),
+    /// A triangle that points upwards.
+    Up(f32),
+    /// A triangle that points downwards.
+    Down(f32),
+    Cross(f32),
+}
+
+impl Sample {
+    /// The sample of a line of a plot.
+    pub fn of_line(style: LineStyle, width: f32) -> Self {
+        match style {
+            LineStyle::Solid => Self::Line(width),
+            LineStyle::Dashed { .. } => Self::Dashed(width),
+            LineStyle::Dotted { .. } => Self::Dotted(width),
+        }
+    }
+
+    fn is_line(self) -> bool {
+        matches!(self, Self::Line(_) | Self::Dashed(_) | Self::Dotted(_))
+    }
+
+    /// How wide a piece of it is.
+    fn width(self) -> f32 {
+        if self.is_line() { PIECE } else { MARK }
+    }
+
+    /// Draws a piece of it.
+    pub fn ui(self, ui: &mut Ui, color: Color32) {
+        let width = self.width();
+        let (rect, _) = ui.allocate_exact_size(vec2(width, 12.0), Sense::hover());
+        let (ends, at) = ([rect.left_center(), rect.right_center()], rect.center());
+        let polygon = |corners: Vec<Pos2>| Shape::convex_polygon(corners, color, Stroke::NONE);
+        let painter = ui.painter();
+        match self {
+            Self::Line(width) => _ = painter.line_segment(ends, Stroke::new(width, color)),
+            Self::Dashed(width) => painter.extend(Shape::dashed_line(&ends, Stroke::new(width, color), 5.0, 3.0)),
+            Self::Dotted(width) => painter.extend(Shape::dotted_line(&ends, color, 4.0, 0.5 * width)),
+            Self::Dot(radius) => _ = painter.circle_filled(at, radius, color),
+            Self::Up(r) => _ = painter.add(polygon(vec![at - vec2(r, -r), at - vec2(0.0, r), at + vec2(r, r)])),
+            Self::Down(r) => _ = painter.add(polygon(vec![at - vec2(r, r), at + vec2(r, -r), at + vec2(0.0, r)])),
+            Self::Cross(r) => {
+                for corner in [vec2(r, r), vec2(r, -r)] {
+                    painter.line_segment([at - corner, at + corner], Stroke::new(1.2, color));
+                }
+            }
+        }
+    }
+}
+
+/// A curve or a kind of mark with its name, in which symbols stand in braces.
+pub struct Entry {
+    name: String,
+    color: Color32,
+    sample: Sample,
+}
+
+impl Entry {
+    /// A name and how it looks.
+    pub fn new(name: impl Into<String>, color: Color32, sample: Sample) -> Self {
+        Self { name: name.into(), color, sample }
+    }
+}
+
+/// The key alone.
+pub fn ui(ui: &mut Ui, entries: impl IntoIterator<Item = Entry>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = APART;
+        entries_ui(ui, entries, TITLE_SIZE);
+    });
+}
+
+/// The entries in a row that has begun, with names of a size.
+pub fn entries_ui(ui: &mut Ui, entries: impl IntoIterator<Item = Entry>, size: f32) {
+    for Entry { name, color, sample } in entries {
+        // A name stands beside its piece, whatever is wrapped.
+        let words = rich(&name, size, ui.visuals().text_color());
+        let wide = sample.width() + BESIDE + ui.painter().layout_job(words.clone()).size().x;
+        let begun = ui.cursor().left() > ui.max_rect().left() + 1.0;
+        if begun && ui.layout().main_wrap() && ui.available_size_before_wrap().x < wide {
+            ui.end_row();
+        }
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = BESIDE;
+            sample.ui(ui, color);
+            ui.label(words);
+        });
+    }
+}
+
+/// A plot under its key, both as high as given.
+pub fn over<R>(
+    ui: &mut Ui,
+    height: f32,
+    entries: impl IntoIterator<Item = Entry>,
+    plot: impl FnOnce(&mut Ui, f32) -> R,
+) -> R {
+    ui.vertical(|ui| {
+        let top = ui.cursor().top();
+        self::ui(ui, entries);
+        let rest = height - (ui.cursor().top() - top);
+        plot(ui, rest)
+    })
+    .inner
+}
+
+/// A name at a place of a plot, in a shade of its curve that can be read.
+pub fn name(plot: &mut Canvas<'_, '_>, id: impl Hash, at: PlotPoint, name: &str, color: Color32, anchor: Align2) {
+    let ink = Palette::of_screen(plot.ctx()).ink(color);
+    let text = Text::new("", at, rich(&format!("  {name}  "), TITLE_SIZE, ink)).anchor(anchor);
+    plot.text(text.id(("name of a curve", id)).allow_hover(false));
+}

@@ -1,0 +1,11 @@
+//! Parts that plots of several tabs share.
+
+pub mod axes;
+pub mod color_bar;
+pub mod color_map;
+pub mod cut_line;
+pub mod direction;
+pub mod frame;
+pub mod grip;
+pub mod key;
+pub mod raster;

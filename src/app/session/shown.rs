@@ -1,0 +1,53 @@
+//! How everything is shown.
+
+use super::place::within;
+use crate::app::desk::Desk;
+use crate::app::display::Display;
+use crate::app::figure::FigureSettings;
+use crate::app::presentation::Presentation;
+use crate::app::tab::Tab;
+use crate::app::tabs::all::Tabs;
+use serde::{Deserialize, Serialize};
+
+/// How everything is shown.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Shown {
+    #[serde(flatten)]
+    display: Display,
+    figures: FigureSettings,
+    /// What the tabs keep, as text.
+    tabs: Vec<(Tab, String)>,
+    /// Tabs whose axes stand still.
+    locked: Vec<Tab>,
+}
+
+impl Shown {
+    /// Returns how the window shows things.
+    pub fn of(desk: &Desk) -> Self {
+        Self {
+            display: desk.display,
+            figures: desk.figures.settings,
+            tabs: desk.tabs.kept(),
+            locked: desk.presentation.as_ref().map_or(&desk.locked, Presentation::locked_before).clone(),
+        }
+    }
+
+    pub fn restore(self, desk: &mut Desk) {
+        desk.tabs.restore(&self.tabs);
+        desk.display = self.display;
+        (desk.figures.settings, desk.locked) = (self.figures, self.locked);
+    }
+
+    /// Returns true if it makes sense as a whole.
+    pub fn is_sound(&self) -> bool {
+        let Display { cuts, zoom, thresholds, .. } = self.display;
+        thresholds.check().is_ok()
+            && within(zoom, Display::ZOOMS)
+            && cuts.x.is_finite()
+            && cuts.y.is_finite()
+            && Tabs::default().restore(&self.tabs)
+            && self.figures.is_sound()
+            && Tab::ALL.iter().all(|tab| self.locked.iter().filter(|locked| *locked == tab).count() <= 1)
+    }
+}

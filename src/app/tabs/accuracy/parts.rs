@@ -1,0 +1,84 @@
+//! What the views of the tab share: toolbars, notes, columns.
+
+use super::random_tests::{MOST_COMPARED, RandomTests, TESTS};
+use crate::app::controls::{either_button, message_ui, named, standing_ui, warning_ui};
+use crate::app::in_use::InUse;
+use crate::app::theme::{Palette, rich};
+use crate::engine::Store;
+use crate::engine::job::Background;
+use crate::scene::StudyRow;
+use crate::solver::physics::contact::OperatingPoint;
+use egui::{DragValue, Ui};
+
+/// A number to choose with its name before it.
+pub fn count(ui: &mut Ui, name: &str, tip: &str, value: &mut usize, range: std::ops::RangeInclusive<usize>) {
+    ui.label(name).on_hover_text(tip);
+    let response = ui.add(DragValue::new(value).range(range).speed(10.0));
+    named(ui, response, name).on_hover_text(tip);
+}
+
+/// Run, or Stop while it runs. Returns whether a run is wanted.
+pub fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, work: &Background<StudyRow>) -> bool {
+    let runs = work.job().is_some();
+    let tip = if runs { "What has been found so far stays (Esc)" } else { tip };
+    let clicked = either_button(ui, [run, "Stop"], runs).on_hover_text(tip).clicked();
+    if clicked && runs {
+        work.stop();
+    }
+    clicked && !runs
+}
+
+/// The row over both views of the random tests.
+pub fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &InUse) {
+    tests.show(&ui.ctx().clone(), store, in_use);
+    ui.horizontal_wrapped(|ui| {
+        let wanted = &mut tests.wanted;
+        let tip = "Reduced solves at random contacts (3.17) of the range the model was trained for";
+        count(ui, "Random tests", tip, &mut wanted.tests, TESTS);
+        let tip = "How many of them are compared with full solutions on the model’s own grid; up to 20 that look worst come \
+                   first, beside them";
+        count(ui, "Compared in full", tip, &mut wanted.compared, 0..=MOST_COMPARED);
+        let tip = "The same seed gives the same contacts";
+        ui.label("Seed").on_hover_text(tip);
+        let seed = ui.add(DragValue::new(&mut wanted.seed));
+        named(ui, seed, "Seed").on_hover_text(tip);
+        if run_or_stop(ui, "Run tests", "Tests the model as it is truncated now", &tests.work) {
+            tests.start(&ui.ctx().clone(), store, in_use);
+        }
+        standing_ui(ui, tests.work.standing(), "Progress of the random tests");
+    });
+    if let Some(message) = &tests.work.message {
+        message_ui(ui, message);
+    }
+    if let Some(results) = tests.results.as_ref().filter(|r| r.in_use != *in_use) {
+        stale_note(ui, &results.in_use);
+    }
+}
+
+/// Says that what is shown was made with another model or truncation.
+pub fn stale_note(ui: &mut Ui, of: &InUse) {
+    warning_ui(ui, &format!("Found with {}; the model or its truncation has changed since", of.describe()));
+}
+
+/// Says why there are no bounds, where there are none.
+pub fn bound_note(ui: &mut Ui, mut bounds: impl Iterator<Item = Option<f64>>) {
+    if !bounds.any(|bound| bound.is_some()) {
+        let note = "No calibrated bounds: the model is truncated, or its training measured no errors";
+        ui.label(rich(note, 11.0, Palette::of(ui).quiet));
+    }
+}
+
+/// Columns that say which contact a row of an exported table is.
+pub const CONTACT_COLUMNS: [&str; 8] =
+    ["M", "L", "R_m", "u_m_m_per_s", "w_n_per_m", "E_pa", "eta_0_pa_s", "alpha_per_pa"];
+
+/// The values of [`CONTACT_COLUMNS`].
+pub fn contact_cells(point: &OperatingPoint) -> [f64; 8] {
+    let (moes, [r, u, w, e, eta, alpha]) = (point.moes(), point.quantities());
+    [moes.m, moes.l, r, u, w, e, eta, alpha]
+}
+
+/// Says why there is nothing yet.
+pub fn nothing_yet(ui: &mut Ui, text: &str) {
+    ui.centered_and_justified(|ui| ui.weak(text));
+}

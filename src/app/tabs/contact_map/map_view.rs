@@ -1,0 +1,69 @@
+//! Settings of the map.
+
+use crate::solver::full::heat::Temperatures;
+use crate::solver::physics::optics::Interferometer;
+use serde::{Deserialize, Serialize};
+
+/// What the map shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Shown {
+    /// Film thickness.
+    #[default]
+    Film,
+    Pressure,
+    /// Interference of light in the film.
+    Interferogram,
+    /// Rise of temperature at mid-film, where heat was computed.
+    Temperature,
+}
+
+impl Shown {
+    /// All of them in their order.
+    pub const ALL: [Self; 4] = [Self::Film, Self::Pressure, Self::Interferogram, Self::Temperature];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Film => "Film map",
+            Self::Pressure => "Pressure map",
+            Self::Interferogram => "Interferogram",
+            Self::Temperature => "Temperature map",
+        }
+    }
+
+    /// Returns what it is, for the pointer.
+    pub fn tip(self) -> &'static str {
+        match self {
+            Self::Film => "H over the plane, bright where the film is thin: the horseshoe with its side lobes",
+            Self::Pressure => "P over the plane",
+            Self::Interferogram => {
+                "What an optical rig shows: a glass disc in place of one body, light reflected at both sides of the film"
+            }
+            Self::Temperature => "The rise of temperature at mid-film over the plane",
+        }
+    }
+}
+
+/// Settings of the map; not part of the document.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct MapView {
+    /// What is drawn.
+    pub shown: Shown,
+    /// Whether contour lines are drawn over it.
+    pub contours: bool,
+    /// The optics of the interferogram.
+    pub rig: Interferometer,
+    /// Whether it is drawn in three colours rather than in one.
+    pub three_colors: bool,
+}
+
+impl Default for MapView {
+    fn default() -> Self {
+        Self { shown: Shown::Film, contours: true, rig: Interferometer::default(), three_colors: true }
+    }
+}
+
+/// Rises at mid-film \[K\] of all nodes.
+pub fn mid_film_rises(heat: &Temperatures) -> Vec<f64> {
+    heat.rises().map(|rises| rises.mid_film_k).collect()
+}

@@ -1,0 +1,353 @@
+//! The contact map: film or pressure of a point contact over the whole plane, and the interferogram that a rig shows of
+//! it. Two lines that can be dragged say where Profiles cuts it.
+
+use super::images::Images;
+use super::map_view::{MapView, Shown};
+use super::{export, optics, scale};
+use crate::app::answers::picture::{Cuts, Picture};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{described, sentence};
+use crate::app::document::{Edit, Shape};
+use crate::app::drawn::{self, Owner};
+use crate::app::figure::Canvas;
+use crate::app::plot::cut_line::{self, snapped};
+use crate::app::plot::grip::Grip;
+use crate::app::plot::{axes, color_bar};
+use crate::app::purpose::{Purpose, Written};
+use crate::app::tabs::transient::{TransientCommand, shared, space_time};
+use crate::app::tabs::{About, Offer, View, view};
+use crate::app::theme::{Palette, faded};
+use crate::app::units::Scales;
+use crate::app::{badge, caption, numbers};
+use crate::solver::full::heat::Rises;
+use crate::solver::physics::contact::ContactKind;
+use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, Vec2, vec2};
+use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotBounds, PlotPoint, PlotPoints, PlotTransform, Text, VLine};
+
+/// X range at first.
+const X_RANGE: (f64, f64) = (-2.0, 1.6);
+/// Y range at first, in units of b, to both sides.
+const Y_RANGE: f64 = 1.45;
+/// Room that the numbers and titles of both axes take.
+const AXES: Vec2 = vec2(66.0, 44.0);
+/// How near (in screen points) the pointer must be to take a cut along.
+const GRAB: f32 = 7.0;
+
+/// By which the map is known to screen readers and as a picture.
+const NAME: &str = "Map of the contact";
+
+/// The tab: what it shows, and the images it keeps between frames.
+#[derive(Default)]
+pub struct ContactMap {
+    /// What is shown.
+    pub view: MapView,
+    images: Images,
+    /// κ of the ellipse that the axes were laid about.
+    framed: Option<f64>,
+    /// A line contact over time.
+    over_time: space_time::SpaceTime,
+}
+
+impl ContactMap {
+    /// What a line contact has instead: a ball in its place with one click, and its film over time.
+    fn line(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        ui.horizontal_wrapped(|ui| {
+            let tip = "A point contact with the same quantities, whose film differs over the plane";
+            if ui.button("Show a ball instead").on_hover_text(tip).clicked() {
+                commands.edit(Edit::Shape(Shape::Ball), "contact");
+            }
+            ui.weak("A line contact is the same at every Y: what it has is its film over time.");
+        });
+        if let Some(why) = context.document.no_transient() {
+            ui.weak(sentence(why));
+            return;
+        }
+        shared::follow(context, commands);
+        // Rooms of their own, so that nothing moves as runs begin and end.
+        shared::status(ui, context, None);
+        let size = vec2(ui.available_width(), ui.available_height() - 30.0);
+        let shown = ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
+            ui.set_min_size(size);
+            shared::grey_where_stale(ui, context, "film over time");
+            // A little less than its room, so that rounding moves nothing either.
+            self.over_time.ui(ui, context, size.y - 4.0)
+        });
+        let wanted = shown.inner;
+        commands.extend(wanted.map(|time| Command::Transient(TransientCommand::GoTo(time))));
+        shared::player(ui, context.transient, commands);
+    }
+
+    fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        ui.horizontal_wrapped(|ui| {
+            let heat = context.document.lubricant.heat.is_some();
+            for shown in Shown::ALL.into_iter().filter(|shown| heat || *shown != Shown::Temperature) {
+                ui.selectable_value(&mut self.view.shown, shown, shown.name()).on_hover_text(shown.tip());
+            }
+            if context.presenting {
+                return;
+            }
+            let field = self.view.shown != Shown::Interferogram;
+            ui.add_enabled(field, egui::Checkbox::new(&mut self.view.contours, "Contours"))
+                .on_hover_text("Lines of equal value")
+                .on_disabled_hover_text("Fringes are lines of equal film already");
+            cut_line::cuts_ui(ui, context, commands);
+        });
+    }
+}
+
+const ABOUT: About = About {
+    keywords: "interferogram fringes contours horseshoe side lobes",
+    page: "tour.md",
+    has_units: true,
+    why: "Seen from above the film has a flat middle and a horseshoe of thin film around its sides and its outlet, \
+          where pressure drives oil out. The thinnest places are the two side lobes: there surfaces touch first. \
+          The interferogram shows the same film as a rig with a glass disc photographs it, each colour one \
+          thickness.",
+};
+
+impl View for ContactMap {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        if context.document.point.kind == ContactKind::Line {
+            self.line(ui, context, commands);
+            return;
+        }
+        badge::ui(ui, context);
+        if self.view.shown == Shown::Temperature && context.document.lubricant.heat.is_none() {
+            self.view.shown = Shown::Film;
+        }
+        self.toolbar(ui, context, commands);
+        if self.view.shown == Shown::Interferogram && !context.presenting {
+            optics::ui(ui, &mut self.view);
+        }
+        let Some(picture) = context.answers.picture().filter(|picture| picture.has_plane()) else {
+            ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
+            return;
+        };
+        let stale = drawn::is_grey(ui.ctx(), "map", Owner::Contact(picture.key), context);
+        let view = match (self.view.shown, &picture.solution.heat) {
+            // The last picture without heat, until the first one with it is there.
+            (Shown::Temperature, None) => MapView { shown: Shown::Film, ..self.view },
+            _ => self.view,
+        };
+        self.images.follow(ui.ctx(), picture, &view);
+        let framed = self.framed.replace(picture.kappa()).unwrap_or(1.0) == picture.kappa();
+        let drawing =
+            Drawing { picture, images: &self.images, view, cuts: context.cuts, fit: context.fit, framed, stale };
+        let height = ui.available_height();
+        let whole = ui.horizontal_top(|ui| {
+            let width = (ui.available_width() - color_bar::WIDTH - 8.0).max(200.0);
+            let drawn = ui.vertical(|ui| {
+                ui.set_width(width);
+                drawing.ui(ui, height)
+            });
+            scale::ui(ui, drawing.images, picture, &drawing.view, height);
+            drawn.inner
+        });
+        let (response, transform) = whole.inner;
+        drag_cuts(ui, (context.cuts, picture.kappa()), &response, &transform, commands);
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        if context.document.point.kind == ContactKind::Line {
+            return vec![space_time::offer(context)];
+        }
+        let picture = context.answers.picture().filter(|picture| picture.has_plane());
+        let tip = "X, Y, P, H of all nodes of both halves, with their SI twins";
+        let image = || Command::Ask(Purpose::Write(Written::Png, self.images.png().into()));
+        vec![
+            Offer::table("Map as CSV…", tip, picture, |picture| export::csv(picture)),
+            Offer::new("Bare map as PNG…", "The map alone, pixel by pixel", picture.map(|_| image)),
+        ]
+    }
+
+    fn caption(&self, context: &Context<'_>) -> Option<String> {
+        if context.document.point.kind == ContactKind::Line {
+            return shared::caption(context.transient);
+        }
+        let more = export::particulars(context.answers, &self.view)?;
+        let key = context.document.key();
+        Some(format!("{}; {more}", caption::contact(&key.point, &key.lubricant)))
+    }
+
+    fn kept(&self) -> Option<String> {
+        view::kept(&self.view)
+    }
+
+    fn restore(&mut self, text: &str) -> bool {
+        view::restore(&mut self.view, text, |view| optics::are_sound(&view.rig))
+    }
+}
+
+/// What the hand takes along: the cut at X, and that at Y.
+fn grips() -> [Grip; 2] {
+    ["cut x", "cut y"].map(|cut| Grip::new("map", cut))
+}
+
+fn drag_cuts(
+    ui: &Ui,
+    (mut cuts, kappa): (Cuts, f64),
+    response: &Response,
+    transform: &PlotTransform,
+    commands: &mut Commands,
+) {
+    let spot = transform.position_from_point(&PlotPoint::new(cuts.x, kappa * cuts.y));
+    let near = |p: egui::Pos2| [(p.x - spot.x).abs() < GRAB, (p.y - spot.y).abs() < GRAB];
+    let hovered = response.hover_pos().map_or([false; 2], near);
+    let held = grips().map(|grip| grip.is_held(ui));
+    match if held.contains(&true) { held } else { hovered } {
+        [false, false] => {}
+        [true, true] => ui.ctx().set_cursor_icon(CursorIcon::Move),
+        [true, false] => ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal),
+        [false, true] => ui.ctx().set_cursor_icon(CursorIcon::ResizeVertical),
+    }
+    for ((grip, near), along_x) in grips().into_iter().zip(hovered).zip([true, false]) {
+        let Some(pointer) = grip.follow(ui, near) else { continue };
+        let to = transform.value_from_position(pointer);
+        if along_x {
+            cuts.x = snapped(to.x);
+        } else {
+            cuts.y = snapped(to.y / kappa);
+        }
+        commands.push(Command::Cut(cuts));
+    }
+}
+
+/// What is drawn in one frame.
+struct Drawing<'a> {
+    picture: &'a Picture,
+    images: &'a Images,
+    view: MapView,
+    cuts: Cuts,
+    fit: bool,
+    /// Whether the axes have room for the ellipse already.
+    framed: bool,
+    stale: bool,
+}
+
+impl Drawing<'_> {
+    fn ui(&self, ui: &mut Ui, height: f32) -> (Response, PlotTransform) {
+        let palette = Palette::of(ui);
+        let held = grips().iter().any(|grip| grip.is_held(ui));
+        let Self { picture, images, view, cuts, fit, framed, stale } = *self;
+        let length_mm = Scales::of(&picture.key.point).length_mm;
+        // Drawn in units of a both ways, so that an ellipse has its true shape.
+        let kappa = picture.kappa();
+        let (from, to) = frame(kappa, vec2(ui.available_width(), height) - AXES);
+        let y_title = if kappa == 1.0 { "{Y} = {y}/{a}" } else { "{y}/{a}" };
+        let shown = axes::show(
+            axes::plot(ui, "contact map", height, "{X} = {x}/{a}", y_title)
+                .si_x(length_mm, "{x} / mm")
+                .si_y(length_mm, "{y} / mm")
+                .data_aspect(1.0)
+                .default_x_bounds(from[0], to[0])
+                .default_y_bounds(from[1], to[1])
+                .allow_drag(!held)
+                .label_formatter(|at| hover(picture, &view, at)),
+            ui,
+            NAME,
+            |plot| {
+                axes::fit(plot, fit);
+                if !(framed || plot.locked) {
+                    let (from, to) = frame(kappa, plot.response().rect.size());
+                    plot.set_plot_bounds(PlotBounds::from_min_max(from, to));
+                }
+                image(plot, images, stale);
+                contour_lines(plot, images);
+                let ellipse = move |t: f64| (t.cos(), kappa * t.sin());
+                let hertz = PlotPoints::from_parametric_callback(ellipse, 0.0..=std::f64::consts::TAU, 181);
+                let hertz = Line::new("", hertz).id("hertz").color(faded(Color32::WHITE, 0.75)).width(1.0);
+                plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
+                let color = if view.shown == Shown::Interferogram { Color32::WHITE } else { palette.accent };
+                // For the hand: they are no part of a figure.
+                let plot: &mut egui_plot::PlotUi<'_> = plot;
+                plot.vline(VLine::new("", cuts.x).id("cut x").color(color).width(1.6).allow_hover(false));
+                plot.hline(HLine::new("", kappa * cuts.y).id("cut y").color(color).width(1.6).allow_hover(false));
+            },
+        );
+        let response = shown.response;
+        (described(ui, response, &spoken(picture, &view)), shown.transform)
+    }
+}
+
+/// Axes about the whole of an ellipse in some room on the screen; about a circle those of always.
+fn frame(kappa: f64, room: Vec2) -> ([f64; 2], [f64; 2]) {
+    let (middle, half) = (0.5 * (X_RANGE.0 + X_RANGE.1), 0.5 * (X_RANGE.1 - X_RANGE.0));
+    let up = kappa * Y_RANGE;
+    let wide = up * f64::from(room.x.max(1.0) / room.y.max(1.0));
+    let across = if kappa == 1.0 { half } else { half.max(wide) };
+    ([middle - across, -up], [middle + across, up])
+}
+
+/// Lines that show on every colour of the map.
+fn contour_lines<'a>(plot: &mut Canvas<'_, 'a>, images: &'a Images) {
+    let color = Color32::from_white_alpha(170);
+    for (k, (name, line)) in images.contours().iter().enumerate() {
+        let line = Line::new("", PlotPoints::Borrowed(line)).id(("contour", k)).color(color).width(1.0);
+        plot.line(line.allow_hover(false));
+        if let Some((at, text)) = name {
+            let text = RichText::new(text).size(10.5).color(color).background_color(Color32::from_black_alpha(110));
+            plot.text(Text::new("", *at, text).id(("contour name", k)).allow_hover(false));
+        }
+    }
+}
+
+fn image(plot: &mut Canvas<'_, '_>, images: &Images, stale: bool) {
+    let Some((texture, (from, to, edge))) = images.texture(plot.ctx()) else { return };
+    plot.field("field", texture, (from, to), (edge, -edge), drawn::tint(stale));
+}
+
+fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<String> {
+    let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
+    let y = position.y / picture.kappa();
+    let solution = &picture.solution;
+    let (p, h) = solution.at(position.x, y)?;
+    let (hertz, scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
+    let more = match view.shown {
+        Shown::Interferogram if !view.three_colors => {
+            format!("\norder {}", numbers::digits(view.rig.order(h * scale, view.rig.wavelength_m), 3))
+        }
+        Shown::Temperature => solution
+            .heat
+            .as_deref()
+            .and_then(|heat| {
+                let rise = |node: usize| Some(Rises::of(heat.rise_k.get(node)?).mid_film_k);
+                solution.value_at(rise, position.x, y)
+            })
+            .map_or_else(String::new, |rise| format!("\nrise {}", numbers::quantity(rise, "K"))),
+        _ => String::new(),
+    };
+    Some(format!(
+        "X = {}   ({})\nY = {}   ({})\nP = {}   ({})\nH = {}   ({}){more}",
+        numbers::digits(position.x, 3),
+        numbers::length(position.x * hertz.half_width_m),
+        numbers::digits(y, 3),
+        numbers::length(y * hertz.half_length_m),
+        numbers::significant(p),
+        numbers::pressure(p * hertz.pressure_pa),
+        numbers::significant(h),
+        numbers::length(h * scale)
+    ))
+}
+
+/// The map in words.
+fn spoken(picture: &Picture, view: &MapView) -> String {
+    let (s, scale) = (picture.solution.scalars, picture.key.point.film_scale_m());
+    let heat = picture.solution.heat.as_deref();
+    let warms = heat.map_or_else(String::new, |heat| {
+        format!(", the film warms by {} at most", numbers::quantity(heat.largest.mid_film_k, "K"))
+    });
+    format!(
+        "{} of {}: central film {}, smallest {} at X {}, Y ±{}{warms}",
+        view.shown.name(),
+        numbers::contact(&picture.key.point),
+        numbers::length(s.h_c * scale),
+        numbers::length(s.h_min * scale),
+        numbers::digits(s.x_h_min, 3),
+        numbers::digits(s.y_h_min.abs(), 3)
+    )
+}

@@ -1,0 +1,108 @@
+//! The frame around the tabs: bar of titles, menu of exports, switches of units and axes.
+
+use super::offer;
+use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::controls::{lock_ui, named, why};
+use crate::app::desk::Desk;
+use crate::app::figure;
+use crate::app::tab::Tab;
+use crate::app::units::{Manner, Units};
+use egui::Ui;
+use egui_tiles::{Behavior, TileId, Tiles, UiResponse};
+
+/// Draws one tab, whatever is around it.
+pub fn tab_ui(ui: &mut Ui, tab: Tab, desk: &mut Desk, commands: &mut Commands) {
+    // The tabs are taken out while one is drawn: it sees everything else, and nobody sees it half changed.
+    let mut tabs = std::mem::take(&mut desk.tabs);
+    tabs.of_mut(tab).ui(ui, &desk.context(), commands);
+    desk.tabs = tabs;
+}
+
+/// The switch between ratios and SI units; a tab on which it would change nothing says so.
+fn units_ui(ui: &mut Ui, there: bool, units: Units, commands: &mut Commands) {
+    let switch = egui::Button::selectable(units == Units::Si && there, "SI");
+    let switch = ui.add_enabled(there, switch);
+    let tip = "Axes and exports in SI units, or dimensionless (F7)";
+    let none = "Errors, ratios and counts have no unit, and what has one is in SI units on this tab always";
+    if switch.on_hover_text(tip).on_disabled_hover_text(none).clicked() {
+        commands.push(Command::SiUnits);
+    }
+}
+
+/// Draws the tabs.
+pub struct Frame<'a> {
+    /// What they show.
+    pub desk: &'a mut Desk,
+    /// What they ask for.
+    pub commands: &'a mut Commands,
+    /// Whether their titles stand close.
+    pub narrow: bool,
+}
+
+impl Behavior<Tab> for Frame<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile_id: TileId, tab: &mut Tab) -> UiResponse {
+        egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
+            ui.set_min_size(ui.available_size());
+            let about = self.desk.tabs.of(*tab).about();
+            why(ui, self.desk.display.why && self.desk.presentation.is_none(), about.why);
+            figure::enter(ui.ctx(), Some(*tab));
+            let units = self.desk.figures.units().unwrap_or(self.desk.display.units);
+            Manner { units, locked: self.desk.locked.contains(tab) }.set(ui.ctx());
+            tab_ui(ui, *tab, self.desk, self.commands);
+            figure::enter(ui.ctx(), None);
+        });
+        UiResponse::None
+    }
+
+    /// What is at the same place of every tab: what can be taken away, the manner of its plots, the note for teaching.
+    fn top_bar_right_ui(&mut self, tiles: &Tiles<Tab>, ui: &mut Ui, _: TileId, tabs: &egui_tiles::Tabs, _: &mut f32) {
+        ui.add_space(6.0);
+        // Tabs want the room.
+        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().button_padding.x = 4.0;
+        let Some(tab) = tabs.active.and_then(|tile| tiles.get_pane(&tile)).copied() else { return };
+        let presenting = self.desk.presentation.is_some();
+        if !presenting {
+            offer::menu(ui, tab, || self.desk.tabs.of(tab).offers(&self.desk.context()), self.commands);
+        }
+        let has_units = self.desk.tabs.of(tab).about().has_units;
+        units_ui(ui, has_units, self.desk.display.units, self.commands);
+        let (locked, tip) = (self.desk.locked.contains(&tab), "The axes of this tab stand still (F8)");
+        let lock = lock_ui(ui, [20.0, 22.0], locked);
+        if named(ui, lock, &format!("Lock the axes of {}", tab.title())).on_hover_text(tip).clicked() {
+            self.commands.push(Command::LockAxesOf(tab));
+        }
+        // A narrow bar leaves its room to the tabs: the note is in the menu View as well.
+        if !presenting && !self.narrow {
+            let tip = "What is seen in a tab and why it is so, in three sentences";
+            if ui.selectable_label(self.desk.display.why, "Why").on_hover_text(tip).clicked() {
+                self.commands.push(Command::ShowWhy);
+            }
+        }
+    }
+
+    fn tab_title_for_pane(&mut self, tab: &Tab) -> egui::WidgetText {
+        tab.title().into()
+    }
+
+    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
+        30.0
+    }
+
+    fn tab_title_spacing(&self, _visuals: &egui::Visuals) -> f32 {
+        if self.narrow { 3.0 } else { 6.0 }
+    }
+
+    fn tab_bar_color(&self, visuals: &egui::Visuals) -> egui::Color32 {
+        visuals.faint_bg_color
+    }
+
+    fn is_tab_closable(&self, _tiles: &Tiles<Tab>, _tile_id: TileId) -> bool {
+        false
+    }
+
+    fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
+        egui_tiles::SimplificationOptions { all_panes_must_have_tabs: true, ..Default::default() }
+    }
+}

@@ -1,0 +1,283 @@
+//! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on
+//! request.
+
+use super::curves::{Scene, key_ui};
+use super::film_shear::{self, FilmShear, FilmShearImage};
+use super::plots::{difference_plot, film_plot, pressure_plot};
+use super::temperatures::{self, TemperatureImage};
+use crate::app::answers::picture::{Origin, Picture};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::named;
+use crate::app::drawn::{self, Owner};
+use crate::app::plot::cut_line;
+use crate::app::plot::direction::Direction;
+use crate::app::tabs::{About, Offer, View, view};
+use crate::app::theme::{Palette, rich};
+use crate::app::units::Scales;
+use crate::app::{badge, export, numbers};
+use egui::{Checkbox, ComboBox, Ui};
+use serde::{Deserialize, Serialize};
+
+/// What the tab shows beside the curves, and the image below them.
+#[derive(Default)]
+pub struct Profiles {
+    /// How they are shown.
+    pub choices: Choices,
+    image: FilmShearImage,
+    warm: TemperatureImage,
+}
+
+/// How profiles are shown; kept with the session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Choices {
+    /// Draw the full solution over the reduced one.
+    pub overlay: bool,
+    /// Draw the difference below.
+    pub difference: bool,
+    /// What is shown across the film.
+    pub film_shear: FilmShear,
+    /// Draw temperatures beside them, of a contact with heat.
+    pub temperatures: bool,
+}
+
+impl Default for Choices {
+    fn default() -> Self {
+        Self { overlay: false, difference: false, film_shear: FilmShear::Off, temperatures: true }
+    }
+}
+
+const ABOUT: About = About {
+    keywords: "pressure film spike shear",
+    page: "tour.md",
+    has_units: true,
+    why: "Oil that the surfaces drag into the narrowing gap builds up so much pressure that the bodies flatten: \
+          nearly everywhere the pressure is that of the dry contact, dashed, and the film between is nearly flat. \
+          Near the outlet the film must narrow so that no more oil leaves than enters, and in front of that the \
+          pressure rises to a spike. The film is made in the inlet: more speed or viscosity thickens it, while load \
+          hardly matters.",
+};
+
+impl View for Profiles {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        badge::ui(ui, context);
+        toolbar(ui, &mut self.choices, context, commands);
+        pins_ui(ui, context, commands);
+        let answers = context.answers;
+        let Some(picture) = answers.picture() else {
+            ui.centered_and_justified(|ui| ui.weak("The first picture is being computed"));
+            return;
+        };
+        let stale = drawn::is_grey(ui.ctx(), "profiles", Owner::Contact(picture.key), context);
+        let reduced = picture.origin != Origin::Full;
+        let full = answers.full().filter(|_| self.choices.overlay && reduced);
+        let comparison = answers.comparison().filter(|_| self.choices.difference);
+        let shear = self.choices.film_shear;
+        if shear != FilmShear::Off {
+            self.image.follow(ui.ctx(), picture, shear);
+        }
+        let extra = |shown: bool| if shown { 0.6 } else { 0.0 };
+        let parts = 2.0 + extra(comparison.is_some()) + extra(shear != FilmShear::Off);
+        let scene = Scene {
+            picture,
+            full,
+            pins: answers.pins(),
+            stale,
+            full_stale: full
+                .is_some_and(|full| drawn::is_grey(ui.ctx(), "full solution", Owner::Contact(full.key), context)),
+            fit: context.fit,
+            cuts: context.cuts,
+        };
+        // The room is there from the moment on at which heat is asked for.
+        let warm = self.choices.temperatures && context.document.lubricant.heat.is_some();
+        let gap = 8.0;
+        let half = 0.5 * (ui.available_width() - gap);
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = gap;
+            let width = if warm { half } else { ui.available_width() };
+            ui.scope(|ui| {
+                ui.set_width(width);
+                key_ui(ui, &scene);
+            });
+            if warm {
+                temperatures::key_ui(ui, stale);
+            }
+        });
+        let unit = (ui.available_height() - 6.0) / parts;
+        let length_mm = Scales::of(&picture.key.point).length_mm;
+        let mut moved = None;
+        let mut stack = |ui: &mut Ui, direction: Direction| {
+            let by_pressure = pressure_plot(ui, &scene, direction, unit);
+            let by_film = film_plot(ui, &scene, direction, unit);
+            moved = by_pressure.or(by_film).map(|to| (direction, to)).or(moved);
+        };
+        if warm {
+            self.warm.follow(ui.ctx(), &picture.solution);
+            let scales = Scales::of(&picture.key.point);
+            ui.horizontal_top(|ui| {
+                ui.spacing_mut().item_spacing.x = gap;
+                ui.vertical(|ui| {
+                    ui.set_width(half);
+                    stack(ui, Direction::Along);
+                });
+                ui.vertical(|ui| {
+                    ui.set_width(half);
+                    match &picture.solution.heat {
+                        Some(_) => temperatures::ui(ui, &self.warm, context, (scales, stale), unit),
+                        None => _ = ui.weak("The temperatures are being computed"),
+                    }
+                });
+            });
+        } else if !picture.has_plane() {
+            stack(ui, Direction::Along);
+        } else {
+            ui.horizontal_top(|ui| {
+                let across = 0.4 * (ui.available_width() - 8.0);
+                let along = ui.available_width() - 8.0 - across;
+                for (direction, width) in [(Direction::Along, along), (Direction::Across, across)] {
+                    ui.vertical(|ui| {
+                        ui.set_width(width);
+                        stack(ui, direction);
+                    });
+                }
+            });
+        }
+        if let Some(comparison) = comparison {
+            difference_plot(ui, (comparison, length_mm), (context.fit, stale), 0.6 * unit);
+        }
+        if shear != FilmShear::Off {
+            film_shear::ui(ui, (&self.image, length_mm), shear, stale, 0.6 * unit);
+        }
+        if let Some((direction, to)) = moved {
+            let mut cuts = context.cuts;
+            direction.move_other(&mut cuts, to);
+            commands.push(Command::Cut(cuts));
+        }
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        let (answers, cuts) = (context.answers, context.cuts);
+        let picture = answers.picture();
+        let tip = "Live, full and pinned profiles with their SI twins, all of the domain";
+        let mut offers = vec![Offer::new("Profiles as CSV…", tip, picture.map(|_| || Command::ExportProfiles))];
+        if let Some(picture) = picture.filter(|picture| picture.has_plane()) {
+            let tip = "The live profile across, with its SI twins";
+            let across = move |picture: &&Picture| export::profile_across(picture, cuts.x);
+            offers.push(Offer::table("Profile across as CSV…", tip, Some(picture), across));
+        }
+        offers
+    }
+
+    fn kept(&self) -> Option<String> {
+        view::kept(&self.choices)
+    }
+
+    fn restore(&mut self, text: &str) -> bool {
+        view::restore(&mut self.choices, text, |_| true)
+    }
+}
+
+/// The pressure and, as soon as there is a full solution, what the reduced one differs from it by, side by side.
+pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
+    let answers = context.answers;
+    let Some(picture) = answers.picture() else {
+        ui.weak("The first picture is being computed");
+        return;
+    };
+    let stale = drawn::is_grey(ui.ctx(), "profiles", Owner::Contact(picture.key), context);
+    let scene =
+        Scene { picture, full: None, pins: &[], stale, full_stale: false, fit: context.fit, cuts: context.cuts };
+    let (height, half) = ((ui.available_height() - 4.0).max(90.0), 0.5 * ui.available_width() - 6.0);
+    ui.horizontal_top(|ui| {
+        ui.vertical(|ui| {
+            ui.set_width(half);
+            pressure_plot(ui, &scene, Direction::Along, height);
+        });
+        ui.vertical(|ui| {
+            ui.set_width(half);
+            match answers.comparison() {
+                Some(comparison) => {
+                    let length_mm = Scales::of(&context.document.point).length_mm;
+                    difference_plot(ui, (comparison, length_mm), (context.fit, stale), height);
+                }
+                None => _ = ui.weak("The difference appears when the sliders rest and the full solution is there"),
+            }
+        });
+    });
+}
+
+fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: &mut Commands) {
+    let answers = context.answers;
+    if context.presenting {
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Pin curve").on_hover_text("Keep this curve and its parameters for comparison (Ctrl+D)").clicked()
+        {
+            commands.push(Command::Pin);
+        }
+        let reduced = answers.picture().is_some_and(|p| p.origin != Origin::Full);
+        let why = "The picture is the full solution itself";
+        let switches = [
+            ("Full solution", "Draw the full solution over the reduced one", &mut choices.overlay),
+            ("Difference", "Reduced minus full, on an axis of its own", &mut choices.difference),
+        ];
+        for (name, tip, on) in switches {
+            ui.add_enabled(reduced, Checkbox::new(on, name)).on_hover_text(tip).on_disabled_hover_text(why);
+        }
+        let shear = &mut choices.film_shear;
+        let tip = "A field between the surfaces below the profiles";
+        let choice = ComboBox::from_id_salt("film shear").selected_text(shear.name()).width(104.0).show_ui(ui, |ui| {
+            for option in FilmShear::ALL {
+                ui.selectable_value(shear, option, option.name()).on_hover_text(option.tip());
+            }
+        });
+        named(ui, choice.response, "Across the film").on_hover_text(tip);
+        if context.document.lubricant.heat.is_some() {
+            let tip = "Rises of temperature along the film and across it, of both bodies, and where the heat goes";
+            ui.checkbox(&mut choices.temperatures, "Temperatures").on_hover_text(tip);
+        }
+        if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {
+            commands.push(Command::Verify);
+        }
+        if answers.picture().is_some_and(|picture| picture.has_plane()) {
+            cut_line::cuts_ui(ui, context, commands);
+        }
+    });
+}
+
+fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let pins = context.answers.pins();
+    if pins.is_empty() || context.presenting {
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        for (k, pin) in pins.iter().enumerate() {
+            let palette = Palette::of(ui);
+            let color = palette.ink(palette.pin(pin.number));
+            let point = &pin.picture.key.point;
+            let moes = point.moes();
+            let ratio = point.radius_y_m.map_or_else(String::new, |_| {
+                format!(", {{R_y}}/{{R}} {}", numbers::significant(point.radius_ratio()))
+            });
+            let text = format!(
+                "Pin {}: {{M}} {}, {{L}} {}{ratio}, {{H_c}} {}",
+                pin.number,
+                numbers::significant(moes.m),
+                numbers::significant(moes.l),
+                numbers::significant(pin.picture.solution.scalars.h_c)
+            );
+            ui.label(rich(&text, 12.5, color)).on_hover_text(export::describe(&pin.picture));
+            let response = ui.small_button("×").on_hover_text("Remove this pin");
+            if named(ui, response, &format!("Remove pin {}", pin.number)).clicked() {
+                commands.push(Command::RemovePin(k));
+            }
+            ui.add_space(8.0);
+        }
+    });
+}

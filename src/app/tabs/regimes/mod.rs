@@ -1,0 +1,7 @@
+//! The M–L chart and the published film formulas.
+
+pub mod chart;
+mod tab;
+mod trail;
+
+pub use tab::Regimes;

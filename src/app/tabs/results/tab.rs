@@ -1,0 +1,355 @@
+//! The answer to a scene's question, whatever it is: its study runs on the engine as it does headless, and its charts,
+//! tables and verdicts come as they are found.
+
+use super::run::{Campaign, Look, Run};
+use super::{chart, contact, table};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{either_button, message_ui, named, standing_ui, warning_ui};
+use crate::app::document::Document;
+use crate::app::drawn::{self, Owner};
+use crate::app::numbers;
+use crate::app::tabs::{About, Offer, View};
+use crate::app::theme::{Palette, rich};
+use crate::engine::Workbench;
+use crate::engine::job::{Standing, Wake};
+use crate::scene::{Method, Scene, Study, Table, Verdict};
+use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
+use std::path::PathBuf;
+
+/// Width of the verdicts beside the charts.
+const VERDICTS: f32 = 330.0;
+
+/// What running the study does.
+const RUN_TIP: &str = "Answers the question of the open scene here, as “ehl-explorer run” does without a window";
+
+/// What is shown of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum ResultsChoice {
+    Charts,
+    /// A table, by its name.
+    Table(String),
+}
+
+/// The tab's run and what is shown of it.
+pub struct Results {
+    run: Option<Run>,
+    /// The document that was on the screen last, as a scene.
+    seen: Option<(Document, Scene)>,
+    shown: ResultsChoice,
+    fresh: bool,
+}
+
+impl Default for Results {
+    fn default() -> Self {
+        Self { run: None, seen: None, shown: ResultsChoice::Charts, fresh: true }
+    }
+}
+
+impl Results {
+    /// Runs the study of a scene on a bench.
+    pub fn start(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
+        let shown = match scene.study {
+            // Their lines are what was asked for.
+            Study::LoadCases(_) => ResultsChoice::Table("load_cases".to_owned()),
+            _ => ResultsChoice::Charts,
+        };
+        *self = Self { run: Some(Run::start(scene, bench, wake)), shown, ..Self::default() };
+    }
+
+    /// Watches a campaign of a scene: its charts and tables fill as its shards come.
+    pub fn watch(&mut self, scene: Scene, folder: PathBuf, wake: Wake) {
+        *self = Self { run: Some(Run::watch(scene, folder, wake)), ..Self::default() };
+    }
+
+    /// Forgets what was run: another scene is on the screen.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// How far the study is that runs.
+    pub fn standing(&self) -> Option<Standing> {
+        self.run.as_ref()?.standing()
+    }
+
+    /// Whether a study runs here whose rows lie nowhere else.
+    pub fn would_lose(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.campaign.is_none() && run.standing().is_some())
+    }
+
+    /// Whether everything has been answered, and whether all expectations hold.
+    pub fn verdict(&self) -> Option<bool> {
+        let look = self.run.as_ref()?.look.as_ref().filter(|look| look.complete)?;
+        Some(look.outcome.passed())
+    }
+
+    /// A table by its name, of the last look.
+    pub fn table(&self, name: &str) -> Option<&Table> {
+        self.run.as_ref()?.look.as_ref()?.table(name)
+    }
+
+    fn scene_ui(&mut self, ui: &mut Ui, scene: &Scene, context: &Context<'_>, commands: &mut Commands) {
+        let title = if scene.title.is_empty() { "Results" } else { &scene.title };
+        ui.horizontal_wrapped(|ui| {
+            ui.heading(title);
+            if !scene.source.is_empty() {
+                ui.weak(&scene.source);
+            }
+        });
+        self.toolbar(ui, commands);
+        let Some(run) = &self.run else {
+            ui.separator();
+            contact::ui(ui, context);
+            return;
+        };
+        if let Some(campaign) = &run.campaign {
+            campaign_ui(ui, campaign);
+        }
+        if let Some(message) = run.message() {
+            message_ui(ui, message);
+        }
+        let changed = !drawn::asks_the_same(&run.scene, scene);
+        drawn::note(ui.ctx(), "results of a study", Owner::Question(Box::new(run.scene.clone())), changed);
+        if changed {
+            warning_ui(ui, "These results belong to the scene as it was when it was run; it has changed since");
+        }
+        ui.separator();
+        let Some(look) = &run.look else {
+            ui.weak("Nothing has been found yet");
+            return;
+        };
+        if changed {
+            drawn::fade(ui, false);
+        }
+        let fresh = std::mem::take(&mut self.fresh);
+        let whole = ui.available_size();
+        let beside = whole.x > 2.0 * VERDICTS;
+        if beside {
+            ui.horizontal_top(|ui| {
+                let width = ui.available_width() - VERDICTS - 12.0;
+                ui.vertical(|ui| {
+                    ui.set_min_height(whole.y);
+                    ui.set_max_width(width);
+                    shown_ui(ui, look, &self.shown, fresh);
+                });
+                ui.separator();
+                ui.vertical(|ui| verdicts_ui(ui, look));
+            });
+        } else {
+            ui.allocate_ui(egui::vec2(whole.x, 0.6 * whole.y), |ui| shown_ui(ui, look, &self.shown, fresh));
+            ui.separator();
+            verdicts_ui(ui, look);
+        }
+    }
+
+    fn toolbar(&mut self, ui: &mut Ui, commands: &mut Commands) {
+        ui.horizontal_wrapped(|ui| {
+            let standing = self.standing();
+            let runs = standing.is_some();
+            let tip = if runs { "What has been found so far stays (Esc)" } else { RUN_TIP };
+            let watches = self.run.as_ref().is_some_and(|run| run.campaign.is_some());
+            let stop = if watches { "Stop watching" } else { "Stop" };
+            if either_button(ui, ["Run the study", stop], runs).on_hover_text(tip).clicked() {
+                if runs {
+                    self.stop();
+                } else {
+                    commands.push(Command::RunStudy);
+                }
+            }
+            if self.run.is_none() {
+                ui.weak("This contact");
+                return;
+            }
+            let look = self.run.as_ref().and_then(|run| run.look.as_ref());
+            let tables: &[Table] = look.map_or(&[], |look| &look.outcome.tables);
+            let text = match &self.shown {
+                ResultsChoice::Charts => "Charts".to_owned(),
+                ResultsChoice::Table(name) => format!("Table {name}"),
+            };
+            let mut chosen = self.shown.clone();
+            let combo = ComboBox::from_id_salt("shown of results").selected_text(text).width(180.0).show_ui(ui, |ui| {
+                ui.selectable_value(&mut chosen, ResultsChoice::Charts, "Charts");
+                for table in tables {
+                    let name = table.name.clone();
+                    ui.selectable_value(&mut chosen, ResultsChoice::Table(name.clone()), format!("Table {name}"));
+                }
+            });
+            named(ui, combo.response, "Shown of the results");
+            self.shown = chosen;
+            standing_ui(ui, standing, "Progress of the study");
+        });
+    }
+}
+
+const ABOUT: About = About {
+    keywords: "study scene run expectations verdicts table",
+    page: "scenes.md",
+    has_units: false,
+    why: "A scene is an experiment with a question, and here its answer comes in while it is computed. What the \
+          scene expects, and from where, stands beside what was found. The same scene gives the same numbers from \
+          the command line.",
+};
+
+impl View for Results {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        let document = context.document;
+        let seen = self.seen.take().filter(|seen| seen.0 == *document);
+        let seen = seen.unwrap_or_else(|| (document.clone(), document.to_scene()));
+        self.scene_ui(ui, &seen.1, context, commands);
+        self.seen = Some(seen);
+    }
+
+    fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
+        if self.run.is_none() {
+            let text = contact::csv(context);
+            return vec![Offer::table(
+                "Table as CSV…",
+                "The table of this contact, with all digits",
+                text,
+                String::clone,
+            )];
+        }
+        let look = self.run.as_ref().and_then(|run| run.look.as_ref());
+        let table = match &self.shown {
+            ResultsChoice::Table(name) => look.and_then(|look| look.table(name)),
+            ResultsChoice::Charts => look.and_then(|look| look.outcome.tables.first()),
+        };
+        vec![Offer::table("Table as CSV…", "The table that is chosen, or the first one", table, |table| {
+            table.to_csv()
+        })]
+    }
+
+    fn receive(&mut self) {
+        if let Some(run) = &mut self.run {
+            run.receive();
+        }
+    }
+
+    fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {
+        self.standing().into_iter().collect()
+    }
+
+    fn stop(&mut self) {
+        if let Some(run) = &self.run {
+            run.stop();
+        }
+    }
+}
+
+/// How far a campaign is, and why shards failed: two lines that are always there, so that nothing moves when one fails.
+fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
+    let palette = Palette::of(ui);
+    let folder = campaign.folder.display();
+    let (text, failed) = match &campaign.status {
+        None => (format!("Campaign: reading {folder}"), [].as_slice()),
+        Some(status) => {
+            let left = match status.left_s.filter(|_| !status.open.is_empty()) {
+                Some(left) => format!(", {} of one processor to go in it", numbers::duration(left)),
+                None => String::new(),
+            };
+            let merged = if status.merged { "; merged" } else { "" };
+            let (done, shards, round) = (status.done, status.shards, status.rounds);
+            let text = format!("Campaign: {done} of {shards} shards are there, round {round}{left}{merged}");
+            (text, status.failed.as_slice())
+        }
+    };
+    ui.add(Label::new(text).truncate()).on_hover_text(folder.to_string());
+    let named = |(shard, reason): &(usize, String)| format!("Shard {shard} failed: {reason}");
+    // A space keeps the line.
+    let first = failed.first().map_or(" ".to_owned(), named);
+    let more = if failed.len() > 1 { format!(" (and {} more)", failed.len() - 1) } else { String::new() };
+    let line = ui.add(Label::new(rich(&format!("{first}{more}"), 11.0, palette.warning)).truncate());
+    if !failed.is_empty() {
+        let all: Vec<String> = failed.iter().take(NAMED_FAILURES).map(named).collect();
+        line.on_hover_text(all.join("\n"));
+    }
+}
+
+/// Failed shards that are named under the pointer.
+const NAMED_FAILURES: usize = 12;
+
+fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {
+    match shown {
+        ResultsChoice::Table(name) => match look.table(name) {
+            Some(of) => table::ui(ui, of),
+            None => _ = ui.weak("There is no such table yet"),
+        },
+        ResultsChoice::Charts => {
+            let charts: Vec<_> = look.charts.iter().filter(|chart| !chart.series.is_empty()).collect();
+            if charts.is_empty() {
+                match look.outcome.tables.first() {
+                    Some(first) => table::ui(ui, first),
+                    None => _ = ui.weak("There is nothing to draw of it yet"),
+                }
+                return;
+            }
+            let room = ui.available_height();
+            let height = (room / charts.len().min(2) as f32 - 26.0).max(150.0);
+            ScrollArea::vertical().id_salt("charts of results").auto_shrink(false).show(ui, |ui| {
+                for (k, of) in charts.into_iter().enumerate() {
+                    ui.label(RichText::new(&of.title).strong());
+                    chart::ui(ui, &format!("chart {k} of results"), of, height, fresh);
+                }
+            });
+        }
+    }
+}
+
+fn verdicts_ui(ui: &mut Ui, look: &Look) {
+    let palette = Palette::of(ui);
+    let outcome = &look.outcome;
+    let held = outcome.verdicts.iter().filter(|verdict| verdict.holds).count();
+    ScrollArea::vertical().id_salt("verdicts").auto_shrink(false).show(ui, |ui| {
+        ui.strong("Expectations");
+        let (text, color) = match (look.complete, outcome.verdicts.len()) {
+            (false, _) => (format!("Not all is known yet: {} rows", look.rows), palette.quiet),
+            (true, 0) if outcome.passed() => ("The scene expects nothing; all converged".to_owned(), palette.verified),
+            (true, 0) => ("Some solves did not converge".to_owned(), palette.warning),
+            (true, all) if outcome.passed() => (format!("All {all} hold"), palette.verified),
+            (true, all) if held == all => ("All hold, but some solves did not converge".to_owned(), palette.warning),
+            (true, all) => (format!("{held} of {all} hold"), palette.warning),
+        };
+        ui.colored_label(color, text);
+        Grid::new("expectations").num_columns(3).striped(true).spacing([8.0, 3.0]).show(ui, |ui| {
+            for verdict in &outcome.verdicts {
+                verdict_ui(ui, verdict, look.complete, &palette);
+            }
+        });
+        for warning in &outcome.found.warnings {
+            warning_ui(ui, warning);
+        }
+        if outcome.verdicts.is_empty() {
+            ui.add_space(4.0);
+            Grid::new("values").num_columns(2).striped(true).spacing([8.0, 3.0]).show(ui, |ui| {
+                for value in &outcome.found.values {
+                    ui.label(of_method(&value.name, value.method.as_ref()));
+                    ui.label(numbers::counted(value.value));
+                    ui.end_row();
+                }
+            });
+        }
+    });
+}
+
+fn verdict_ui(ui: &mut Ui, verdict: &Verdict, complete: bool, palette: &Palette) {
+    let (mark, color) = match (verdict.holds, complete) {
+        (true, _) => ("holds", palette.verified),
+        (false, true) => ("short", palette.warning),
+        (false, false) => ("open", palette.quiet),
+    };
+    ui.label(rich(mark, 11.0, color));
+    let expected = &verdict.expected;
+    let tip = format!("Wanted {}; {}", expected.wanted(), expected.from);
+    ui.label(of_method(&expected.name, expected.method.as_ref())).on_hover_text(&tip);
+    let value = verdict.value.map_or_else(|| "–".to_owned(), numbers::counted);
+    ui.label(value).on_hover_text(tip);
+    ui.end_row();
+}
+
+fn of_method(name: &str, method: Option<&Method>) -> String {
+    method.map_or_else(|| name.to_owned(), |method| format!("{name}, {}", method.name()))
+}

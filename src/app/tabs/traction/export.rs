@@ -1,0 +1,84 @@
+//! Traction and film along a quantity for other programs.
+
+use super::sweeps::Sweeps;
+use crate::app::document::Key;
+use crate::app::export as tables;
+use crate::app::tabs::traction::{Companion, Sample, Served, Sweep};
+
+/// What a sweep belongs to, as lines over a table.
+pub fn describe(sweep: &Sweep) -> Vec<String> {
+    std::iter::once(described(sweep)).chain(notes(sweep)).collect()
+}
+
+/// What is to be said of it below its first contact.
+fn notes(sweep: &Sweep) -> impl Iterator<Item = String> {
+    let of = match sweep.base.lubricant.heat {
+        Some(_) => "a film with heat over the area under pressure",
+        None => "an isothermal film over the whole domain, (3.41)",
+    };
+    std::iter::once(format!("traction is that of {of}; the first contact is described above")).chain(sweep.unphysical())
+}
+
+/// The first contact of the curve that is drawn, or else of the full solutions, and what is to be said below it.
+pub fn parameters(view: &Sweeps) -> Option<(&Key, Vec<String>)> {
+    match (&view.curve, &view.markers) {
+        (Some(curve), _) => Some((&curve.sweep.base, notes(&curve.sweep).chain(untrained(&curve.served)).collect())),
+        (None, markers) => markers.as_ref().map(|markers| (&markers.sweep.base, notes(&markers.sweep).collect())),
+    }
+}
+
+/// The line that a curve needs whose model was not trained for it.
+fn untrained(served: &Served) -> Option<String> {
+    let why = served.untrained.as_ref()?;
+    Some(format!("the reduced model was not trained for this curve ({why}): no bound on its errors is known"))
+}
+
+fn described(sweep: &Sweep) -> String {
+    tables::describe_contact(&sweep.base.point, &sweep.base.lubricant)
+}
+
+/// The curve and the full solutions, told apart by the column `full`; `None` where there is neither.
+pub fn csv(view: &Sweeps) -> Option<String> {
+    let companion =
+        view.curve.iter().map(|curve| &curve.sweep).chain(view.markers.iter().map(|markers| &markers.sweep));
+    let companion = companion.filter_map(Sweep::companion).next().unwrap_or(Companion::Newtonian);
+    let columns = [
+        "full",
+        "SRR",
+        "NPR",
+        "u_m_m_per_s",
+        "M",
+        "L",
+        "traction",
+        "h_c_m",
+        "h_min_m",
+        companion.column(),
+        "unphysical",
+    ];
+    let curve = view.curve.iter().map(|curve| (0.0, &curve.sweep, curve.samples.as_slice()));
+    let markers = view.markers.iter().map(|markers| (1.0, &markers.sweep, markers.samples.as_slice()));
+    let blocks: Vec<(f64, &Sweep, &[Sample])> = curve.chain(markers).collect();
+    let (_, first, _) = blocks.iter().find(|block| !block.2.is_empty())?;
+    let mut comments = describe(first);
+    for served in view.curve.iter().map(|curve| &curve.served) {
+        comments.push(format!("full 0: {}", served.by.describe()));
+        comments.extend(untrained(served));
+    }
+    if let Some(markers) = view.markers.as_ref().filter(|markers| markers.sweep != **first) {
+        comments.push(format!("full 1 belongs to {}", described(&markers.sweep)));
+    }
+    let rows = blocks
+        .into_iter()
+        .flat_map(|(full, sweep, samples)| samples.iter().map(move |sample| row(full, sweep, sample)));
+    Some(tables::csv(&comments, &columns, rows))
+}
+
+fn row(full: f64, sweep: &Sweep, sample: &Sample) -> Vec<Option<f64>> {
+    let (point, moes) = (&sample.point, sample.point.moes());
+    let key = Key { point: *point, lubricant: sweep.base.lubricant };
+    let npr = super::Varied::Plateau.of(&key);
+    let srr = point.sliding.slide_to_roll_ratio;
+    let unphysical = f64::from(u8::from(sample.unphysical.is_some()));
+    let values = [full, srr, npr, point.speed_m_per_s, moes.m, moes.l, sample.traction, sample.h_c_m, sample.h_min_m];
+    values.map(Some).into_iter().chain([sample.companion, Some(unphysical)]).collect()
+}

@@ -1,0 +1,214 @@
+//! Traction and film thickness along one quantity: a curve by the reduced model and full solutions.
+
+use super::curve::Curve;
+use super::served::{self, Served};
+use super::sweep::{Against, Sample, Sweep, Varied};
+
+use super::curve::LiveCurve;
+use crate::app::answers::Answers;
+use crate::app::document::{Document, Edit};
+use crate::app::numbers;
+use crate::app::wake::wake;
+use crate::engine::job::{Background, Standing};
+use crate::engine::{Store, Workbench};
+use crate::scene::{Grid, Method, StudyRow};
+use crate::solver::parameters::Quantity;
+use egui::Context;
+use serde::{Deserialize, Serialize};
+
+/// Contacts of a curve by the reduced model.
+pub const CURVE: usize = 41;
+/// Full solutions on the curve: every fourth of its contacts.
+const MARKERS: usize = 11;
+/// Full solutions of a line contact that are the curve where no model draws one.
+const FULL_CURVE: usize = 21;
+
+/// Full solutions along a sweep.
+pub struct Markers {
+    pub sweep: Sweep,
+    /// Solved contacts so far.
+    pub samples: Vec<Sample>,
+    /// Some contacts of its companion.
+    companions: Vec<Sample>,
+    /// Number of contacts that were asked for.
+    wanted: usize,
+    /// Number of contacts without convergence. They are left out.
+    failed: usize,
+    /// True if they started by themselves. They stop when another sweep is shown.
+    by_themselves: bool,
+}
+
+/// How much of an axis of SRR is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum SlideView {
+    /// 0 to 10 %, where traction rises.
+    #[default]
+    Near,
+    Whole,
+    /// All of it, equal ways for equal ratios.
+    Logarithmic,
+}
+
+impl SlideView {
+    /// All of them, with their names and what they show.
+    pub const ALL: [(Self, &'static str, &'static str); 3] = [
+        (Self::Near, "0–10 %", "Where traction rises"),
+        (Self::Whole, "0–100 %", "All of the sliding that the curve knows"),
+        (Self::Logarithmic, "Log", "All of it; equal ways along are equal ratios"),
+    ];
+}
+
+/// Settings of the tab; not part of the document.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Choices {
+    /// What the curves are drawn against.
+    pub against: Against,
+    /// Logarithmic axes: along where that is not SRR, and of traction and film.
+    pub logarithmic: (bool, bool),
+    /// How much of SRR is shown.
+    pub slide: SlideView,
+    /// Whether the laws of the fluid are shown in place of the traction.
+    pub shows_fluid: bool,
+}
+
+impl Choices {
+    /// Whether the axis along is logarithmic.
+    pub fn logarithmic_along(&self) -> bool {
+        match self.against {
+            Against::SlideToRoll => self.slide == SlideView::Logarithmic,
+            _ => self.logarithmic.0,
+        }
+    }
+}
+
+/// The curve and the full solutions of the tab.
+#[derive(Default)]
+pub struct Sweeps {
+    /// The last curve by the reduced model.
+    pub curve: Option<Curve>,
+    /// Full solutions.
+    pub markers: Option<Markers>,
+    /// Their work.
+    pub full: Background<StudyRow>,
+    beside: Background<StudyRow>,
+    live: LiveCurve,
+    wanted: Option<(Sweep, Served)>,
+}
+
+impl Sweeps {
+    /// Receives the results since the last frame.
+    pub fn receive(&mut self) {
+        if let Some(curve) = self.live.finished() {
+            self.curve = Some(curve);
+        }
+        let Some(markers) = &mut self.markers else { return };
+        let works = self.full.job().is_some();
+        self.full.receive(|row| match Sample::of_row(&row, &markers.sweep) {
+            Some(sample) => markers.samples.push(sample),
+            None => markers.failed += 1,
+        });
+        self.beside.receive(|row| markers.companions.extend(Sample::of_row(&row, &markers.sweep)));
+        // A companion that fails is left out.
+        self.beside.message = None;
+        markers.sweep.note_companions(&mut markers.samples, &markers.companions);
+        let (failed, wanted) = (markers.failed, markers.wanted);
+        if works && self.full.job().is_none() && failed > 0 {
+            let why = || format!("{failed} of {wanted} full solutions did not converge and are left out");
+            self.full.message.get_or_insert_with(why);
+        }
+    }
+
+    /// Returns true if the curve is the one that was asked for last.
+    pub fn curve_is_current(&self) -> bool {
+        matches!((&self.curve, &self.wanted), (Some(curve), Some((sweep, served)))
+            if curve.sweep == *sweep && curve.served == *served)
+    }
+}
+
+impl Sweeps {
+    /// Returns true if the curve of a sweep has been asked for.
+    pub fn is_asked(&self, sweep: &Sweep, served: &Served) -> bool {
+        self.wanted.as_ref().is_some_and(|(wanted, by)| wanted == sweep && by == served)
+    }
+
+    /// Asks for the curve of a sweep, unless it has been asked for.
+    pub fn follow(&mut self, ctx: &Context, store: &Store, sweep: Sweep, served: Served) {
+        if !self.is_asked(&sweep, &served) {
+            self.wanted = Some((sweep.clone(), served.clone()));
+            self.live.ask(ctx, store, sweep, served);
+        }
+    }
+
+    /// Returns true if full solutions of a sweep were started.
+    pub fn has_markers_of(&self, sweep: &Sweep) -> bool {
+        self.markers.as_ref().is_some_and(|markers| markers.sweep == *sweep)
+    }
+
+    /// Returns true if full solutions of another sweep run that started by themselves.
+    pub fn fills_another(&self, sweep: &Sweep) -> bool {
+        let another = |markers: &Markers| markers.by_themselves && markers.sweep != *sweep;
+        self.full.job().is_some_and(|job| !job.stopping()) && self.markers.as_ref().is_some_and(another)
+    }
+
+    /// Returns the progress of the curve.
+    pub fn following(&self) -> Option<Standing> {
+        self.live.standing()
+    }
+
+    /// Stops the full solutions; those that are there stay.
+    pub fn stop_markers(&self) {
+        self.full.stop();
+        self.beside.stop();
+    }
+
+    /// Solves contacts of the sweep through the document's contact in full, each from its neighbour. If a model draws the
+    /// curve, its grid is used, so that both can be compared.
+    pub fn start_markers(
+        &mut self,
+        ctx: &Context,
+        document: &Document,
+        answers: &Answers,
+        choices: &Choices,
+        by_themselves: bool,
+    ) {
+        let Some((sweep, served)) = served::sweep(document, answers, choices) else { return };
+        let plane = document.chosen_plane();
+        let model = match &served {
+            Ok(served) => Some(&served.by.model),
+            Err(_) => answers.model(document).filter(|_| plane.is_none()),
+        };
+        let grid = match (model, plane) {
+            (Some(_), _) => Grid::Model,
+            (None, Some(plane)) => Grid::Plane(plane),
+            (None, None) => Grid::Graded,
+        };
+        let ask = |title: &str, sweep: &Sweep, count: usize| {
+            let bench = Workbench::on(answers.store(), "");
+            let bench = if let Some(model) = model { bench.using(model) } else { bench };
+            sweep.question(title, grid, count, Method::Full).ask(bench, wake(ctx))
+        };
+        let wanted = if served.is_err() && plane.is_none() { FULL_CURVE } else { MARKERS };
+        self.full.run(ask("Full solutions along the curve", &sweep, wanted));
+        self.beside = Background::default();
+        if let Some((companion, by)) = sweep.accompanied().filter(|_| served.is_err()) {
+            self.beside.run(ask(companion.title(), &by, sweep.companions(wanted)));
+        }
+        let (samples, companions) = (Vec::new(), Vec::new());
+        self.markers = Some(Markers { sweep, samples, companions, wanted, failed: 0, by_themselves });
+    }
+}
+
+/// Returns the edit that moves the contact to a place on the axis of the curve.
+pub fn edit_along(document: &Document, choices: &Choices, place: f64) -> Edit {
+    let value = numbers::rounded(choices.against.value(&document.point, place), 3);
+    match choices.against.varied() {
+        Varied::SlideToRoll => {
+            let srr = value.max(0.0).copysign(document.point.sliding.slide_to_roll_ratio);
+            Edit::Quantity(Quantity::SlideToRollRatio, srr)
+        }
+        Varied::Plateau => Edit::Quantity(Quantity::NewtonianPlateauRatio, value.clamp(0.0, 1.0)),
+        Varied::Speed => Edit::Quantity(Quantity::Speed, value),
+        Varied::RadiusRatio => Edit::Quantity(Quantity::RadiusRatio, value),
+    }
+}

@@ -1,0 +1,237 @@
+//! Making a reduced model: what it shall be trained for and how, the training as it runs, and what its model is worth.
+
+use super::trainings::{Training, TrainingCommand};
+use super::{charts, comparison_view, form};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{message_ui, named, sentence, warning_ui};
+use crate::app::form::LastField;
+use crate::app::notice::Notice;
+use crate::app::numbers;
+use crate::app::purpose::{Purpose, Written};
+use crate::app::tabs::training::{Made, Running};
+use crate::app::tabs::{About, View};
+use crate::engine::job::Standing;
+use egui::{Button, Label, ProgressBar, ScrollArea, Ui};
+
+/// Width of the form.
+const FORM_WIDTH: f32 = 316.0;
+
+/// The tab: what is being entered in its form.
+#[derive(Default)]
+pub struct TrainingTab {
+    /// The title while it is typed.
+    pub title: Option<String>,
+    /// The field that was changed last.
+    pub last: LastField,
+    /// Trainings and what came of them.
+    pub work: Training,
+}
+
+const ABOUT: About = About {
+    keywords: "snapshots model plan range",
+    page: "training.md",
+    has_units: false,
+    why: "A reduced model is learnt from full solutions, its snapshots, of contacts all over a range. A plan that \
+          always adds the contact that is represented worst needs fewest of them. Outside its range a model knows \
+          nothing, so choose the range for what you are going to ask.",
+};
+
+impl View for TrainingTab {
+    fn about(&self) -> &'static About {
+        &ABOUT
+    }
+
+    fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| {
+                ui.set_width(FORM_WIDTH);
+                let area = ScrollArea::vertical().id_salt("training form").auto_shrink(false);
+                area.show(ui, |ui| form::ui(ui, self, context, commands));
+            });
+            ui.separator();
+            ui.vertical(|ui| {
+                let area = ScrollArea::vertical().id_salt("training").auto_shrink(false);
+                area.show(ui, |ui| results(ui, &self.work, context, commands));
+            });
+        });
+    }
+
+    fn receive(&mut self) {
+        self.work.receive();
+    }
+
+    fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {
+        self.work.standing().into_iter().collect()
+    }
+
+    fn stop(&mut self) {
+        self.work.stop();
+    }
+}
+
+fn results(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &mut Commands) {
+    let (top, height) = (ui.cursor().top(), ui.available_height());
+    buttons(ui, training, context, commands);
+    status(ui, training);
+    comparison_view::ui(ui, training, commands);
+    charts::key(ui, &training.chart);
+    let searches = training.spec.as_ref().is_some_and(|spec| spec.plan.searches());
+    let rest = (height - (ui.cursor().top() - top) - 12.0).max(300.0);
+    let lower = if searches { (0.34 * rest).max(115.0) } else { 0.0 };
+    charts::plane(ui, training, context, rest - lower);
+    if searches {
+        charts::indicator(ui, training, context, lower);
+    }
+}
+
+fn buttons(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &mut Commands) {
+    use TrainingCommand as C;
+    let runs = training.standing().is_some();
+    let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
+        button(ui, commands, on, (name, tip), command);
+    };
+    ui.horizontal_wrapped(|ui| {
+        if runs {
+            let tip =
+                "Ends the work; a training keeps its full solutions and makes a model of them. Again: no model either";
+            button(ui, true, "Stop", tip, Command::Training(C::Stop));
+        } else {
+            let free = !training.left_behind;
+            let tip = if free {
+                "Takes the full solutions and makes a model of them, beside the live picture"
+            } else {
+                "First resume or discard the training that was left unfinished"
+            };
+            button(ui, free, "Start training", tip, Command::Train);
+        }
+        if training.unfinished.is_some() {
+            let tip = "Goes on as if it had never been stopped: the model will be the same";
+            button(ui, !runs, "Resume training", tip, Command::Training(C::Resume));
+            button(ui, !runs, "Discard…", "Forgets the unfinished training", Command::DiscardTraining);
+        }
+    });
+    if let Some(made) = &training.made {
+        made_ui(ui, (training, made), context, commands);
+    }
+    compare_ui(ui, training, context, commands);
+}
+
+/// A button that asks for something.
+fn button(ui: &mut Ui, commands: &mut Commands, on: bool, (name, tip): (&str, &str), command: Command) {
+    let button = ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip);
+    if button.clicked() {
+        commands.push(command);
+    }
+}
+
+/// What can be done with the model that was made.
+fn made_ui(ui: &mut Ui, (training, made): (&Training, &Made), context: &Context<'_>, commands: &mut Commands) {
+    use TrainingCommand as C;
+    let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
+        button(ui, commands, on, (name, tip), command);
+    };
+    ui.horizontal_wrapped(|ui| {
+        let used = training.uses_made(context.answers);
+        let tip = "The picture, the badge and all tabs use it from now on";
+        button(ui, !used, "Use this model", tip, Command::Training(C::UseMade));
+        if used {
+            let tip = "Puts the model in use that was before";
+            button(ui, true, "Back to the former model", tip, Command::Training(C::UseFormer));
+        }
+        let save = Command::Ask(Purpose::Write(Written::Model, made.bytes.clone()));
+        button(ui, true, "Save model…", "Writes it as a .rom file", save);
+        let tip = "Forgets this model; until then the session’s folder keeps it";
+        button(ui, !made.saved, "Throw away…", tip, Command::ThrowModelAway);
+    });
+}
+
+/// Which models stand beside each other.
+fn compare_ui(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &mut Commands) {
+    ui.horizontal_wrapped(|ui| {
+        let several = training.comparable(context.answers, context.document).len() > 1;
+        let ready = several && training.standing().is_none();
+        let tip = match several {
+            true => "Size, time and errors of all of them at the same random points, against full solutions",
+            false => "Another model of this kind of contact is needed: train one, or add that of a file",
+        };
+        button(ui, commands, ready, ("Compare models", tip), Command::CompareModels);
+        let tip = "Reads the model of a .rom file for the comparison alone: the picture stays with the one in use";
+        button(ui, commands, true, ("Add a model…", tip), Command::Ask(Purpose::Beside));
+        for (k, (name, model)) in training.beside.iter().enumerate() {
+            let serves = context.document.training_spec().is_some_and(|spec| spec.is_of(model));
+            ui.add_enabled(serves, Label::new(name))
+                .on_hover_text(&model.title)
+                .on_disabled_hover_text("It is for another kind of contact, and left out");
+            let cross = ui.small_button("×").on_hover_text("Leaves it out of the comparison");
+            if named(ui, cross, &format!("Leave out {name}")).clicked() {
+                commands.push(Command::Training(TrainingCommand::LeaveOut(k)));
+            }
+        }
+    });
+}
+
+fn status(ui: &mut Ui, training: &Training) {
+    for notice in &training.notices {
+        match notice {
+            Notice::Done(text) => {
+                ui.label(sentence(text));
+            }
+            Notice::Short(text) => warning_ui(ui, text),
+            Notice::Wrong(text) => message_ui(ui, text),
+        }
+    }
+    if let Some(standing) = training.standing() {
+        standing_ui(ui, standing, training.job());
+        return;
+    }
+    if let Some(made) = &training.made {
+        let model = &made.model;
+        let windows = model.windows.len();
+        let largest =
+            |size: fn(&crate::solver::reduced::Window) -> usize| model.windows.iter().map(size).max().unwrap_or(0);
+        let text = format!(
+            "{}, {} pressure modes, {} rows, {} MB",
+            if windows == 1 { "One window".to_owned() } else { format!("{windows} windows") },
+            largest(|w| w.pressure.count()),
+            largest(|w| w.sampled_rows.len()),
+            numbers::digits(made.bytes.len() as f64 / 1e6, 2)
+        );
+        ui.weak(text).on_hover_text(model.log.join("\n"));
+    }
+    if training.left_behind
+        && let Some(unfinished) = &training.unfinished
+    {
+        warning_ui(
+            ui,
+            &format!(
+                "“{}” was left unfinished with {} full solutions; resume it, or discard it",
+                unfinished.spec.title,
+                unfinished.solutions()
+            ),
+        );
+    }
+}
+
+/// What runs, how far it is, and how long it may take.
+fn standing_ui(ui: &mut Ui, standing: Standing, running: Option<&Running>) {
+    let Standing { stage, done, total, .. } = standing;
+    let count = if total > 0 { format!("{done} of {total}") } else { String::new() };
+    let (stage, fraction) = (sentence(&stage), done as f32 / total.max(1) as f32);
+    let stopping = running.is_some_and(|running| running.job.stopping());
+    ui.label(if stopping { format!("Stopping. {stage}") } else { stage });
+    let width = ui.available_width().min(420.0);
+    let bar = ui.add(ProgressBar::new(fraction).text(count).desired_width(width));
+    named(ui, bar, "Progress of the training");
+    let Some(running) = running else { return };
+    let solved = running.chart().solved.len();
+    let left = match running.time_left() {
+        Some(seconds) if seconds >= 1.0 && !stopping => {
+            let word = if running.fewer { "at most" } else { "about" };
+            format!("; {word} {} left", numbers::remaining(seconds))
+        }
+        _ => String::new(),
+    };
+    let of = if running.fewer { "at most " } else { "" };
+    ui.weak(format!("{solved} full solutions of {of}{}{left}", running.most));
+}

@@ -1,0 +1,85 @@
+//! How the contact in time on the screen stands: live by models, checked in full, or not there yet.
+
+use super::runs::TransientRuns;
+use crate::app::badge::{Kind, pill};
+use crate::app::context::Context;
+use crate::app::display::Thresholds;
+use crate::app::numbers;
+use crate::app::tabs::transient::Run;
+use crate::scene::study::transient::MarchedBy;
+use crate::solver::full::transient::Ended;
+use egui::Ui;
+
+/// Width that it may take.
+const WIDTH: f32 = 300.0;
+
+/// First words, what follows them, and why.
+struct Verdict {
+    kind: Kind,
+    title: &'static str,
+    detail: String,
+    why: &'static str,
+}
+
+/// The badge of contacts in time.
+pub fn ui(ui: &mut Ui, context: &Context<'_>) {
+    let Verdict { kind, title, detail, why } = verdict(context.transient, context.thresholds);
+    if ui.available_size_before_wrap().x < WIDTH {
+        ui.end_row();
+    }
+    let grid = context.transient.runs.iter().find_map(|run| run.grid_cost).map_or_else(String::new, |(_, cost)| {
+        format!(". The grid leaves H_c off by {}", numbers::error_percent(cost.total()))
+    });
+    pill(ui, kind, [title, &detail, &format!("{why}{grid}")], "Trust in the contact in time");
+}
+
+fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
+    let make = |kind, title, detail: String, why| Verdict { kind, title, detail, why };
+    let live = view.runs.iter().any(|run| run.replayed);
+    let standing = view.work.standing();
+    let done = standing.as_ref().map_or_else(String::new, |standing| {
+        let percent = (100 * standing.done).checked_div(standing.total).unwrap_or(0);
+        let full = standing.stage.ends_with("full");
+        if full { format!("full system {percent}{}%", numbers::THIN) } else { "models are being made".to_owned() }
+    });
+    if live && view.is_current() {
+        let why =
+            "Models that were made for former inputs replay at once; the full system checks them when the sliders rest";
+        let detail = if done.is_empty() { errors(view) } else { done };
+        return make(Kind::Neutral, "Live", detail, why);
+    }
+    if standing.is_some() || view.waits() {
+        return make(Kind::Neutral, "Running", done, "The full system first, then the models that it trains");
+    }
+    if view.runs.is_empty() {
+        return make(Kind::Neutral, "Not run yet", String::new(), "Press Run in time: it takes more than a moment");
+    }
+    if !view.is_current() {
+        let why = "It takes more than a moment: press Run in time for the present set-up";
+        return make(Kind::Warning, "Of a former set-up", String::new(), why);
+    }
+    if view.runs.iter().any(|run| run.trajectory.ended != Ended::Finished) {
+        return make(Kind::Warning, "Ended early", String::new(), "A run has not come to the end of its duration");
+    }
+    let why = "Greatest relative difference of H_c from the full run";
+    let models = view.runs.iter().filter(|run| run.by != MarchedBy::Full);
+    match models.filter_map(|run| run.difference).reduce(f64::max) {
+        None => make(Kind::Verified, "Full", String::new(), "Every run is the full system’s"),
+        Some(worst) if worst <= thresholds.verified => make(Kind::Verified, "Checked", errors(view), why),
+        Some(worst) if worst <= thresholds.far_off => make(Kind::Warning, "Roughly right", errors(view), why),
+        Some(_) => make(Kind::Wrong, "Far off", errors(view), why),
+    }
+}
+
+/// What each model errs by, as far as that is known.
+fn errors(view: &TransientRuns) -> String {
+    let said = |run: &Run| {
+        let name = match run.by {
+            MarchedBy::Full => return None,
+            MarchedBy::Reduced => "reduced",
+            MarchedBy::Linearised(_) => "linearised",
+        };
+        Some(format!("{name} {}", numbers::error_percent(run.difference?)))
+    };
+    view.runs.iter().filter_map(said).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,151 @@
+//! The methods of a contact in time: the full system, which models are trained by and compared with, the reduced model
+//! and the linearised one with their settings, and what they are trained on.
+
+use crate::app::controls::heading;
+use crate::app::form::{Form, choose};
+use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
+use crate::scene::{Drive, LinearisedTransient, ModelSource, ReducedTransient, TransientStudy};
+use crate::solver::reduced::tpwl::Weighting;
+use egui::{Checkbox, Ui};
+
+/// All methods.
+pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
+    heading(ui, "Methods");
+    let tip = "Always run: models are trained by it and compared with it";
+    ui.add_enabled(false, Checkbox::new(&mut true, "Full system")).on_disabled_hover_text(tip);
+    let mut on = study.reduced.is_some();
+    let tip = "Solves the nonlinear equations in a reduced space, at sampled rows (RNSA); trained beforehand";
+    if ui.add(Checkbox::new(&mut on, "Reduced model")).on_hover_text(tip).changed() {
+        study.reduced = on.then(ReducedTransient::default);
+        form.changed = Some("Methods");
+    }
+    if let Some(model) = study.reduced.as_ref().and_then(|reduced| reduced.model.as_ref()) {
+        let tip = "Saved before, or trained by another scene; switch the reduced model off and on to train one here";
+        ui.weak(match model {
+            ModelSource::Embedded => "The model of the program".to_owned(),
+            ModelSource::File(path) => format!("The model {}", path.display()),
+            ModelSource::Trained(path) => format!("The model that {} trains", path.display()),
+        })
+        .on_hover_text(tip);
+    } else if let Some(reduced) = &mut study.reduced {
+        let plain = ("", 1.0);
+        form.row(ui, "Loss", plain, &mut reduced.loss, "Loss of information of the bases (2.90)");
+        form.row(ui, "Rows per mode", plain, &mut reduced.rows_per_mode, "Sampled rows per pressure mode");
+    }
+    linearised_ui(ui, form, study);
+    form.message(ui, "Methods");
+    trainings_ui(ui, form, study);
+}
+
+/// The linearised model alone.
+pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
+    let mut on = study.linearised.is_some();
+    let tip = "Superposes linearised systems of trained moments (TPWL, 4.27): one small linear system per step; in the fixed frame";
+    if ui.add(Checkbox::new(&mut on, "Linearised model")).on_hover_text(tip).changed() {
+        study.linearised = on.then(LinearisedTransient::default);
+        form.changed = Some("Methods");
+    }
+    let Some(linearised) = &mut study.linearised else { return };
+    form.count(ui, "Modes", &mut linearised.modes, "Pressure modes of its space; fewer than 85 cost accuracy");
+    let own = RULES.iter().position(|rule| rule.name() == linearised.selection.name()).unwrap_or(0);
+    let mut rule = own;
+    choose(ui, "Operating points", "Which trained moments are linearised about", &mut rule, &[0, 1], |k| {
+        rule_name(RULES[k])
+    });
+    if rule != own {
+        linearised.selection = RULES[rule];
+        form.changed = Some("Operating points");
+    }
+    form.message(ui, "Operating points");
+    let mut by_number = linearised.points.is_some();
+    choose(ui, "How many", "What decides their number", &mut by_number, &[false, true], |by_number| {
+        if by_number {
+            ("A given number", "The tolerance is found that gives about so many")
+        } else {
+            ("By tolerance", "As many as the tolerance asks for")
+        }
+    });
+    if by_number != linearised.points.is_some() {
+        linearised.points = by_number.then_some(100);
+        form.changed = Some("How many");
+    }
+    form.message(ui, "How many");
+    match &mut linearised.points {
+        Some(points) => {
+            form.count(ui, "Points", points, "Operating points wanted, of all training trajectories together")
+        }
+        None => {
+            let mut tolerance = linearised.selection.tolerance();
+            form.row(
+                ui,
+                "Tolerance β",
+                ("", 1.0),
+                &mut tolerance,
+                "Of the rule; half of it gives about twice the points",
+            );
+            linearised.selection = linearised.selection.with_tolerance(tolerance);
+        }
+    }
+    let mut chosen = linearised.weightings.clone();
+    for weighting in WEIGHTINGS {
+        let (name, meaning) = weighting_name(weighting);
+        let mut on = chosen.contains(&weighting);
+        ui.horizontal(|ui| {
+            ui.add_space(18.0);
+            if ui.checkbox(&mut on, name).on_hover_text(meaning).changed() {
+                form.changed = Some("Weights");
+                let wanted = |w: &Weighting| if *w == weighting { on } else { chosen.contains(w) };
+                chosen = WEIGHTINGS.into_iter().filter(wanted).collect();
+            }
+        });
+    }
+    if chosen.is_empty() {
+        form.refused = Some(("Weights", "at least one kind of weights is needed"));
+    } else {
+        linearised.weightings = chosen;
+    }
+    form.message(ui, "Weights");
+    if !linearised.further.is_empty() {
+        let count = linearised.further.len();
+        let rules = if count == 1 { "rule" } else { "rules" };
+        ui.weak(format!("Headless runs also compare {count} further {rules}."));
+    }
+}
+
+/// What the models are trained on: the run itself, or other inputs that were kept for it.
+pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
+    if !study.trains() {
+        return;
+    }
+    let own = study.trains_on_itself();
+    let contacts = study.training_loads.len().max(study.training_contacts.len()).max(1);
+    ui.label(match study.trainings.len().max(1) * contacts {
+        _ if own => "Trained on the run itself.".to_owned(),
+        1 => "Trained on other inputs.".to_owned(),
+        count => format!("Trained on {count} other inputs."),
+    });
+    if !study.training_loads.is_empty() {
+        let loads = study.training_loads.iter().map(|load| format!("{} kN/m", load / 1e3));
+        ui.weak(format!("At reference loads of {}.", loads.collect::<Vec<_>>().join(", ")));
+    }
+    if !study.training_contacts.is_empty() {
+        let contacts = study.training_contacts.iter().map(|(m, l)| format!("M {m}, L {l}"));
+        ui.weak(format!("At reference contacts of {}.", contacts.collect::<Vec<_>>().join("; ")));
+    }
+    ui.horizontal(|ui| {
+        let tip = "Keeps the present inputs as a training trajectory: change them then, and see what the models make of others";
+        if ui.button("Train on these inputs").on_hover_text(tip).clicked() {
+            let (inputs, duration) = (study.inputs.clone(), study.duration);
+            if !study.trainings.iter().any(|kept| kept.inputs == inputs && kept.duration == duration) {
+                study.trainings.push(Drive { name: String::new(), inputs, duration });
+                form.changed = Some("Methods");
+            }
+        }
+        if !own && ui.button("On the run itself").on_hover_text("Forgets the other inputs").clicked() {
+            study.trainings.clear();
+            study.training_loads.clear();
+            study.training_contacts.clear();
+            form.changed = Some("Methods");
+        }
+    });
+}

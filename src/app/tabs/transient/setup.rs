@@ -1,0 +1,121 @@
+//! What a contact in time is made of, and the question that it is.
+
+use crate::app::document::{Document, Key};
+use crate::app::in_use::question;
+use crate::engine::line_in_time;
+use crate::scene::{Grid, LinearisedTransient, ModelSource, ReducedTransient, Scene, Study, TransientStudy};
+use crate::solver::full::Problem;
+use crate::solver::full::transient::TimeStep;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::lubricant::Lubricant;
+use std::path::{Path, PathBuf};
+
+/// What runs belong to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    /// The reference contact.
+    pub point: OperatingPoint,
+    pub lubricant: Lubricant,
+    /// What varies, how long, and how it is followed.
+    pub study: TransientStudy,
+    /// The table that inputs are taken from when it is run.
+    pub sampled: Option<PathBuf>,
+    /// The grid of the full system.
+    pub grid: Grid,
+}
+
+/// Why the program's model in time does not serve a study that names it, so that one is trained in its place.
+fn unserved(document: &Document, study: &TransientStudy) -> Option<String> {
+    study.reduced.as_ref().filter(|reduced| reduced.is_embedded())?;
+    // A damaged one is named where it is asked for.
+    let model = line_in_time().ok()?;
+    if study.frames != [model.frame] {
+        return Some("it knows the fixed frame alone".to_owned());
+    }
+    if document.transient_grid().spec() != Some(model.window.grid.spec()) {
+        return Some("it has another grid".to_owned());
+    }
+    let problem = Problem::new(&document.point, document.lubricant).ok()?;
+    model.domain.leaves(&problem, &study.inputs, study.duration)
+}
+
+/// What is said of the reduced model where a document names the program's.
+pub fn model_in_use(document: &Document) -> Option<String> {
+    let study = document.transient_study();
+    study.reduced.as_ref().filter(|reduced| reduced.is_embedded())?;
+    Some(match unserved(document, &study) {
+        None => "The reduced model is the program’s own".to_owned(),
+        Some(why) => format!("The reduced model is trained here, not the program’s: {why}"),
+    })
+}
+
+/// Node steps of all full marches up to which a contact is run unasked: about two seconds.
+const QUICK: f64 = 5e5;
+
+impl Setup {
+    /// What a document would have run; where its file lies, the table lies that it takes inputs from.
+    pub fn of(document: &Document, file: Option<&Path>) -> Self {
+        let mut study = document.transient_study();
+        let folder = file.and_then(Path::parent).unwrap_or(Path::new(""));
+        if let Some(ModelSource::File(path) | ModelSource::Trained(path)) =
+            study.reduced.as_mut().and_then(|reduced| reduced.model.as_mut())
+        {
+            *path = folder.join(&*path);
+        }
+        if unserved(document, &study).is_some() {
+            study.reduced = Some(ReducedTransient::default());
+        }
+        Self {
+            point: document.point,
+            lubricant: document.lubricant,
+            sampled: study.sampled.as_ref().map(|path| folder.join(path)),
+            study,
+            grid: document.transient_grid(),
+        }
+    }
+
+    /// The question: the study itself, without what only headless runs compare.
+    pub(super) fn question(&self) -> Scene {
+        let once = |linearised: &LinearisedTransient| LinearisedTransient { further: Vec::new(), ..linearised.clone() };
+        let study = TransientStudy {
+            sampled: self.sampled.clone(),
+            further: Vec::new(),
+            published: Vec::new(),
+            mass_between: None,
+            linearised: self.study.linearised.as_ref().map(once),
+            ..self.study.clone()
+        };
+        let key = Key { point: self.point, lubricant: self.lubricant };
+        question("Contact in time", &key, self.grid, Study::Transient(study))
+    }
+
+    /// How many runs it comes to.
+    pub fn runs(&self) -> usize {
+        let TransientStudy { frames, reduced, linearised, .. } = &self.study;
+        let linearised = linearised.as_ref().map_or(0, |linearised| linearised.weightings.len());
+        frames.len() * (1 + usize::from(reduced.is_some())) + linearised
+    }
+
+    /// Whether it is run unasked.
+    pub fn is_quick(&self) -> bool {
+        let (TimeStep::Fixed(step) | TimeStep::Adaptive { longest: step, .. }) = self.study.time_step;
+        let nodes = match self.grid {
+            Grid::Uniform { dx, domain } => (domain.1 - domain.0) / dx,
+            Grid::GradedNodes { nodes, .. } => nodes as f64,
+            _ => 600.0,
+        };
+        let modelled = self.study.trains();
+        let trained: f64 = self.study.trainings.iter().map(|drive| drive.duration).sum();
+        let trained = if modelled {
+            trained * self.study.training_loads.len().max(self.study.training_contacts.len()).max(1) as f64
+        } else {
+            0.0
+        };
+        (self.study.duration + trained) / step * nodes * self.study.frames.len() as f64 <= QUICK
+    }
+
+    /// Seconds per unit of T: a/u_m of the reference contact.
+    pub fn time_scale_s(&self) -> f64 {
+        self.point.hertz().half_width_m / self.point.speed_m_per_s
+    }
+}

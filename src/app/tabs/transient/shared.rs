@@ -1,0 +1,267 @@
+//! Parts that the transient tabs share: form, run button, status line and time bar.
+
+use super::export;
+use super::runs::{TransientCommand, TransientRuns};
+use crate::app::command::Command;
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{either_button, named, sentence, standing_ui};
+use crate::app::document::{Edit, Shape};
+use crate::app::drawn::{self, Owner};
+use crate::app::form::{Form, LastField};
+use crate::app::tabs::transient::{Run, Setup, model_in_use};
+use crate::app::theme::{Palette, rich};
+use crate::app::{caption, numbers};
+use crate::engine::TOO_STEEP;
+use crate::scene::TransientStudy;
+use crate::scene::study::transient::MarchedBy;
+use crate::solver::full::transient::Ended;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::reduced::tpwl::{TpwlRecord, Weighting};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Color32, FontId, Label, ScrollArea, Slider, TextStyle, Ui};
+use std::sync::Arc;
+
+/// Shows a form of the document's transient study; returns the field that was changed last. `name` is the name of the
+/// message if a change is refused.
+pub fn edit(
+    ui: &mut Ui,
+    (name, last): (&'static str, LastField),
+    context: &Context<'_>,
+    commands: &mut Commands,
+    content: impl FnOnce(&mut Ui, &mut Form<'_>, &mut TransientStudy),
+) -> LastField {
+    let before = context.document.transient_study();
+    let mut study = before.clone();
+    let mut form = Form::new(name, last, context);
+    ui.add_enabled_ui(!context.transient.runs_by_hand(), |ui| content(ui, &mut form, &mut study));
+    let edit = (study != before).then(|| Edit::Transient(Box::new(study)));
+    form.ask(edit, "Frames", commands)
+}
+
+/// Lets the transient runs follow the document. Every tab that shows them calls it.
+pub fn follow(context: &Context<'_>, commands: &mut Commands) {
+    let wanted = Setup::of(context.document, context.file);
+    if !context.transient.follows(&wanted) && !context.transient.runs_by_hand() {
+        commands.push(Command::Transient(TransientCommand::Follow(Box::new(wanted))));
+    }
+}
+
+/// Says why there are no transient runs of this contact, with a button that changes to a roller if that helps.
+fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Commands) {
+    ui.weak(sentence(why));
+    let tip = "A line contact with the same quantities";
+    if context.document.point.kind == ContactKind::Point
+        && ui.button("Show a roller instead").on_hover_text(tip).clicked()
+    {
+        commands.edit(Edit::Shape(Shape::Roller), "contact");
+    }
+}
+
+/// Returns true if runs are computed or are about to start by themselves.
+pub fn is_coming(context: &Context<'_>) -> bool {
+    let view = context.transient;
+    let wanted = Setup::of(context.document, context.file);
+    view.standing().is_some() || view.waits() || !view.follows(&wanted)
+}
+
+/// Draws the rest grey if it belongs to a previous set-up.
+pub fn grey_where_stale(ui: &mut Ui, context: &Context<'_>, name: &'static str) {
+    let view = context.transient;
+    let Some(setup) = &view.setup else { return };
+    if drawn::is_grey(ui.ctx(), name, Owner::Transient(Arc::clone(setup)), context) {
+        drawn::fade(ui, is_coming(context));
+    }
+}
+
+/// Button that starts or stops the runs.
+pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let view = context.transient;
+    let runs = view.runs_by_hand();
+    let tip = if runs {
+        "What has been computed so far stays (Esc)"
+    } else {
+        "Takes the contact of the sliders through time, frame after frame, then by each model"
+    };
+    if either_button(ui, ["Run in time", "Stop"], runs).on_hover_text(tip).clicked() {
+        let setup = || Box::new(Setup::of(context.document, context.file));
+        commands.push(Command::Transient(if runs { TransientCommand::Stop } else { TransientCommand::Run(setup()) }));
+    }
+}
+
+/// What runs and how far it is, what was refused, how runs ended that did not reach the end, and whether all of it is
+/// still what the sliders say: in one line that is always there, so that nothing below moves. What does not fit is read
+/// under the pointer.
+pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoIterator<Item = &'a str>) {
+    let view = context.transient;
+    let palette = Palette::of(ui);
+    let size = TextStyle::Small.resolve(ui.style()).size;
+    let mut line = LayoutJob::default();
+    for (text, color) in sentences(context, refused, &palette) {
+        let before = if line.is_empty() { "" } else { ".  " };
+        let format = TextFormat { font_id: FontId::proportional(size), color, ..TextFormat::default() };
+        line.append(&format!("{before}{}", sentence(&text).trim_end_matches('.')), 0.0, format);
+    }
+    ui.horizontal(|ui| {
+        ui.set_min_height(ui.spacing().interact_size.y);
+        if view.runs_by_hand() {
+            standing_ui(ui, view.standing(), "Progress of the contact in time");
+        }
+        if !line.is_empty() {
+            ui.add(Label::new(line).truncate());
+        }
+    });
+}
+
+/// Returns the messages about the runs, the worst first.
+fn sentences<'a>(
+    context: &'a Context<'_>,
+    refused: impl IntoIterator<Item = &'a str>,
+    palette: &Palette,
+) -> Vec<(String, Color32)> {
+    let view = context.transient;
+    let wrong = refused.into_iter().chain(view.work.message.as_deref()).chain(view.notes.iter().map(String::as_str));
+    let mut said: Vec<(String, Color32)> = wrong.map(|text| (text.to_owned(), palette.wrong)).collect();
+    for run in view.runs.iter().filter(|run| run.ended) {
+        let ended = &run.trajectory.ended;
+        let color = match ended {
+            Ended::StepRefused { .. } | Ended::ContactRefused { .. } => palette.wrong,
+            Ended::Cancelled { .. } => palette.quiet,
+            Ended::Finished => continue,
+        };
+        said.push((format!("{} {}", run.name(), ended.describe()), color));
+    }
+    let mut warn = |text: String| said.push((text, palette.warning));
+    let wanted = Setup::of(context.document, context.file);
+    let asked = |setup: &&Arc<Setup>| ***setup != wanted && !wanted.is_quick();
+    if let Some(setup) = view.setup.as_ref().filter(asked) {
+        let of = numbers::moes(setup.point.moes());
+        warn(format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
+    }
+    let steep = |(_, run): (_, &Run)| !run.replayed && run.record.as_ref().is_some_and(TpwlRecord::too_steep);
+    if view.linearised_runs().any(steep) {
+        warn(format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
+    }
+    let quiet = palette.quiet;
+    for run in &view.runs {
+        if let Some((time, warning)) = run.grid_cost.and_then(|(time, cost)| Some((time, cost.warning()?))) {
+            warn(format!("{}: at T = {} {warning}", run.name(), numbers::significant(time)));
+        }
+    }
+    said.extend(model_in_use(context.document).map(|text| (text, quiet)));
+    said
+}
+
+/// Shows a tab: its form, if it has a width, and beside it pictures that scroll if necessary, above the time bar.
+pub fn page<T>(
+    ui: &mut Ui,
+    tab: &mut T,
+    (name, form_width): (&str, Option<f32>),
+    (context, commands): (&Context<'_>, &mut Commands),
+    form: impl FnOnce(&mut T, &mut Ui, &mut Commands),
+    pictures: impl FnOnce(&mut T, &mut Ui, &mut Commands),
+) {
+    if let Some(why) = context.document.no_transient() {
+        elsewhere(ui, context, why, commands);
+        return;
+    }
+    follow(context, commands);
+    ui.horizontal_top(|ui| {
+        if let Some(width) = form_width {
+            ui.vertical(|ui| {
+                ui.set_width(width);
+                let area = ScrollArea::vertical().id_salt(format!("{name} form")).auto_shrink(false);
+                area.show(ui, |ui| form(tab, ui, commands));
+            });
+            ui.separator();
+        }
+        ui.vertical(|ui| {
+            // Wide rows of the pictures do not widen the bar.
+            let width = ui.available_width();
+            let height = (ui.available_height() - TIME_BAR).max(TIME_BAR);
+            let area = ScrollArea::vertical().id_salt(name).auto_shrink(false).max_height(height);
+            area.show(ui, |ui| pictures(tab, ui, commands));
+            ui.scope(|ui| {
+                ui.set_max_width(width);
+                player(ui, context.transient, commands);
+            });
+        });
+    });
+}
+
+/// Height of the time bar with the room above it.
+const TIME_BAR: f32 = 32.0;
+
+/// Time bar: a slider over the computed moments, and a button that plays them.
+pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
+    let Some(setup) = &view.setup else { return };
+    let playing = view.player.playing();
+    let mut ask = |command| commands.push(Command::Transient(command));
+    if playing {
+        let seconds = ui.input(|i| i.stable_dt).min(0.1);
+        ask(TransientCommand::PlayOn(f64::from(seconds)));
+    }
+    ui.horizontal(|ui| {
+        let (name, tip) = if playing { ("Pause", "Stand still here") } else { ("Play", "Play the profiles in time") };
+        if ui.button(name).on_hover_text(tip).clicked() {
+            ask(TransientCommand::TogglePlay);
+        }
+        let mut time = view.player.time();
+        let text =
+            format!("{{T}} = {}, {}", numbers::significant(time), numbers::duration(time * setup.time_scale_s()));
+        let costs = costs(view);
+        let room = if ui.available_width() > COSTS_FROM { 190.0 + COSTS } else { 190.0 };
+        ui.spacing_mut().slider_width = (ui.available_width() - room).max(80.0);
+        let response = ui.add(Slider::new(&mut time, 0.0..=view.player.end().max(f64::MIN_POSITIVE)).show_value(false));
+        let response = named(ui, response, "Time T");
+        if response.changed() {
+            ask(TransientCommand::GoTo(time));
+        }
+        let tip =
+            "The moment whose profiles are shown, in units of a/u_m of the reference contact (2.22) and on the clock";
+        let time = ui.horizontal(|ui| {
+            ui.set_min_width(TIME);
+            ui.label(rich(&text, 13.5, ui.visuals().text_color())).on_hover_text(tip);
+        });
+        if room > 190.0 {
+            ui.weak(costs)
+                .on_hover_text("Medians of the time per step, and how many times faster than the full system");
+        }
+        time.inner
+    });
+}
+
+/// Width of the tab from which on costs stand beside the moment, and their own.
+const COSTS_FROM: f32 = 780.0;
+const COSTS: f32 = 330.0;
+/// Width of the moment in numbers.
+const TIME: f32 = 120.0;
+
+/// Returns the time per step of each method, as text.
+fn costs(view: &TransientRuns) -> String {
+    let Some(first) = view.runs.first().map(Run::frame) else { return String::new() };
+    let own = || view.runs.iter().filter(|run| run.frame() == first);
+    let full = own().find(|run| run.by == MarchedBy::Full).and_then(Run::seconds_per_step);
+    let said = |run: &Run| {
+        let seconds = run.seconds_per_step()?;
+        let name = match run.by {
+            MarchedBy::Full => "full",
+            MarchedBy::Reduced => "reduced",
+            MarchedBy::Linearised(Weighting::DualTaylor) => "linearised",
+            MarchedBy::Linearised(Weighting::Dissertation) => return None,
+        };
+        let faster = full.filter(|_| run.by != MarchedBy::Full).map(|full| faster(full / seconds));
+        Some(format!("{name} {}{}", numbers::duration(seconds), faster.unwrap_or_default()))
+    };
+    own().filter_map(said).collect::<Vec<_>>().join("   ")
+}
+
+/// Returns a speed-up in brackets.
+pub fn faster(times: f64) -> String {
+    format!(" (×{}{})", numbers::THIN, numbers::digits(times, 2))
+}
+
+/// Returns the contact and the inputs of the runs on the screen, for the caption of a figure.
+pub fn caption(view: &TransientRuns) -> Option<String> {
+    let setup = view.setup.as_ref()?;
+    Some(format!("{}; {}", caption::contact(&setup.point, &setup.lubricant), export::inputs(setup)))
+}

@@ -1,0 +1,338 @@
+//! Film or pressure of a line contact over space and time: X across, T upwards. A drag goes to the moment under the
+//! pointer.
+
+use super::runs::TransientRuns;
+use crate::app::context::Context;
+use crate::app::figure::Texture;
+use crate::app::plot::{axes, color_bar, color_map};
+use crate::app::tabs::Offer;
+use crate::app::tabs::transient::export::describe;
+use crate::app::tabs::transient::{Run, Setup};
+use crate::app::theme::faded;
+use crate::app::units::Scales;
+use crate::app::{export, numbers};
+use crate::scene::study::transient::MarchedBy;
+use crate::solver::full::transient::Frame;
+use egui::{Color32, ColorImage, Ui, Vec2};
+use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints};
+use std::sync::Arc;
+
+/// X range that is shown.
+const X_RANGE: (f64, f64) = (-2.2, 1.6);
+/// Pixels along X.
+const COLUMNS: usize = 380;
+/// Pixels along T at most.
+const ROWS: usize = 480;
+/// Below this width the scale is left out.
+const LEAST_WIDTH: f32 = 320.0;
+
+/// What is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Field {
+    /// H.
+    #[default]
+    Film,
+    /// P.
+    Pressure,
+}
+
+impl Field {
+    const ALL: [Self; 2] = [Self::Film, Self::Pressure];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Film => "Film over space and time",
+            Self::Pressure => "Pressure over space and time",
+        }
+    }
+
+    fn button(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Film => ("Film over time", "H over X and T, bright where the film is thin"),
+            Self::Pressure => ("Pressure over time", "P over X and T, bright where the pressure is high"),
+        }
+    }
+
+    fn symbol(self) -> &'static str {
+        match self {
+            Self::Film => "{H}",
+            Self::Pressure => "{P}",
+        }
+    }
+
+    fn si(self, setup: &Setup, value: f64) -> String {
+        match self {
+            Self::Film => color_bar::in_nanometres(value * setup.point.film_scale_m()),
+            Self::Pressure => color_bar::in_gigapascals(value * setup.point.hertz().pressure_pa),
+        }
+    }
+}
+
+/// What an image was made of.
+#[derive(Clone)]
+struct Made {
+    setup: Arc<Setup>,
+    run: (MarchedBy, Frame, bool, usize),
+    field: Field,
+}
+
+impl PartialEq for Made {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.setup, &other.setup) && self.run == other.run && self.field == other.field
+    }
+}
+
+/// The view: what it shows, and what it keeps between frames.
+#[derive(Default)]
+pub struct SpaceTime {
+    field: Field,
+    samples: Samples,
+    texture: Option<Texture>,
+    made: Option<Made>,
+}
+
+/// A field at equidistant X, moment by moment.
+#[derive(Default)]
+struct Samples {
+    times: Vec<f64>,
+    /// Row by row, in the order of time.
+    values: Vec<f32>,
+    range: (f64, f64),
+}
+
+impl Samples {
+    fn new(run: &Run, field: Field) -> Self {
+        let states = &run.trajectory.states;
+        let mut values = Vec::with_capacity(states.len() * COLUMNS);
+        for state in states {
+            let nodes = run.profile(state).map(|(x, p, h)| (x, if field == Field::Film { h } else { p }));
+            resample(nodes, &mut values);
+        }
+        let moments = run.trajectory.moments.iter();
+        let range = match field {
+            Field::Film => {
+                let (thin, thick) =
+                    moments.fold((f64::INFINITY, 0.0f64), |(low, high), m| (low.min(m.h_min), high.max(m.h_c)));
+                let high = numbers::round_up(1.5 * thick);
+                let unit = high / color_bar::UNITS;
+                (unit * (thin / unit).floor().clamp(0.0, color_bar::UNITS - 2.0), high)
+            }
+            Field::Pressure => (0.0, numbers::round_up(moments.fold(0.0, |high, m| m.p_max.max(high)))),
+        };
+        Self { times: states.iter().map(|state| state.time).collect(), values, range }
+    }
+
+    /// Both moments around T, and how near it is to the later one.
+    fn around(&self, time: f64) -> Option<(usize, usize, f32)> {
+        let last = self.times.len().checked_sub(1)?;
+        let later = self.times.partition_point(|t| *t < time).min(last);
+        let earlier = later.saturating_sub(1);
+        let apart = self.times[later] - self.times[earlier];
+        let share = if apart > 0.0 { ((time - self.times[earlier]) / apart).clamp(0.0, 1.0) } else { 1.0 };
+        Some((earlier, later, share as f32))
+    }
+
+    fn at(&self, column: usize, (earlier, later, share): (usize, usize, f32)) -> f32 {
+        let value = |row: usize| self.values.get(row * COLUMNS + column).copied().unwrap_or(0.0);
+        value(earlier) + share * (value(later) - value(earlier))
+    }
+
+    /// The value at a place of the picture.
+    fn value(&self, x: f64, time: f64) -> Option<f64> {
+        let column = (x - X_RANGE.0) / (X_RANGE.1 - X_RANGE.0) * COLUMNS as f64;
+        let inside = (0.0..COLUMNS as f64).contains(&column) && (0.0..=self.end()).contains(&time);
+        inside.then(|| Some(f64::from(self.at(column as usize, self.around(time)?)))).flatten()
+    }
+
+    fn end(&self) -> f64 {
+        self.times.last().copied().unwrap_or(0.0)
+    }
+
+    /// The picture, the last moment at its top.
+    fn image(&self, table: &[Color32]) -> ColorImage {
+        let last = table.len().saturating_sub(1);
+        let (low, factor) = (self.range.0 as f32, last as f32 / (self.range.1 - self.range.0) as f32);
+        let rows = (3 * self.times.len()).clamp(2, ROWS);
+        let mut pixels = Vec::with_capacity(rows * COLUMNS);
+        for row in (0..rows).rev() {
+            let around = self.around(self.end() * (row as f64 + 0.5) / rows as f64).unwrap_or_default();
+            let color = |column| {
+                let place = ((self.at(column, around) - low) * factor).clamp(0.0, last as f32);
+                table.get(place as usize).copied().unwrap_or_default()
+            };
+            pixels.extend((0..COLUMNS).map(color));
+        }
+        ColorImage::new([COLUMNS, rows], pixels)
+    }
+}
+
+/// Values at the pixels of a row, from those at rising X, joined by straight lines.
+fn resample(nodes: impl Iterator<Item = (f64, f64)>, values: &mut Vec<f32>) {
+    let wanted = values.len() + COLUMNS;
+    let pixel = (X_RANGE.1 - X_RANGE.0) / COLUMNS as f64;
+    let mut x = X_RANGE.0 + 0.5 * pixel;
+    let mut before: Option<(f64, f64)> = None;
+    for (node, value) in nodes {
+        while x <= node && values.len() < wanted {
+            let (from, first) = before.unwrap_or((node - 1.0, value));
+            values.push((first + (x - from) / (node - from) * (value - first)) as f32);
+            x += pixel;
+        }
+        before = Some((node, value));
+    }
+    values.resize(wanted, before.map_or(0.0, |(_, value)| value as f32));
+}
+
+/// The run that is shown: the one that has come farthest, of these the first.
+fn shown(view: &TransientRuns) -> Option<&Run> {
+    let reached = view.runs.iter().map(Run::reached).fold(0.0, f64::max);
+    view.runs.iter().find(|run| run.reached() >= reached && run.trajectory.states.len() > 1)
+}
+
+/// The map as a table.
+pub fn offer<'a>(context: &Context<'a>) -> Offer<'a> {
+    let view = context.transient;
+    let tip = "T, X, P and H of all nodes that are shown, at every moment that was kept";
+    Offer::table("Map as CSV…", tip, view.setup.as_ref().zip(shown(view)), |(setup, run)| csv(setup, run))
+}
+
+impl SpaceTime {
+    /// The view, as high as given; returns the moment under a press or a drag.
+    pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
+        let view = context.transient;
+        let there = view.setup.as_ref().zip(shown(view));
+        ui.horizontal_wrapped(|ui| {
+            for field in Field::ALL {
+                let (name, tip) = field.button();
+                ui.selectable_value(&mut self.field, field, name).on_hover_text(tip);
+            }
+            if let Some((_, run)) = there {
+                ui.weak(run.name());
+            }
+        });
+        let (setup, run) = there?;
+        self.follow(ui, setup, run);
+        let height = (height - 26.0).max(80.0);
+        let whole = ui.horizontal_top(|ui| {
+            let scale = ui.available_width() >= LEAST_WIDTH;
+            let width = if scale { ui.available_width() - color_bar::WIDTH - 8.0 } else { ui.available_width() };
+            let clicked = ui.vertical(|ui| {
+                ui.set_width(width);
+                self.plot(ui, view, (setup, run), height)
+            });
+            let colors = color_bar::strips(&color_map::table(self.field == Field::Film));
+            let field = self.field;
+            let scales = Scales::of(&setup.point);
+            let (name, in_si) = match field {
+                Field::Film => ("Film {H}", (scales.film_um, "Film {h} / µm")),
+                Field::Pressure => ("Pressure {P}", (scales.pressure_gpa, "Pressure {p} / GPa")),
+            };
+            color_bar::on_paper(ui, name, in_si, (&colors, self.samples.range));
+            if scale {
+                let si = |value| field.si(setup, value);
+                color_bar::ui(ui, field.symbol(), (&colors, self.samples.range), height, si);
+            }
+            clicked.inner
+        });
+        whole.inner
+    }
+
+    /// Makes the image anew where it is out of date.
+    fn follow(&mut self, ui: &Ui, setup: &Arc<Setup>, run: &Run) {
+        let states = run.trajectory.states.len();
+        let of = (run.by, run.frame(), run.replayed, states);
+        let made = Made { setup: Arc::clone(setup), run: of, field: self.field };
+        if self.made.as_ref() != Some(&made) {
+            self.samples = Samples::new(run, self.field);
+            let image = self.samples.image(&color_map::table(self.field == Field::Film));
+            Texture::put(&mut self.texture, ui.ctx(), "space and time", image);
+            self.made = Some(made);
+        }
+    }
+
+    fn plot(&self, ui: &mut Ui, view: &TransientRuns, (setup, run): (&Setup, &Run), height: f32) -> Option<f64> {
+        let texture = self.texture.as_ref()?.shown(ui.ctx());
+        let (end, duration) = (self.samples.end(), setup.study.duration);
+        let symbol = self.field.symbol().trim_matches(['{', '}']);
+        let hover = |at: &HoverPosition<'_>| {
+            let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
+            let value = self.samples.value(position.x, position.y)?;
+            let seconds = position.y * setup.time_scale_s();
+            Some(format!(
+                "X = {}\nT = {}   ({})\n{symbol} = {}   ({})",
+                numbers::digits(position.x, 3),
+                numbers::digits(position.y, 3),
+                numbers::duration(seconds),
+                numbers::significant(value),
+                self.field.si(setup, value)
+            ))
+        };
+        let plot = axes::plot(ui, &format!("space and time {}", view.generation), height, "{X}", "{T}")
+            .si_x(Scales::of(&setup.point).length_mm, "{x} / mm")
+            .si_y(1e6 * setup.time_scale_s(), "{t} / µs")
+            .y_axis_min_width(40.0)
+            .allow_drag(false)
+            .allow_zoom(false)
+            .set_margin_fraction(Vec2::ZERO)
+            .default_x_bounds(X_RANGE.0, X_RANGE.1)
+            .default_y_bounds(0.0, duration)
+            .label_formatter(hover);
+        let edges = |sign: f64| -> Vec<PlotPoint> {
+            let edge = |m: &crate::solver::full::transient::Moment| sign * (m.input.load * m.input.radius).sqrt();
+            run.trajectory.moments.iter().map(|m| PlotPoint::new(edge(m), m.time)).collect()
+        };
+        let drawn = axes::show(plot, ui, self.field.name(), |plot| {
+            plot.field("field", texture, X_RANGE, (0.0, end), Color32::WHITE);
+            for (name, sign) in [("inlet", -1.0), ("outlet", 1.0)] {
+                let edge = Line::new("", PlotPoints::Owned(axes::thinned(edges(sign)))).id(name);
+                let edge = edge.color(faded(Color32::WHITE, 0.75)).width(1.0).style(LineStyle::dashed_dense());
+                plot.line(edge.allow_hover(false));
+            }
+            let now = HLine::new("", view.player.time()).id("now").color(Color32::WHITE).width(1.6);
+            plot.hline(now.allow_hover(false));
+        });
+        let held = drawn.response.clicked() || drawn.response.dragged();
+        let pointer = drawn.response.interact_pointer_pos().filter(|_| held)?;
+        Some(drawn.transform.value_from_position(pointer).y)
+    }
+}
+
+/// The nodes that are shown at all moments that were kept, with what makes SI units of them.
+fn csv(setup: &Setup, run: &Run) -> String {
+    let (hertz, seconds) = (setup.point.hertz(), setup.time_scale_s());
+    let mut comments = describe(setup);
+    comments.push(run.name());
+    comments.push(format!(
+        "t = T times {seconds:e} s; x = X times {:e} m; p = P times {:e} Pa; h = H times {:e} m",
+        hertz.half_width_m,
+        hertz.pressure_pa,
+        setup.point.film_scale_m()
+    ));
+    let rows = run.trajectory.states.iter().flat_map(|state| {
+        let inside = |(x, _, _): &(f64, f64, f64)| (X_RANGE.0..=X_RANGE.1).contains(x);
+        run.profile(state).filter(inside).map(|(x, p, h)| [state.time, x, p, h].map(Some).to_vec())
+    });
+    export::csv(&comments, &["T", "X", "P", "H"], rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_is_sampled_between_its_nodes_and_rows_are_joined_in_time() {
+        let mut values = Vec::new();
+        for slope in [1.0, 3.0] {
+            resample((0..=60).map(|k| -4.0 + 0.1 * f64::from(k)).map(|x| (x, slope * x)), &mut values);
+        }
+        let samples = Samples { times: vec![0.0, 2.0], values, range: (0.0, 1.0) };
+        assert_eq!(samples.values.len(), 2 * COLUMNS);
+        for (x, time, wanted) in [(1.0, 0.0, 1.0), (1.0, 2.0, 3.0), (-1.5, 1.0, -3.0)] {
+            let got = samples.value(x, time).unwrap();
+            assert!((got - wanted).abs() < 0.02, "{x} {time}: {got} {wanted}");
+        }
+        assert_eq!((samples.value(0.0, 2.1), samples.value(5.0, 1.0)), (None, None));
+        let image = samples.image(&color_map::table(false));
+        assert_eq!(image.size, [COLUMNS, 6]);
+    }
+}

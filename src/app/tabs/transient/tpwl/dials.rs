@@ -1,0 +1,93 @@
+//! How the linearised model is made, at the hand: how many operating points, by which rule, and what combines them; and
+//! whether the inputs are such as it learned.
+
+use crate::app::context::{Commands, Context};
+use crate::app::controls::{RangeSlider, choice};
+use crate::app::document::Edit;
+use crate::app::tabs::transient::TransientRuns;
+use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
+use crate::app::tabs::transient::reach::beyond;
+use crate::app::theme::{Palette, rich};
+use crate::scene::study::transient::MarchedBy;
+use egui::{Grid, Ui};
+
+/// Under this name the window knows what was refused.
+pub const NAME: &str = "tpwl";
+/// Numbers of points that can be dragged to.
+const POINTS: (f64, f64) = (4.0, 160.0);
+/// Width of the slider.
+const WIDTH: f32 = 120.0;
+
+/// The dials.
+pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let before = context.document.transient_study();
+    let mut study = before.clone();
+    let Some(linearised) = &mut study.linearised else {
+        ui.label("Number of operating points").on_hover_text("There is no linearised model yet");
+        return;
+    };
+    let tip = "Operating points wanted, of all training trajectories together";
+    ui.label("Points").on_hover_text(tip);
+    let there = context.transient.linearised.as_ref().map(|linearised| linearised.model.points.len());
+    let present = linearised.points.or(there).unwrap_or(30);
+    let slider = RangeSlider {
+        name: "Number of operating points",
+        range: POINTS.0..=POINTS.1,
+        marked: None,
+        home: 30.0,
+        tooltip: tip,
+        logarithmic: true,
+    };
+    if let Some(moved) = slider.show(ui, present as f64, WIDTH) {
+        linearised.points = Some(moved.clamp(POINTS.0, POINTS.1).round() as usize);
+    }
+    ui.label(present.to_string());
+    Grid::new("tpwl rule").spacing([6.0, 0.0]).min_col_width(0.0).show(ui, |ui| {
+        let own = RULES.iter().position(|rule| rule.name() == linearised.selection.name()).unwrap_or(0);
+        let mut rule = own;
+        let tip = "Which trained moments are linearised about";
+        choice(ui, "Rule", tip, &mut rule, &[0, 1], |k| rule_name(RULES[k]));
+        if rule != own {
+            linearised.selection = RULES[rule];
+        }
+    });
+    Grid::new("tpwl combine").spacing([6.0, 0.0]).min_col_width(0.0).show(ui, |ui| {
+        let former = linearised.weightings.first().copied().unwrap_or(WEIGHTINGS[0]);
+        let mut weighting = former;
+        choice(ui, "Combine", "How the points share a moment", &mut weighting, &WEIGHTINGS, weighting_name);
+        if weighting != former {
+            linearised.weightings = vec![weighting];
+        }
+    });
+    if study != before {
+        commands.edit(Edit::Transient(Box::new(study)), NAME);
+    }
+}
+
+/// What to do beyond what was trained: the reduced model solves the nonlinear equations, but its modes are trained ones.
+fn advice(view: &TransientRuns) -> &'static str {
+    let error = |of: fn(MarchedBy) -> bool| view.runs.iter().find(|run| of(run.by)).and_then(|run| run.difference);
+    let reduced = error(|by| by == MarchedBy::Reduced);
+    let linearised = error(|by| matches!(by, MarchedBy::Linearised(_)));
+    match reduced.zip(linearised) {
+        Some((reduced, linearised)) if reduced >= linearised => "train on inputs like these",
+        _ => "use the reduced model",
+    }
+}
+
+/// A line that is always there: whether the inputs are such as the models learned.
+pub fn inputs_ui(ui: &mut Ui, context: &Context<'_>) {
+    let view = context.transient;
+    let said = view
+        .setup
+        .as_ref()
+        .zip(view.trained_by())
+        .map(|(setup, trainings)| beyond(&setup.study.inputs, setup.study.duration, &trainings));
+    let palette = Palette::of(ui);
+    let (text, color) = match said {
+        Some(Some(warning)) => (format!("{warning}: {}", advice(view)), palette.warning),
+        Some(None) => ("The inputs are no steeper and swing no farther than trained".to_owned(), palette.quiet),
+        None => (String::new(), palette.quiet),
+    };
+    ui.label(rich(&text, 12.5, color));
+}
