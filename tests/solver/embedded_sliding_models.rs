@@ -9,8 +9,8 @@ use ehl_explorer::solver::training::random_points;
 const SMALL: f64 = 1e-4;
 
 /// Asserts that films and tractions of some contacts of a model's whole range are those of full solutions on its grid.
-fn lie_near_full_solutions(which: Embedded, contacts: usize) {
-    let model = which.model().unwrap();
+fn lie_near_full_solutions(which: &str, contacts: usize) {
+    let model = embedded(which).unwrap();
     let (kind, laws) = (model.contact(), model.domain.lubricant);
     let mut solver = ContactSolver::on(&model.windows[0].grid);
     let mut online = Online::new(model.clone(), ReducedOptions::default());
