@@ -53,7 +53,7 @@ speeds = np.array([[1.0], [2.0], [4.0]])
 base = ehl.Contact.si(radius=0.012, speed=1, load=1e5, modulus=231e9, viscosity=0.02, alpha=20e-9)
 films = ehl.solve_many(base, load=loads, speed=speeds, method="reduced")
 print(films.shape, films.dtype.names)
-print("h_c in nm:", np.round(films["h_c_m"][:, 0] * 1e9, 1), "trained:", bool(films["trained"].all()))
+print("h_c in nm:", np.round(films["h_c_m"][:, 0] * 1e9, 1), "trained:", bool(films["reduced.trained"].all()))
 
 # %% [markdown]
 # A sweep goes from neighbour to neighbour, as on the command line.

@@ -149,3 +149,59 @@ pub(super) fn window_of<'a>(model: &'a ReducedModel, point: &OperatingPoint) -> 
     let none = || EngineError::Study(format!("the reduced model `{}` holds no window", model.title));
     model.windows.get(model.window_for(point)).ok_or_else(none)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::job::Event;
+    use crate::engine::{Store, embedded};
+    use crate::scene::{Grid, Method, ModelSource, StudyRow};
+    use crate::solver::discrete::grid::GridSpec;
+    use crate::solver::observer::Progress;
+    use crate::solver::physics::lubricant::{Heat, Lubricant};
+    use crate::solver::reduced::ReducedOptions;
+    use serde::Serialize;
+    use serde::de::DeserializeOwned;
+    use std::sync::Arc;
+
+    fn again<T: Serialize + DeserializeOwned>(value: &T) -> T {
+        let text = ron::to_string(value).unwrap();
+        let again = ron::from_str(&text).unwrap_or_else(|refused| panic!("{refused}: {text}"));
+        assert_eq!(ron::to_string(&again).unwrap(), text);
+        again
+    }
+
+    #[test]
+    fn requests_answers_and_events_are_values() {
+        let spec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
+        let store = Store::default();
+        let grid = store.grid(spec).unwrap();
+        let request = |lubricant: Lubricant, method: Method| {
+            let (point, grid_model) = (OperatingPoint::TABLE_2_1, ModelSource::Embedded);
+            Request { point, lubricant, grid: Grid::from(spec), grid_model, method }
+        };
+        let starved =
+            Lubricant { cavitation: Cavitation::MassConserving { supply_film_m: Some(5e-8) }, ..Lubricant::default() };
+        let in_full = |lubricant: Lubricant| {
+            store.with_full_solver(&grid, |solver| {
+                answer(&request(lubricant, Method::Full), Solver::Full(solver, Start::Cold), &()).unwrap()
+            })
+        };
+        let mut online = store.online(&embedded("line").unwrap(), ReducedOptions::default());
+        let by_model = answer(&request(starved, Method::EMBEDDED), Solver::Reduced(&mut online), &()).unwrap();
+        let outside = |warning: &Warning| matches!(warning, Warning::OutsideTrainedRange { .. });
+        assert!(by_model.result.untrained() && by_model.result.warnings.iter().any(outside));
+        for answer in [in_full(Lubricant::default()), in_full(starved), by_model] {
+            assert!(answer.result.converged);
+            assert_eq!(again(&answer), answer);
+            again(&Event::Message(StudyRow::Point(Arc::new(answer))));
+        }
+        // What a march of temperatures keeps for the next one is made anew.
+        let warm = in_full(Lubricant { heat: Some(Heat::default()), ..Lubricant::default() });
+        let read = again(&warm);
+        assert_eq!((&read.request, &read.result), (&warm.request, &warm.result));
+        let progress = Event::<StudyRow>::Stage(Progress { stage: "solving".to_owned(), done: 1, total: 3 });
+        again(&progress);
+        again(&Event::<StudyRow>::Ended(Err("no solution".to_owned().into())));
+    }
+}

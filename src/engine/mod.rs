@@ -38,8 +38,8 @@ pub use workbench::Workbench;
 
 pub use crate::scene::study::transient::TOO_STEEP;
 pub use crate::scene::{
-    Answer, CONTACT_COLUMNS, ContactResult, NamedValue, ReducedFacts, Request, RunError as EngineError, SceneOutcome,
-    Table, Verdict, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns, run_scene,
+    Answer, ContactResult, NamedValue, ReducedFacts, Request, RunError as EngineError, SceneOutcome, Table, Verdict,
+    contact_columns, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns, run_scene,
     table,
 };
 pub use crate::solver::warning::Warning;

@@ -132,70 +132,84 @@ pub enum Value {
 
 type Get = fn(&ContactResult) -> Option<Value>;
 
-/// Every value by its name, with a dot where it lies in a group, in the order of the JSON object.
-const VALUES: [(&str, Get); 62] = [
-    ("contact", |r| text(r.point.kind.name())),
-    ("method", |r| text(r.method)),
-    ("converged", |r| Some(Value::Truth(r.converged))),
-    ("warning", |r| (!r.warnings.is_empty()).then(|| Value::Text(r.warning()))),
-    ("warnings", |r| (!r.warnings.is_empty()).then(|| Value::List(r.warnings.iter().map(Warning::to_json).collect()))),
-    ("si.radius", |r| number(r.point.radius_m)),
-    ("si.radius_y", |r| number(r.point.radius_y_m.unwrap_or(r.point.radius_m)).filter(|_| is_point(r))),
-    ("si.speed", |r| number(r.point.speed_m_per_s)),
-    ("si.load", |r| number(r.point.load)),
-    ("si.modulus", |r| number(r.point.modulus_pa)),
-    ("si.viscosity", |r| number(r.point.viscosity_pa_s)),
-    ("si.alpha", |r| number(r.point.alpha_per_pa)),
-    ("moes.M", |r| number(r.point.moes().m)),
-    ("moes.L", |r| number(r.point.moes().l)),
-    ("hertz.a_m", |r| number(r.point.hertz().half_width_m)),
-    ("hertz.b_m", |r| number(r.point.hertz().half_length_m).filter(|_| is_point(r))),
-    ("hertz.kappa", |r| number(r.point.ellipse().kappa).filter(|_| is_point(r))),
-    ("hertz.p_h_pa", |r| number(r.point.hertz().pressure_pa)),
-    ("cavitation", |r| text(r.cavitation.name())),
-    ("supply_film_m", |r| number(r.cavitation.supply_film_m()?)),
-    ("grid.kind", |r| text(r.grid)),
-    ("grid.nx", |r| Some(Value::Count(r.nodes.0))),
-    ("grid.ny", |r| Some(Value::Count(r.nodes.1))),
-    ("grid.dofs", |r| Some(Value::Count(r.dofs))),
-    ("grid.truncation_error", |r| number(r.grid_cost?.truncation)),
-    ("grid.resolution_error", |r| number(r.grid_cost?.resolution)),
-    ("H_c", |r| number(r.scalars?.h_c)),
-    ("H_min", |r| number(r.scalars?.h_min)),
-    ("X_H_min", |r| number(r.scalars?.x_h_min)),
-    ("Y_H_min", |r| number(r.scalars?.y_h_min).filter(|_| is_point(r))),
-    ("P_c", |r| number(r.scalars?.p_c)),
-    ("P_max", |r| number(r.scalars?.p_max)),
-    ("X_P_max", |r| number(r.scalars?.x_p_max)),
-    ("X_meniscus", |r| number(r.meniscus?)),
-    ("H_0", |r| number(r.scalars?.h_0)),
-    ("h_c_m", |r| number(r.scalars?.h_c * r.point.film_scale_m())),
-    ("h_min_m", |r| number(r.scalars?.h_min * r.point.film_scale_m())),
-    ("traction", |r| number(r.traction?)),
-    ("rolling_resistance", |r| number(r.rolling_resistance?)),
-    ("rolling_resistance_fit", |r| number(r.rolling_resistance.and(r.point.rolling_resistance_fit())?)),
-    ("load_residual", |r| number(r.scalars?.load_residual)),
-    ("residual_norm", |r| number(r.residual_norm?)),
-    ("newton_iterations", |r| Some(Value::Count(r.newton_iterations))),
-    ("linear_iterations", |r| r.linear_iterations.map(Value::Count)),
-    ("wall_s", |r| number(r.wall_s)),
-    ("heat.mid_film_rise_k", |r| number(r.heat?.central.mid_film_k)),
-    ("heat.surface_1_rise_k", |r| number(r.heat?.central.surfaces_k[0])),
-    ("heat.surface_2_rise_k", |r| number(r.heat?.central.surfaces_k[1])),
-    ("heat.mid_film_rise_max_k", |r| number(r.heat?.largest.mid_film_k)),
-    ("heat.surface_1_rise_max_k", |r| number(r.heat?.largest.surfaces_k[0])),
-    ("heat.surface_2_rise_max_k", |r| number(r.heat?.largest.surfaces_k[1])),
-    ("heat.into_bodies", |r| number(r.heat?.into_bodies.iter().sum())),
-    ("heat.energy_balance", |r| number(r.heat?.energy_balance)),
-    ("reduced.basis_p", |r| Some(Value::Count(r.reduced.as_ref()?.size.pressure))),
-    ("reduced.basis_delta", |r| Some(Value::Count(r.reduced.as_ref()?.size.deformation))),
-    ("reduced.sampled_rows", |r| Some(Value::Count(r.reduced.as_ref()?.size.rows))),
-    ("reduced.trained", |r| Some(Value::Truth(r.reduced.as_ref()?.trained))),
-    ("reduced.residual_estimate", |r| number(r.reduced.as_ref()?.residual_estimate?)),
-    ("reduced.h_c_error_bound", |r| number(r.reduced.as_ref()?.error?.h_c.bound)),
-    ("reduced.h_min_error_bound", |r| number(r.reduced.as_ref()?.error?.h_min.bound)),
-    ("reduced.traction_error_bound", |r| number(r.reduced.as_ref()?.error?.traction?.bound)),
-    ("reduced.mid_film_rise_error_bound", |r| number(r.reduced.as_ref()?.error?.rise?.bound)),
+/// Which columns of tables a value is in.
+#[derive(Clone, Copy, PartialEq)]
+enum In {
+    None,
+    /// Those of the contact.
+    Contact,
+    /// Those of its result.
+    Result,
+    /// Those of a thermal result.
+    Heat,
+}
+
+/// Every value by its name, with a dot if it belongs to a group, in the order of the JSON object and of tables.
+const VALUES: [(&str, In, Get); 62] = [
+    ("contact", In::None, |r| text(r.point.kind.name())),
+    ("method", In::None, |r| text(r.method)),
+    ("converged", In::Result, |r| Some(Value::Truth(r.converged))),
+    ("warning", In::None, |r| (!r.warnings.is_empty()).then(|| Value::Text(r.warning()))),
+    ("warnings", In::None, |r| {
+        (!r.warnings.is_empty()).then(|| Value::List(r.warnings.iter().map(Warning::to_json).collect()))
+    }),
+    ("si.radius", In::Contact, |r| number(r.point.radius_m)),
+    ("si.radius_y", In::None, |r| number(r.point.radius_y_m.unwrap_or(r.point.radius_m)).filter(|_| is_point(r))),
+    ("si.speed", In::Contact, |r| number(r.point.speed_m_per_s)),
+    ("si.load", In::Contact, |r| number(r.point.load)),
+    ("si.modulus", In::Contact, |r| number(r.point.modulus_pa)),
+    ("si.viscosity", In::Contact, |r| number(r.point.viscosity_pa_s)),
+    ("si.alpha", In::Contact, |r| number(r.point.alpha_per_pa)),
+    ("moes.M", In::Contact, |r| number(r.point.moes().m)),
+    ("moes.L", In::Contact, |r| number(r.point.moes().l)),
+    ("hertz.a_m", In::Contact, |r| number(r.point.hertz().half_width_m)),
+    ("hertz.b_m", In::None, |r| number(r.point.hertz().half_length_m).filter(|_| is_point(r))),
+    ("hertz.kappa", In::None, |r| number(r.point.ellipse().kappa).filter(|_| is_point(r))),
+    ("hertz.p_h_pa", In::Contact, |r| number(r.point.hertz().pressure_pa)),
+    ("cavitation", In::None, |r| text(r.cavitation.name())),
+    ("supply_film_m", In::None, |r| number(r.cavitation.supply_film_m()?)),
+    ("grid.kind", In::None, |r| text(r.grid)),
+    ("grid.nx", In::None, |r| Some(Value::Count(r.nodes.0))),
+    ("grid.ny", In::None, |r| Some(Value::Count(r.nodes.1))),
+    ("grid.dofs", In::None, |r| Some(Value::Count(r.dofs))),
+    ("grid.truncation_error", In::None, |r| number(r.grid_cost?.truncation)),
+    ("grid.resolution_error", In::None, |r| number(r.grid_cost?.resolution)),
+    ("H_c", In::Result, |r| number(r.scalars?.h_c)),
+    ("H_min", In::Result, |r| number(r.scalars?.h_min)),
+    ("X_H_min", In::Result, |r| number(r.scalars?.x_h_min)),
+    ("Y_H_min", In::Result, |r| number(r.scalars?.y_h_min).filter(|_| is_point(r))),
+    ("P_c", In::Result, |r| number(r.scalars?.p_c)),
+    ("P_max", In::Result, |r| number(r.scalars?.p_max)),
+    ("X_P_max", In::Result, |r| number(r.scalars?.x_p_max)),
+    ("X_meniscus", In::None, |r| number(r.meniscus?)),
+    ("H_0", In::Result, |r| number(r.scalars?.h_0)),
+    ("h_c_m", In::Result, |r| number(r.scalars?.h_c * r.point.film_scale_m())),
+    ("h_min_m", In::Result, |r| number(r.scalars?.h_min * r.point.film_scale_m())),
+    ("traction", In::Result, |r| number(r.traction?)),
+    ("rolling_resistance", In::None, |r| number(r.rolling_resistance?)),
+    ("rolling_resistance_fit", In::None, |r| number(r.rolling_resistance.and(r.point.rolling_resistance_fit())?)),
+    ("load_residual", In::Result, |r| number(r.scalars?.load_residual)),
+    ("residual_norm", In::Result, |r| number(r.residual_norm?)),
+    ("newton_iterations", In::Result, |r| Some(Value::Count(r.newton_iterations))),
+    ("linear_iterations", In::Result, |r| r.linear_iterations.map(Value::Count)),
+    ("heat.mid_film_rise_k", In::Heat, |r| number(r.heat?.central.mid_film_k)),
+    ("heat.surface_1_rise_k", In::Heat, |r| number(r.heat?.central.surfaces_k[0])),
+    ("heat.surface_2_rise_k", In::Heat, |r| number(r.heat?.central.surfaces_k[1])),
+    ("heat.mid_film_rise_max_k", In::Heat, |r| number(r.heat?.largest.mid_film_k)),
+    ("heat.surface_1_rise_max_k", In::Heat, |r| number(r.heat?.largest.surfaces_k[0])),
+    ("heat.surface_2_rise_max_k", In::Heat, |r| number(r.heat?.largest.surfaces_k[1])),
+    ("heat.into_bodies", In::None, |r| number(r.heat?.into_bodies.iter().sum())),
+    ("heat.energy_balance", In::Heat, |r| number(r.heat?.energy_balance)),
+    ("reduced.basis_p", In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.pressure))),
+    ("reduced.basis_delta", In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.deformation))),
+    ("reduced.sampled_rows", In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.rows))),
+    ("reduced.trained", In::Result, |r| Some(Value::Truth(r.reduced.as_ref()?.trained))),
+    ("reduced.residual_estimate", In::Result, |r| number(r.reduced.as_ref()?.residual_estimate?)),
+    ("reduced.h_c_error_bound", In::Result, |r| number(r.reduced.as_ref()?.error?.h_c.bound)),
+    ("reduced.h_min_error_bound", In::Result, |r| number(r.reduced.as_ref()?.error?.h_min.bound)),
+    ("reduced.traction_error_bound", In::Result, |r| number(r.reduced.as_ref()?.error?.traction?.bound)),
+    ("reduced.mid_film_rise_error_bound", In::None, |r| number(r.reduced.as_ref()?.error?.rise?.bound)),
+    ("wall_s", In::Result, |r| number(r.wall_s)),
 ];
 
 fn is_point(result: &ContactResult) -> bool {
@@ -210,60 +224,18 @@ fn text(word: &str) -> Option<Value> {
     Some(Value::Text(word.to_owned()))
 }
 
-/// What tables hold of a contact, before its result.
-pub const CONTACT_COLUMNS: [&str; 10] = [
-    "si.radius",
-    "si.speed",
-    "si.load",
-    "si.modulus",
-    "si.viscosity",
-    "si.alpha",
-    "moes.M",
-    "moes.L",
-    "hertz.a_m",
-    "hertz.p_h_pa",
-];
+/// Columns of a contact in tables.
+pub fn contact_columns() -> Vec<&'static str> {
+    columns(&[In::Contact])
+}
 
-/// What tables hold of a result.
-pub const RESULT_COLUMNS: [&str; 22] = [
-    "converged",
-    "H_c",
-    "H_min",
-    "X_H_min",
-    "Y_H_min",
-    "P_c",
-    "P_max",
-    "X_P_max",
-    "H_0",
-    "h_c_m",
-    "h_min_m",
-    "traction",
-    "load_residual",
-    "residual_norm",
-    "newton_iterations",
-    "linear_iterations",
-    "reduced.trained",
-    "reduced.residual_estimate",
-    "reduced.h_c_error_bound",
-    "reduced.h_min_error_bound",
-    "reduced.traction_error_bound",
-    "wall_s",
-];
-
-/// What tables hold of a result with heat, after that.
-const HEAT_COLUMNS: [&str; 7] = [
-    "heat.mid_film_rise_k",
-    "heat.surface_1_rise_k",
-    "heat.surface_2_rise_k",
-    "heat.mid_film_rise_max_k",
-    "heat.surface_1_rise_max_k",
-    "heat.surface_2_rise_max_k",
-    "heat.energy_balance",
-];
-
-/// What tables hold of results with heat or without.
+/// Columns of its result, thermal or not.
 pub fn result_columns(heat: bool) -> Vec<&'static str> {
-    [&RESULT_COLUMNS[..], if heat { &HEAT_COLUMNS } else { &[] }].concat()
+    columns(if heat { &[In::Result, In::Heat] } else { &[In::Result] })
+}
+
+fn columns(of: &[In]) -> Vec<&'static str> {
+    VALUES.iter().filter(|(_, own, _)| of.contains(own)).map(|(name, ..)| *name).collect()
 }
 
 fn word<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Word, D::Error> {
@@ -322,7 +294,7 @@ impl ContactResult {
 
     /// The number of a name; none where the result has no such number.
     pub fn value(&self, name: &str) -> Option<f64> {
-        VALUES.iter().find(|(own, _)| *own == name).and_then(|(_, get)| get(self)?.as_number())
+        VALUES.iter().find(|(own, ..)| *own == name).and_then(|(.., get)| get(self)?.as_number())
     }
 
     /// The numbers of some names; NaN where there is none.
@@ -332,7 +304,7 @@ impl ContactResult {
 
     /// Every number by its name, in alphabetical order; truth as 1 and 0.
     pub fn values(&self) -> Vec<(&'static str, f64)> {
-        let number = |(name, get): &(&'static str, Get)| Some((*name, get(self)?.as_number()?));
+        let number = |(name, _, get): &(&'static str, In, Get)| Some((*name, get(self)?.as_number()?));
         let mut values: Vec<_> = VALUES.iter().filter_map(number).collect();
         values.sort_by_key(|(name, _)| *name);
         values
@@ -377,7 +349,8 @@ impl Serialize for Group<'_> {
 impl Serialize for ResultJson<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let group = |name: &'static str| name.split_once('.').map(|(group, _)| group);
-        let values: Vec<(&str, Value)> = VALUES.iter().filter_map(|(name, get)| Some((*name, get(self.0)?))).collect();
+        let values: Vec<(&str, Value)> =
+            VALUES.iter().filter_map(|(name, _, get)| Some((*name, get(self.0)?))).collect();
         let mut map = serializer.serialize_map(None)?;
         for values in values.chunk_by(|a, b| group(a.0).is_some() && group(a.0) == group(b.0)) {
             match (values, values.first().and_then(|value| group(value.0))) {

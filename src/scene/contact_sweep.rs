@@ -4,7 +4,7 @@ use super::answer::Request;
 use super::axis::Steps;
 use super::bench::Bench;
 use super::check::MAX_POINTS;
-use super::contact_result::{CONTACT_COLUMNS, ContactResult, result_columns};
+use super::contact_result::{ContactResult, contact_columns, result_columns};
 use super::contact_spec::{ContactSpec, Field, Refusal};
 use super::error::RunError;
 use super::table::Table;
@@ -123,7 +123,7 @@ impl ContactSweep {
         mut tell: impl FnMut(&ContactResult) -> Result<(), E>,
     ) -> Result<Swept, E> {
         let heat = self.points.iter().any(|(_, request)| request.lubricant.heat.is_some());
-        let columns = [&CONTACT_COLUMNS[..], &result_columns(heat)].concat();
+        let columns = [contact_columns(), result_columns(heat)].concat();
         let titles: Vec<&str> = self.names.iter().map(String::as_str).chain(columns.iter().copied()).collect();
         let mut table = Table { remarks_title: "warning", ..Table::new("sweep", &titles) };
         let (mut former, mut results, total) = (None, Vec::new(), self.points.len());

@@ -49,9 +49,7 @@ pub use axis::{Axis, GradingError, Steps};
 pub use bench::{Bench, answer_or_full};
 pub use chart::{Band, Chart, ChartAxis, ColorScale, Map, Marks, Note, Series};
 pub use chart_page::{Page, drawn};
-pub use contact_result::{
-    CONTACT_COLUMNS, ContactResult, Effort, HeatFacts, RESULT_COLUMNS, ReducedFacts, ResultJson, result_columns,
-};
+pub use contact_result::{ContactResult, Effort, HeatFacts, ReducedFacts, ResultJson, contact_columns, result_columns};
 pub use contact_spec::{ContactSpec, Domain, Facts, Field, Measure, MethodName, OilGrade, Refusal, ShearName, Words};
 pub use contact_sweep::{ContactSweep, Swept, Varied};
 pub use document::{Scene, TrainedModel};

@@ -29,25 +29,32 @@ impl Stated {
         self.0["says"].as_str()
     }
 
-    /// As a table of load cases, if that has columns for it.
-    pub fn table(&self) -> Option<&str> {
-        self.0["table"].as_str()
-    }
-
     /// Its slide-to-roll ratio.
     pub fn srr(&self) -> f64 {
         self.0["options"].get("srr").map_or(0.0, |srr| srr.as_f64().unwrap())
     }
 
+    /// Names of fields and what they are.
+    fn fields(&self) -> impl Iterator<Item = (&str, String)> {
+        let word = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        let words = move |value: &Value| match value {
+            Value::Bool(_) => "yes".to_owned(),
+            Value::Array(values) => values.iter().map(word).collect::<Vec<_>>().join(","),
+            value => word(value),
+        };
+        self.0["options"].as_object().unwrap().iter().map(move |(name, value)| (name.as_str(), words(value)))
+    }
+
     /// As options of the command line.
     pub fn options(&self) -> Vec<String> {
-        let word = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-        let option = |(name, value): (&String, &Value)| match value {
-            Value::Bool(_) => format!("--{name}"),
-            Value::Array(values) => format!("--{name}={}", values.iter().map(word).collect::<Vec<_>>().join(",")),
-            value => format!("--{name}={}", word(value)),
-        };
-        self.0["options"].as_object().unwrap().iter().map(option).collect()
+        let option = |(name, word)| if word == "yes" { format!("--{name}") } else { format!("--{name}={word}") };
+        self.fields().map(option).collect()
+    }
+
+    /// As a table of load cases.
+    pub fn table(&self) -> String {
+        let (titles, cells): (Vec<&str>, Vec<String>) = self.fields().unzip();
+        format!("{}\n{}\n", titles.join(";"), cells.join(";"))
     }
 
     /// As a scene that asks a question.

@@ -3,7 +3,7 @@
 use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
 use crate::work::{long, refused, stated};
-use ehl_explorer::engine::{CONTACT_COLUMNS, EngineError, Workbench, result_columns};
+use ehl_explorer::engine::{EngineError, Workbench, contact_columns, result_columns};
 use ehl_explorer::host::clock::Stopwatch;
 use ehl_explorer::host::pool::on_all_cores;
 use ehl_explorer::scene::{Bench, ContactSpec, Field, Words};
@@ -51,7 +51,7 @@ pub fn solve_many<'py>(
         return Err(refused(format!("{name} has {} values, but another option has {total}", values.len())));
     }
     let heat = asked.spec.heat == Some(true);
-    let names = [&CONTACT_COLUMNS[..], &result_columns(heat)].concat();
+    let names = [contact_columns(), result_columns(heat)].concat();
     let Asked { spec, model } = asked;
     let width = names.len();
     let (numbers, warnings) = long(py, progress, |watch| {

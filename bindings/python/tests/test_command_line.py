@@ -45,9 +45,9 @@ def number(cell):
 
 
 def table(text):
-    rows = list(csv.reader(io.StringIO(text)))
-    numbers = np.array([[number(cell) for cell in row] for row in rows[1:]])
-    return {name: numbers[:, k] for k, name in enumerate(rows[0])}
+    titles, *rows = csv.reader(io.StringIO(text))
+    columns = dict(zip(titles, zip(*rows)))
+    return {name: list(cells) if name == "warning" else np.array([*map(number, cells)]) for name, cells in columns.items()}
 
 
 def same_table(array, text):

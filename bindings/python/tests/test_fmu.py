@@ -125,7 +125,7 @@ def test_many_steps_are_what_solve_answers(kind, steps, units):
     options = {("srr" if name == "slide_to_roll_ratio" else name): values for name, values in drive.items()}
     solved = ehl.solve_many(contact_of(kind, first), method="reduced", **options)
     assert solved["converged"].all()
-    np.testing.assert_array_equal(trained, solved["trained"])
+    np.testing.assert_array_equal(trained, solved["reduced.trained"])
     expected = [solved["h_c_m"], solved["h_min_m"], solved["traction"], solved["traction"] * drive["load"]]
     for k, column in enumerate([*expected, solved["hertz.p_h_pa"]]):
         np.testing.assert_allclose(seen[:, k], column, rtol=1e-12, atol=0, err_msg=names[k])

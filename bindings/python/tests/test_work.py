@@ -79,7 +79,7 @@ def test_many_are_each_solved_as_one_alone():
     contact = ehl.Contact.moes(40, 10)
     ms, ls = np.linspace(20, 90, 30)[:, None], np.array([6.0, 12.0])
     many = ehl.solve_many(contact, moes_m=ms, moes_l=ls, method="reduced")
-    assert many.shape == (30, 2) and many["converged"].all() and many["trained"].all()
+    assert many.shape == (30, 2) and many["converged"].all() and many["reduced.trained"].all()
     for (i, j), h_c in np.ndenumerate(many["H_c"]):
         assert h_c == ehl.solve(ehl.Contact.moes(ms[i, 0], ls[j]), method="reduced").H_c
     again = ehl.solve_many(contact, moes_m=ms[::-1], moes_l=ls, method="reduced")

@@ -6,7 +6,7 @@
 
 use super::ask::Ask;
 use crate::engine::job::{Ending, Job, Queue, Reporter, Standing, Wake};
-use crate::engine::{Answer, Solver, Store, answer};
+use crate::engine::{Answer, Solver, Store, Warning, answer};
 use crate::scene::{Grid, Method};
 use crate::solver::reduced::{Online, ReducedModel};
 use std::cell::RefCell;
@@ -168,8 +168,9 @@ fn prepared(store: &Store, last: Option<Online>, ask: &Ask, model: Arc<ReducedMo
 fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Answer>>) -> Ending {
     let request = ask.key.request(Grid::Model, Method::EMBEDDED);
     let answer = answer(&request, Solver::Reduced(online), reporter).map_err(|error| error.to_string())?;
-    if !answer.result.converged {
-        return Err(answer.result.warning().into());
+    let none = answer.result.warnings.iter().find(|warning| matches!(warning, Warning::NoReducedSolution { .. }));
+    if let Some(why) = none {
+        return Err(why.to_string().into());
     }
     reporter.send(Box::new(answer));
     Ok(())

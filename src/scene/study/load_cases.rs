@@ -7,7 +7,7 @@ use super::question::{
 use crate::scene::answer::Request;
 use crate::scene::bench::answer_or_full;
 use crate::scene::check;
-use crate::scene::contact_result::{CONTACT_COLUMNS, ContactResult, RESULT_COLUMNS};
+use crate::scene::contact_result::{ContactResult, contact_columns, result_columns};
 use crate::scene::load_cases::{CaseTable, LoadCase};
 use crate::scene::method::Method;
 use serde::{Deserialize, Serialize};
@@ -176,17 +176,18 @@ impl Question for LoadCases {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
+        let (of_contact, of_result) = (contact_columns(), result_columns(false));
         let results = (0..self.methods.len()).map(|k| tag(&self.methods, k));
-        let results = results.flat_map(|tag| RESULT_COLUMNS.map(|column| format!("{tag}.{column}")));
+        let results = results.flat_map(|tag| of_result.iter().map(move |column| format!("{tag}.{column}")));
         let columns: Vec<String> =
-            std::iter::once("line").chain(CONTACT_COLUMNS).map(str::to_owned).chain(results).collect();
+            std::iter::once(&"line").chain(&of_contact).map(|&column| column.to_owned()).chain(results).collect();
         let numbers = |row: &&Row| -> Vec<f64> {
             let line = std::iter::once(row.line as f64);
             let Some(first) = row.results().first() else {
                 return line.chain(std::iter::repeat(f64::NAN)).take(columns.len()).collect();
             };
-            let results = row.results().iter().flat_map(|result| result.row(&RESULT_COLUMNS));
-            line.chain(first.row(&CONTACT_COLUMNS)).chain(results).collect()
+            let results = row.results().iter().flat_map(|result| result.row(&of_result));
+            line.chain(first.row(&of_contact)).chain(results).collect()
         };
         let named = rows.iter().any(|row| !row.name.is_empty());
         vec![Table {

@@ -3,9 +3,8 @@
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use crate::scene::answer::Request;
+use crate::scene::answer::{Answer, Request};
 use crate::scene::check;
-use crate::scene::contact_result::ContactResult;
 use crate::scene::field_tables::profile_table;
 use crate::scene::method::Method;
 use crate::solver::full::Solution;
@@ -20,16 +19,8 @@ pub struct Point {
     pub methods: Vec<Method>,
 }
 
-/// One method's result.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Row {
-    /// The method.
-    pub method: Method,
-    /// Its scalars and how they were obtained.
-    pub result: ContactResult,
-    /// Its fields; none without convergence.
-    pub solution: Option<Arc<Solution>>,
-}
+/// One method's answer.
+pub type Row = Arc<Answer>;
 
 impl Question for Point {
     type Row = Row;
@@ -47,25 +38,26 @@ impl Question for Point {
         for (i, method) in self.methods.iter().enumerate() {
             setting.step("solving", i, self.methods.len())?;
             let request = Request { method: method.clone(), ..request.clone() };
-            let answer = setting.bench.answer(&request, None, setting.observer)?;
-            let result = answer.result.clone();
-            tell(Row { method: method.clone(), result, solution: answer.into_fields().map(Arc::new) });
+            tell(Arc::new(setting.bench.answer(&request, None, setting.observer)?));
         }
         Ok(())
     }
 
     /// Values: every number of each method's result, and `H_c_error` of a reduced one against the full one.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
-        for Row { method, result, .. } in rows {
+        for row in rows {
+            let (method, result) = (&row.request.method, &row.result);
             result.values().into_iter().for_each(|(name, value)| found.push(name, Some(method), value));
             found.warnings.extend(result.warnings.iter().map(|warning| format!("{}: {warning}", method.name())));
             found.converged &= result.converged;
         }
         let h_c = |row: &Row| row.result.scalars.map(|scalars| scalars.h_c);
-        let Some(full) = rows.iter().find(|row| row.method == Method::Full).and_then(|row| h_c(row)) else { return };
+        let Some(full) = rows.iter().find(|row| row.request.method == Method::Full).and_then(|row| h_c(row)) else {
+            return;
+        };
         for row in rows.iter().filter(|row| row.result.reduced.is_some()) {
             if let Some(reduced) = h_c(row) {
-                found.push("H_c_error", Some(&row.method), (reduced / full - 1.0).abs());
+                found.push("H_c_error", Some(&row.request.method), (reduced / full - 1.0).abs());
             }
         }
     }
@@ -73,7 +65,7 @@ impl Question for Point {
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
         let table = |(i, row): (usize, &&Row)| {
             let suffix = if i == 0 { String::new() } else { format!("_{i}") };
-            Some(profile_table(format!("profile_{}{suffix}", row.method.name()), row.solution.as_ref()?))
+            Some(profile_table(format!("profile_{}{suffix}", row.request.method.name()), row.fields()?))
         };
         rows.iter().enumerate().filter_map(table).collect()
     }
@@ -83,11 +75,11 @@ impl Question for Point {
         let mut pressure = Chart::new("Pressure along Y = 0", x.clone(), ChartAxis::linear("P = p/p_H"));
         let mut film = Chart::new("Film along Y = 0", x, ChartAxis::linear("H = h R/a²"));
         for row in rows {
-            let Some(solution) = &row.solution else { continue };
-            pressure.add(row.method.name(), Marks::Line, solution.profile().map(|(x, p, _)| [x, p]));
-            film.add(row.method.name(), Marks::Line, solution.profile().map(|(x, _, h)| [x, h]));
+            let Some(solution) = row.fields() else { continue };
+            pressure.add(row.request.method.name(), Marks::Line, solution.profile().map(|(x, p, _)| [x, p]));
+            film.add(row.request.method.name(), Marks::Line, solution.profile().map(|(x, _, h)| [x, h]));
         }
-        let sets = rows.iter().filter_map(|row| sets(row.solution.as_ref()?));
+        let sets = rows.iter().filter_map(|row| sets(row.fields()?));
         [pressure, film].into_iter().chain(sets).collect()
     }
 }
