@@ -45,8 +45,8 @@ pub struct Row {
     pub c: f64,
     /// The contact.
     pub point: OperatingPoint,
-    /// The parts of its error, or a sentence why there are none.
-    pub split: Result<Arc<ErrorSplit>, String>,
+    /// The parts of its error, or why there are none.
+    pub split: Result<Arc<ErrorSplit>, SplitError>,
 }
 
 /// The parts of one film's error, relative to the full film.
@@ -123,7 +123,7 @@ impl Question for ErrorSplitStudy {
                 Ok(split) => Ok(Arc::new(split)),
                 Err(SplitError::Cancelled) => return Err(RunError::Cancelled),
                 Err(SplitError::Problem(refused)) => return Err(refused.into()),
-                Err(error) => Err(error.to_string()),
+                Err(error) => Err(error),
             };
             tell(Row { c: *c, point: *point, split });
         }

@@ -83,7 +83,7 @@ impl Split {
             answered = true;
             match split {
                 Ok(split) => self.found = Some((asked.clone(), split)),
-                Err(why) => refused = Some(why),
+                Err(why) => refused = Some(why.to_string()),
             }
         });
         if answered {
