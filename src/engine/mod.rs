@@ -16,7 +16,6 @@ pub mod campaign;
 mod checked_file;
 pub mod coupled;
 mod embedded;
-pub mod former;
 mod grid_accuracy;
 pub mod job;
 pub mod model_arrays;
