@@ -320,7 +320,7 @@ mod tests {
                 if !path.ends_with("src/cli") {
                     collect_sources(&path, sources);
                 }
-            } else if !path.ends_with("tests.rs") {
+            } else if !path.ends_with("tests.rs") && !path.ends_with("engine/model_text.rs") {
                 let text = std::fs::read_to_string(&path).unwrap();
                 sources.push(text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default().to_owned());
             }

@@ -53,14 +53,18 @@ fn extent(domain: &Domain) -> f64 {
 }
 
 /// Returns the model that serves a contact with a lubricant: of those that cover it the one with the smallest range, else
-/// the nearest. `None` if there is none of the contact's kind.
+/// the nearest. `None` if there is none of the contact's kind that can serve a lubricant that thins under shear, or one
+/// that does not.
 pub fn best<'a, T>(
     models: impl IntoIterator<Item = (T, &'a Domain)>,
     point: &OperatingPoint,
     lubricant: &Lubricant,
 ) -> Option<T> {
     let problem = Problem::new(point, *lubricant).ok();
-    let of_kind = models.into_iter().filter(|(_, domain)| domain.contact == point.kind);
+    let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
+    // Which law of two that thin is a matter of errors; a model without such a law has no equations for one.
+    let serves = |domain: &Domain| domain.heats() || thins(&domain.lubricant) == thins(lubricant);
+    let of_kind = models.into_iter().filter(|(_, domain)| domain.contact == point.kind && serves(domain));
     let judged = of_kind.map(|(model, domain)| (Remoteness::of(domain, problem.as_ref(), point, lubricant), model));
     judged.min_by(|(a, _), (b, _)| a.cmp(b)).map(|(_, model)| model)
 }

@@ -17,11 +17,11 @@ pub enum Method {
         #[serde(default)]
         model: ModelSource,
         /// Loss of information (2.92) at which its pressure modes are cut off; all of them where there is none.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(default)]
         pressure_loss: Option<f64>,
         /// Loss of information (2.93) at which its deformation modes are cut off; the exact deformation where there is
         /// none.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(default)]
         deformation_loss: Option<f64>,
     },
 }

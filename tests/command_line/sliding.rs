@@ -28,7 +28,7 @@ fn rollers_and_balls_of_an_oil_that_thins_are_served_by_models_of_the_program() 
 #[test]
 fn a_stress_that_was_not_trained_and_an_ellipse_that_thins_are_told() {
     let at = ["solve", "--json", "--method", "reduced", "--contact", "point", "--moes-m", "60", "--moes-l", "7"];
-    for (stress, words) in [("5e5", "shears it by"), ("3e7", "Eyring stress")] {
+    for (stress, words) in [("5e5", "Eyring stress τ₀ = 0.5 MPa"), ("3e7", "Eyring stress τ₀ = 30 MPa")] {
         let other = json(&program(&[&at[..], &["--shear", "eyring", "--shear-stress", stress]].concat()));
         let told = other["warning"].as_str().unwrap();
         assert!(other["reduced"]["trained"] == false && told.contains(words), "{told}");

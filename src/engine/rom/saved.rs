@@ -4,6 +4,7 @@ use super::container::{Contents, FORMAT, ModelKind};
 use super::error::{ModelFileError, damaged};
 use super::{steady, transient};
 use crate::engine::checked_file::Unreadable;
+use crate::host::pool::on_all_cores;
 use crate::scene::atomic_file;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::ReducedModel;
@@ -55,7 +56,7 @@ impl SavedModel {
     pub fn to_bytes(&self) -> Result<Vec<u8>, ModelFileError> {
         match self {
             Self::Stationary(model) => to_bytes(model),
-            Self::InTime(model) => transient::encode(model).ok_or(damaged("encoding")),
+            Self::InTime(model) => on_all_cores(|| transient::encode(model)).ok_or(damaged("encoding")),
         }
     }
 
@@ -103,7 +104,7 @@ impl SavedModel {
     /// Solves contacts that it was trained with, and compares.
     fn prove(&self, observer: &dyn Observer) -> Result<(), ModelFileError> {
         match self {
-            Self::Stationary(model) => steady::prove(model, observer),
+            Self::Stationary(model) => on_all_cores(|| steady::prove(model, observer)),
             Self::InTime(model) => transient::prove(model),
         }
     }
@@ -134,8 +135,8 @@ pub(in crate::engine) fn read_watched(path: &Path, observer: &dyn Observer) -> R
 pub(in crate::engine) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -> Result<SavedModel, ModelFileError> {
     let contents = Contents::open(bytes)?;
     Ok(match contents.kind() {
-        ModelKind::Steady => SavedModel::Stationary(Arc::new(steady::decode(&contents, observer)?)),
-        ModelKind::Transient => SavedModel::InTime(Arc::new(transient::decode(&contents)?)),
+        ModelKind::Steady => SavedModel::Stationary(Arc::new(on_all_cores(|| steady::decode(&contents, observer))?)),
+        ModelKind::Transient => SavedModel::InTime(Arc::new(on_all_cores(|| transient::decode(&contents))?)),
     })
 }
 
@@ -144,5 +145,5 @@ pub(in crate::engine) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -
 /// # Errors
 /// When it cannot be encoded.
 pub(in crate::engine) fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
-    steady::encode(model).ok_or(damaged("encoding"))
+    on_all_cores(|| steady::encode(model)).ok_or(damaged("encoding"))
 }

@@ -57,6 +57,9 @@ fn everything_but_the_hash_itself_is_under_it_and_nothing_follows() {
     assert!(matches!(from_bytes(&longer), Err(ModelFileError::Damaged { .. })));
 }
 
+/// A change that spoils a model, and what is then refused.
+type Lie<'a> = (&'a dyn Fn(&mut ReducedModel), &'a str);
+
 /// Gives a model's domain another interval.
 fn lie_about(model: &mut ReducedModel, quantity: Quantity, ends: (f64, f64)) {
     model.domain.space = with_ends(&model.domain.space, quantity, ends);
@@ -143,7 +146,7 @@ fn shapes_survive_a_round_trip_and_must_fit_the_windows() {
             assert!((own.point.load / other.point.load - 1.0).abs() < 1e-5);
         }
     }
-    let lies: [(&dyn Fn(&mut ReducedModel), &str); 3] = [
+    let lies: [Lie; 3] = [
         (&|m| lie_about(m, Quantity::RadiusRatio, (0.5, f64::NAN)), "its domain"),
         (&|m| lie_about(m, Quantity::RadiusRatio, (4.0, 0.5)), "its domain"),
         (&|m| m.windows[0].snapshots[3].point.radius_y_m = Some(-1.0), "snapshots"),
@@ -259,7 +262,7 @@ fn oils_and_anchors_survive_a_round_trip_and_must_fit_the_windows() {
     }
     let shared = |w: &crate::solver::reduced::Window| w.deformation.modes == read.windows[0].deformation.modes;
     assert!(read.windows.len() == 3 && read.windows.iter().all(shared));
-    let lies: [(&dyn Fn(&mut ReducedModel), &str); 4] = [
+    let lies: [Lie; 4] = [
         (&|m| lie_about(m, Quantity::RoelandsExponent, (0.5, f64::NAN)), "its domain"),
         (&|m| lie_about(m, Quantity::RoelandsExponent, (0.8, 0.4)), "its domain"),
         (&|m| lie_about(m, Quantity::HertzPressure, (0.4e9, 1e3)), "its domain"),

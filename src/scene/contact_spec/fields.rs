@@ -121,7 +121,7 @@ contact_fields! {
     speed: f64, Speed, "speed", "Mean entrainment speed u_m",
         { measure: Measure::Of(Quantity::Speed), titles: &["u_m", "um", "u"] };
     load: f64, Load, "load", "Load w", { measure: Measure::Of(Quantity::Load), titles: &["w", "f"] };
-    modulus: f64, Modulus, "modulus", "Reduced modulus E′",
+    modulus: f64, Modulus, "modulus", "Reduced modulus E’",
         { measure: Measure::Of(Quantity::Modulus), note: ", or <e1> <nu1> <e2> <nu2>", titles: &["e'", "e’", "e\u{2032}"] };
     e1: f64, E1, "e1", "Young's modulus of body 1", { measure: Measure::In(Dimension::Pressure) };
     nu1: f64, Nu1, "nu1", "Poisson ratio of body 1", {};
@@ -172,7 +172,8 @@ contact_fields! {
     shear_beta: f64, ShearBeta, "shear-beta", "Carreau's exponent β_c", { note: " (default: 2)", placeholder: Some("BETA") };
     shear_n: f64, ShearN, "shear-n", "Carreau's power-law exponent n_c", { placeholder: Some("N") };
     limiting_stress: LimitingStress, LimitingStress, "limiting-stress",
-        "Limiting stress τ_L0 + Λ p that the film carries at most: Pa and a slope", { placeholder: Some("TAU0,SLOPE") };
+        "Limiting stress τ_L0 + Λ p that the film carries at most: Pa and a slope",
+        { note: ", and in Pa an Eyring stress of the traction alone", placeholder: Some("TAU0,SLOPE[,TAU_E]") };
     heat: bool, Heat, "heat", "Compute temperatures of film and bodies, and what they do to film and traction",
         { note: " (with <method=reduced>, of lines and circles, by the program's models with heat, or by another one, <rom>)" };
     inlet_temperature: f64, InletTemperature, "inlet-temperature",

@@ -221,7 +221,12 @@ impl Given for LimitingStress {
     fn read(text: &str) -> Result<Self, String> {
         match numbers(text).as_deref() {
             Some(&[ambient, slope]) => Ok(Self { ambient, slope, eyring: None }),
-            _ => Err("accepted are two numbers with a comma between them, as in 5e6,0.05".to_owned()),
+            Some(&[ambient, slope, eyring]) => Ok(Self { ambient, slope, eyring: Some(eyring) }),
+            _ => {
+                Err("accepted are two numbers with a comma between them, as in 5e6,0.05, and after another comma the \
+                      stress from which the traction of a Newtonian film thins, as in 5e6,0.05,5e6"
+                    .to_owned())
+            }
         }
     }
 }

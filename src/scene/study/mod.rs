@@ -78,13 +78,13 @@ macro_rules! studies {
         /// What is asked of a scene's contact.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
-        #[expect(clippy::large_enum_variant, reason = "a scene has but one")]
         pub enum Study {
             $($(#[$about])* $name($question),)*
         }
 
         /// A row of any study. Rows that hold models are not serialised: a model travels as its file.
         #[derive(Clone, Debug, Serialize, Deserialize)]
+        #[expect(clippy::large_enum_variant, reason = "a study has rows of one kind")]
         pub enum StudyRow {
             $(
                 #[doc = concat!("What comes of [`Study::", stringify!($name), "`].")]

@@ -26,7 +26,6 @@ pub struct OilHeat {
     /// β_ρ = −d ln ρ/dT at ambient pressure \[1/K\]; Tait's law has constants of its own.
     pub density_temperature: f64,
     /// What Tait's and Doolittle's laws need.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub free_volume: Option<FreeVolumeHeat>,
 }
 

@@ -61,7 +61,7 @@ pub struct LimitingStress {
     /// Λ \[-\].
     pub slope: f64,
     /// τ_E \[Pa\] of the traction alone, of films whose own law is Newtonian.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub eyring: Option<f64>,
 }
 

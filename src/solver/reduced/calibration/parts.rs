@@ -32,6 +32,9 @@ impl Calibration {
     /// The calibration of some numbers; `None` if they make no sense.
     pub fn from_parts(parts: CalibrationParts) -> Option<Self> {
         let CalibrationParts { ranges, places, laws, surplus } = parts;
+        if laws.len() != surplus.len() {
+            return None;
+        }
         let quantity = |(mut law, surplus): (Vec<f64>, Vec<f32>)| {
             let (quantile, mean_square) = (law.pop()?, law.pop()?);
             Some(Quantity { law, mean_square, quantile, ..Quantity::of_surplus(surplus) })
