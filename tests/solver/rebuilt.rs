@@ -19,9 +19,10 @@ fn small(scene: &str) -> TrainingSpec {
         plan => panic!("{plan:?}"),
     }
     let (si_box, oils) = (spec.range.is_si_box(), spec.range.varies_lubricant());
+    let thins = spec.range.varies(Quantity::NewtonianPlateauRatio);
     for axis in &mut spec.range.axes {
         axis.ends = match axis.quantity {
-            Quantity::M => (20.0, 60.0),
+            Quantity::M if !thins => (20.0, 60.0),
             Quantity::L if oils => (5.0, 10.0),
             Quantity::Radius if si_box => (10e-3, 11e-3),
             Quantity::Speed if si_box => (2.0, 3.0),
@@ -49,7 +50,7 @@ fn small(scene: &str) -> TrainingSpec {
         }),
     }
     // Hardly more than a calibration needs.
-    spec.evidence = 110;
+    spec.evidence = if thins { 200 } else { 110 };
     spec
 }
 

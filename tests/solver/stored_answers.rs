@@ -24,6 +24,11 @@ const VALUES: usize = 12;
 const BOUNDS: usize = 5;
 /// Allowed relative differences of both.
 const TOLERANCES: [f64; 2] = [1e-12, 1e-9];
+/// The same with heat. When these answers were stored, body 1 was the faster one. Temperatures of the mirrored contact are
+/// iterated in another order, and a few contacts end elsewhere within the tolerance of their iterations.
+const TOLERANCES_WITH_HEAT: [f64; 2] = [1e-4, 0.1];
+/// With heat nearly all contacts agree to this.
+const USUAL_WITH_HEAT: f64 = 1e-8;
 
 /// R, u_m, w, E′, η₀, α, SRR, NPR, R_y; the last two are NaN for a contact without one.
 type Contact = [f32; 9];
@@ -177,11 +182,16 @@ fn the_embedded_models_compute_what_was_stored() {
         let contacts: Vec<Contact> = contacts.chunks_exact(9).map(|contact| contact.try_into().unwrap()).collect();
         let answers = doubles(answers);
         let found = of_model(entry.name, Some(&contacts));
+        let heats = entry.domain.heats();
+        let tolerances = if heats { TOLERANCES_WITH_HEAT } else { TOLERANCES };
+        let mut unusual = 0;
         for ((contact, found), stored) in found.iter().zip(answers.chunks_exact(VALUES + BOUNDS)) {
             let [values, bounds] = differences(stored, found);
-            let within = values <= TOLERANCES[0] && bounds <= TOLERANCES[1];
-            assert!(within, "{}: {contact:?} is off by {values:e}, its bounds by {bounds:e}", entry.name);
+            let (name, within) = (entry.name, values <= tolerances[0] && bounds <= tolerances[1]);
+            assert!(within, "{name}: {contact:?} is off by {values:e}, its bounds by {bounds:e}");
+            unusual += usize::from(heats && !(values <= USUAL_WITH_HEAT));
         }
+        assert!(unusual <= CONTACTS / 50, "{}: {unusual} contacts differ by more than {USUAL_WITH_HEAT:e}", entry.name);
     });
     let stored = doubles(transient);
     let found = marched();
