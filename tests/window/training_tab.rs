@@ -10,7 +10,7 @@ use std::path::Path;
 /// A scene with a training of a small box; full solves take about a millisecond.
 fn scene(title: &str, plan: &str) -> String {
     format!(
-        "Scene(version: 1, title: \"{title}\", at: Moes(m: 20, l: 5), study: Training(
+        "Scene(version: 1, title: \"{title}\", at: Si(radius: 2.5e-3, speed: 4, load: 1.5e5, modulus: 231e9, viscosity: 0.01, alpha: 9e-9), study: Training(
             title: \"{title}\",
             range: (axes: {{Radius: (2e-3, 3e-3, Linear), Speed: (3.0, 5.0, Linear),
                 Load: (1e5, 2e5, Linear), Alpha: (6e-9, 12e-9, Linear)}},

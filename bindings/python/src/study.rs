@@ -43,7 +43,7 @@ pub fn sweep<'py>(
 
 fn axis(given: &Bound<'_, PyAny>) -> PyResult<Varied> {
     if let Ok(text) = given.extract::<String>() {
-        return text.parse().map_err(|failure: Failure| refused(failure));
+        return text.parse().map_err(|sentence: String| refused(sentence));
     }
     let (name, values): (String, Vec<f64>) = given.extract()?;
     Varied::new(&name.replace('_', "-"), Steps::List(values)).map_err(refused)
