@@ -63,7 +63,10 @@ impl Contact {
             let name: String = name.extract()?;
             let field = field_of(&name).ok_or_else(|| {
                 let accepted: Vec<_> = Field::of(Words::Keywords).map(|field| field.facts().name).collect();
-                refused(format!("{name}= is no keyword of a contact; accepted are {}", accepted.join(", ").replace('-', "_")))
+                refused(format!(
+                    "{name}= is no keyword of a contact; accepted are {}",
+                    accepted.join(", ").replace('-', "_")
+                ))
             })?;
             given.push((field, value));
         }
