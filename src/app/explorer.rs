@@ -1,6 +1,6 @@
 //! The explorer: a window in which a contact is dragged and answers at once.
 //!
-//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`] puts it into a native one.
+//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`](super::run) puts it into a native one.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;

@@ -88,7 +88,7 @@ mod tests {
     use crate::engine::catalogue;
     use crate::scene::named_lubricant::SQUALANE_PIP;
     use crate::solver::physics::contact::{ContactKind, MoesRequest, si_from_moes};
-    use crate::solver::physics::lubricant::Heat;
+    use crate::solver::physics::lubricant::{Heat, ViscosityLaw};
 
     fn serves(point: &OperatingPoint, lubricant: &Lubricant) -> &'static str {
         best(catalogue().iter().map(|entry| (entry.name, &entry.domain)), point, lubricant).unwrap()
@@ -134,7 +134,9 @@ mod tests {
         let oil = Lubricant::default();
         assert_eq!(best(models, &at(40.0), &oil), Some("narrow"));
         assert_eq!(best(models, &at(100.0), &oil), Some("wide"));
-        assert_eq!(best(models, &at(40.0), &SQUALANE_PIP), Some("wide"), "the first of equals");
+        assert_eq!(best(models, &at(40.0), &SQUALANE_PIP), None, "neither has equations for a lubricant that thins");
+        let waxy = Lubricant { viscosity: ViscosityLaw::Barus, ..oil };
+        assert_eq!(best(models, &at(40.0), &waxy), Some("wide"), "the first of equals");
         assert_eq!(
             best([("wide", &wide)], &si_from_moes(&MoesRequest::new(ContactKind::Point, 40.0, 5.0)).unwrap(), &oil),
             None

@@ -1,6 +1,6 @@
 //! What has been asked of the engine and what came of it: the picture, the truth about it, or why there is none.
 //!
-//! An [`Ask`] is read off the document in every frame. It is answered by the reduced model, as a rule within the frame,
+//! An [`ask::Ask`] is read off the document in every frame. It is answered by the reduced model, as a rule within the frame,
 //! else by the full solver in a worker; when the sliders rest, a full solution checks the reduced one. [`Answers`] is a
 //! state machine: events change it, and everybody else reads it through functions.
 

@@ -3,6 +3,7 @@
 //! fields the differences are small.
 
 use super::container::unpacked;
+use crate::host::pool::on_all_cores;
 use crate::solver::reduced::Multiples;
 use faer::Mat;
 use pco::standalone::simple_compress;
@@ -35,7 +36,7 @@ pub(super) fn encode(matrix: &Mat<f64>, across: usize, multiples: &Multiples) ->
     let lattice = Lattice::new(&rows, across);
     let coded = multiples.columns.par_iter().enumerate();
     let coded = coded.map(|(k, exponent)| lattice.shortest(matrix.col_as_slice(k), *exponent));
-    let (orders, differences): (Vec<_>, Vec<_>) = coded.collect::<Vec<_>>().into_iter().unzip();
+    let (orders, differences): (Vec<_>, Vec<_>) = on_all_cores(|| coded.collect::<Vec<_>>()).into_iter().unzip();
     let encoded = |classes: &Classes| {
         let mut of_rows = vec![0; rows.len()];
         for ((row, _), class) in lattice.steps.iter().zip(&classes.rows) {
@@ -101,7 +102,7 @@ pub(super) fn decode(bytes: &[u8], parts: &[usize; 3], across: usize, shape: (us
         });
         values
     });
-    let values: Vec<Vec<f64>> = values.collect();
+    let values: Vec<Vec<f64>> = on_all_cores(|| values.collect());
     let mut matrix = Mat::zeros(shape.0, shape.1);
     for (k, values) in values.iter().enumerate() {
         matrix.col_as_slice_mut(k).copy_from_slice(values);

@@ -82,7 +82,8 @@ macro_rules! studies {
             $($(#[$about])* $name($question),)*
         }
 
-        /// A row of any study. Rows that hold models are not serialised: a model travels as its file.
+        /// A row of any study. Rows that hold models are not serialised: a model travels as its file. They come last, so
+        /// that formats that number the kinds give every other one the same number when it is read.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[expect(clippy::large_enum_variant, reason = "a study has rows of one kind")]
         pub enum StudyRow {
@@ -162,31 +163,21 @@ studies! {
     /// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full
     /// solutions.
     RandomTest(random_test::RandomTest),
-    /// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
-    ErrorSplit(error_split::ErrorSplitStudy)[serde(skip)],
     /// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point
     /// contact keeps ΔY.
     GridStudy(grid_study::GridStudy),
     /// How many modes the full solutions at all combinations of one to three varied quantities need at losses of
     /// information: Table 3.7.
     Dimensions(dimensions::Dimensions),
-    /// Error and time of a reduced model against its numbers of modes and of sampled rows.
-    ModelSizes(model_sizes::ModelSizes)[serde(skip)],
-    /// Training of a reduced model.
-    Training(TrainingSpec)[serde(skip)],
     /// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error:
     /// Fig. 3.1.
     ErrorMeasures(error_measures::ErrorMeasureStudy),
     /// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
     DistanceMeasure(distance_measure::DistanceMeasure),
-    /// Plans of snapshot selection side by side: Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7.
-    PlanComparison(plan_comparison::PlanComparison)[serde(skip)],
     /// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
     ToleranceStudy(tolerance_study::ToleranceStudy),
     /// Ways of sampling rows, on the same full solutions and basis.
     SamplingComparison(sampling_comparison::SamplingComparison),
-    /// The contact in time, under inputs that vary, in full and by models: Figs. 2.6 (right), 4.4, 4.10 to 4.18.
-    Transient(transient::TransientStudy)[serde(skip)],
     /// A table of load cases, each line a contact of its own.
     LoadCases(load_cases::LoadCases),
     /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
@@ -203,6 +194,16 @@ studies! {
     InformationLoss(information_loss::InformationLoss),
     /// Galerkin's scheme, residual minimisation and ways of sampling rows for a contact in time.
     SchemesInTime(schemes_in_time::SchemesInTime),
+    /// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
+    ErrorSplit(error_split::ErrorSplitStudy)[serde(skip)],
+    /// Error and time of a reduced model against its numbers of modes and of sampled rows.
+    ModelSizes(model_sizes::ModelSizes)[serde(skip)],
+    /// Training of a reduced model.
+    Training(TrainingSpec)[serde(skip)],
+    /// Plans of snapshot selection side by side: Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7.
+    PlanComparison(plan_comparison::PlanComparison)[serde(skip)],
+    /// The contact in time, under inputs that vary, in full and by models: Figs. 2.6 (right), 4.4, 4.10 to 4.18.
+    Transient(transient::TransientStudy)[serde(skip)],
 }
 
 impl Study {

@@ -31,7 +31,7 @@ impl Keeping {
         Self { kind: window.grid.kind(), anchored, heat, shapes }
     }
 
-    /// Whether what is made of the rows' values has few digits, [`RULE_ACCURACY`], or is the weights of a cubature: of windows
+    /// Whether what is made of the rows' values has few digits, [`RULE_ACCURACY`](super::RULE_ACCURACY), or is the weights of a cubature: of windows
     /// that come by the dozen, and of those with heat.
     pub fn shortens_rules(self) -> bool {
         self.anchored || self.shapes || self.heat

@@ -1,4 +1,4 @@
-//! The discrete Reynolds equation (2.31): one row at one node ([`mod@row`]), the integrals across the film that a
+//! The discrete Reynolds equation (2.31): one row at one node (`row`), the integrals across the film that a
 //! generalized row is made of, and what a line contact has upstream.
 
 pub mod film_integrals;
