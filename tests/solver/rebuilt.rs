@@ -11,7 +11,7 @@ use ehl_explorer::solver::training::{Plan, TrainingSpec, Windows, train};
 fn small(scene: &str) -> TrainingSpec {
     let Study::Training(mut spec) = scene_files::read(scene).study else { panic!("{scene} is no training") };
     match &mut spec.plan {
-        Plan::FarthestPoint { snapshots } => *snapshots = 24,
+        Plan::FarthestPoint { snapshots } => *snapshots = 40,
         Plan::WorstOfPool { start, pool, per_round, limit, .. } => {
             (*start, *pool, *per_round) = (12, 12, 2);
             *limit = if matches!(spec.windows, Windows::Automatic { .. }) { 40 } else { 16 };
@@ -50,7 +50,7 @@ fn small(scene: &str) -> TrainingSpec {
         }),
     }
     // Hardly more than a calibration needs.
-    spec.evidence = if thins { 200 } else { 110 };
+    spec.evidence = if thins { 300 } else { 110 };
     spec
 }
 
