@@ -227,6 +227,6 @@ pub fn solve(
             return Result::of(py, answer);
         }
     }
-    let answer = long(py, progress, |watch| Ok(answer_or_full(&mut asked.bench(), &request, watch)?))?;
+    let answer = long(py, progress, |watch| answer_or_full(&mut asked.bench(), &request, watch))?;
     Result::of(py, answer)
 }
