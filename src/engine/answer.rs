@@ -2,6 +2,7 @@
 //! of them report the same numbers, the same trust and the same warnings.
 
 use super::{Answer, ContactResult, EngineError, ReducedFacts, Request};
+use crate::host::clock::Stopwatch;
 use crate::scene::Effort;
 use crate::solver::full::heat::Temperatures;
 use crate::solver::full::point::resolution_warning;
@@ -11,7 +12,6 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
 use crate::solver::warning::Warning;
-use std::time::Instant;
 
 /// What solves a request, with the work space that its owner keeps.
 pub enum Solver<'a> {
@@ -52,9 +52,9 @@ fn in_full(
     start: Start<'_>,
     observer: &dyn Observer,
 ) -> Result<Answer, EngineError> {
-    let clock = Instant::now();
+    let clock = Stopwatch::start();
     let solution = solver.solve(&request.point, request.lubricant, start, observer)?;
-    let wall_s = clock.elapsed().as_secs_f64();
+    let wall_s = clock.seconds();
     let solution = solver.judged(solution);
     let report = &solution.report;
     let (nx, ny) = (solution.x.len(), solution.y.len());
@@ -86,9 +86,9 @@ fn by_model(
 ) -> Result<Answer, EngineError> {
     // Operators belong to the model: the time is the solve's alone.
     online.prepare(&problem.point);
-    let clock = Instant::now();
+    let clock = Stopwatch::start();
     let solved = online.solve_watched(&problem.point, request.lubricant, observer);
-    let wall_s = clock.elapsed().as_secs_f64();
+    let wall_s = clock.seconds();
     let model = &online.model;
     let (mut warnings, own) = (Vec::new(), model.domain.lubricant.cavitation);
     let trust = solved.as_ref().map_or_else(|_| model.trust(problem), |solved| solved.trust.clone());
@@ -100,14 +100,8 @@ fn by_model(
     if own == Cavitation::Penalty && asked != own && problem.supply.is_none() {
         warnings.push(Warning::CavitationOfTraining { asked: asked.name().to_owned() });
     }
-    let window = window_of(model, &problem.point)?;
-    let mut facts = ReducedFacts {
-        size: window.size(),
-        window: model.window_for(&problem.point),
-        trained,
-        residual_estimate: None,
-        error: None,
-    };
+    let (place, window) = window_of(model, &problem.point)?;
+    let mut facts = ReducedFacts { size: window.size(), window: place, trained, residual_estimate: None, error: None };
     let mut effort = Effort {
         nodes: window.grid.nodes(),
         dofs: facts.size.pressure + 1,
@@ -144,10 +138,14 @@ pub(super) fn outside(trust: Trust) -> Option<Warning> {
     }
 }
 
-/// The local model that serves a contact.
-pub(super) fn window_of<'a>(model: &'a ReducedModel, point: &OperatingPoint) -> Result<&'a Window, EngineError> {
+/// The local model that serves a contact, with its place.
+pub(super) fn window_of<'a>(
+    model: &'a ReducedModel,
+    point: &OperatingPoint,
+) -> Result<(usize, &'a Window), EngineError> {
     let none = || EngineError::Study(format!("the reduced model `{}` holds no window", model.title));
-    model.windows.get(model.window_for(point)).ok_or_else(none)
+    let place = model.window_for(point);
+    model.windows.get(place).map(|window| (place, window)).ok_or_else(none)
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 pub use super::rom::ModelFileError;
 
 use super::rom::{self, SavedModel};
-use crate::scene::atomic_file;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::ReducedModel;
 use std::path::Path;
@@ -30,10 +29,7 @@ pub(super) fn read_watched(path: &Path, observer: &dyn Observer) -> Result<Arc<R
 /// # Errors
 /// When the file cannot be written, or would be refused by [`read`].
 pub fn write(model: &ReducedModel, path: &Path) -> Result<(), ModelFileError> {
-    let bytes = to_bytes(model)?;
-    // A file has fewer digits than a model that was just trained.
-    from_bytes(&bytes)?;
-    Ok(atomic_file::replace(path, &bytes)?)
+    rom::write_proven(&to_bytes(model)?, path)
 }
 
 /// The content of a model file.

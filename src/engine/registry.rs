@@ -27,7 +27,6 @@ impl Remoteness {
         if !outside {
             return Self { outside, kinds: [other_shape.into(), 0, 0, 0], far: extent(domain) };
         }
-        let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
         let law = match (discriminant(&domain.lubricant.shear) == discriminant(&lubricant.shear), thins(lubricant)) {
             (true, _) => 0,
             (false, thinning) => 1 + u8::from(thinning != thins(&domain.lubricant)),
@@ -43,6 +42,11 @@ impl Remoteness {
         let kinds = (self.outside, self.kinds).cmp(&(other.outside, other.kinds));
         kinds.then(self.far.total_cmp(&other.far))
     }
+}
+
+/// True if a lubricant is shear-thinning.
+fn thins(laws: &Lubricant) -> bool {
+    laws.shear != ShearLaw::Newtonian
 }
 
 /// Logarithmic size of a domain in M, L, α, η₀ and p_H.
@@ -61,7 +65,6 @@ pub fn best<'a, T>(
     lubricant: &Lubricant,
 ) -> Option<T> {
     let problem = Problem::new(point, *lubricant).ok();
-    let thins = |laws: &Lubricant| laws.shear != ShearLaw::Newtonian;
     // Which law of two that thin is a matter of errors; a model without such a law has no equations for one.
     let serves = |domain: &Domain| domain.heats() || thins(&domain.lubricant) == thins(lubricant);
     let of_kind = models.into_iter().filter(|(_, domain)| domain.contact == point.kind && serves(domain));

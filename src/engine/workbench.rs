@@ -72,7 +72,7 @@ impl Bench for Workbench {
             return if observer.cancelled() { Err(EngineError::Cancelled) } else { answer };
         };
         let model = self.model_for(model, &point, &request.lubricant, observer)?;
-        let options = request.method.options(window_of(&model, &point)?);
+        let options = request.method.options(window_of(&model, &point)?.1);
         let same = |online: &Online| Arc::ptr_eq(&online.model, &model) && *online.options() == options;
         let known = self.online.iter().position(same).map(|place| self.online.swap_remove(place));
         let online = known.unwrap_or_else(|| self.store.online(&model, options));
@@ -140,7 +140,7 @@ impl Bench for Workbench {
             }
             None => {
                 let model = self.model_for(&request.grid_model, &request.point, &request.lubricant, observer)?;
-                let grid = &window_of(&model, &request.point)?.grid;
+                let grid = &window_of(&model, &request.point)?.1.grid;
                 if grid.kind() == kind { Ok(grid.clone()) } else { Err(other_contact(&model, kind)) }
             }
         }

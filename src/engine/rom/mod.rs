@@ -16,7 +16,7 @@ pub use catalogue::Catalogue;
 pub use container::ModelKind;
 pub use error::ModelFileError;
 pub use saved::SavedModel;
-pub(super) use saved::{from_own_bytes, read_watched, to_bytes};
+pub(super) use saved::{from_own_bytes, read_watched, to_bytes, write_proven};
 
 #[cfg(test)]
 mod tests;

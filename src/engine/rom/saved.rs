@@ -65,10 +65,7 @@ impl SavedModel {
     /// # Errors
     /// When the file cannot be written, or would be refused by [`Self::read`].
     pub fn write(&self, path: &Path) -> Result<(), ModelFileError> {
-        let bytes = self.to_bytes()?;
-        // A file has fewer digits than a model that was just trained.
-        Self::from_bytes(&bytes)?;
-        Ok(atomic_file::replace(path, &bytes)?)
+        write_proven(&self.to_bytes()?, path)
     }
 
     /// The steady model.
@@ -108,6 +105,16 @@ impl SavedModel {
             Self::InTime(model) => transient::prove(model),
         }
     }
+}
+
+/// Writes the content of a model file as a whole or not at all.
+///
+/// # Errors
+/// As [`SavedModel::write`].
+pub(in crate::engine) fn write_proven(bytes: &[u8], path: &Path) -> Result<(), ModelFileError> {
+    // A file has fewer digits than a model that was just trained.
+    SavedModel::from_bytes(bytes)?;
+    Ok(atomic_file::replace(path, bytes)?)
 }
 
 /// Reads the bytes of a model file. Checks the announced size before it allocates memory.
