@@ -16,6 +16,8 @@ pub const PLAUSIBLE_TRACTION: f64 = 0.15;
 pub(in crate::solver) const ENDURED_K: f64 = 573.0;
 /// Péclet number u_i a/(2κ_i) below which heat flows upstream within a body.
 pub(in crate::solver) const SMALLEST_PECLET: f64 = 5.0;
+/// Estimated errors of the steps in time beyond this are warned of.
+const NOTABLE_STEP_ERROR: f64 = 0.03;
 /// Estimated discretisation errors beyond this are likely to be too small.
 const SATURATED: f64 = 0.1;
 
@@ -53,6 +55,14 @@ pub enum Warning {
     /// The discretisation error of H_c cannot be estimated.
     #[error("the discretisation error of H_c cannot be estimated; compare with a finer grid")]
     DiscretisationErrorUnknown,
+    /// The lengths of the steps in time move H_c by more than a few percent, or by more than was asked for.
+    #[error("{}", time_step_error(*relative, *tolerance))]
+    TimeStepError {
+        /// Estimated greatest relative error of H_c.
+        relative: f64,
+        /// The share of H_c that the steps were to be controlled by.
+        tolerance: Option<f64>,
+    },
     /// The grid is too wide across to resolve the side lobes.
     #[error(
         "H_min is not resolved: the side lobes are too narrow for the spacing of {spacing:.3} across them; H_c is not \
@@ -186,6 +196,13 @@ impl Warning {
         (pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA).then_some(Self::HertzPressure { pressure_pa })
     }
 
+    /// The warning of the estimated error that steps in time leave in H_c, if it is more than three percent, or more
+    /// than the tolerance that was to control them.
+    pub fn of_time_step(relative: f64, tolerance: Option<f64>) -> Option<Self> {
+        let tolerance = tolerance.filter(|tolerance| relative > *tolerance);
+        (relative > NOTABLE_STEP_ERROR || tolerance.is_some()).then_some(Self::TimeStepError { relative, tolerance })
+    }
+
     /// Its kind, values and sentence as one JSON object: `{"kind": …, values…, "text": …}`.
     pub fn to_json(&self) -> Value {
         let mut object = Map::new();
@@ -249,6 +266,21 @@ fn discretisation(relative: f64, ends: Option<&NearEnds>, spacing: Option<&WideS
     format!("H_c is off by about {:.0} %{more}{colon}{}", 100.0 * relative, parts.join("; "))
 }
 
+/// The sentence of an error of the steps in time.
+fn time_step_error(relative: f64, tolerance: Option<f64>) -> String {
+    let percent = 100.0 * relative;
+    match tolerance {
+        None => format!(
+            "the time steps leave H_c off by about {percent:.2} %: take shorter ones, or let a tolerance control them"
+        ),
+        Some(tolerance) => format!(
+            "the time steps leave H_c off by about {percent:.2} %, and could not be made short enough for the {} % asked \
+             for",
+            100.0 * tolerance
+        ),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -279,6 +311,16 @@ mod tests {
         );
         let one = Warning::DiscretisationError { relative: 0.04, ends: None, spacing };
         assert!(one.to_string().starts_with("H_c is off by about 4 %: the spacing"));
+    }
+
+    #[test]
+    fn an_error_of_the_time_step_is_warned_of_beyond_three_percent_or_the_tolerance() {
+        assert_eq!(Warning::of_time_step(0.029, None), None);
+        assert_eq!(Warning::of_time_step(0.009, Some(0.01)), None);
+        let far = Warning::of_time_step(0.18, None).unwrap().to_string();
+        assert!(far.starts_with("the time steps leave H_c off by about 18.00 %: take shorter"), "{far}");
+        let missed = Warning::of_time_step(0.02, Some(0.01)).unwrap().to_string();
+        assert!(missed.contains("2.00 %") && missed.contains("the 1 % asked for"), "{missed}");
     }
 
     #[test]

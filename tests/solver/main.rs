@@ -24,4 +24,5 @@ mod saved_again;
 mod shear_models;
 mod shear_thinning;
 mod stored_answers;
+mod time_steps;
 mod transient_reference;

@@ -27,10 +27,15 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     if ui.available_size_before_wrap().x < WIDTH {
         ui.end_row();
     }
-    let grid = context.transient.runs.iter().find_map(|run| run.grid_cost).map_or_else(String::new, |(_, cost)| {
+    let runs = &context.transient.runs;
+    let grid = runs.iter().find_map(|run| run.grid_cost).map_or_else(String::new, |(_, cost)| {
         format!(". The grid leaves H_c off by {}", numbers::error_percent(cost.total()))
     });
-    pill(ui, kind, [title, &detail, &format!("{why}{grid}")], "Trust in the contact in time");
+    let steps = runs.iter().filter_map(|run| run.trajectory.step_error).reduce(f64::max);
+    let steps = steps.map_or_else(String::new, |error| {
+        format!(". The time steps leave H_c off by about {}", numbers::error_percent(error))
+    });
+    pill(ui, kind, [title, &detail, &format!("{why}{grid}{steps}")], "Trust in the contact in time");
 }
 
 fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
@@ -60,6 +65,11 @@ fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
     }
     if view.runs.iter().any(|run| run.trajectory.ended != Ended::Finished) {
         return make(Kind::Warning, "Ended early", String::new(), "A run has not come to the end of its duration");
+    }
+    let warned = view.runs.iter().filter(|run| run.trajectory.step_warning().is_some());
+    if let Some(error) = warned.filter_map(|run| run.trajectory.step_error).reduce(f64::max) {
+        let why = "Shorter steps change H_c notably. Set-up, Steps: take shorter ones, or let a tolerance control them";
+        return make(Kind::Warning, "Steps too long", format!("H_c ±{}", numbers::error_percent(error)), why);
     }
     let why = "Greatest relative difference of H_c from the full run";
     let models = view.runs.iter().filter(|run| run.by != MarchedBy::Full);

@@ -12,7 +12,7 @@ use crate::solver::full::transient::Quantity;
 use egui::{Grid, Ui};
 
 /// Width below which the table leaves out what the plots show anyway.
-const WIDE: f32 = 520.0;
+const WIDE: f32 = 590.0;
 
 /// Height of the table.
 pub fn height(view: &TransientRuns) -> f32 {
@@ -39,6 +39,7 @@ pub fn ui(ui: &mut Ui, view: &TransientRuns) {
         title(ui, "Δ{H_c}", &tip.replace(['{', '}'], ""));
         if wide {
             title(ui, "Steps", "Steps taken, and those discarded");
+            title(ui, "Step error", "Estimated greatest relative error of H_c by the lengths of the steps");
         }
         title(ui, "Per step", "Median of the time per step");
         title(ui, "In all", "Time of the whole run");
@@ -71,6 +72,7 @@ fn row(ui: &mut Ui, view: &TransientRuns, k: usize, run: &Run, wide: bool) {
         let rejected = run.trajectory.rejected_steps;
         let discarded = if rejected > 0 { format!(" + {rejected}") } else { String::new() };
         ui.label(format!("{}{discarded}", run.trajectory.moments.len().saturating_sub(1)));
+        ui.label(run.trajectory.step_error.map_or_else(none, numbers::error_percent));
     }
     let full = view.reference_of(k).filter(|_| run.by != MarchedBy::Full).and_then(Run::seconds_per_step);
     let per_step = run.seconds_per_step().map(|seconds| {

@@ -233,20 +233,11 @@ fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     let plain = ("", 1.0);
     form.row(ui, "Duration {T}", plain, &mut study.duration, "The last T, in units of a/u_m of the reference contact");
     study.window = study.window.filter(|window| window.1 <= study.duration);
-    let adaptive = matches!(study.time_step, TimeStep::Adaptive { .. });
-    let mut wanted = adaptive;
-    choose(ui, "Steps", "How long the steps are", &mut wanted, &[false, true], |adaptive| {
-        if adaptive {
-            ("Adaptive", "As long as the solution stays near the straight line through the two former ones")
-        } else {
-            ("All the same", "The duration is divided evenly")
-        }
-    });
-    if wanted != adaptive {
-        study.time_step = match study.time_step {
-            TimeStep::Fixed(step) => TimeStep::Adaptive { tolerance: 1e-3, longest: step },
-            TimeStep::Adaptive { longest, .. } => TimeStep::Fixed(longest),
-        };
+    let mut rule = StepRule::of(study.time_step);
+    let present = rule;
+    choose(ui, "Steps", "How long the steps are", &mut rule, &StepRule::ALL, StepRule::words);
+    if rule != present {
+        study.time_step = rule.steps(study.time_step.longest(study.duration));
         form.changed = Some("Steps");
     }
     form.message(ui, "Steps");
@@ -258,6 +249,52 @@ fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
             let tip = "How far P may lie from its extrapolation, relative";
             form.row(ui, "Tolerance", plain, tolerance, tip);
             form.row(ui, "Longest {ΔT}", plain, longest, "The longest step, and the first");
+        }
+        TimeStep::Controlled(tolerance) => {
+            let tip = "Estimated error of H_c that the steps may leave, relative";
+            form.row(ui, "Tolerance", plain, tolerance, tip);
+        }
+    }
+}
+
+/// The rule that the lengths of steps follow.
+#[derive(Clone, Copy, PartialEq)]
+enum StepRule {
+    Equal,
+    Adaptive,
+    Controlled,
+}
+
+impl StepRule {
+    const ALL: [Self; 3] = [Self::Equal, Self::Adaptive, Self::Controlled];
+
+    fn of(time_step: TimeStep) -> Self {
+        match time_step {
+            TimeStep::Fixed(_) => Self::Equal,
+            TimeStep::Adaptive { .. } => Self::Adaptive,
+            TimeStep::Controlled(_) => Self::Controlled,
+        }
+    }
+
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Equal => ("All the same", "The duration is divided evenly"),
+            Self::Adaptive => {
+                ("Adaptive", "As long as the solution stays near the straight line through the two former ones")
+            }
+            Self::Controlled => (
+                "By their error",
+                "So short that the estimated error of H_c stays below a tolerance; takes several runs",
+            ),
+        }
+    }
+
+    /// Steps by this rule in place of others, the longest of which is given.
+    fn steps(self, longest: f64) -> TimeStep {
+        match self {
+            Self::Equal => TimeStep::Fixed(longest),
+            Self::Adaptive => TimeStep::Adaptive { tolerance: 1e-3, longest },
+            Self::Controlled => TimeStep::Controlled(0.01),
         }
     }
 }

@@ -110,6 +110,7 @@ impl Run {
         self.ended = true;
         self.trajectory.ended = march.trajectory.ended.clone();
         self.trajectory.rejected_steps = march.trajectory.rejected_steps;
+        self.trajectory.step_error = march.trajectory.step_error;
         self.record.clone_from(&march.record);
         self.grid_cost = march.grid_cost;
     }

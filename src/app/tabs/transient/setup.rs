@@ -98,7 +98,11 @@ impl Setup {
 
     /// Whether it is run unasked.
     pub fn is_quick(&self) -> bool {
-        let (TimeStep::Fixed(step) | TimeStep::Adaptive { longest: step, .. }) = self.study.time_step;
+        let step = match self.study.time_step {
+            // As many steps as it may come to.
+            TimeStep::Controlled(tolerance) => 0.1 * tolerance.sqrt(),
+            other => other.longest(self.study.duration),
+        };
         let nodes = match self.grid {
             Grid::Uniform { dx, domain } => (domain.1 - domain.0) / dx,
             Grid::GradedNodes { nodes, .. } => nodes as f64,

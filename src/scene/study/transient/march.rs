@@ -167,6 +167,10 @@ impl March {
             let warning = cost.warning().map(|warning| format!("{}: at T = {time:.4} {warning}", self.name));
             found.warnings.extend(warning.map(|warning| format!("{warning}; the grid does not do for this march")));
         }
+        if let Some(error) = self.trajectory.step_error {
+            found.push(format!("{}.step_error", self.name), None, error);
+            found.warnings.extend(self.trajectory.step_warning().map(|warning| format!("{}: {warning}", self.name)));
+        }
         for (quantity_name, quantity) in QUANTITIES {
             if let Some((greatest, l2)) = self.difference(quantity, study, marches) {
                 found.push(format!("{}.{quantity_name}.difference", self.name), None, greatest);

@@ -1,7 +1,7 @@
 //! The marches that a study of a contact in time asks for.
 
 use super::data::{Drive, TransientStudy};
-use crate::solver::full::transient::{Frame, Keep, TimeStep, Transient};
+use crate::solver::full::transient::{Frame, Keep, Transient};
 use crate::solver::physics::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::Lubricant;
 
@@ -94,7 +94,7 @@ impl TransientStudy {
     /// Which states a training keeps. Linearised models choose among them and local bases share them out, so that these
     /// want more than one basis does.
     fn training_states(&self, duration: f64) -> Keep {
-        let (TimeStep::Fixed(longest) | TimeStep::Adaptive { longest, .. }) = self.time_step;
+        let longest = self.time_step.longest(duration);
         let local = self.reduced.as_ref().is_some_and(|reduced| reduced.local.is_some());
         let most = if self.linearised.is_some() || local { MANY_TRAINING_STATES } else { TRAINING_STATES };
         Keep::Every(((duration / longest / most) as usize).max(1))

@@ -134,7 +134,8 @@ impl Question for TransientStudy {
     /// `H_c.amplitude`, `H_c.offset` (mean over start, less 1) over the window, and so on for H_min, P_c, P_max; `steps`, `rejected_steps`,
     /// `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `march_s`; `mass_defect` where places
     /// are given; `grid_error`, the share of H_c that the grid costs a contact at rest under the inputs of the start, of
-    /// the thinnest or of the thickest film, the largest of them: beyond a few percent a warning says so. Of the second frame on:
+    /// the thinnest or of the thickest film, the largest of them: beyond a few percent a warning says so. `step_error`, of
+    /// models too, is the estimated greatest relative error of H_c by the lengths of the steps. Of the second frame on:
     /// `H_c.difference` (greatest, relative) and `H_c.difference_l2` from the first one within the window, and so on.
     ///
     /// A reduced model's stand behind `fixed.rnsa`, a linearised one's behind `fixed.tpwl` (with several rules behind `fixed.tpwl.step_0.001`
@@ -263,6 +264,7 @@ impl Runner<'_, '_> {
         let balance = study.mass_between.and_then(|places| timed.trajectory.mass_balance(places));
         let states = std::mem::take(&mut timed.trajectory.states);
         let first = study.frames.first().filter(|first| **first != frame).map(|first| drive.result(first.name()));
+        timed.trajectory.estimate_step_error(&mut model, self.setting.observer);
         let grid_cost = timed.trajectory.grid_cost(&mut model, self.setting.observer);
         let march = March::new(&name, By::Full { first }, timed);
         let mass_defect = balance.map(|balance| balance.defect());

@@ -260,7 +260,9 @@ impl Runner<'_, '_> {
         match &model.kind {
             Kind::Reduced(reduced) => {
                 let name = drive.result(&model.name);
-                let timed = march(&name, MarchedBy::Reduced, &mut ReducedMarch::new(reduced, &transient)?)?;
+                let mut marching = ReducedMarch::new(reduced, &transient)?;
+                let mut timed = march(&name, MarchedBy::Reduced, &mut marching)?;
+                timed.trajectory.estimate_step_error(&mut marching, self.setting.observer);
                 let outside = reduced.domain.left_by(&timed.trajectory);
                 (self.tell)(Row::Marched(Arc::new(March { outside, ..March::new(&name, by("rnsa"), timed) })));
             }
@@ -268,8 +270,9 @@ impl Runner<'_, '_> {
                 for &weighting in weightings {
                     let name = format!("{}.{}", drive.result(&model.name), weighting.name());
                     let mut marching = TpwlMarch::new(linearised, &transient, weighting)?;
-                    let timed = march(&name, MarchedBy::Linearised(weighting), &mut marching)?;
+                    let mut timed = march(&name, MarchedBy::Linearised(weighting), &mut marching)?;
                     let record = Some(marching.record().clone());
+                    timed.trajectory.estimate_step_error(&mut marching, self.setting.observer);
                     (self.tell)(Row::Marched(Arc::new(March { record, ..March::new(&name, by("tpwl"), timed) })));
                 }
             }

@@ -4,6 +4,7 @@ use super::difference::BackwardDifference;
 use super::frame::{Conditions, Frame, Scales};
 use super::pace::{Pace, TimeStep};
 use super::signal::{InputError, Inputs};
+use super::step_error::controlled;
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::problem::expect_kind;
@@ -147,6 +148,9 @@ pub trait Marching {
 
 /// Most steps of one march.
 const MOST_STEPS: f64 = 2e6;
+/// Shares of H_c that steps can be controlled by: rounding and Newton's tolerance are felt below.
+const FINEST_CONTROL: f64 = 1e-5;
+const COARSEST_CONTROL: f64 = 0.3;
 
 impl Transient {
     /// A contact with the lubricant laws of the default, in the fixed frame, with equal steps; no fields are kept.
@@ -169,13 +173,16 @@ impl Transient {
             if fine { Ok(()) } else { refuse(quantity, value, "a finite number above zero") }
         };
         positive("duration", self.duration)?;
-        let longest = match self.time_step {
-            TimeStep::Fixed(step) => step,
-            TimeStep::Adaptive { tolerance, longest } => {
-                positive("tolerance of the time step", tolerance)?;
-                longest
+        match self.time_step {
+            TimeStep::Fixed(_) => {}
+            TimeStep::Adaptive { tolerance, .. } => positive("tolerance of the time step", tolerance)?,
+            TimeStep::Controlled(tolerance) if (FINEST_CONTROL..=COARSEST_CONTROL).contains(&tolerance) => {}
+            TimeStep::Controlled(tolerance) => {
+                let accepted = format!("between {FINEST_CONTROL:e} and {COARSEST_CONTROL}");
+                return refuse("tolerance of controlled time steps", tolerance, &accepted);
             }
-        };
+        }
+        let longest = self.time_step.longest(self.duration);
         positive("time step", longest)?;
         if longest > self.duration || self.duration / longest > MOST_STEPS {
             let accepted = format!("between {:e} and the duration {}", self.duration / MOST_STEPS, self.duration);
@@ -232,6 +239,18 @@ impl Step {
 /// When the contact, the inputs, the times or the lubricant is refused. A march that ends early is an answer: it says
 /// when and why.
 pub fn march(
+    model: &mut dyn Marching,
+    transient: &Transient,
+    observer: &dyn TransientObserver,
+) -> Result<Trajectory, TransientError> {
+    match transient.time_step {
+        TimeStep::Controlled(tolerance) => controlled(model, transient, tolerance, observer),
+        TimeStep::Fixed(_) | TimeStep::Adaptive { .. } => march_once(model, transient, observer),
+    }
+}
+
+/// Takes a model through time with the steps that are asked for.
+pub(super) fn march_once(
     model: &mut dyn Marching,
     transient: &Transient,
     observer: &dyn TransientObserver,
@@ -317,6 +336,7 @@ impl Trajectory {
             moments: Vec::new(),
             states: Vec::new(),
             rejected_steps: 0,
+            step_error: None,
             ended: Ended::Finished,
         })
     }

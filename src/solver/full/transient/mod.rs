@@ -14,6 +14,7 @@ mod mass;
 mod pace;
 mod signal;
 mod spline;
+mod step_error;
 mod system;
 #[cfg(test)]
 mod tests;

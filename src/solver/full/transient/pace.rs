@@ -16,6 +16,9 @@ pub enum TimeStep {
         /// The longest step, and the first.
         longest: f64,
     },
+    /// So short that the estimated error of the steps is at most this share of H_c: adaptive marches are repeated with
+    /// shorter steps until two of them agree.
+    Controlled(f64),
 }
 
 /// A step may be this much longer than the former one; (2.34) is stable up to 2.4.
@@ -31,12 +34,45 @@ const RETRIED: [f64; 2] = [0.25, 0.5];
 pub(crate) const MOST_PARTS: f64 = 64.0;
 /// Parts of a fixed step may double from one to the next.
 const DOUBLED: f64 = 2.0;
+/// The longest step of controlled marches: the flow crosses the contact in twenty of them.
+const LONGEST: f64 = 0.1;
+/// They have at least as many steps.
+const FEWEST_STEPS: f64 = 20.0;
 /// What rounding leaves of a step is no step of its own.
 pub(crate) const ROUNDING: f64 = 1e-6;
 
+impl TimeStep {
+    /// Steps that are shorter by `factor` where they resolve the same.
+    pub(super) fn shorter(self, factor: f64) -> Self {
+        match self {
+            Self::Fixed(step) => Self::Fixed(step / factor),
+            Self::Adaptive { tolerance, longest } => {
+                Self::Adaptive { tolerance: tolerance / (factor * factor), longest: longest / factor }
+            }
+            Self::Controlled(tolerance) => Self::Controlled(tolerance / (factor * factor)),
+        }
+    }
+
+    /// The longest step over a duration.
+    pub fn longest(self, duration: f64) -> f64 {
+        match self {
+            Self::Fixed(step) => step,
+            Self::Adaptive { longest, .. } => longest,
+            Self::Controlled(_) => LONGEST.min(duration / FEWEST_STEPS),
+        }
+    }
+}
+
+/// How the next length follows from the former one.
+#[derive(Clone, Copy)]
+enum Rule {
+    Fixed(f64),
+    Adaptive { tolerance: f64, longest: f64 },
+}
+
 /// Lengths of the next and of the former step.
 pub struct Pace {
-    time_step: TimeStep,
+    rule: Rule,
     duration: f64,
     /// The time that steps have to meet: the end of a fixed step or of the march.
     due: f64,
@@ -51,20 +87,25 @@ pub struct Pace {
 impl Pace {
     /// At T = 0.
     pub fn new(time_step: TimeStep, duration: f64) -> Self {
-        let time_step = match time_step {
-            TimeStep::Fixed(step) => TimeStep::Fixed(duration / (duration / step).round().max(1.0)),
-            TimeStep::Adaptive { .. } => time_step,
+        let longest = time_step.longest(duration);
+        let (rule, length) = match time_step {
+            TimeStep::Fixed(step) => {
+                let step = duration / (duration / step).round().max(1.0);
+                (Rule::Fixed(step), step)
+            }
+            TimeStep::Adaptive { tolerance, .. } | TimeStep::Controlled(tolerance) => {
+                (Rule::Adaptive { tolerance, longest }, longest)
+            }
         };
-        let (TimeStep::Fixed(length) | TimeStep::Adaptive { longest: length, .. }) = time_step;
-        let mut pace = Self { time_step, duration, due: 0.0, steps: 0.0, length, before: length };
+        let mut pace = Self { rule, duration, due: 0.0, steps: 0.0, length, before: length };
         pace.set_due();
         pace
     }
 
     fn set_due(&mut self) {
         self.steps += 1.0;
-        self.due = match self.time_step {
-            TimeStep::Fixed(step) if self.duration - self.due > step * (1.0 + ROUNDING) => self.steps * step,
+        self.due = match self.rule {
+            Rule::Fixed(step) if self.duration - self.due > step * (1.0 + ROUNDING) => self.steps * step,
             _ => self.duration,
         };
     }
@@ -75,13 +116,13 @@ impl Pace {
         let parts = (left / self.length - ROUNDING).ceil();
         if parts <= 1.0 {
             // Late in a march the rounding of T is a part of a step that the solution feels.
-            self.length = match self.time_step {
-                TimeStep::Fixed(step) if (left / step - 1.0).abs() < ROUNDING => step,
+            self.length = match self.rule {
+                Rule::Fixed(step) if (left / step - 1.0).abs() < ROUNDING => step,
                 _ => left,
             };
             return self.due;
         }
-        if let TimeStep::Fixed(_) = self.time_step {
+        if let Rule::Fixed(_) = self.rule {
             self.length = left / parts;
         }
         time + self.length
@@ -90,9 +131,9 @@ impl Pace {
     /// Whether the step just solved is short enough, by its deviation from the extrapolation, which is of second order
     /// in its length. If it is not, the next one will be shorter, else the next one follows on it.
     pub fn accepts(&mut self, deviation: impl FnOnce() -> f64) -> bool {
-        let wanted = match self.time_step {
-            TimeStep::Fixed(step) => (DOUBLED * self.length).min(step),
-            TimeStep::Adaptive { tolerance, longest } => {
+        let wanted = match self.rule {
+            Rule::Fixed(step) => (DOUBLED * self.length).min(step),
+            Rule::Adaptive { tolerance, longest } => {
                 let factor = 0.9 * (tolerance / deviation()).sqrt();
                 (self.length * factor.clamp(0.2, GREATEST_RATIO)).clamp(SHORTEST_PART * longest, longest)
             }
@@ -111,14 +152,14 @@ impl Pace {
         if met {
             self.set_due();
         }
-        met || matches!(self.time_step, TimeStep::Adaptive { .. })
+        met || matches!(self.rule, Rule::Adaptive { .. })
     }
 
     /// Makes the next step shorter in place of one that could not be taken; false where that is not allowed.
     pub fn shorten(&mut self) -> bool {
-        let (part, shortest) = match self.time_step {
-            TimeStep::Adaptive { longest, .. } => (RETRIED[0], SHORTEST_PART * longest),
-            TimeStep::Fixed(step) => (RETRIED[1], step / MOST_PARTS * (1.0 + ROUNDING)),
+        let (part, shortest) = match self.rule {
+            Rule::Adaptive { longest, .. } => (RETRIED[0], SHORTEST_PART * longest),
+            Rule::Fixed(step) => (RETRIED[1], step / MOST_PARTS * (1.0 + ROUNDING)),
         };
         let allowed = self.length > shortest;
         if allowed {

@@ -130,6 +130,8 @@ pub struct Trajectory {
     pub states: Vec<State>,
     /// Steps that were begun and discarded.
     pub rejected_steps: usize,
+    /// Greatest relative error that the lengths of the steps leave in H_c, where it was estimated.
+    pub step_error: Option<f64>,
     /// How it ended.
     pub ended: Ended,
 }

@@ -9,8 +9,7 @@ use super::superposition::Superposition;
 use super::weights::{Weight, Weighting, square_distance};
 use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::transient::{
-    Conditions, Effort, Marching, Moment, State, Step, TimeStep, Trajectory, Transient, TransientObserver,
-    extrapolated, march,
+    Conditions, Effort, Marching, Moment, State, Step, Trajectory, Transient, TransientObserver, extrapolated, march,
 };
 use crate::solver::full::{Scalars, Termination};
 use crate::solver::observer::Observer;
@@ -84,7 +83,7 @@ impl<'a> TpwlMarch<'a> {
         let search = Search::new(model, weighting, model.shares(&problem)?);
         let (len, most) = (model.space.len(), search.most_weights());
         let past = || Past { state: vec![0.0; len], storage: vec![0.0; len] };
-        let (TimeStep::Fixed(step) | TimeStep::Adaptive { longest: step, .. }) = transient.time_step;
+        let step = transient.time_step.longest(transient.duration);
         let steps = (transient.duration / step).ceil() as usize + 2;
         Ok(Self {
             model,
@@ -199,6 +198,7 @@ impl Marching for TpwlMarch<'_> {
             return Err(Termination::IterationLimit);
         }
         self.former = [self.trial.clone(), self.trial.clone()];
+        self.record.clear();
         self.keep(at);
         Ok(effort)
     }

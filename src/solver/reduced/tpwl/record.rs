@@ -61,6 +61,14 @@ impl TpwlRecord {
         self.states.extend_from_slice(state);
     }
 
+    /// Forgets all steps.
+    pub fn clear(&mut self) {
+        self.steps.clear();
+        self.weights.clear();
+        self.ends.clear();
+        self.states.clear();
+    }
+
     /// The steps in the order of time.
     pub fn steps(&self) -> &[TpwlStep] {
         &self.steps

@@ -1,0 +1,147 @@
+//! What the lengths of the steps leave in a march: estimated by a second march with other steps, and kept below a
+//! tolerance by repeated ones.
+
+use super::march::{Keep, Marching, Transient, TransientError, TransientObserver, march_once};
+use super::pace::TimeStep;
+use super::signal::Input;
+use super::trajectory::{Ended, Moment, Quantity, Trajectory};
+use crate::solver::observer::{Observer, Progress};
+use crate::solver::warning::Warning;
+
+/// Inputs that bend by more than this share of their range over two steps are not resolved by longer ones.
+const BENT: f64 = 0.05;
+/// What a march errs by, over its difference from one with steps twice as long. Second order would give a third; inputs
+/// with kinks give up to 0.6.
+const OF_DOUBLED: f64 = 0.5;
+/// What a march errs by, over its difference from one with steps half as long, by second order.
+const OF_HALVED: f64 = 4.0 / 3.0;
+/// ‖P − extrapolation‖/‖P‖ of the first march of a controlled one, over its tolerance for H_c.
+const FIRST_DEVIATION: f64 = 6.0;
+/// Each march of a controlled one has steps shorter by this.
+const SHORTER: f64 = 2.0;
+/// Most marches that are compared with each other.
+const MOST_MARCHES: usize = 8;
+
+/// Passes on that work goes on, and whether to stop; its moments are nobody's.
+struct Silent<'a> {
+    observer: &'a dyn Observer,
+    stage: &'static str,
+    duration: f64,
+}
+
+impl Observer for Silent<'_> {
+    fn cancelled(&self) -> bool {
+        self.observer.cancelled()
+    }
+}
+
+impl TransientObserver for Silent<'_> {
+    fn moment(&self, moment: &Moment) {
+        let done = (1000.0 * moment.time / self.duration) as usize;
+        self.observer.progress(Progress { stage: self.stage.to_owned(), done, total: 1000 });
+    }
+}
+
+impl Trajectory {
+    /// Estimates the greatest relative error that the lengths of the steps leave in H_c, by marching the same model with
+    /// other steps: twice as long where those still resolve the inputs, else half as long. The model's state is lost.
+    /// A march that has its estimate already keeps it.
+    pub fn estimate_step_error(&mut self, model: &mut dyn Marching, observer: &dyn Observer) {
+        if self.step_error.is_some() || self.moments.len() < 2 || observer.cancelled() {
+            return;
+        }
+        if self.resolves_inputs() {
+            self.step_error = self.marched_again(0.5, model, observer).map(|greatest| OF_DOUBLED * greatest);
+        }
+        if self.step_error.is_none() {
+            self.step_error = self.marched_again(2.0, model, observer).map(|greatest| OF_HALVED * greatest);
+        }
+    }
+
+    /// The warning of the estimated error of its steps, if that is notable.
+    pub fn step_warning(&self) -> Option<Warning> {
+        let tolerance = match self.transient.time_step {
+            TimeStep::Controlled(tolerance) => Some(tolerance),
+            TimeStep::Fixed(_) | TimeStep::Adaptive { .. } => None,
+        };
+        Warning::of_time_step(self.step_error?, tolerance)
+    }
+
+    /// Greatest relative difference of H_c from a march with steps shorter by `factor`; none where that does not come
+    /// as far.
+    fn marched_again(&self, factor: f64, model: &mut dyn Marching, observer: &dyn Observer) -> Option<f64> {
+        let mut transient = Transient { keep: Keep::Scalars, ..self.transient.clone() };
+        transient.time_step = transient.time_step.shorter(factor);
+        transient.duration = self.reached();
+        if let (TimeStep::Fixed(step), true) = (self.transient.time_step, factor < 1.0) {
+            // Both marches have their moments in common.
+            let steps = (transient.duration / step).round();
+            transient.duration = (2.0 * (0.5 * steps).floor() * step).min(transient.duration);
+        }
+        let silent = Silent { observer, stage: "error of the time step", duration: transient.duration };
+        let other = march_once(model, &transient, &silent).ok().filter(Self::finished)?;
+        let (coarse, fine) = if factor < 1.0 { (&other, self) } else { (self, &other) };
+        Some(coarse.difference(fine, Quantity::CentralFilm, (0.0, transient.duration))?.0)
+    }
+
+    /// The last T that was reached.
+    fn reached(&self) -> f64 {
+        self.moments.last().map_or(0.0, |moment| moment.time)
+    }
+
+    /// Whether the inputs are nearly straight over any two steps.
+    fn resolves_inputs(&self) -> bool {
+        let values = |input: Input| [input.radius, input.speed, input.load];
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        let mut bent = [0.0f64; 3];
+        for pair in self.moments.windows(3).step_by(2) {
+            let [from, _, to] = pair else { continue };
+            let ends = [values(from.input), values(to.input)];
+            for share in [0.25, 0.5, 0.75] {
+                let between = values(self.transient.inputs.at(from.time + share * (to.time - from.time)));
+                for k in 0..between.len() {
+                    low[k] = low[k].min(between[k]).min(ends[0][k]);
+                    high[k] = high[k].max(between[k]).max(ends[0][k]);
+                    bent[k] = bent[k].max((between[k] - (1.0 - share) * ends[0][k] - share * ends[1][k]).abs());
+                }
+            }
+        }
+        (0..bent.len()).all(|k| bent[k] <= BENT * (high[k] - low[k]).max(0.0) + f64::EPSILON)
+    }
+}
+
+/// Repeats an adaptive march with shorter steps until it differs from the former one by the tolerance at most, and
+/// then tells of it.
+pub(super) fn controlled(
+    model: &mut dyn Marching,
+    transient: &Transient,
+    tolerance: f64,
+    observer: &dyn TransientObserver,
+) -> Result<Trajectory, TransientError> {
+    transient.check()?;
+    let longest = transient.time_step.longest(transient.duration);
+    let mut time_step = TimeStep::Adaptive { tolerance: FIRST_DEVIATION * tolerance, longest };
+    let mut former: Option<Trajectory> = None;
+    let mut step_error = None;
+    let silent = Silent { observer, stage: "lengths of the time steps", duration: transient.duration };
+    for count in 1..=MOST_MARCHES {
+        let asked = Transient { time_step, keep: Keep::Scalars, ..transient.clone() };
+        let marched = march_once(model, &asked, &silent)?;
+        let both = former.as_ref().filter(|former| former.finished() && marched.finished());
+        let difference = |former: &Trajectory| {
+            former.difference(&marched, Quantity::CentralFilm, (0.0, transient.duration)).map(|(greatest, _)| greatest)
+        };
+        step_error = both.and_then(difference);
+        let met = step_error.is_some_and(|error| error <= tolerance);
+        if met || count == MOST_MARCHES || matches!(marched.ended, Ended::Cancelled { .. }) {
+            break;
+        }
+        former = Some(marched);
+        time_step = time_step.shorter(SHORTER);
+    }
+    let asked = Transient { time_step, ..transient.clone() };
+    let mut trajectory = march_once(model, &asked, observer)?;
+    trajectory.transient.time_step = transient.time_step;
+    trajectory.step_error = step_error;
+    Ok(trajectory)
+}
