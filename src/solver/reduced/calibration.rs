@@ -19,54 +19,24 @@ mod features;
 mod neighbours;
 mod parts;
 mod quantity;
-mod rupture;
 mod steps;
 #[cfg(test)]
 mod tests;
 
 pub use features::{Evidence, FeatureSet, Features, Measured};
 pub use parts::CalibrationParts;
+pub use quantity::LEAST_EVIDENCE;
 
+use super::error_estimate::ErrorEstimate;
 use features::{ERRORS, FEATURES, MOST_FEATURES, SIGNS};
 use neighbours::Neighbours;
 use quantity::{Quantity, quadratic};
-use serde::{Deserialize, Serialize};
 use steps::kept_place;
 
-/// Nearest evidence that says how large errors are here.
-const AROUND: usize = 48;
 /// Errors below this are noise of the three Newton steps they were measured by.
 const FLOOR: f64 = 1e-8;
-/// Evidence without which nothing is said.
-pub const LEAST_EVIDENCE: usize = 100;
 /// Evidence of a window's own without which nothing is said there, where several learn together.
 pub const LEAST_OF_WINDOW: usize = 32;
-
-/// An error that was not measured.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Estimated {
-    /// Its likely size (median of similar cases).
-    pub likely: f64,
-    /// What 99 of 100 errors stay below.
-    pub bound: f64,
-}
-
-/// Relative errors of a reduced solution against the full one on the same grid.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ErrorEstimate {
-    /// Of the central film, |H̃_c/H_c − 1|.
-    pub h_c: Estimated,
-    /// Of the smallest film.
-    pub h_min: Estimated,
-    /// Of the state, e_z of (3.10).
-    pub state: Estimated,
-    /// Of the traction coefficient (3.41), of a model that knows sliding and where an isothermal traction has a
-    /// meaning.
-    pub traction: Option<Estimated>,
-    /// Of the rise of temperature at mid-film, X = 0, of a model that knows heat; where it rises by less than a kelvin,
-    /// in kelvin.
-    pub rise: Option<Estimated>,
-}
 
 /// What a window knows about its own errors.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,6 +11,7 @@ mod contact_rows;
 mod cubature;
 pub(crate) mod dense;
 mod domain;
+mod error_estimate;
 mod error_measures;
 mod error_split;
 mod kept;
@@ -35,12 +36,12 @@ pub mod transient;
 mod warmth;
 
 pub use calibration::{
-    Calibration, CalibrationParts, ErrorEstimate, Estimated, Evidence, FeatureSet, Features, LEAST_EVIDENCE,
-    LEAST_OF_WINDOW, Measured,
+    Calibration, CalibrationParts, Evidence, FeatureSet, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Measured,
 };
 pub use combined::{Combined, PressureModes, SharedBasis};
 pub use cubature::{GoalEquations, cubature};
 pub use domain::{Domain, Trust};
+pub use error_estimate::{ErrorEstimate, Estimated};
 pub use error_measures::{ErrorMeasures, Norm, Residuals};
 pub use error_split::{ErrorSplit, ErrorSplitter, Parts, PressureParts, SplitError};
 pub use kept::{FILM_DIGITS, Keeping, keep_snapshots, kept_starts};

@@ -1,8 +1,9 @@
 //! What a reduced model is made of.
 
-use super::calibration::{Calibration, ErrorEstimate, Features};
+use super::calibration::{Calibration, Features};
 use super::combined::PressureModes;
 use super::domain::{Domain, Trust};
+use super::error_estimate::ErrorEstimate;
 use super::minimisation::Scheme;
 use super::pod::PodBasis;
 use super::sampling::{SampledRows, Sampling};

@@ -4,7 +4,7 @@
 //! Roelands' exponent z. A local model that is narrow in one of the latter needs hardly fewer modes than a wide one, so local
 //! models are the cells of anchors in (ln M, ln L), whatever the lubricant.
 
-use super::calibration::{ErrorEstimate, Estimated};
+use super::error_estimate::{ErrorEstimate, Estimated};
 use super::model::{ReducedModel, Window};
 use super::reduced_solution::ReducedSolution;
 use crate::solver::full::GridCost;

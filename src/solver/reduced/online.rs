@@ -11,7 +11,7 @@ use super::calibration::{FeatureSet, Features};
 use super::domain::Trust;
 use super::kriging::Kriging;
 use super::model::{ReducedModel, Snapshot, Window};
-use super::operators::{Operators, RowObserver};
+use super::operators::{Flow, Operators, RowObserver};
 use super::reduced_solution::ReducedSolution;
 use super::start::{self, Former, Guess, Known};
 use crate::solver::full::Problem;
@@ -329,8 +329,10 @@ fn all_modes() -> (&'static [f64], &'static [f64]) {
 
 fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions) -> Operators {
     let modes = options.pressure_modes.unwrap_or(usize::MAX);
-    if model.domain.heats() {
-        return Operators::with_heat(window, modes, options.deformation_modes);
-    }
-    Operators::new(window, modes, options.deformation_modes, model.domain.thins())
+    let flow = match &model.domain {
+        domain if domain.heats() => Flow::Thermal,
+        domain if domain.thins() => Flow::Thinning,
+        _ => Flow::Newtonian,
+    };
+    Operators::new(window, modes, options.deformation_modes, flow)
 }

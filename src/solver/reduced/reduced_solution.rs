@@ -1,7 +1,7 @@
 //! The solution of a reduced model.
 
-use super::calibration::ErrorEstimate;
 use super::domain::Trust;
+use super::error_estimate::ErrorEstimate;
 use super::warmth::Warmth;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;

@@ -5,59 +5,25 @@
 //! every window near it; a window with fewer than its number takes further ones of its own. A contact that the full
 //! solver gives no solution for is left out, and named.
 
+use super::bases::{InCommon, THIN, missed_by_modes};
 use super::build::WindowTraining;
+use super::cell::{Cell, anchor};
+use super::error::TrainingError;
 use super::layout::outward;
+use super::observer::TrainingObserver;
 use super::one_thread::on_one_thread;
+use super::spec::{TrainingSpec, WindowSpec, Windows};
 use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
-use super::{TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::SolveError;
 use crate::solver::physics::contact::Moes;
-use crate::solver::reduced::{
-    BEYOND_CELLS, Keeping, PodBasis, ReducedModel, SharedBasis, deformation_weights, from_anchor,
-};
+use crate::solver::reduced::{BEYOND_CELLS, Keeping, PodBasis, SharedBasis, deformation_weights, from_anchor};
 use faer::Mat;
 use fastrand::Rng;
 use std::sync::Arc;
 
 /// Rounds in which anchors move to the middle of their cells.
 const ROUNDS: usize = 30;
-/// Solutions by which a cell is judged, at most.
-const MOST_JUDGED: usize = 300;
-/// The film above which pressures count more than what they do to it.
-const THIN: f64 = 0.1;
-
-/// The contacts around one of several anchors.
-#[derive(Clone, Debug)]
-pub(super) struct Cell {
-    anchors: Arc<[Moes]>,
-    own: usize,
-}
-
-impl Cell {
-    /// That of a window; none where windows have no anchors.
-    pub fn of(anchors: impl IntoIterator<Item = Option<Moes>>, own: usize) -> Option<Self> {
-        let anchors: Option<Arc<[Moes]>> = anchors.into_iter().collect();
-        anchors.filter(|anchors| own < anchors.len()).map(|anchors| Self { anchors, own })
-    }
-
-    /// That of a window of a model.
-    pub fn of_model(model: &ReducedModel, own: usize) -> Option<Self> {
-        Self::of(model.windows.iter().map(|window| window.anchor), own)
-    }
-
-    /// Whether a contact is nearer to the own anchor than to the others, or farther by no more than so much.
-    pub fn holds(&self, moes: Moes, beyond: f64) -> bool {
-        let nearest = self.anchors.iter().map(|anchor| from_anchor(moes, *anchor)).fold(f64::INFINITY, f64::min);
-        from_anchor(moes, self.anchors[self.own]) <= nearest + beyond
-    }
-}
-
-/// M and L of a window's anchor.
-pub(super) fn anchor(window: &WindowSpec) -> Option<Moes> {
-    window.anchor.map(|(m, l)| Moes { m, l })
-}
-
 /// Solves the pool and begins with the windows that it is divided into.
 ///
 /// # Errors
@@ -106,15 +72,6 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
     }
     state.trials.clear();
     Ok(())
-}
-
-/// What all windows around anchors have in common.
-#[derive(Clone)]
-pub(super) struct InCommon {
-    /// Their deformation basis: deformations are smooth, and one serves them all.
-    pub deformation: Arc<PodBasis>,
-    /// What their pressure modes are made of, where they share a basis.
-    pub pressure: Option<Arc<SharedBasis>>,
 }
 
 /// The bases of all windows around anchors, from the solutions that each has within its own cell as it begins.
@@ -208,47 +165,6 @@ fn nearest(anchors: &[Moes], moes: Moes) -> usize {
 fn missing(pool: &[Solved], cell: &[usize], grid: &ContactGrid, modes: usize) -> f64 {
     let solutions: Vec<&Solved> = cell.iter().map(|k| &pool[*k]).collect();
     missed_by_modes(&solutions, grid).map_or(f64::INFINITY, |missed| missed.get(modes).copied().unwrap_or(0.0))
-}
-
-/// What no mode, one, two… miss of the pressures of solutions, root mean square, over their films as far as these are thin;
-/// `None` when the decomposition fails.
-fn missed_by_modes(solutions: &[&Solved], grid: &ContactGrid) -> Option<Vec<f64>> {
-    let every = solutions.len().div_ceil(MOST_JUDGED).max(1);
-    let judged: Vec<&&Solved> = solutions.iter().step_by(every).collect();
-    let count = judged.len();
-    let pressures = Mat::from_fn(grid.len(), count, |i, j| judged[j].pressure[i] / judged[j].h_c.min(THIN));
-    let basis = PodBasis::new(pressures.as_ref(), grid.weights(), 0.5)?;
-    let mut rest = 0.0;
-    let missed = basis.singular_values.iter().rev().map(|sigma| {
-        rest += sigma * sigma;
-        (rest / count as f64).sqrt()
-    });
-    let mut missed: Vec<f64> = missed.collect();
-    missed.reverse();
-    Some(missed)
-}
-
-/// How many modes miss no more than so much of solutions; `None` when the decomposition fails.
-pub(super) fn modes_missing(solutions: &[Solved], grid: &ContactGrid, missing: f64) -> Option<usize> {
-    let missed = missed_by_modes(&solutions.iter().collect::<Vec<_>>(), grid)?;
-    Some(missed.iter().position(|missed| *missed <= missing).unwrap_or(missed.len()))
-}
-
-/// How many of the modes of solutions miss no more than so much of any one of them; `None` when the decomposition fails.
-pub(super) fn modes_missing_of_any(solutions: &[Solved], grid: &ContactGrid, missing: f64) -> Option<usize> {
-    let (nodes, weights) = (grid.len(), grid.weights());
-    let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
-    let basis = PodBasis::new(pressures.as_ref(), weights, 0.0)?;
-    let most = solutions.iter().map(|solved| {
-        let shares = basis.coefficients(weights, |i| solved.pressure[i]);
-        let (mut rest, limit) = (0.0, (missing * solved.h_c.min(THIN)).powi(2));
-        let spare = shares.iter().rev().take_while(|share| {
-            rest += *share * *share;
-            rest <= limit
-        });
-        shares.len() - spare.count()
-    });
-    most.max()
 }
 
 /// Places in the middle of so many cells of (ln M, ln L).

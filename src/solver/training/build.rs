@@ -1,34 +1,28 @@
 //! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
 
-use super::anchors::{Cell, InCommon, anchor, modes_missing, modes_missing_of_any};
+use super::bases::{InCommon, bases, modes_missing, modes_missing_of_any};
+use super::cell::{Cell, anchor};
+use super::error::TrainingError;
+use super::observer::TrainingObserver;
 use super::one_thread::on_one_thread;
 use super::plan::Within;
 use super::rows::sample_rows;
-use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState, train_resumable};
-use super::{Progress, TrainingError, TrainingObserver, TrainingSpec, WindowSpec, Windows};
+use super::spec::{TrainingSpec, WindowSpec, Windows};
+use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState};
 use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::full::{ContactSolver, Start};
+use crate::solver::full::{ContactSolver, SolveError, Start};
+use crate::solver::observer::Progress;
 use crate::solver::parameters::{CIRCLES, Metric};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{
-    Combined, Keeping, PodBasis, PressureModes, ReducedModel, RowSnapshots, Sampling, Scheme, Shapes, Snapshot,
-    TestSpace, Window, all_rows, deformation_weights, fronts, keep_snapshots, kept_rule, minimised_rows,
+    Keeping, RowSnapshots, Sampling, Scheme, Shapes, TestSpace, Window, all_rows, fronts, kept_rule, minimised_rows,
 };
-use faer::Mat;
 use fastrand::Rng;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Trains a model: full solutions on all cores, then bases, sampling and operators.
-///
-/// # Errors
-/// When the specification is refused, a full solve fails, or the observer cancels.
-pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
-    train_resumable(&mut TrainingState::new(spec.clone()), observer)
-}
 
 /// A window in training: everything it is made with.
 pub(super) struct WindowTraining<'a> {
@@ -60,7 +54,7 @@ impl<'a> WindowTraining<'a> {
         observer: &'a dyn TrainingObserver,
     ) -> Result<Self, TrainingError> {
         let wanted = window.grid;
-        let grid = on_one_thread(observer, move || wanted.build())?.map_err(crate::solver::full::SolveError::from)?;
+        let grid = on_one_thread(observer, move || wanted.build())?.map_err(SolveError::from)?;
         Ok(Self { spec, window, grid, reach, most_modes, cell: None, in_common: None, named: false, observer })
     }
 
@@ -211,7 +205,7 @@ impl<'a> WindowTraining<'a> {
         if spec.sampling != Sampling::All {
             let (from, to) = window.m;
             let served = Within { radius_ratio: window.served_ratios(), ..self.within() };
-            let sampled = sample_rows(spec, &Arc::new(alone(spec, &window)), &served, rng, *observer)?;
+            let sampled = sample_rows(spec, &Arc::new(spec.model_of(&window)), &served, rng, *observer)?;
             let mut rows = sampled.ok_or(TrainingError::Decomposition { from, to })?;
             let short = Keeping::of(&window, spec.heats()).shortens_rules();
             if short && spec.sampling != Sampling::Cubature {
@@ -234,56 +228,4 @@ fn without_solution(point: &OperatingPoint) -> String {
         oil.0,
         oil.1
     )
-}
-
-/// POD of pressures, of max(P, 0) where modes are to be `positive`, and of deformations, each up to a loss of
-/// information and a number of modes, as they are kept, unless they are `in_common` with other windows; and the snapshots in
-/// the pressure basis, of those solutions that are of the model's `own` lubricant.
-fn bases(
-    ([pressure_loss, deformation_loss], most, keeping): ([f64; 2], usize, Keeping),
-    positive: bool,
-    grid: &ContactGrid,
-    (solutions, own): (&[Solved], &[bool]),
-    in_common: Option<InCommon>,
-) -> Option<(PressureModes, Arc<PodBasis>, Vec<Snapshot>)> {
-    let (nodes, weights) = (grid.len(), grid.weights());
-    let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| {
-        let pressure = solutions[j].pressure[i];
-        if positive { pressure.max(0.0) } else { pressure }
-    });
-    let (shared, deformation) = in_common.map_or((None, None), |own| (own.pressure, Some(own.deformation)));
-    let pressure = match shared {
-        Some(shared) => Combined::of(&shared, &pressures, weights, (pressure_loss, most))?,
-        None => {
-            let basis = PodBasis::new(pressures.as_ref(), weights, pressure_loss)?.cut(most);
-            PressureModes::own(basis.kept(keeping.accuracy()), grid)
-        }
-    };
-    let deformation = match deformation {
-        Some(deformation) => deformation,
-        None => Arc::new(PodBasis::new(grid.flex(&pressures).as_ref(), &deformation_weights(grid), deformation_loss)?),
-    };
-    let coefficients = pressure.coefficients(weights, &pressures);
-    let mut snapshots: Vec<Snapshot> = solutions
-        .iter()
-        .zip(coefficients.col_iter())
-        .zip(own)
-        .filter(|(_, own)| **own)
-        .map(|((s, coefficients), _)| Snapshot {
-            point: s.point,
-            coefficients: coefficients.iter().copied().collect(),
-            h_0: s.h_0,
-            h_c: s.h_c,
-            fronts: Vec::new(),
-            grid_cost: s.grid_cost,
-        })
-        .collect();
-    keep_snapshots(&mut snapshots, pressure.count(), keeping);
-    Some((pressure, deformation, snapshots))
-}
-
-/// A model of one window only.
-pub(super) fn alone(spec: &TrainingSpec, window: &Window) -> ReducedModel {
-    let (windows, domain) = (vec![window.clone()], spec.domain());
-    ReducedModel { title: String::new(), domain, windows, scene: String::new(), log: Vec::new() }
 }

@@ -4,19 +4,18 @@
 //! under shear-thinning and of many oils until they converge; what they change is its error. That is evidence for [`Calibration`], and
 //! nothing else: no basis sees these points.
 
-use super::anchors::Cell;
+use super::cell::Cell;
+use super::error::TrainingError;
 use super::indicator::Corrector;
+use super::observer::TrainingObserver;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::{TrainingError, TrainingObserver, TrainingSpec};
+use super::spec::TrainingSpec;
 use crate::solver::reduced::{
     Calibration, Evidence, FeatureSet, Features, Online, ReducedModel, ReducedOptions, Window,
 };
 use fastrand::Rng;
 use std::sync::Arc;
-
-/// Measured points of a window unless a specification says otherwise.
-pub const EVIDENCE: usize = 1000;
 
 /// Measures the errors of window `k`, `model` being the model of it alone. Points where the reduced model fails are no
 /// evidence: there nothing is shown.

@@ -1,6 +1,6 @@
 //! What a specification of a training may say.
 
-use super::{Plan, TrainingSpec, WindowSpec, Windows};
+use super::spec::{Plan, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::ContactKind;
@@ -19,6 +19,16 @@ const MOST_MISSING: f64 = 0.1;
 
 /// Fewest rows per mode of residual minimisation.
 const FEWEST_MINIMISED: f64 = 1.1;
+
+impl TrainingSpec {
+    /// Refuses what no training can be made of, before anything is solved.
+    ///
+    /// # Errors
+    /// Naming the field.
+    pub fn check(&self) -> Result<(), Refused> {
+        check(self)
+    }
+}
 
 /// Refuses what no training can be made of, naming the field.
 pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {

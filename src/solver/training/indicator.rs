@@ -7,8 +7,9 @@
 //! number of steps is enough everywhere: there the full system is solved until it converges. It is large-scale work,
 //! though no cold full solution.
 
-use super::build::alone;
-use super::{TrainingError, TrainingObserver, TrainingSpec};
+use super::error::TrainingError;
+use super::observer::TrainingObserver;
+use super::spec::{Indicator, TrainingSpec};
 use crate::host::pool;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
@@ -16,26 +17,10 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ErrorMeasures, Measured, Norm, Online, ReducedOptions, ReducedSolution, Window};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Full Newton steps of [`Indicator::Correction`].
 const CORRECTIONS: usize = 3;
-
-/// By what a training judges an approximation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
-pub enum Indicator {
-    /// e_f^I of (3.15), the dissertation's: no large-scale work at all.
-    #[default]
-    Residual,
-    /// e_f^I of (3.15) as the dissertation has it: in the Euclidean norm, of its own online scheme (δ̃ in the state,
-    /// the nearest snapshot as the only start). Its tolerances 100 … 0.1 mean this.
-    Dissertation,
-    /// By how much three Newton steps of the full system, taken from the reduced solution, change it: the largest of
-    /// |ΔH_c/H_c|, ½|ΔH_min/H_min| and e_z of (3.10). A tolerance on it is one on what people read off, and the state
-    /// keeps the spike in place.
-    Correction,
-}
 
 /// Reduced solvers of a model under training, one per thread.
 pub(super) struct Judges<'a> {
@@ -48,7 +33,7 @@ pub(super) struct Judges<'a> {
 
 impl<'a> Judges<'a> {
     pub fn new(indicator: Indicator, spec: &TrainingSpec, window: &Window, observer: &'a dyn TrainingObserver) -> Self {
-        let model = Arc::new(alone(spec, window));
+        let model = Arc::new(spec.model_of(window));
         let (options, measures) = match indicator {
             Indicator::Dissertation => {
                 let options = ReducedOptions::dissertation();

@@ -12,10 +12,12 @@
 //! hardly matters.
 
 use super::build::WindowTraining;
+use super::error::TrainingError;
+use super::observer::TrainingObserver;
 use super::one_thread::on_one_thread;
 use super::plan::Within;
+use super::spec::{Plan, WindowSpec};
 use super::state::{FEWEST, Part, Solved, TrainingState, WindowState};
-use super::{Plan, TrainingError, TrainingObserver, WindowSpec};
 use crate::solver::discrete::grid::{GridSpec, ReferenceGrid};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::PodBasis;

@@ -4,8 +4,10 @@ use super::small::{self, heated_ellipses, oils, oils_of_points, with_ends};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Problem, Start};
-use crate::solver::parameters::Axis;
-use crate::solver::physics::contact::{MoesRequest, OperatingPoint, expected_film, moes_film, si_from_moes};
+use crate::solver::parameters::{Axis, Quantity};
+use crate::solver::physics::contact::{
+    ContactKind, MoesRequest, OperatingPoint, expected_film, moes_film, si_from_moes,
+};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ViscosityLaw, roelands_exponent};
 use crate::solver::reduced::{
     Online, ReducedModel, ReducedOptions, SampledRows, Sampling, TestSpace, Trust, Window, all_rows,

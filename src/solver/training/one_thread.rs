@@ -1,9 +1,9 @@
 //! Work that nothing can interrupt (a decomposition, a kernel, a plan of many points), done so that a cancel need not
 //! wait for it; and work of many parts, done on all threads.
 
-use super::{Progress, TrainingError};
+use super::error::TrainingError;
 use crate::host::pool;
-use crate::solver::observer::Observer;
+use crate::solver::observer::{Observer, Progress};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Does `work` on a separate thread while the observer is asked; see [`pool::on_one_thread`].

@@ -1,6 +1,7 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
-use super::anchors::Cell;
+use super::cell::Cell;
+use super::spec::TrainingSpec;
 use crate::solver::parameters::{Metric, ParameterSpace, SHAPE_WEIGHT, Unit, apart, distance, middle};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::BEYOND_CELLS;
@@ -75,6 +76,13 @@ pub fn random_points_while(
         }
     }
     points
+}
+
+impl TrainingSpec {
+    /// Its contacts with M in an interval.
+    pub(super) fn within(&self, m: (f64, f64)) -> Within {
+        Within { m, ..Within::all(&self.range, self.contact(), self.heats()) }
+    }
 }
 
 impl Within {

@@ -4,6 +4,8 @@ use super::small::{POINT_GRID, point, trained};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Start};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling};
 use std::sync::Arc;
 

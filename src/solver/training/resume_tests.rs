@@ -3,6 +3,7 @@
 use super::small::{moes, moes_with, oils};
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
+use crate::solver::parameters::ParameterSpace;
 use crate::solver::reduced::{ReducedModel, Sampling, Window};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

@@ -1,11 +1,13 @@
 //! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature and around anchors at the
 //! trainings too, and what its iterates show decides which rows stay.
 
-use super::anchors::Cell;
-use super::build::alone;
+use super::cell::Cell;
+use super::error::TrainingError;
+use super::observer::TrainingObserver;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::{Progress, TrainingError, TrainingObserver, TrainingSpec};
+use super::spec::TrainingSpec;
+use crate::solver::observer::Progress;
 use crate::solver::parameters::separation;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
@@ -176,7 +178,7 @@ pub fn with_rows(
     let Some(own) = model.windows.get(window) else { return Ok(Vec::new()) };
     let mut exact = own.clone();
     exact.set_rows(Sampling::All, all_rows(&TestSpace::new(own.pressure.basis(), &own.grid)));
-    let exact = Arc::new(alone(spec, &exact));
+    let exact = Arc::new(spec.model_of(&exact));
     let mut rng = Rng::with_seed(spec.seed);
     let (radius_ratio, cell) = (own.served_ratios(), Cell::of_model(model, window));
     let m = if cell.is_some() { (0.0, f64::INFINITY) } else { own.m };

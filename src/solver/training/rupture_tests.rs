@@ -6,6 +6,7 @@ use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::full::{ContactSolver, Solution, Start};
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, fronts};
 use std::sync::Arc;

@@ -2,10 +2,12 @@
 
 use super::small::{self, POINT_GRID, line_grid, sliding_oils, with_ends};
 use super::*;
+use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::{ContactSolver, Problem, Solution, Start};
-use crate::solver::physics::contact::{MoesRequest, OperatingPoint, Sliding, si_from_moes};
-use crate::solver::physics::lubricant::{LimitingStress, ShearLaw};
-use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Sampling, Trust};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
+use crate::solver::physics::lubricant::{Cavitation, LimitingStress, Lubricant, ShearLaw};
+use crate::solver::reduced::{Domain, Online, ReducedModel, ReducedOptions, Sampling, Trust};
 use std::sync::Arc;
 
 fn eyring(critical_stress: f64) -> Lubricant {

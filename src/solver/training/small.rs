@@ -1,6 +1,7 @@
 //! Small trainings, which tests make of many things.
 
-use super::{Plan, TrainingSpec, WindowSpec, Windows, train};
+use super::spec::{Plan, TrainingSpec, WindowSpec, Windows};
+use super::train::train;
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant, ShearLaw};

@@ -5,9 +5,11 @@
 //! modes, the size of the model with the number of windows; modes as many as there are solutions make a bad model, so
 //! that the first solutions (`start`) should outnumber the modes of a window clearly.
 
+use super::error::TrainingError;
+use super::observer::TrainingObserver;
 use super::one_thread::on_one_thread;
+use super::spec::WindowSpec;
 use super::state::{OVERLAP, Solved, TrainingState, WindowState};
-use super::{TrainingError, TrainingObserver};
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
@@ -41,7 +43,7 @@ pub(super) fn split(state: &mut TrainingState, k: usize, observer: &dyn Training
     let mut rng = Rng::with_seed(own.seed);
     let [low, high] = [(from, edge), (edge, to)].map(|m| {
         let inherited = own.solved.iter().filter(|s| reached(m, (from, to), s)).cloned();
-        WindowState::new(super::WindowSpec { m, ..own.window }, rng.u64(..), inherited)
+        WindowState::new(WindowSpec { m, ..own.window }, rng.u64(..), inherited)
     });
     let decision = format!(
         "M {from}…{to} needs more pressure modes than a window may have (seen at {} full solutions): split at {edge}",

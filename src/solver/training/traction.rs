@@ -1,8 +1,10 @@
 //! The rule by which a finished window knows its traction without large-scale work.
 
+use super::error::TrainingError;
+use super::observer::TrainingObserver;
 use super::one_thread::{in_parallel, on_one_thread};
 use super::plan::Within;
-use super::{TrainingError, TrainingObserver, TrainingSpec};
+use super::spec::TrainingSpec;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule};

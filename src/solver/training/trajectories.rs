@@ -2,13 +2,15 @@
 //! carries the steps which the all-rows model takes along the same inputs. Both know how strongly each row answers to
 //! its pressure.
 
+use super::check;
+use super::error::TrainingError;
 use super::local_bases::{LocalBases, local_bases};
 use super::one_thread::on_one_thread;
 use super::trajectory_rows::sampled_rows;
-use super::{Observer, Progress, TrainingError, check};
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN, ReferenceGrid};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::transient::{Frame, State, Trajectory, Transient};
+use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::transient::{TrajectoryDomain, TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{

@@ -1,11 +1,12 @@
 //! Rows of a reduced model in time: what the steps of the all-rows model along the trainings show decides which stay.
 
+use super::error::TrainingError;
 use super::one_thread::on_one_thread;
 use super::rows::{add_goals, rows_by};
 use super::trajectories::{TrajectoryTraining, test_space};
-use super::{Observer, Progress, TrainingError};
 use crate::host::pool::on_all_cores;
 use crate::solver::full::transient::{Keep, MarchProgress, Trajectory, Transient, march};
+use crate::solver::observer::{Observer, Progress};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::reduced::{
     GoalEquations, Iterate, RowSnapshots, SampledRows, Sampling, Scheme, TestSpace, Window, all_rows, is_finite,

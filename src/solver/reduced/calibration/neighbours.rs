@@ -1,6 +1,7 @@
 //! The evidence around a place.
 
-use super::AROUND;
+/// Nearest evidence that says how large errors are here.
+pub(super) const AROUND: usize = 48;
 
 /// The nearest evidence, by squared distance.
 pub(super) struct Neighbours {

@@ -1,11 +1,13 @@
 //! How one relative error depends on what is known of a reduced solution.
 
-use super::neighbours::Neighbours;
+use super::neighbours::{AROUND, Neighbours};
 use super::steps::kept_surplus;
-use super::{AROUND, Estimated, LEAST_EVIDENCE};
 use crate::solver::reduced::dense;
+use crate::solver::reduced::error_estimate::Estimated;
 use faer::Mat;
 
+/// Evidence without which nothing is said.
+pub const LEAST_EVIDENCE: usize = 100;
 /// Nearest evidence that corrects the likely error.
 const NEAR: usize = 16;
 /// Share of the local surplus that is believed.

@@ -1,7 +1,6 @@
 //! One run of the online iteration, from a guess or along a path from a known contact.
 
 use super::{ReducedError, ReducedOptions, Starts};
-use crate::solver::discrete::grid::dot;
 use crate::solver::discrete::heat::Profile;
 use crate::solver::full::Problem;
 use crate::solver::observer::Observer;
@@ -9,7 +8,7 @@ use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
-use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Stop};
+use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Start, Stop};
 use crate::solver::reduced::start::{Guess, film_number};
 use crate::solver::reduced::warmth::Warmth;
 
@@ -31,9 +30,6 @@ impl Found {
         self.heat.as_ref().map_or(&[], |heat| &heat.theta)
     }
 }
-
-/// Turns of pressure and temperatures that a contact with heat may take per Newton step of one without.
-const TURNS_PER_STEP: usize = 4;
 
 /// A film of so much and more ends with the tolerance that is asked for. What a step leaves goes with the square of the step
 /// over the film: at M = 1000 H is 3e-4, and steps of 1e-5 missed H_min by up to 4e-4, twenty times what the modes miss,
@@ -81,38 +77,30 @@ pub(super) fn attempt(
         return Err(ReducedError::Cancelled);
     }
     let scale = window.grid.scale(problem.moes);
-    let zero = window.grid.at_zero(scale);
-    let mut coefficients = vec![0.0; operators.modes];
+    let mut coefficients = vec![0.0; operators.modes()];
     coefficients.iter_mut().zip(&start.coefficients).for_each(|(c, known)| *c = *known);
-    operators.use_modes(start.coefficients.len());
-    operators.take_shape(window, problem);
-    operators.rupture_at(Some(&start.fronts));
-    operators.carry_load(problem, scale, &mut coefficients);
-    // H(0) = H₀ − ½ ln s + s δ(0).
-    let lift = operators.lift(window, &zero, scale);
-    let offset = -0.5 * scale.ln();
-    let mut h_0 = start.h_c - (dot(&lift, &coefficients) + offset);
     // The boundary alone ruptures the film.
     let penalty = match window.cavitation {
         Cavitation::Penalty => options.penalty.unwrap_or(window.penalty),
         Cavitation::Complementarity | Cavitation::MassConserving { .. } => 0.0,
     };
-    let case = Case { problem, scale, curvature: 1.0, penalty, lift: &lift };
     let tolerance = options.tolerance * share_of_tolerance(problem, start.h_c, options);
-    let stop = Stop { tolerance, max_newton: options.max_newton.min(limit) };
-    let outcome = if problem.heat.is_some() {
-        // Starts are contacts with heat: temperatures come from their pressures, and no isothermal solution is in between.
-        let stop = Stop { max_newton: TURNS_PER_STEP * stop.max_newton, ..stop };
-        operators.turns(&case, (&mut coefficients, &mut h_0), &start.theta, stop, watch.rows())
-    } else {
-        operators.newton(&case, &mut coefficients, &mut h_0, stop, watch.rows())
-    };
-    let h_c = h_0 + (operators.lifted(&lift, &coefficients) + offset);
+    let stop = Stop::new(tolerance, options.max_newton.min(limit));
+    let case = Case { problem, scale, curvature: 1.0, penalty, stop };
+    let Guess { coefficients: known, fronts, theta, .. } = start;
+    operators.begin(&case, &Start { window, modes: known.len(), fronts: Some(fronts), theta });
+    operators.carry_load(problem, scale, &mut coefficients);
+    operators.aim(window, scale);
+    // H(0) = H₀ − ½ ln s + s δ(0).
+    let offset = -0.5 * scale.ln();
+    let mut h_0 = start.h_c - (operators.lifted(&coefficients) + offset);
+    let outcome = operators.newton(&case, (&mut coefficients, &mut h_0), watch.rows());
+    let h_c = h_0 + (operators.lifted(&coefficients) + offset);
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
-        let traction = operators.traction(&case, &coefficients, h_0);
-        let fronts = operators.fronts().collect();
-        let heat = operators.warmth(problem);
+        let readings = operators.read(&case, &coefficients, h_0);
+        let (traction, heat) = (readings.traction, readings.warmth.take());
+        let fronts = readings.fronts.clone();
         Ok(Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat })
     } else {
         Err(ReducedError::NotConverged { iterations: outcome.iterations, step: outcome.step })

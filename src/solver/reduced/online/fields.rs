@@ -97,7 +97,7 @@ impl Online {
         };
         let operators = cell.get_or_init(|| operators_of(&self.model, window, &self.options));
         let modes = solution.coefficients.len();
-        if modes > window.pressure.count() || modes != operators.modes {
+        if modes > window.pressure.count() || modes != operators.modes() {
             return Err(ReducedError::Empty);
         }
         let scale = window.grid.scale(problem.moes);

@@ -10,32 +10,45 @@
 //! negative at its first ruptured node. (D.18) as printed has the opposite sign: B would go back and forth.
 
 mod bending;
+mod following;
 mod reach;
 
-pub(super) use reach::support;
 pub(crate) use reach::{cut_off, fronts, passed_rows};
 
 use self::bending::{Bent, Kept};
-use self::reach::{BEFORE, each_passed, passed};
-use super::support::{StateRows, Support};
+use self::reach::{each_passed, passed};
+use super::case::{Case, Start, State};
+use super::part::{Centre, Kind, Moved, Part, Step};
+use super::readings::Readings;
+use super::sampled_system::SampledSystem;
 use crate::solver::discrete::grid::dot;
-use crate::solver::discrete::nodes::Nodes;
-use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::Window;
-use crate::solver::reduced::sums::row_times;
 use faer::linalg::matmul::matmul;
 use faer::reborrow::ReborrowMut;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
-use std::ops::Range;
+
+/// Operators of a window with complementarity have it.
+pub(super) const KIND: Kind = Kind {
+    nodes: |window, _, nodes| {
+        if window.cavitation == Cavitation::Complementarity {
+            each_passed(window, |_, unknown| nodes.at_times.extend(window.grid.row(unknown).0));
+        }
+    },
+    make: |window, _, _, system| {
+        let cavitates = window.cavitation == Cavitation::Complementarity;
+        cavitates.then(|| -> Box<dyn Part> { Box::new(Front::new(window, system)) })
+    },
+};
+
+/// How much modes are held at zero behind the cavitation boundary, relative to the equations' own size.
+const RESTRAINED: f64 = 1e-6;
 
 /// The pressure that counts as negative in (D.17), of a line and of a plane: smaller ones are what the basis leaves. Of
 /// lines it leaves so little that B one node too far, with a pressure of −1e-4 there, is by far their largest error of
 /// H_min.
 const NEGATIVE: [f64; 2] = [-1e-6, -1e-4];
-/// The same in time, and what is none worth the name: there the bases are of fewer contacts, and pressures behind the
-/// contact that matter are smaller.
-const LITTLE: f64 = 1e-5;
 /// So many turns between up and down leave B of a line where it is: its place is known to one node.
 const TURNS: u8 = 4;
 /// The same of planes of thinning lubricants. Half of their contacts have a line or two whose B would go to and fro: bases
@@ -47,7 +60,7 @@ const TURNS_THINNING: u8 = 1;
 const STRIDE: usize = 4;
 
 /// The boundary, with what it changes.
-pub(super) struct Front {
+struct Front {
     lines: Vec<Line>,
     /// The nodes that it may pass, line after line.
     nodes: Vec<Passed>,
@@ -61,17 +74,15 @@ pub(super) struct Front {
     /// How many places of the support the sampled rows ask for themselves, and of each further one the line of nodes.
     own: usize,
     asked: Vec<usize>,
-    /// Of each line of nodes the further places on which rows behind B depend.
-    near: Vec<Range<usize>>,
     kept: Vec<Kept>,
-    /// Whether B may pass several nodes at once, and looks for negative pressures among all that it may pass.
-    pub strides: bool,
     /// The pressure that counts as negative.
     negative: f64,
     /// How often B of a line may turn.
     turns: u8,
-    /// Whether modes are held at zero behind B: in windows of many oils it lies at places far apart.
+    /// Whether modes are held at zero behind B: in windows of many oils it lies at places far apart. By how much they are
+    /// in the matrix solved last.
     restrains: bool,
+    restraint: f64,
     /// Σ v vᵀ over the nodes behind B, modes × modes, where they are.
     behind: Mat<f64>,
     /// Whether B is out of force: a penalty holds all pressures, as far as there are modes.
@@ -80,9 +91,7 @@ pub(super) struct Front {
     loaded: usize,
     /// Line and column of each sampled row.
     rows: Vec<(usize, usize)>,
-    /// What the film at X = 0 (and Y = 0) gains per unit of each coefficient.
-    pub lift: Vec<f64>,
-    /// The scale it was found for: the nodes at X = 0 follow from it.
+    /// The scale at which deformations at X = 0 are known.
     aimed: Option<f64>,
     /// Work space: nodes that pass, and whether they carry pressure again.
     passing: Vec<(usize, bool)>,
@@ -117,48 +126,27 @@ struct Passed {
     node: usize,
     /// Its weight in the load.
     weight: f64,
-    /// Its row, of places in the support.
-    stencil: [usize; STENCIL],
-    geometry: RowGeometry,
     /// Whether a sampled row is its own.
     sampled: bool,
     /// Deformation at X = 0 (and Y = 0) by unit pressure here, in ξ.
     zero: f64,
 }
 
-/// What B did after a step.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Moved {
-    /// It is where it was.
-    Still,
-    /// It passed nodes, but no sampled row began or ceased to be asked for.
-    BetweenRows,
-    /// It passed sampled rows: the derivatives of the former ones serve no more.
-    PastRows,
-}
-
-/// What the boundary changes of the operators.
-pub(super) struct Changed<'a> {
-    pub load_row: &'a mut [f64],
-    /// P at the support, then K P and the gradients.
-    pub fields: &'a mut [f64],
-}
-
 impl Front {
-    /// The boundary of a window, for operators over a support, with the modes and the whole K V there, row-major.
-    pub fn new(window: &Window, support: &Support, (state, whole): (&StateRows, Vec<f64>), load_row: &[f64]) -> Self {
-        let (grid, weights, modes) = (&window.grid, window.grid.weights(), load_row.len());
+    /// The boundary of a window over its rows; adds to them those that it may pass.
+    fn new(window: &Window, system: &mut SampledSystem) -> Self {
+        let (grid, weights, modes) = (&window.grid, window.grid.weights(), system.modes);
+        let SampledSystem { support, stencils, geometry, basis, .. } = system;
         let (mut nodes, mut owners): (Vec<Passed>, Vec<usize>) = (Vec::new(), Vec::new());
         each_passed(window, |line, unknown| {
-            let (node, (stencil, geometry)) = (grid.node(unknown), grid.row(unknown));
+            let (node, (stencil, coefficients)) = (grid.node(unknown), grid.row(unknown));
             owners.push(line);
-            let stencil = stencil.map(|node| support.place(node));
+            stencils.push(stencil.map(|node| support.place(node)));
+            geometry.push(coefficients);
             nodes.push(Passed {
                 place: support.place(node),
                 node,
                 weight: weights[node],
-                stencil,
-                geometry,
                 sampled: window.sampled_rows.contains(&unknown),
                 zero: 0.0,
             });
@@ -185,20 +173,18 @@ impl Front {
         let mut front = Self {
             rows: window.sampled_rows.iter().map(|&row| grid.line_and_column(grid.node(row))).collect(),
             bends: grid.kernel_columns(&support.nodes(), &passed),
-            modes: nodes.iter().flat_map(|p| state.values[p.place * modes..][..modes].iter().copied()).collect(),
+            modes: nodes.iter().flat_map(|p| basis.values[p.place * modes..][..modes].iter().copied()).collect(),
             cut: vec![false; support.len()],
             own: support.own,
             asked: support.places[support.own..].iter().map(|place| place.node % support.across).collect(),
-            near: vec![support.own..support.own; support.across],
             kept: Vec::new(),
-            strides: false,
             negative: NEGATIVE[usize::from(plane)],
-            turns: if plane && !state.gradients.is_empty() { TURNS_THINNING } else { TURNS },
+            turns: if plane && !basis.gradients.is_empty() { TURNS_THINNING } else { TURNS },
             restrains: window.anchor.is_some(),
+            restraint: 0.0,
             behind: Mat::zeros(modes, modes),
             idle: false,
             loaded: 0,
-            lift: vec![0.0; modes],
             aimed: None,
             passing: Vec::with_capacity(nodes.len()),
             bending: Vec::with_capacity(nodes.len()),
@@ -206,7 +192,10 @@ impl Front {
             lines,
             nodes,
         };
-        front.keep(window, &whole, load_row);
+        system.seen.resize(1 + support.across, support.own..support.own);
+        let whole = std::mem::take(&mut basis.deformations);
+        front.keep(window, &whole, &system.load_row);
+        std::mem::swap(&mut basis.deformations, &mut front.kept[0].deformation);
         front
     }
 
@@ -218,37 +207,15 @@ impl Front {
         })
     }
 
-    /// Gives the row of node `k` that B may pass other coefficients and other nodes.
-    pub fn set_row(&mut self, k: usize, stencil: [usize; STENCIL], geometry: RowGeometry) {
-        (self.nodes[k].stencil, self.nodes[k].geometry) = (stencil, geometry);
-    }
-
-    /// Places in the support of the nodes that B may pass.
-    pub fn places(&self) -> impl Iterator<Item = usize> + '_ {
-        self.nodes.iter().map(|passed| passed.place)
-    }
-
     /// Nodes behind B, and the pressures of the modes there.
     pub fn cut<'a>(&'a self, coefficients: &'a [f64]) -> impl Iterator<Item = (usize, f64)> + 'a {
-        let modes = self.lift.len();
+        let modes = coefficients.len();
         let behind = self.lines.iter().flat_map(|line| line.first + line.front..line.first + line.count);
         behind.map(move |k| (self.nodes[k].node, dot(&self.modes[k * modes..][..modes], coefficients)))
     }
 
-    /// Whether a sampled row lies behind B.
-    pub fn is_ruptured(&self, row: usize) -> bool {
-        let (line, column) = self.rows[row];
-        let line = &self.lines[line];
-        !self.idle && column >= line.column + line.front
-    }
-
-    /// Whether B ruptures the film, and no penalty does.
-    pub fn in_force(&self) -> bool {
-        !self.idle
-    }
-
     /// Puts B somewhere before an iteration begins; without a place it is behind all modes, and out of force.
-    pub fn begin(&mut self, fronts: Option<&[usize]>, load_row: &mut [f64]) {
+    fn put(&mut self, system: &mut SampledSystem, fronts: Option<&[usize]>) {
         self.idle = fronts.is_none();
         for (number, line) in self.lines.iter_mut().enumerate() {
             let place = fronts.map_or(Some(line.count), |fronts| fronts.get(number).map(|front| line.place_of(*front)));
@@ -259,8 +226,12 @@ impl Front {
         }
         let apart = |line: (&Line, &usize)| line.0.front.abs_diff(*line.1);
         let far = |kept: &Kept| self.lines.iter().zip(&kept.fronts).map(apart).sum::<usize>();
-        self.loaded = (0..self.kept.len()).min_by_key(|k| far(&self.kept[*k])).unwrap_or(0);
-        let nearest = &self.kept[self.loaded];
+        let loaded = (0..self.kept.len()).min_by_key(|k| far(&self.kept[*k])).unwrap_or(0);
+        let in_use = &mut system.basis.deformations;
+        std::mem::swap(in_use, &mut self.kept[self.loaded].deformation);
+        std::mem::swap(in_use, &mut self.kept[loaded].deformation);
+        self.loaded = loaded;
+        let (nearest, load_row) = (&self.kept[loaded], &mut system.load_row);
         for (line, kept) in self.lines.iter_mut().zip(&nearest.fronts) {
             (line.kept, line.restrained) = (*kept, *kept);
         }
@@ -271,18 +242,15 @@ impl Front {
             let (own, weight) = (&self.modes[k * modes..][..modes], sign * self.nodes[k].weight);
             load_row.iter_mut().zip(own).for_each(|(load, v)| *load += weight * v);
         }
-        self.look_near();
+        self.look_near(system);
     }
 
-    /// Adds to the equations, by a factor, that modes are zero behind B: of modes that differ there alone nothing else
-    /// tells the coefficients, and Newton's steps would go astray. Solutions are zero there, so that this changes them by
-    /// no more than the basis misses.
-    pub fn restrain(&mut self, factor: f64, mut matrix: MatMut<'_, f64>) {
-        if self.idle || !self.restrains {
-            return;
-        }
-        let Self { lines, modes: basis, behind, .. } = self;
+    /// Adds the squares of the modes behind B to a matrix.
+    fn restrain(&mut self, mut matrix: MatMut<'_, f64>) {
         let modes = matrix.ncols();
+        let size = (0..modes).map(|k| matrix[(k, k)]).sum::<f64>() / modes as f64;
+        self.restraint = RESTRAINED * size;
+        let Self { lines, modes: basis, behind, restraint, .. } = self;
         for line in lines.iter_mut().filter(|line| line.front != line.restrained) {
             let sign = if line.front < line.restrained { 1.0 } else { -1.0 };
             let (from, to) = (line.front.min(line.restrained), line.front.max(line.restrained));
@@ -292,115 +260,68 @@ impl Front {
             line.restrained = line.front;
         }
         for (column, own) in matrix.rb_mut().col_iter_mut().zip(behind.col_iter()) {
-            column.iter_mut().zip(own.iter()).for_each(|(entry, own)| *entry += factor * own);
+            column.iter_mut().zip(own.iter()).for_each(|(entry, own)| *entry += *restraint * own);
+        }
+    }
+}
+
+impl Part for Front {
+    fn begin(&mut self, system: &mut SampledSystem, _: &Case<'_>, start: &Start<'_>) {
+        self.put(system, start.fronts);
+    }
+
+    fn aim(&mut self, system: &mut SampledSystem, at: Centre<'_>) {
+        self.lift(&mut system.lift, at);
+    }
+
+    fn spread(&mut self, system: &SampledSystem, coefficients: &[f64], fields: &mut [f64]) {
+        self.cut_and_bend(system, coefficients, fields);
+    }
+
+    /// Behind the boundary modes are no part of P.
+    fn slopes(&mut self, system: &mut SampledSystem) {
+        for (slopes, stencil) in system.by_pressure.iter_mut().zip(&system.stencils) {
+            for (slope, place) in slopes.iter_mut().zip(stencil) {
+                if self.cut[*place] {
+                    *slope = 0.0;
+                }
+            }
         }
     }
 
-    /// What [`Self::restrain`] adds to the right-hand side.
-    pub fn pull(&self, factor: f64, coefficients: &[f64], rhs: &mut [f64]) {
+    fn jacobian(&mut self, system: &mut SampledSystem, scale: f64, exact: bool) {
+        self.bend(system, scale, exact);
+    }
+
+    /// Adds, by a factor, that modes are zero behind B: of modes that differ there alone nothing else tells the
+    /// coefficients, and Newton's steps would go astray. Solutions are zero there, so that this changes them by no more than
+    /// the basis misses.
+    fn equations(&mut self, coefficients: &[f64], matrix: Option<MatMut<'_, f64>>, rhs: &mut [f64]) {
         if self.idle || !self.restrains {
             return;
         }
+        if let Some(matrix) = matrix {
+            self.restrain(matrix);
+        }
         for (own, coefficient) in self.behind.col_iter().zip(coefficients) {
-            let value = factor * coefficient;
+            let value = self.restraint * coefficient;
             rhs.iter_mut().zip(own.iter()).for_each(|(rhs, own)| *rhs -= value * own);
         }
     }
 
-    /// Lets B follow a step: `nodes` are those before it, `state` the modes at the support, `step` what it added to the
-    /// fields, by the factor `omega`, and `shift` to H₀; `changed` has the fields behind it. What gradients add to λ is
-    /// left out: where P ends they are small, and when steps are, λ is that of the rows.
-    pub fn follow(
+    fn settle(
         &mut self,
-        (nodes, state): (&Nodes, &StateRows),
-        (scale, omega): (f64, f64),
-        (step, shift): (&[f64], f64),
-        coefficients: &[f64],
-        changed: Changed<'_>,
+        system: &mut SampledSystem,
+        case: &Case<'_>,
+        step: Step,
+        (coefficients, _): (&mut [f64], &mut f64),
     ) -> Moved {
-        if self.idle {
-            return Moved::Still;
-        }
-        let Changed { load_row, fields } = changed;
-        let s = self.cut.len();
-        let turns = if self.strides { TURNS } else { self.turns };
-        self.passing.clear();
-        for line in &mut self.lines {
-            if line.turns >= turns {
-                continue;
-            }
-            let at = |k: usize| &self.nodes[line.first + k];
-            let (stride, first, end) = if self.strides {
-                // Behind the last pressure worth the name there may be no modes that B could see become negative.
-                let little = |k: &usize| fields[at(*k).place].abs() < LITTLE;
-                (line.stride, 1, line.front - (1..line.front).rev().take_while(little).count())
-            } else {
-                (1, line.front.saturating_sub(BEFORE), line.front)
-            };
-            let least = if self.strides { -LITTLE } else { self.negative };
-            let pressure = |k: usize| {
-                let looked_at = self.strides || at(k).place < self.own;
-                if looked_at { fields[at(k).place] } else { row_times(&self.modes, line.first + k, coefficients) }
-            };
-            let negative = (first..end).find(|&k| pressure(k) < least).filter(|_| line.front > 1);
-            // (D.16): λ after the step.
-            let multiplier = |k: usize| {
-                let boundary = at(k);
-                let row = nodes.row(&boundary.geometry.scaled(scale), 0.0, boundary.stencil);
-                let change = boundary
-                    .stencil
-                    .iter()
-                    .zip(row.d_p)
-                    .zip(row.d_h)
-                    .map(|((&node, a), b)| a * step[node] + b * (scale * step[s + node] + shift));
-                -(row.value + omega * change.sum::<f64>())
-            };
-            let front = match negative {
-                Some(first) => first.max(end.saturating_sub(stride)),
-                None => {
-                    // More flows in at these nodes than the gap takes: the liquid fills them.
-                    let mut inflow = 0.0;
-                    let filled = |&k: &usize| {
-                        inflow += at(k).weight * multiplier(k);
-                        inflow < 0.0
-                    };
-                    line.front + (line.front..line.count.min(line.front + stride)).take_while(filled).count()
-                }
-            };
-            if front == line.front {
-                continue;
-            }
-            let down = front > line.front;
-            let turned = line.down.is_some_and(|was| was != down);
-            line.turns += u8::from(turned);
-            line.stride = if turned { (line.stride / 4).max(1) } else { 2 * line.stride };
-            line.down = Some(down);
-            let passing = line.front.min(front)..line.front.max(front);
-            self.passing.extend(passing.map(|k| (line.first + k, down)));
-            line.front = front;
-        }
-        if self.passing.is_empty() {
-            return Moved::Still;
-        }
-        let modes = load_row.len();
-        let (pressure, rest) = fields.split_at_mut(s);
-        let deformation = &mut rest[..s];
-        for &(k, carries) in &self.passing {
-            let (passed, own) = (&self.nodes[k], &self.modes[k * modes..][..modes]);
-            let (value, sign) = (dot(own, coefficients), if carries { 1.0 } else { -1.0 });
-            pressure[passed.place] = if carries { value } else { 0.0 };
-            self.cut[passed.place] = !carries;
-            let bends = &self.bends[k * s..][..self.own];
-            deformation.iter_mut().zip(bends).for_each(|(out, bend)| *out += sign * value * f64::from(*bend));
-            for ((lift, load), v) in self.lift.iter_mut().zip(&mut *load_row).zip(own) {
-                *lift += sign * passed.zero * v;
-                *load += sign * passed.weight * v;
-            }
-        }
-        self.look_near();
-        self.find_bending(coefficients);
-        self.spread_near(state, coefficients, fields);
-        if self.passing.iter().any(|(k, _)| self.nodes[*k].sampled) { Moved::PastRows } else { Moved::BetweenRows }
+        self.follow(system, (case.scale, step.omega), coefficients)
+    }
+
+    fn read(&mut self, system: &SampledSystem, _: &Case<'_>, state: State<'_>, readings: &mut Readings) {
+        readings.fronts.extend(self.fronts(&system.fields));
+        readings.cut.extend(self.cut(state.coefficients));
     }
 }
 

@@ -1,112 +1,51 @@
-//! Contacts with heat on reduced operators: Newton's steps for (p̃, H₀) with the temperatures held, and marches of the
-//! temperatures along every few nodes of a line, or of a few lines of a plane, with pressure and film held, in turns.
+//! Contacts with heat on reduced operators: each Newton step for (p̃, H₀) follows a march of the temperatures along every
+//! few nodes of a line, or of a few lines of a plane, with pressure and film held, until neither changes anything.
 //! Temperatures need no basis.
 
-use super::support::Place;
-use crate::solver::discrete::grid::{ContactGrid, INLET, stretched};
-use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, Profile, RULE, Spread, WarmFilm, apply};
+mod stations;
+
+pub(crate) use stations::{Stations, carried};
+
+use super::case::{Case, Start, State};
+use super::part::{Flow, Kind, Moved, Part, Step};
+use super::readings::{Readings, RuleTraction};
+use super::sampled_system::SampledSystem;
+use super::traction::{Rule, RuleNode};
+use crate::solver::discrete::grid::{ContactGrid, stretched};
+use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, RULE, Spread, WarmFilm, apply};
 use crate::solver::discrete::reynolds::generalized::NodeState;
-use crate::solver::full::Problem;
-use crate::solver::full::heat::{Mixing, Rises, one_sided};
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::full::heat::{Mixing, Rises, mid_stress_pa, one_sided};
 use crate::solver::reduced::warmth::Warmth;
 use std::sync::Arc;
 
-/// Stations along a line contact, at least. With 90 of them tractions of fast contacts that hardly slide are off by 1.5 %.
-const STATIONS: usize = 120;
+/// What ends an iteration over what ends Newton's steps alone: a relative step of pressure and film, and a change of θ. A
+/// kelvin is 3e-3.
+const TOLERANCES: (f64, f64) = (10.0, 10.0);
 
-/// Least distance of stations along the lines of a plane: in the contact, and over −X in front of it. With 0.075, or with
-/// seven lines, contacts take two thirds of the time, and films of the hottest ones are off by more than 1 %.
-const SPACING: f64 = 0.055;
-/// Where it ends, and the distance behind that.
-const BEHIND: f64 = 1.15;
-const SPACING_BEHIND: f64 = 0.15;
+/// Turns of march and step that a contact with heat may take per Newton step of one without.
+const TURNS_PER_STEP: usize = 4;
 
-/// −Y of the lines of a plane that are marched, or of the nearest lines of its grid.
-const ORDINATES: [f64; 11] = [1.5, 1.2, 1.05, 0.95, 0.85, 0.75, 0.62, 0.48, 0.32, 0.16, 0.0];
+/// A step of pressure and film and a change of θ below which states are mixed.
+const NEAR: f64 = 0.1;
 
-/// Pressures behind X = 0 up to which the film of a plane counts as ruptured where its traction is summed up: what modes leave
-/// there is no more. In light contacts, whose films hardly thicken under pressure, it would add 1 % to that.
-const LEFT: f64 = 1e-4;
+/// Least share of a change of temperatures that is taken.
+const LEAST_SHARE: f64 = 0.06;
 
-/// The nodes of a grid at which temperatures are marched.
-pub(crate) struct Stations {
-    /// Columns of nodes, from the inlet to the outlet.
-    columns: Vec<usize>,
-    /// Lines along X, from the edge of a plane to its axis.
-    lines: Vec<usize>,
-    /// Nodes across.
-    across: usize,
-}
-
-impl Stations {
-    /// Of a grid.
-    pub fn of(grid: &ContactGrid) -> Self {
-        let ((xi, y), across) = (grid.abscissae(), grid.nodes().1);
-        if grid.kind() == ContactKind::Line {
-            return Self { columns: along_line(grid.len()), lines: vec![0], across };
+/// Operators of thermal contacts have it.
+pub(super) const KIND: Kind = Kind {
+    nodes: |window, flow, nodes| {
+        if flow == Flow::Thermal {
+            let stations = Stations::of(&window.grid);
+            nodes.always.extend(stations.nodes().flatten().chain(stations.inlets().flatten()));
         }
-        let nearest =
-            |wanted: f64| (0..across).min_by(|&a, &b| (y[a] + wanted).abs().total_cmp(&(y[b] + wanted).abs()));
-        let mut lines: Vec<usize> = ORDINATES.into_iter().filter_map(nearest).collect();
-        lines.dedup();
-        Self { columns: along_plane(xi), lines, across }
-    }
-
-    /// Abscissae ξ of the columns.
-    pub fn xi(&self, grid: &ContactGrid) -> Vec<f64> {
-        self.columns.iter().map(|&column| grid.abscissae().0[column]).collect()
-    }
-
-    /// Ordinates of the lines in units of a.
-    pub fn y(&self, grid: &ContactGrid) -> Vec<f64> {
-        self.lines.iter().map(|&line| grid.abscissae().1[line]).collect()
-    }
-
-    /// Of each line the nodes at its stations.
-    pub fn nodes(&self) -> impl Iterator<Item = Vec<usize>> + '_ {
-        self.lines.iter().map(|line| self.columns.iter().map(|column| column * self.across + line).collect())
-    }
-
-    /// Of each line the first three nodes: at the inlet the slope is one-sided.
-    pub fn inlets(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
-        let first = self.columns.first().copied().unwrap_or_default();
-        self.lines.iter().map(move |line| [0, 1, 2].map(|k| (first + k) * self.across + line))
-    }
-}
-
-/// Of a line contact, every so many of its nodes from the inlet to the outlet.
-fn along_line(nodes: usize) -> Vec<usize> {
-    let last = nodes - 1;
-    let stride = ((last - INLET) / STATIONS).max(1);
-    (INLET..last).step_by(stride).filter(|node| last - node >= stride).chain([last]).collect()
-}
-
-/// Of a plane, columns some distance apart.
-fn along_plane(xi: &[f64]) -> Vec<usize> {
-    let (mut out, mut last) = (vec![0], xi[0]);
-    for (column, &xi) in xi.iter().enumerate().take(xi.len() - 1) {
-        let apart = if xi < BEHIND { SPACING * (-xi).max(1.0) } else { SPACING_BEHIND };
-        // Spacings add up to no more than they are.
-        if xi - last >= apart * (1.0 - 1e-9) {
-            out.push(column);
-            last = xi;
-        }
-    }
-    out.push(xi.len() - 1);
-    out
-}
-
-/// P at X as the traction with heat counts it.
-pub(crate) fn carried(kind: ContactKind, x: f64, pressure: f64) -> f64 {
-    if kind == ContactKind::Point && x > 0.0 && pressure <= LEFT { 0.0 } else { pressure }
-}
-
-/// Nodes that the rows of a contact with heat depend on beside their own.
-pub(super) fn further_nodes(grid: &ContactGrid) -> Vec<usize> {
-    let stations = Stations::of(grid);
-    stations.nodes().flatten().chain(stations.inlets().flatten()).collect()
-}
+    },
+    make: |window, flow, deformation, system| {
+        (flow == Flow::Thermal).then(|| -> Box<dyn Part> {
+            let rule = Rule::of(window, (system.modes, system.axes), deformation);
+            Box::new(Heated::new(&window.grid, system, rule))
+        })
+    },
+};
 
 /// Where one line has its states from.
 struct Looked {
@@ -144,13 +83,29 @@ impl Interpolation {
     }
 }
 
+/// How fast temperatures follow the pressure.
+struct Pace {
+    /// The share of their change that is taken.
+    share: f64,
+    /// Their largest change in this turn and in the one before.
+    changed: f64,
+    before: f64,
+}
+
+impl Pace {
+    /// That of a first turn.
+    const FIRST: Self = Self { share: 1.0, changed: 1e-3, before: f64::INFINITY };
+}
+
 /// Temperatures in reduced operators, and what marches them.
-pub(super) struct Heated {
+struct Heated {
+    /// Whether the contact is thermal: an isothermal one has them not marched.
+    heats: bool,
     looked: Vec<Looked>,
     /// ξ of the stations, and Y of the lines in units of b.
     reference: Vec<f64>,
     ordinates: Vec<f64>,
-    pub(super) lines: Lines,
+    lines: Lines,
     /// X of the support.
     x: Vec<f64>,
     /// Places in the support at which rows want a film.
@@ -158,15 +113,22 @@ pub(super) struct Heated {
     /// How these have their temperatures, and the film's temperatures on the support.
     interpolation: Interpolation,
     film: WarmFilm,
-    pub(super) mixing: Mixing,
+    mixing: Mixing,
     /// p̃, H₀ and θ before a turn and after it.
-    pub(super) from: Vec<f64>,
+    from: Vec<f64>,
     image: Vec<f64>,
+    pace: Pace,
+    /// The traction quadrature, and how its nodes have their temperatures; none of a window without one.
+    rule: Option<(Rule, Interpolation)>,
 }
 
 impl Heated {
-    /// With films wanted at some places of a support.
-    pub fn new(grid: &ContactGrid, support: &[Place], films: Vec<usize>) -> Self {
+    /// For the rows of a system.
+    fn new(grid: &ContactGrid, system: &SampledSystem, rule: Option<Rule>) -> Self {
+        let support = &system.support.places;
+        let mut films: Vec<usize> = system.stencils.iter().flatten().copied().collect();
+        films.sort_unstable();
+        films.dedup();
         let place = |node: usize| support.partition_point(|place| place.node < node);
         let stations = Stations::of(grid);
         let looked = stations
@@ -176,7 +138,12 @@ impl Heated {
         let (reference, y) = (stations.xi(grid), stations.y(grid));
         let interpolation = Interpolation::new(films.iter().map(|&k| grid.place(support[k].node)));
         let film = WarmFilm { theta: vec![[0.0; RULE]; support.len()], stress: vec![0.0; support.len()] };
+        let at_places = |rule: Rule| {
+            let places = Interpolation::new(rule.places().iter().map(|place| grid.place(place.node)));
+            (rule, places)
+        };
         Self {
+            heats: false,
             looked: looked.collect(),
             lines: Lines::new(y.clone(), &reference, &Arc::new(MovingSource::new(&reference))),
             reference,
@@ -188,47 +155,13 @@ impl Heated {
             mixing: Mixing::default(),
             from: Vec::new(),
             image: Vec::new(),
+            pace: Pace::FIRST,
+            rule: rule.map(at_places),
         }
-    }
-
-    /// The film with its temperatures, at the support, and the places at which it is wanted.
-    pub fn film(&mut self) -> (&mut WarmFilm, &[usize]) {
-        (&mut self.film, &self.films)
-    }
-
-    /// θ of the last turns at other nodes than the rows', at the points of the rule across the film.
-    pub fn theta_at<'a>(
-        &'a self,
-        interpolation: &'a mut Interpolation,
-        scale: f64,
-    ) -> impl Iterator<Item = [f64; RULE]> + 'a {
-        interpolation.follow(&self.lines, &self.ordinates, scale);
-        interpolation.theta(&self.lines)
-    }
-
-    /// Puts the lines as far apart as those of an ellipse lie.
-    pub fn across_by(&mut self, kappa: f64) {
-        self.lines.y.iter_mut().zip(&self.ordinates).for_each(|(y, own)| *y = kappa * own);
-    }
-
-    /// Begins a contact at a scale, at given temperatures where there are any.
-    pub(super) fn begin(&mut self, support: &[Place], scale: f64, theta: &[Profile]) {
-        for line in &mut self.lines.lines {
-            line.march.begin(&self.reference, scale);
-        }
-        for (station, theta) in self.lines.stations_mut().zip(theta) {
-            station.theta = *theta;
-        }
-        for (x, place) in self.x.iter_mut().zip(support) {
-            *x = stretched(place.xi, scale);
-        }
-        self.interpolation.follow(&self.lines, &self.ordinates, scale);
-        self.film.stress.fill(0.0);
-        self.mixing.begin();
     }
 
     /// P, its gradient and H at the stations, from P, K P, P_ξ and P_Y on the support and the films there.
-    pub(super) fn look(&mut self, fields: &[f64], films: &[f64], scale: f64) {
+    fn look(&mut self, fields: &[f64], films: &[f64], scale: f64) {
         let count = films.len();
         for (line, looked) in self.lines.lines.iter_mut().zip(&self.looked) {
             for (state, &k) in line.states.iter_mut().zip(&looked.stations) {
@@ -243,17 +176,8 @@ impl Heated {
         }
     }
 
-    /// Marches once and takes a share of the change; returns the largest one.
-    pub(super) fn march(&mut self, problem: &Problem, share: f64, tolerance: f64) -> f64 {
-        let Some(course) = problem.course(&[]) else { return f64::NAN };
-        let changed = self.lines.march(&course, (share, tolerance), false);
-        for (&k, theta) in self.films.iter().zip(self.interpolation.theta(&self.lines)) {
-            self.film.theta[k] = theta;
-        }
-        changed
-    }
-
-    pub(super) fn state(lines: &Lines, (coefficients, h_0): (&[f64], f64), out: &mut Vec<f64>) {
+    /// Writes p̃, H₀ and θ into one array.
+    fn state(lines: &Lines, (coefficients, h_0): (&[f64], f64), out: &mut Vec<f64>) {
         out.clear();
         out.extend_from_slice(coefficients);
         out.push(h_0);
@@ -261,7 +185,7 @@ impl Heated {
     }
 
     /// Mixes the state that a turn led to with those before it.
-    pub(super) fn mix(&mut self, coefficients: &mut [f64], h_0: &mut f64) {
+    fn mix(&mut self, coefficients: &mut [f64], h_0: &mut f64) {
         Self::state(&self.lines, (coefficients, *h_0), &mut self.image);
         self.mixing.improve(&self.from, &mut self.image);
         let (mixed, rest) = self.image.split_at(coefficients.len());
@@ -270,8 +194,114 @@ impl Heated {
         self.lines.put(&rest[1..]);
     }
 
-    pub(super) fn warmth(&self, inlet_k: f64) -> Warmth {
-        let theta = self.lines.stations().map(|station| station.theta).collect();
-        Warmth { theta, central: Rises::central(&self.lines, inlet_k) }
+    /// Traction of a state by the rule with the present temperatures; `None` without a rule.
+    fn traction(&mut self, case: &Case<'_>, state: State<'_>) -> Option<RuleTraction> {
+        let Case { problem, scale, .. } = *case;
+        let (laws, (rule, interpolation)) = (problem.warm_laws()?, self.rule.as_mut()?);
+        interpolation.follow(&self.lines, &self.ordinates, scale);
+        let theta = interpolation.theta(&self.lines);
+        let stresses = rule.states(case, state).zip(theta).map(|(RuleNode { xi, weight, state }, theta)| {
+            let carried = carried(problem.point.kind, stretched(xi, scale), state.pressure);
+            weight * mid_stress_pa(problem, laws.heat, laws.mid_stress(state, &theta), carried)
+        });
+        let force = stresses.sum::<f64>();
+        Some(RuleTraction { coefficient: scale * force * problem.point.area_per_load(), cut: None })
+    }
+}
+
+impl Part for Heated {
+    /// Temperatures of a cold start come from the pressures of contacts with heat; no isothermal solution is in between.
+    fn begin(&mut self, system: &mut SampledSystem, case: &Case<'_>, start: &Start<'_>) {
+        if let Some((rule, _)) = &mut self.rule {
+            rule.begin(system, case, start);
+        }
+        self.heats = case.problem.heat.is_some();
+        if !self.heats {
+            return;
+        }
+        system.stop.tolerance *= TOLERANCES.0;
+        system.stop.max_newton *= TURNS_PER_STEP;
+        system.stop.at_step = true;
+        // Lines lie as far apart as those of an ellipse.
+        let kappa = case.problem.point.ellipse().kappa;
+        self.lines.y.iter_mut().zip(&self.ordinates).for_each(|(y, own)| *y = kappa * own);
+        for line in &mut self.lines.lines {
+            line.march.begin(&self.reference, case.scale);
+        }
+        for (station, theta) in self.lines.stations_mut().zip(start.theta) {
+            station.theta = *theta;
+        }
+        for (x, place) in self.x.iter_mut().zip(&system.support.places) {
+            *x = stretched(place.xi, case.scale);
+        }
+        self.interpolation.follow(&self.lines, &self.ordinates, case.scale);
+        self.film.stress.fill(0.0);
+        self.mixing.begin();
+        self.pace = Pace::FIRST;
+    }
+
+    /// Marches once and takes a share of the change; then evaluates the nodes at these temperatures.
+    fn nodes(&mut self, system: &mut SampledSystem, case: &Case<'_>, state: State<'_>) -> bool {
+        let Some((laws, course)) = case.problem.warm_laws().zip(case.problem.course(&[])) else { return false };
+        let (scale, tolerance) = (case.scale, case.stop.tolerance);
+        self.look(&system.fields, &system.films, scale);
+        Self::state(&self.lines, (state.coefficients, state.h_0), &mut self.from);
+        let tolerance = (1e-2 * self.pace.changed).clamp(tolerance, 1e-3);
+        self.pace.changed = self.lines.march(&course, (self.pace.share, tolerance), false);
+        for (&k, theta) in self.films.iter().zip(self.interpolation.theta(&self.lines)) {
+            self.film.theta[k] = theta;
+        }
+        let count = system.films.len();
+        let (pressure, rest) = system.fields.split_at(count);
+        let gradients = &rest[count..];
+        let gradient = |k: usize| [gradients[k] / scale, gradients.get(count + k).copied().unwrap_or(0.0)];
+        system.nodes.evaluate_warm_at(&self.films, &laws, (pressure, &system.films), gradient, &mut self.film);
+        true
+    }
+
+    fn settle(
+        &mut self,
+        _: &mut SampledSystem,
+        case: &Case<'_>,
+        step: Step,
+        (coefficients, h_0): (&mut [f64], &mut f64),
+    ) -> Moved {
+        let (Step { omega, size }, wanted) = (step, case.stop.tolerance);
+        let Pace { share, changed, before } = &mut self.pace;
+        if !self.heats {
+            return Moved::Still;
+        }
+        if !changed.is_finite() {
+            return Moved::Lost;
+        }
+        if omega == 1.0 && size < TOLERANCES.0 * wanted && *changed < TOLERANCES.1 * wanted {
+            return Moved::Still;
+        }
+        let mixes = size.max(*changed) < NEAR && omega == 1.0 && *changed > size;
+        if !mixes {
+            // Temperatures that swing with the pressure come to rest when they follow it by less.
+            let swings = *changed > 0.8 * *before;
+            *share = if swings { (0.75 * *share).max(LEAST_SHARE) } else { (1.5 * *share).min(1.0) };
+        }
+        *before = *changed;
+        if !mixes {
+            self.mixing.forget();
+            return Moved::PastRows;
+        }
+        // Newton's steps need no help; where these are small it is the temperatures that take their time.
+        self.mix(coefficients, h_0);
+        Moved::State
+    }
+
+    fn read(&mut self, system: &SampledSystem, case: &Case<'_>, state: State<'_>, readings: &mut Readings) {
+        match case.problem.heat {
+            Some(laws) => {
+                readings.traction = self.traction(case, state);
+                let theta = self.lines.stations().map(|station| station.theta).collect();
+                let central = Rises::central(&self.lines, laws.heat.inlet_temperature);
+                readings.warmth = Some(Warmth { theta, central });
+            }
+            None => self.rule.iter_mut().for_each(|(rule, _)| rule.read(system, case, state, readings)),
+        }
     }
 }

@@ -1,17 +1,25 @@
-//! The reduced operators of one window for a chosen truncation. Nothing in them is of large scale.
+//! The reduced operators of one window for a chosen truncation, composed of parts. Nothing in them is of large scale.
 
 mod assembled;
+mod case;
+mod deformation;
+mod equations;
 mod front;
 mod heat;
 mod least_squares;
 mod newton;
+mod part;
+mod parts;
+mod readings;
+mod sampled_system;
 mod shaped;
 mod support;
 mod traction;
-mod turns;
 
 pub(crate) use assembled::Operators;
+pub(crate) use case::{Case, Start, Stop};
 pub(crate) use front::{cut_off, fronts, passed_rows};
 pub(crate) use heat::{Stations, carried};
-pub(crate) use newton::{Case, Iterate, OnlineOutcome, RowObserver, Stop};
-pub use traction::RuleTraction;
+pub(crate) use newton::{Iterate, OnlineOutcome, RowObserver};
+pub(crate) use part::Flow;
+pub use readings::RuleTraction;

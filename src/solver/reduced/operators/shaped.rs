@@ -1,11 +1,24 @@
 //! What in the operators of a window follows the shape of an ellipse: the deformation of the modes at the support, the
 //! distances across in rows and gradients, and the undeformed gap.
 
+use super::case::{Case, Start};
+use super::part::{Centre, Kind, Part};
+use super::sampled_system::SampledSystem;
 use super::support::{Place, StateRows};
 use crate::solver::discrete::reynolds::RowGeometry;
 use crate::solver::physics::contact::Ellipse;
 use crate::solver::reduced::model::Window;
 use crate::solver::reduced::shapes::Shapes;
+
+/// Operators of a window that serves ellipses have it.
+pub(super) const KIND: Kind = Kind {
+    nodes: |_, _, _| {},
+    make: |window, _, _, system| {
+        let SampledSystem { modes, support, geometry, basis, .. } = system;
+        let shaped = Shaped::of(window, (&support.nodes(), *modes), (geometry, &support.places, basis))?;
+        Some(Box::new(shaped))
+    },
+};
 
 /// What there is for every shape, and the one that the operators have.
 pub(super) struct Shaped {
@@ -79,5 +92,20 @@ impl Shaped {
     pub fn at(&self, shapes: &Shapes, nodes: &[(usize, f64)], k: usize) -> f64 {
         let of = |matrix: &faer::Mat<f32>| nodes.iter().map(|(node, w)| w * f64::from(matrix[(*node, k)])).sum::<f64>();
         self.weights.iter().zip(&shapes.flexed).map(|(weight, matrix)| weight * of(matrix)).sum()
+    }
+}
+
+impl Part for Shaped {
+    fn begin(&mut self, system: &mut SampledSystem, case: &Case<'_>, start: &Start<'_>) {
+        let SampledSystem { basis, geometry, support, .. } = system;
+        if let Some(shapes) = &start.window.shapes {
+            self.turn_to(shapes, &case.problem.point.ellipse(), basis, geometry, &mut support.places);
+        }
+    }
+
+    fn aim(&mut self, system: &mut SampledSystem, at: Centre<'_>) {
+        if let Some(shapes) = &at.window.shapes {
+            system.lift.iter_mut().enumerate().for_each(|(k, lift)| *lift = self.at(shapes, at.nodes, k));
+        }
     }
 }

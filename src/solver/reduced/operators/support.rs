@@ -1,11 +1,9 @@
 //! The nodes on which the rows of some operators depend, and their modes there.
 
-use super::front::Front;
 use crate::solver::discrete::grid::{ContactGrid, stretched};
 use crate::solver::reduced::model::Window;
 use crate::solver::reduced::sums::{add_columns, rows_times};
 use faer::Mat;
-use std::ops::Range;
 
 /// Where a node lies.
 #[derive(Clone, Copy)]
@@ -24,9 +22,18 @@ impl Place {
     }
 }
 
+/// Nodes that a support has in addition to those of the sampled rows.
+#[derive(Default)]
+pub(super) struct Needed {
+    /// Those at which every state is evaluated.
+    pub always: Vec<usize>,
+    /// Those at which states are evaluated only while a part says so.
+    pub at_times: Vec<usize>,
+}
+
 /// Nodes, each once.
 pub(super) struct Support {
-    /// First those that the sampled rows depend on, in the order of the grid, then those that the rupture boundary alone
+    /// First those that the sampled rows depend on, in the order of the grid, then those that the cavitation boundary alone
     /// asks for, line after line along X.
     pub places: Vec<Place>,
     /// How many the sampled rows depend on.
@@ -75,17 +82,12 @@ fn along(across: usize, node: usize) -> (usize, usize) {
     (node % across, node / across)
 }
 
-/// The parts of a support at which there is something to see: what rows depend on, and what lies near the boundary.
-pub(super) fn seen(own: usize, front: Option<&Front>) -> impl Iterator<Item = Range<usize>> {
-    std::iter::once(0..own).chain(front.into_iter().flat_map(Front::near))
-}
-
 /// What modes are on a support, row-major, support × modes.
 pub(super) struct StateRows {
     pub modes: usize,
     /// V_p.
     pub values: Vec<f64>,
-    /// K V_p; empty where there is a rupture boundary, which has its own.
+    /// K V_p; of a cavitation boundary that of a place of it nearby.
     pub deformations: Vec<f64>,
     /// Of a shear-thinning model the gradients by ξ and, of a point contact, then those by Y.
     pub gradients: Vec<f64>,
@@ -118,37 +120,20 @@ impl StateRows {
         Self { modes, values, deformations: rows_of(deformation), gradients }
     }
 
-    /// K V_p.
-    pub fn deformations<'a>(&'a self, front: Option<&'a Front>) -> &'a [f64] {
-        front.map_or(&self.deformations, Front::deformations)
-    }
-
-    /// P, K P and the gradients of coefficients, one behind the other, at the parts of a support that are seen: the `own`
-    /// places of its rows, and what lies near a rupture boundary.
-    pub fn spread(&self, own: usize, front: Option<&mut Front>, coefficients: &[f64], out: &mut [f64]) {
+    /// P, K P and the gradients of coefficients, one behind the other, at the `own` places of a support.
+    pub fn spread(&self, own: usize, coefficients: &[f64], out: &mut [f64]) {
         let count = self.values.len() / self.modes;
         let (state, gradients) = out.split_at_mut(2 * count);
         let (pressure, deformation) = state.split_at_mut(count);
         rows_times(&self.values, coefficients, &mut pressure[..own]);
-        rows_times(self.deformations(front.as_deref()), coefficients, &mut deformation[..own]);
+        rows_times(&self.deformations, coefficients, &mut deformation[..own]);
         for (gradient, rows) in gradients.chunks_exact_mut(count).zip(self.gradient_rows()) {
             rows_times(rows, coefficients, &mut gradient[..own]);
-        }
-        if let Some(front) = front {
-            front.spread(self, coefficients, out);
         }
     }
 
     /// The gradients, axis by axis.
     pub fn gradient_rows(&self) -> impl Iterator<Item = &[f64]> {
         self.gradients.chunks_exact(self.values.len())
-    }
-}
-
-/// K V_p of so many modes at some nodes, as far as a basis of deformations represents it where there is one.
-pub(super) fn deformed_at(window: &Window, projected: Option<&Mat<f64>>, nodes: &[usize], modes: usize) -> Mat<f64> {
-    match projected {
-        Some(projected) => Mat::from_fn(nodes.len(), modes, |i, k| projected[(nodes[i], k)]),
-        None => window.pressure.flexed_at(nodes, modes),
     }
 }

@@ -6,7 +6,7 @@ use crate::solver::discrete::reynolds::{RowGeometry, STENCIL};
 use crate::solver::full::transient::{Conditions, History, Step};
 use crate::solver::reduced::Window;
 use crate::solver::reduced::contact_rows::ContactRows;
-use crate::solver::reduced::operators::{Operators, passed_rows};
+use crate::solver::reduced::operators::{Flow, Operators, passed_rows};
 
 /// Operators of a basis, and what its rows read in time.
 pub(super) struct Part {
@@ -17,8 +17,6 @@ pub(super) struct Part {
     /// Nodes of these rows, and their X.
     pub nodes: Vec<usize>,
     pub x: Vec<f64>,
-    /// K V_p at X = 0.
-    pub lift: Vec<f64>,
     pub contact: ContactRows,
 }
 
@@ -36,21 +34,16 @@ impl Part {
         let (unknowns, last) = (grid.unknowns(), grid.len() - 1);
         let rows: Vec<usize> = window.sampled_rows.iter().copied().chain(passed_rows(window)).collect();
         let further: Vec<usize> = rows.iter().map(|row| (row + 4).min(last)).collect();
-        let mut operators = Operators::with_support(window, modes, None, false, &further);
-        operators.stride();
+        let operators = Operators::new(window, modes, None, Flow::Transient(&further));
         let place = |node: usize| operators.place(node);
         let side = |row: usize, velocity: f64| {
             let upstream = Upstream::of(velocity, row, unknowns);
             Side { stencil: upstream.stencil(row).map(place), geometry: upstream.geometry(&grid.x, row) }
         };
         let sides: Vec<[Side; 2]> = rows.iter().map(|&row| [side(row, 1.0), side(row, -1.0)]).collect();
-        let (first, weights) = grid.interpolation(0.0);
-        let at_zero =
-            |k: usize| weights.iter().enumerate().map(|(m, w)| w * window.pressure.flexed()[(first + m, k)]).sum();
         Self {
             nodes: rows.iter().map(|row| row + FIRST_UNKNOWN).collect(),
             x: rows.iter().map(|row| grid.x[row + FIRST_UNKNOWN]).collect(),
-            lift: (0..modes).map(at_zero).collect(),
             sides,
             operators,
             contact: ContactRows::new(grid, window.pressure.basis().modes.as_ref(), window.pressure.flexed().as_ref()),

@@ -12,7 +12,7 @@ use crate::solver::observer::Observer;
 use crate::solver::parameters::distance;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
-use crate::solver::reduced::operators::{Case, Iterate, Stop, cut_off};
+use crate::solver::reduced::operators::{Case, Iterate, Start, Stop, cut_off};
 use crate::solver::reduced::{ReducedError, Window, dense};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -148,7 +148,7 @@ impl<'a> ReducedMarch<'a> {
         let between = if matches!(self.model.frame, Frame::Remeshed(_)) { self.grid.len() } else { 0 };
         let lines = if self.model.window.cavitation == Cavitation::Penalty { 0 } else { 1 };
         let mut fronts = kept.fronts.iter();
-        kept.history.is_of(part.operators.modes, part.x.len(), between)
+        kept.history.is_of(part.operators.modes(), part.x.len(), between)
             && fronts.all(|own| own.len() == lines && own.iter().all(|front| *front <= self.grid.len()))
     }
 
@@ -164,7 +164,7 @@ impl<'a> ReducedMarch<'a> {
 
     /// Coefficients for as many modes as the present basis has.
     fn make_room(&mut self) {
-        let modes = self.parts[self.number].operators.modes;
+        let modes = self.parts[self.number].operators.modes();
         self.coefficients.resize(modes, 0.0);
         self.start.resize(modes, 0.0);
     }
@@ -217,23 +217,23 @@ impl<'a> ReducedMarch<'a> {
     fn newton(&mut self, at: &Conditions, max_newton: usize) -> Result<Effort, Termination> {
         let (h_0, number) = (self.h_0, self.number);
         let window = self.model.numbered(number);
-        let Part { operators, lift, .. } = &mut self.parts[number];
+        let Part { operators, .. } = &mut self.parts[number];
         let mut effort = Effort::default();
         let attempts = if self.front.is_empty() { &ATTEMPTS[1..] } else { &ATTEMPTS[..] };
         for (held, softness) in attempts {
-            let penalty = softness * window.penalty;
-            let case = Case { problem: &at.problem, scale: 1.0, curvature: at.curvature, penalty, lift };
-            let stop = Stop { tolerance: TOLERANCE, max_newton };
-            operators.rupture_at(held.then_some(&self.front));
+            let case = case(at, softness * window.penalty, max_newton);
+            let fronts = held.then_some(self.front.as_slice());
+            operators.begin(&case, &Start { window, modes: usize::MAX, fronts, theta: &[] });
             self.coefficients.copy_from_slice(&self.start);
             self.h_0 = h_0;
+            let state = (self.coefficients.as_mut_slice(), &mut self.h_0);
             let outcome = match &mut self.observer {
                 Some(observer) => {
-                    operators.lift(window, &window.grid.at_zero(1.0), 1.0);
+                    operators.aim(window, 1.0);
                     let mut shown = |iterate: &Iterate<'_>| observer(number, iterate);
-                    operators.newton(&case, &mut self.coefficients, &mut self.h_0, stop, Some(&mut shown))
+                    operators.newton(&case, state, Some(&mut shown))
                 }
-                None => operators.newton(&case, &mut self.coefficients, &mut self.h_0, stop, None),
+                None => operators.newton(&case, state, None),
             };
             effort.newton_iterations += outcome.iterations;
             if outcome.converged {
@@ -245,15 +245,16 @@ impl<'a> ReducedMarch<'a> {
 
     /// Makes the present state the nearer of the former ones.
     fn remember(&mut self, at: &Conditions) {
-        let operators = &self.parts[self.number].operators;
+        let operators = &mut self.parts[self.number].operators;
         self.history.remember(&self.coefficients, self.h_0, operators.flow());
+        let readings = operators.read(&case(at, 0.0, 0), &self.coefficients, self.h_0);
         self.at = Some([*at, self.at.map_or(*at, |[nearer, _]| nearer)]);
         self.stayed += 1;
         self.fronts.swap(0, 1);
         self.fronts[0].clear();
-        self.fronts[0].extend(operators.fronts());
+        self.fronts[0].extend_from_slice(&readings.fronts);
         self.cut.clear();
-        self.cut.extend(operators.cut(&self.coefficients));
+        self.cut.extend_from_slice(&readings.cut);
         if let Frame::Remeshed(interpolation) = self.model.frame {
             let mut fields = std::mem::take(&mut self.fields);
             let mut fft = std::mem::take(&mut self.fft);
@@ -294,6 +295,12 @@ impl<'a> ReducedMarch<'a> {
             *film += h_0 + 0.5 * at.curvature * x * x;
         }
     }
+}
+
+/// The contact at the end of a step.
+fn case(at: &Conditions, penalty: f64, max_newton: usize) -> Case<'_> {
+    let stop = Stop::new(TOLERANCE, max_newton);
+    Case { problem: &at.problem, scale: 1.0, curvature: at.curvature, penalty, stop }
 }
 
 fn line_grid(model: &TrajectoryModel) -> Result<Arc<ReferenceGrid>, ReducedError> {

@@ -1,9 +1,10 @@
 //! What the boundary changes of K V and K P: at places of it that are kept, and by the nodes between.
 
-use super::{Front, StateRows};
-use crate::solver::discrete::grid::ContactGrid;
-use crate::solver::discrete::reynolds::STENCIL;
+use super::Front;
+use crate::solver::discrete::reynolds::CENTER;
 use crate::solver::reduced::model::{Snapshot, Window};
+use crate::solver::reduced::operators::part::Centre;
+use crate::solver::reduced::operators::sampled_system::{RowState, SampledSystem};
 use crate::solver::reduced::sums::{add_columns, row_times};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
@@ -17,6 +18,7 @@ const KEPT_BYTES: usize = 16 << 20;
 pub(super) struct Kept {
     /// Of each line how many nodes carry pressure.
     pub fronts: Vec<usize>,
+    /// At the support, row-major; of the place in use it lies in the basis of the system.
     pub deformation: Vec<f64>,
     /// Σ v vᵀ over the nodes behind it, where modes are held at zero there.
     pub behind: Mat<f64>,
@@ -45,7 +47,7 @@ impl Bent {
 impl Front {
     /// Keeps K V, given whole, at places of B that are far from each other.
     pub(super) fn keep(&mut self, window: &Window, whole: &[f64], whole_load: &[f64]) {
-        let modes = self.lift.len();
+        let modes = whole_load.len();
         let s = whole.len() / modes;
         let most = (KEPT_BYTES / (8 * whole.len())).clamp(1, KEPT);
         let fronts = |snapshot: &Snapshot| -> Vec<usize> {
@@ -90,21 +92,6 @@ impl Front {
         }
     }
 
-    /// K V at the support, row-major, of a place of B nearby.
-    pub fn deformations(&self) -> &[f64] {
-        &self.kept[self.loaded].deformation
-    }
-
-    /// Whether a place of the support lies behind B.
-    pub fn is_cut(&self, place: usize) -> bool {
-        self.cut[place]
-    }
-
-    /// Places that no sampled row asks for and that are near B.
-    pub fn near(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        self.near.iter().filter(|places| !places.is_empty()).cloned()
-    }
-
     /// Nodes between B and its place in K V, and whether they carry pressure that K V does not know, 1, or the other way
     /// about, −1.
     pub(super) fn between(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
@@ -115,31 +102,46 @@ impl Front {
         })
     }
 
-    /// Finds the places that are near B: those of the rows behind it.
-    pub(super) fn look_near(&mut self) {
+    /// Finds which rows lie behind B, and which further places near B are to be seen: those of the rows behind it.
+    pub(super) fn look_near(&mut self, system: &mut SampledSystem) {
+        let SampledSystem { row_states, stencils, seen, support, transient, .. } = system;
+        for ((state, (line, column)), stencil) in row_states.iter_mut().zip(&self.rows).zip(&*stencils) {
+            let line = &self.lines[*line];
+            *state = if self.idle {
+                RowState::Penalised
+            } else if *column >= line.column + line.front {
+                RowState::Cavitated
+            } else if support.places[stencil[CENTER]].xi < 0.0 {
+                // Before the centre there is no boundary: where the inlet cavitates, in time, a penalty holds it.
+                RowState::Penalised
+            } else {
+                RowState::Full
+            };
+        }
         let (own, end) = (self.own, self.cut.len());
-        self.near.fill(own..own);
-        if self.strides || self.idle {
+        let near = &mut seen[1..];
+        near.fill(own..own);
+        if *transient || self.idle {
             // All are.
-            self.near.first_mut().into_iter().for_each(|near| *near = own..end);
+            near.first_mut().into_iter().for_each(|near| *near = own..end);
             return;
         }
-        let Self { lines, nodes, asked, near, .. } = self;
+        let (first_row, asked) = (self.rows.len(), &self.asked);
         let mut see = |place: usize| {
             let Some(line) = place.checked_sub(own).map(|k| asked[k]) else { return };
             let seen = &mut near[line];
             *seen =
                 if seen.start == seen.end { place..place + 1 } else { seen.start.min(place)..seen.end.max(place + 1) };
         };
-        for line in lines {
-            let behind = &nodes[line.first + line.front.min(line.count)];
-            behind.stencil.iter().for_each(|place| see(*place));
+        for line in &self.lines {
+            let behind = first_row + line.first + line.front.min(line.count);
+            stencils[behind].iter().for_each(|place| see(*place));
         }
     }
 
     /// P, K P and the gradients of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what
     /// nodes between B and its place in K V bend, and finds all three near B.
-    pub fn spread(&mut self, state: &StateRows, coefficients: &[f64], fields: &mut [f64]) {
+    pub(super) fn cut_and_bend(&mut self, system: &SampledSystem, coefficients: &[f64], fields: &mut [f64]) {
         let (pressure, rest) = fields.split_at_mut(self.cut.len());
         for line in &self.lines {
             for passed in &self.nodes[line.first + line.front..line.first + line.count] {
@@ -148,24 +150,24 @@ impl Front {
         }
         self.find_bending(coefficients);
         self.bend_part(0..self.own, rest);
-        self.spread_near(state, coefficients, fields);
+        self.spread_near(system, coefficients, fields);
     }
 
     /// P, K P and the gradients of coefficients near B, where what bends is known.
-    pub(super) fn spread_near(&self, state: &StateRows, coefficients: &[f64], fields: &mut [f64]) {
+    pub(super) fn spread_near(&self, system: &SampledSystem, coefficients: &[f64], fields: &mut [f64]) {
+        let (basis, near) = (&system.basis, &system.seen[1..]);
         let count = self.cut.len();
         let (pressure, rest) = fields.split_at_mut(count);
         let (deformation, gradients) = rest.split_at_mut(count);
-        let rows = self.deformations();
-        for near in self.near() {
+        for near in near.iter().filter(|near| !near.is_empty()) {
             for place in near.clone() {
-                pressure[place] = if self.cut[place] { 0.0 } else { row_times(&state.values, place, coefficients) };
-                deformation[place] = row_times(rows, place, coefficients);
-                for (gradient, rows) in gradients.chunks_exact_mut(count).zip(state.gradient_rows()) {
+                pressure[place] = if self.cut[place] { 0.0 } else { row_times(&basis.values, place, coefficients) };
+                deformation[place] = row_times(&basis.deformations, place, coefficients);
+                for (gradient, rows) in gradients.chunks_exact_mut(count).zip(basis.gradient_rows()) {
                     gradient[place] = row_times(rows, place, coefficients);
                 }
             }
-            self.bend_part(near, deformation);
+            self.bend_part(near.clone(), deformation);
         }
     }
 
@@ -197,17 +199,12 @@ impl Front {
     /// B and its place in K V bend. Of one line always: there few nodes decide the film, and at a high M Newton's steps
     /// grow without them. Of many lines it costs more than the steps that it mostly saves, and waits until an iteration
     /// turns out `slow`.
-    pub fn bend(
-        &mut self,
-        (stencils, slopes): (&[[usize; STENCIL]], &[[f64; STENCIL]]),
-        slow: bool,
-        scale: f64,
-        jacobian_rows: &mut [f64],
-    ) {
+    pub(super) fn bend(&mut self, system: &mut SampledSystem, scale: f64, slow: bool) {
         if self.idle || !(slow || self.lines.len() == 1) {
             return;
         }
-        let (modes, rows, s) = (self.lift.len(), stencils.len(), self.cut.len());
+        let SampledSystem { modes, stencils, by_film, jacobian_rows, .. } = system;
+        let (modes, rows, s) = (*modes, by_film.len(), self.cut.len());
         let mut own = std::mem::take(&mut self.bent);
         let mut between = self.between();
         loop {
@@ -215,7 +212,7 @@ impl Front {
             for (k, sign) in between.by_ref().take(TOGETHER) {
                 let bends = &self.bends[k * s..][..s];
                 for (bent, (stencil, slopes)) in
-                    own.rows[count * rows..][..rows].iter_mut().zip(stencils.iter().zip(slopes))
+                    own.rows[count * rows..][..rows].iter_mut().zip(stencils.iter().zip(&*by_film))
                 {
                     let sum: f64 = stencil.iter().zip(slopes).map(|(&at, slope)| slope * f64::from(bends[at])).sum();
                     *bent = scale * sign * sum;
@@ -235,22 +232,22 @@ impl Front {
         self.bent = own;
     }
 
-    /// What the film at X = 0 (and Y = 0) gains, given by nodes and weights of an interpolation there and by what whole
-    /// modes give it.
-    pub fn aim(&mut self, grid: &ContactGrid, zero: &[(usize, f64)], scale: f64, whole: &[f64]) {
-        let modes = whole.len();
+    /// What the film at X = 0 (and Y = 0) gains, in place of what whole modes give it.
+    pub(super) fn lift(&mut self, lift: &mut [f64], Centre { window, nodes: zero, scale }: Centre<'_>) {
+        let modes = lift.len();
         if self.aimed != Some(scale) {
             self.aimed = Some(scale);
             let weights = || zero.iter().filter(|(_, weight)| *weight != 0.0);
             for own in &mut self.nodes {
-                own.zero = scale * weights().map(|(at, weight)| weight * grid.kernel_entry(*at, own.node)).sum::<f64>();
+                let entries = weights().map(|(at, weight)| weight * window.grid.kernel_entry(*at, own.node));
+                own.zero = scale * entries.sum::<f64>();
             }
         }
         let Self { kept, lines, nodes, modes: basis, .. } = self;
         let kept = &mut kept[self.loaded];
         if kept.lift.0 != Some(scale) {
             kept.lift.0 = Some(scale);
-            kept.lift.1.copy_from_slice(whole);
+            kept.lift.1.copy_from_slice(lift);
             for k in
                 lines.iter().zip(&kept.fronts).flat_map(|(line, front)| line.first + front..line.first + line.count)
             {
@@ -258,13 +255,11 @@ impl Front {
                 kept.lift.1.iter_mut().zip(own).for_each(|(lift, v)| *lift -= nodes[k].zero * v);
             }
         }
-        let mut lift = std::mem::take(&mut self.lift);
-        lift.copy_from_slice(&self.kept[self.loaded].lift.1);
+        lift.copy_from_slice(&kept.lift.1);
         for (k, sign) in self.between() {
             let zero = sign * self.nodes[k].zero;
             lift.iter_mut().zip(&self.modes[k * modes..][..modes]).for_each(|(lift, v)| *lift += zero * v);
         }
-        self.lift = lift;
     }
 }
 

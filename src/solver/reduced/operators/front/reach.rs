@@ -57,13 +57,6 @@ pub(crate) fn passed_rows(window: &Window) -> Vec<usize> {
     rows
 }
 
-/// Nodes of the support that the boundary asks for.
-pub(in crate::solver::reduced::operators) fn support(window: &Window) -> Vec<usize> {
-    let mut nodes = Vec::new();
-    each_passed(window, |_, unknown| nodes.extend(window.grid.row(unknown).0));
-    nodes
-}
-
 /// Tells line and unknown of every node that B may pass, line after line.
 pub(super) fn each_passed(window: &Window, mut tell: impl FnMut(usize, usize)) {
     let (grid, lines) = (&window.grid, window.grid.lines());

@@ -1,8 +1,35 @@
-//! What bounds allow for where a film ruptures by another law than the full solutions by which errors were measured.
+//! Estimated errors of a reduced solution, and what their bounds allow for where a film cavitates by another law than the
+//! full solutions by which errors were measured.
 
-use super::ErrorEstimate;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
+use serde::{Deserialize, Serialize};
+
+/// An error that was not measured.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimated {
+    /// Its likely size (median of similar cases).
+    pub likely: f64,
+    /// What 99 of 100 errors stay below.
+    pub bound: f64,
+}
+
+/// Relative errors of a reduced solution against the full one on the same grid.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorEstimate {
+    /// Of the central film, |H̃_c/H_c − 1|.
+    pub h_c: Estimated,
+    /// Of the smallest film.
+    pub h_min: Estimated,
+    /// Of the state, e_z of (3.10).
+    pub state: Estimated,
+    /// Of the traction coefficient (3.41), of a model that knows sliding and where an isothermal traction has a
+    /// meaning.
+    pub traction: Option<Estimated>,
+    /// Of the rise of temperature at mid-film, X = 0, of a model that knows heat; where it rises by less than a kelvin,
+    /// in kelvin.
+    pub rise: Option<Estimated>,
+}
 
 /// By how much the default penalty of full solutions moves H_c of lines against complementarity at most, relative to it.
 const MOVES_H_C: f64 = 3.5e-7;
