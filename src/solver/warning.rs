@@ -186,6 +186,11 @@ impl Warning {
         (pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA).then_some(Self::HertzPressure { pressure_pa })
     }
 
+    /// Whether it is of the discretisation error, of which tables of many contacts make a sentence of their own.
+    pub fn is_of_grid(&self) -> bool {
+        matches!(self, Self::DiscretisationError { .. } | Self::DiscretisationErrorUnknown)
+    }
+
     /// Its kind, values and sentence as one JSON object: `{"kind": …, values…, "text": …}`.
     pub fn to_json(&self) -> Value {
         let mut object = Map::new();

@@ -28,9 +28,7 @@ fn of_table(csv: &str, tag: &str) -> Said {
     let numbers: Vec<&str> = row.splitn(titles.len(), ',').collect();
     let (warning, numbers) = numbers.split_last().unwrap();
     let number = |name: &&str| {
-        let known = |title: &&str| {
-            *title == format!("{tag}{name}") || *title == *name || *title == "p_h_pa" && *name == "hertz.p_h_pa"
-        };
+        let known = |title: &&str| *title == format!("{tag}{name}") || *title == *name;
         let place = titles.iter().position(known).unwrap_or_else(|| panic!("{name} is no column of {titles:?}"));
         numbers[place].parse().unwrap_or(f64::NAN)
     };
