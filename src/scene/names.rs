@@ -128,6 +128,9 @@ mod tests {
         }
     }
 
+    /// Numbers of modes that a training finds, which are no values of a contact.
+    const OF_TRAININGS: [&str; 2] = ["basis_p", "basis_delta"];
+
     #[test]
     fn tables_of_studies_call_quantities_by_these_names() {
         let short = |name: &str| ALL.iter().any(|known| known.ends_with(&format!(".{name}")));
@@ -137,7 +140,8 @@ mod tests {
                 // A method or a model may stand before a name.
                 let ends = || std::iter::successors(Some(&*column), |name| name.split_once('.').map(|(_, end)| end));
                 let known = ends().any(|name| ALL.contains(&name));
-                let other = ends().any(|name| short(name) || name.ends_with("_bound") || name.ends_with("_full"));
+                let other = !OF_TRAININGS.contains(&&*column)
+                    && ends().any(|name| short(name) || name.ends_with("_bound") || name.ends_with("_full"));
                 assert!(known || !other, "{}: {column}", example.path);
                 seen += usize::from(known);
             }

@@ -151,7 +151,7 @@ contact_fields! {
         { note: " (default: roelands)", placeholder: Some("LAW") };
     srr: f64, Srr, "srr", "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m",
         { measure: Measure::Of(Quantity::SlideToRollRatio), note: "; of a Newtonian fluid it moves only the traction",
-          default: Some("0"), titles: &["slip"], variable: names::SRR };
+          default: Some("0"), titles: &["slip"] };
     npr: f64, Npr, "npr", "Newtonian plateau ratio of a shear-thinning lubricant",
         { measure: Measure::Of(Quantity::NewtonianPlateauRatio), note: " (default: its own); 1 is a Newtonian fluid" };
     grid: Grid, Grid, "grid", "Grid of a full solution",
