@@ -1,5 +1,6 @@
 //! Online iterations and online steps in time must not allocate: more of them, the same number of allocations.
 #![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
 use ehl_explorer::engine::embedded;

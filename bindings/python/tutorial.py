@@ -60,7 +60,7 @@ print("h_c in nm:", np.round(films["h_c_m"][:, 0] * 1e9, 1), "trained:", bool(fi
 
 # %%
 table = ehl.sweep(contact, "moes-m=10:160:5:log", method="reduced")
-print(np.column_stack([table["moes-m"], table["H_c"]]))
+print(np.column_stack([table["moes.M"], table["H_c"]]))
 
 # %% [markdown]
 # ## A contact in time

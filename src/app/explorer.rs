@@ -22,13 +22,14 @@ use crate::app::tabs::frame::Frame;
 use crate::app::wake::wake;
 use crate::app::{panels, theme};
 use crate::engine::Store;
+use crate::host::clock::Stopwatch;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::ReducedModel;
 use egui::{CentralPanel, Panel, ScrollArea, Ui};
 use egui_tiles::Tree;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A presentation on a screen that is no higher has no read-outs \[points\].
 const LOW: f32 = 500.0;
@@ -113,7 +114,7 @@ impl Explorer {
     /// One frame: what was asked for in the panels is done before the tabs are drawn, so that the picture follows
     /// within the frame.
     pub fn ui(&mut self, ui: &mut Ui) {
-        let begin = Instant::now();
+        let begin = Stopwatch::start();
         let ctx = ui.ctx().clone();
         if !self.installed {
             self.installed = true;

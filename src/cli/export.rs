@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::output;
 use super::verdict::Verdict;
 use crate::engine::coupled::{Pressed, fmu};
-use crate::engine::{EngineError, SavedModel};
+use crate::engine::{EngineError, SavedModel, bytes_of};
 use crate::scene::atomic_file;
 use crate::scene::named_lubricant::{NamedLubricant, by_name};
 use crate::solver::physics::lubricant::Lubricant;
@@ -22,7 +22,7 @@ pub enum ExportCommand {
 /// Options of `export fmu`.
 #[derive(Debug, Args)]
 pub struct FmuArgs {
-    /// The reduced model
+    /// The reduced model: a file, or the name of one of the program's own, such as line or point
     #[arg(value_name = "MODEL.rom")]
     model: PathBuf,
     /// Write the unit here
@@ -37,7 +37,7 @@ pub struct FmuArgs {
     /// The lubricant that the simulation means; refused where the model was trained with another one
     #[arg(long, value_name = "NAME", value_parser = by_name)]
     lubricant: Option<NamedLubricant>,
-    /// The library that solves it (default: beside this program)
+    /// The library that solves it (default: next to this program, or in ../lib/ehl-explorer from there)
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
 }
@@ -45,8 +45,7 @@ pub struct FmuArgs {
 /// Runs the command.
 pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     let ExportCommand::Fmu(args) = command;
-    let refused = |reason| EngineError::Model { path: args.model.clone(), reason };
-    let (model, content) = SavedModel::read_with_content(&args.model).map_err(|reason| refused(reason.into()))?;
+    let (model, content) = model_of(&args.model)?;
     let same = |laws: Lubricant| match &model {
         SavedModel::Stationary(model) => laws == model.domain.lubricant,
         // It says itself how its films rupture.
@@ -71,16 +70,42 @@ pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     Ok(Verdict::Done)
 }
 
+/// The model of a file, or one of the program by its name, and the content of its file.
+fn model_of(path: &Path) -> Result<(SavedModel, Vec<u8>), Failure> {
+    let read = match path.to_str().and_then(bytes_of).filter(|_| !path.exists()) {
+        Some(content) => SavedModel::from_bytes(content).map(|model| (model, content.to_vec())),
+        None => SavedModel::read_with_content(path),
+    };
+    Ok(read.map_err(|reason| EngineError::Model { path: path.to_owned(), reason: reason.into() })?)
+}
+
+/// Where the library of units is looked for: next to the program, and where packages put it.
+fn places() -> Vec<PathBuf> {
+    let program = std::env::current_exe().and_then(std::fs::canonicalize);
+    let folder = program.ok().and_then(|program| Some(program.parent()?.to_owned())).unwrap_or_default();
+    let installed = folder.parent().map(|prefix| prefix.join("lib").join(env!("CARGO_PKG_NAME")));
+    [Some(folder), installed].into_iter().flatten().map(|folder| folder.join(fmu::library_file())).collect()
+}
+
 /// The content of the library.
 fn library(given: Option<&Path>) -> Result<Vec<u8>, Failure> {
-    let beside = || std::env::current_exe().ok()?.parent().map(|folder| folder.join(fmu::library_file()));
-    let path = given.map(Path::to_owned).or_else(beside).unwrap_or_else(|| PathBuf::from(fmu::library_file()));
-    std::fs::read(&path).map_err(|error| {
-        Failure::Request(format!(
-            "cannot read the library of the unit {}: {}; build it with `cargo build --release --manifest-path \
-             bindings/c/Cargo.toml --target-dir target`, or name it with --library",
-            path.display(),
-            atomic_file::said(&error)
-        ))
-    })
+    if let Some(path) = given {
+        let unreadable = |error: std::io::Error| {
+            let reason = atomic_file::said(&error);
+            Failure::Request(format!("cannot read the library of the unit {}: {reason}", path.display()))
+        };
+        return std::fs::read(path).map_err(unreadable);
+    }
+    let places = places();
+    if let Some(library) = places.iter().find_map(|path| std::fs::read(path).ok()) {
+        return Ok(library);
+    }
+    let searched: Vec<_> = places.iter().map(|path| path.display().to_string()).collect();
+    Err(Failure::Request(format!(
+        "a unit needs the library {}, which is neither {}: install the Debian package, which brings it, or build it in the \
+         source tree with `cargo build --release --manifest-path bindings/c/Cargo.toml --target-dir target` and copy it to \
+         one of these places, or name it with --library",
+        fmu::library_file(),
+        searched.join(" nor "),
+    )))
 }

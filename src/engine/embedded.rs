@@ -41,7 +41,7 @@ pub fn catalogue() -> &'static [Entry] {
 
 /// Returns the content of the file of a model; `None` for an unknown name.
 pub fn bytes_of(name: &str) -> Option<&'static [u8]> {
-    MODELS.iter().find(|(known, _)| *known == name).map(|(_, bytes)| *bytes)
+    MODELS.iter().chain(&[IN_TIME]).find(|(known, _)| *known == name).map(|(_, bytes)| *bytes)
 }
 
 /// Reads a model of the program. That its parts belong together was checked when it was tested, and is not checked again.
@@ -76,8 +76,8 @@ pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Ar
     }))
 }
 
-/// The content of the file of the model in time.
-const LINE_IN_TIME: &[u8] = include_bytes!("../../assets/line_in_time.rom");
+/// The transient model with the content of its file.
+const IN_TIME: (&str, &[u8]) = ("line_in_time", include_bytes!("../../assets/line_in_time.rom"));
 
 /// The model in time of line contacts whose load varies: `scenes/training/line_in_time.ron`. It is read once: every picture
 /// needs what it was trained for.
@@ -89,7 +89,7 @@ pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
     if let Some(model) = MODEL.get() {
         return Ok(Arc::clone(model));
     }
-    let read = rom::from_own_bytes(LINE_IN_TIME, &())?.in_time()?;
+    let read = rom::from_own_bytes(IN_TIME.1, &())?.in_time()?;
     Ok(Arc::clone(MODEL.get_or_init(|| read)))
 }
 
@@ -116,14 +116,14 @@ mod tests {
 
     #[test]
     fn the_parts_of_the_transient_model_belong_together_and_it_survives_a_round_trip() {
-        let read = SavedModel::from_bytes(LINE_IN_TIME).unwrap().in_time().unwrap();
+        let read = SavedModel::from_bytes(IN_TIME.1).unwrap().in_time().unwrap();
         assert_eq!(read.domain, line_in_time().unwrap().domain);
-        assert!(SavedModel::InTime(read).to_bytes().unwrap() == LINE_IN_TIME);
+        assert!(SavedModel::InTime(read).to_bytes().unwrap() == IN_TIME.1);
     }
 
     #[test]
     fn all_files_together_are_small() {
-        let all = MODELS.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() + LINE_IN_TIME.len();
+        let all = MODELS.iter().map(|(_, bytes)| bytes.len()).sum::<usize>() + IN_TIME.1.len();
         assert!(all < 28_800_000 && bytes_of("line").unwrap().len() < 3_100_000, "{all} bytes");
     }
 }

@@ -7,6 +7,8 @@
 
 use super::EngineError;
 use super::checked_file::{Flaw, Format, Unreadable};
+use crate::host::clock::Stopwatch;
+use crate::host::worker;
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
 use crate::solver::training::{TrainingSpec, TrainingState, Windows};
@@ -18,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 const VERSION: u32 = 14;
 /// 5000 full solutions in each of some windows, on the finest grids that are used.
@@ -223,7 +225,7 @@ fn try_room(path: &Path) -> Result<(), WriteError> {
 pub struct TrainingKeeper {
     path: PathBuf,
     states: SyncSender<TrainingState>,
-    handed_over: Mutex<Option<Instant>>,
+    handed_over: Mutex<Option<Stopwatch>>,
     refusal: Arc<Mutex<Option<TrainingFileError>>>,
     writer: Option<JoinHandle<()>>,
     _lock: Lock,
@@ -252,7 +254,7 @@ impl TrainingKeeper {
             }
         };
         // Without a thread only the end is written.
-        let writer = std::thread::Builder::new().name("training file".to_owned()).spawn(write_all).ok();
+        let writer = worker::spawn("training file", write_all).ok();
         Ok(Self { path, states, handed_over: Mutex::new(None), refusal, writer, _lock: lock })
     }
 
@@ -299,7 +301,7 @@ impl TrainingKeeper {
         let due = state.solutions() > 0 && handed_over.is_none_or(|at| at.elapsed() >= INTERVAL);
         // A writer that is still at work gets the next state instead.
         if due && !matches!(self.states.try_send(state.clone()), Err(TrySendError::Full(_))) {
-            *handed_over = Some(Instant::now());
+            *handed_over = Some(Stopwatch::start());
         }
         self.refusal.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(Ok(()), Err)
     }
@@ -430,7 +432,7 @@ mod tests {
             // A folder in which nothing can be made any more.
             let away = folder.with_extension("away");
             std::fs::rename(&folder, &away).unwrap();
-            let patience = Instant::now();
+            let patience = Stopwatch::start();
             let said = loop {
                 if let Err(error) = keeper.checkpoint(&state) {
                     break error.to_string();

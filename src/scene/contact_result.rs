@@ -1,6 +1,7 @@
 //! The result of one contact as people, tables, expectations and other programs see it.
 
 use super::answer::Request;
+use super::names;
 use crate::solver::full::heat::{Rises, Temperatures};
 use crate::solver::full::{GridCost, Scalars, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -145,71 +146,73 @@ enum In {
 }
 
 /// Every value by its name, with a dot if it belongs to a group, in the order of the JSON object and of tables.
-const VALUES: [(&str, In, Get); 62] = [
-    ("contact", In::None, |r| text(r.point.kind.name())),
-    ("method", In::None, |r| text(r.method)),
-    ("converged", In::Result, |r| Some(Value::Truth(r.converged))),
-    ("warning", In::None, |r| (!r.warnings.is_empty()).then(|| Value::Text(r.warning()))),
-    ("warnings", In::None, |r| {
+const VALUES: [(&str, In, Get); names::ALL.len()] = [
+    (names::CONTACT, In::None, |r| text(r.point.kind.name())),
+    (names::METHOD, In::None, |r| text(r.method)),
+    (names::CONVERGED, In::Result, |r| Some(Value::Truth(r.converged))),
+    (names::WARNING, In::None, |r| (!r.warnings.is_empty()).then(|| Value::Text(r.warning()))),
+    (names::WARNINGS, In::None, |r| {
         (!r.warnings.is_empty()).then(|| Value::List(r.warnings.iter().map(Warning::to_json).collect()))
     }),
-    ("si.radius", In::Contact, |r| number(r.point.radius_m)),
-    ("si.radius_y", In::None, |r| number(r.point.radius_y_m.unwrap_or(r.point.radius_m)).filter(|_| is_point(r))),
-    ("si.speed", In::Contact, |r| number(r.point.speed_m_per_s)),
-    ("si.load", In::Contact, |r| number(r.point.load)),
-    ("si.modulus", In::Contact, |r| number(r.point.modulus_pa)),
-    ("si.viscosity", In::Contact, |r| number(r.point.viscosity_pa_s)),
-    ("si.alpha", In::Contact, |r| number(r.point.alpha_per_pa)),
-    ("moes.M", In::Contact, |r| number(r.point.moes().m)),
-    ("moes.L", In::Contact, |r| number(r.point.moes().l)),
-    ("hertz.a_m", In::Contact, |r| number(r.point.hertz().half_width_m)),
-    ("hertz.b_m", In::None, |r| number(r.point.hertz().half_length_m).filter(|_| is_point(r))),
-    ("hertz.kappa", In::None, |r| number(r.point.ellipse().kappa).filter(|_| is_point(r))),
-    ("hertz.p_h_pa", In::Contact, |r| number(r.point.hertz().pressure_pa)),
-    ("cavitation", In::None, |r| text(r.cavitation.name())),
-    ("supply_film_m", In::None, |r| number(r.cavitation.supply_film_m()?)),
-    ("grid.kind", In::None, |r| text(r.grid)),
-    ("grid.nx", In::None, |r| Some(Value::Count(r.nodes.0))),
-    ("grid.ny", In::None, |r| Some(Value::Count(r.nodes.1))),
-    ("grid.dofs", In::None, |r| Some(Value::Count(r.dofs))),
-    ("grid.truncation_error", In::None, |r| number(r.grid_cost?.truncation)),
-    ("grid.resolution_error", In::None, |r| number(r.grid_cost?.resolution)),
-    ("H_c", In::Result, |r| number(r.scalars?.h_c)),
-    ("H_min", In::Result, |r| number(r.scalars?.h_min)),
-    ("X_H_min", In::Result, |r| number(r.scalars?.x_h_min)),
-    ("Y_H_min", In::Result, |r| number(r.scalars?.y_h_min).filter(|_| is_point(r))),
-    ("P_c", In::Result, |r| number(r.scalars?.p_c)),
-    ("P_max", In::Result, |r| number(r.scalars?.p_max)),
-    ("X_P_max", In::Result, |r| number(r.scalars?.x_p_max)),
-    ("X_meniscus", In::None, |r| number(r.meniscus?)),
-    ("H_0", In::Result, |r| number(r.scalars?.h_0)),
-    ("h_c_m", In::Result, |r| number(r.scalars?.h_c * r.point.film_scale_m())),
-    ("h_min_m", In::Result, |r| number(r.scalars?.h_min * r.point.film_scale_m())),
-    ("traction", In::Result, |r| number(r.traction?)),
-    ("rolling_resistance", In::None, |r| number(r.rolling_resistance?)),
-    ("rolling_resistance_fit", In::None, |r| number(r.rolling_resistance.and(r.point.rolling_resistance_fit())?)),
-    ("load_residual", In::Result, |r| number(r.scalars?.load_residual)),
-    ("residual_norm", In::Result, |r| number(r.residual_norm?)),
-    ("newton_iterations", In::Result, |r| Some(Value::Count(r.newton_iterations))),
-    ("linear_iterations", In::Result, |r| r.linear_iterations.map(Value::Count)),
-    ("heat.mid_film_rise_k", In::Heat, |r| number(r.heat?.central.mid_film_k)),
-    ("heat.surface_1_rise_k", In::Heat, |r| number(r.heat?.central.surfaces_k[0])),
-    ("heat.surface_2_rise_k", In::Heat, |r| number(r.heat?.central.surfaces_k[1])),
-    ("heat.mid_film_rise_max_k", In::Heat, |r| number(r.heat?.largest.mid_film_k)),
-    ("heat.surface_1_rise_max_k", In::Heat, |r| number(r.heat?.largest.surfaces_k[0])),
-    ("heat.surface_2_rise_max_k", In::Heat, |r| number(r.heat?.largest.surfaces_k[1])),
-    ("heat.into_bodies", In::None, |r| number(r.heat?.into_bodies.iter().sum())),
-    ("heat.energy_balance", In::Heat, |r| number(r.heat?.energy_balance)),
-    ("reduced.basis_p", In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.pressure))),
-    ("reduced.basis_delta", In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.deformation))),
-    ("reduced.sampled_rows", In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.rows))),
-    ("reduced.trained", In::Result, |r| Some(Value::Truth(r.reduced.as_ref()?.trained))),
-    ("reduced.residual_estimate", In::Result, |r| number(r.reduced.as_ref()?.residual_estimate?)),
-    ("reduced.h_c_error_bound", In::Result, |r| number(r.reduced.as_ref()?.error?.h_c.bound)),
-    ("reduced.h_min_error_bound", In::Result, |r| number(r.reduced.as_ref()?.error?.h_min.bound)),
-    ("reduced.traction_error_bound", In::Result, |r| number(r.reduced.as_ref()?.error?.traction?.bound)),
-    ("reduced.mid_film_rise_error_bound", In::None, |r| number(r.reduced.as_ref()?.error?.rise?.bound)),
-    ("wall_s", In::Result, |r| number(r.wall_s)),
+    (names::RADIUS, In::Contact, |r| number(r.point.radius_m)),
+    (names::RADIUS_Y, In::Contact, |r| number(r.point.radius_y_m.unwrap_or(r.point.radius_m)).filter(|_| is_point(r))),
+    (names::SPEED, In::Contact, |r| number(r.point.speed_m_per_s)),
+    (names::LOAD, In::Contact, |r| number(r.point.load)),
+    (names::MODULUS, In::Contact, |r| number(r.point.modulus_pa)),
+    (names::VISCOSITY, In::Contact, |r| number(r.point.viscosity_pa_s)),
+    (names::ALPHA, In::Contact, |r| number(r.point.alpha_per_pa)),
+    (names::SRR, In::Contact, |r| number(r.point.sliding.slide_to_roll_ratio)),
+    (names::NPR, In::Contact, |r| number(r.point.sliding.newtonian_plateau_ratio?)),
+    (names::M, In::Contact, |r| number(r.point.moes().m)),
+    (names::L, In::Contact, |r| number(r.point.moes().l)),
+    (names::HALF_WIDTH, In::Contact, |r| number(r.point.hertz().half_width_m)),
+    (names::HALF_LENGTH, In::None, |r| number(r.point.hertz().half_length_m).filter(|_| is_point(r))),
+    (names::KAPPA, In::None, |r| number(r.point.ellipse().kappa).filter(|_| is_point(r))),
+    (names::HERTZ_PRESSURE, In::Contact, |r| number(r.point.hertz().pressure_pa)),
+    (names::CAVITATION, In::None, |r| text(r.cavitation.name())),
+    (names::SUPPLY_FILM, In::None, |r| number(r.cavitation.supply_film_m()?)),
+    (names::GRID_KIND, In::None, |r| text(r.grid)),
+    (names::GRID_NX, In::None, |r| Some(Value::Count(r.nodes.0))),
+    (names::GRID_NY, In::None, |r| Some(Value::Count(r.nodes.1))),
+    (names::GRID_DOFS, In::None, |r| Some(Value::Count(r.dofs))),
+    (names::TRUNCATION_ERROR, In::None, |r| number(r.grid_cost?.truncation)),
+    (names::RESOLUTION_ERROR, In::None, |r| number(r.grid_cost?.resolution)),
+    (names::H_C, In::Result, |r| number(r.scalars?.h_c)),
+    (names::H_MIN, In::Result, |r| number(r.scalars?.h_min)),
+    (names::X_H_MIN, In::Result, |r| number(r.scalars?.x_h_min)),
+    (names::Y_H_MIN, In::Result, |r| number(r.scalars?.y_h_min).filter(|_| is_point(r))),
+    (names::P_C, In::Result, |r| number(r.scalars?.p_c)),
+    (names::P_MAX, In::Result, |r| number(r.scalars?.p_max)),
+    (names::X_P_MAX, In::Result, |r| number(r.scalars?.x_p_max)),
+    (names::X_MENISCUS, In::None, |r| number(r.meniscus?)),
+    (names::H_0, In::Result, |r| number(r.scalars?.h_0)),
+    (names::H_C_M, In::Result, |r| number(r.scalars?.h_c * r.point.film_scale_m())),
+    (names::H_MIN_M, In::Result, |r| number(r.scalars?.h_min * r.point.film_scale_m())),
+    (names::TRACTION, In::Result, |r| number(r.traction?)),
+    (names::ROLLING_RESISTANCE, In::None, |r| number(r.rolling_resistance?)),
+    (names::ROLLING_RESISTANCE_FIT, In::None, |r| number(r.rolling_resistance.and(r.point.rolling_resistance_fit())?)),
+    (names::LOAD_RESIDUAL, In::Result, |r| number(r.scalars?.load_residual)),
+    (names::RESIDUAL_NORM, In::Result, |r| number(r.residual_norm?)),
+    (names::NEWTON_ITERATIONS, In::Result, |r| Some(Value::Count(r.newton_iterations))),
+    (names::LINEAR_ITERATIONS, In::Result, |r| r.linear_iterations.map(Value::Count)),
+    (names::MID_FILM_RISE, In::Heat, |r| number(r.heat?.central.mid_film_k)),
+    (names::SURFACE_1_RISE, In::Heat, |r| number(r.heat?.central.surfaces_k[0])),
+    (names::SURFACE_2_RISE, In::Heat, |r| number(r.heat?.central.surfaces_k[1])),
+    (names::MID_FILM_RISE_MAX, In::Heat, |r| number(r.heat?.largest.mid_film_k)),
+    (names::SURFACE_1_RISE_MAX, In::Heat, |r| number(r.heat?.largest.surfaces_k[0])),
+    (names::SURFACE_2_RISE_MAX, In::Heat, |r| number(r.heat?.largest.surfaces_k[1])),
+    (names::HEAT_INTO_BODIES, In::None, |r| number(r.heat?.into_bodies.iter().sum())),
+    (names::ENERGY_BALANCE, In::Heat, |r| number(r.heat?.energy_balance)),
+    (names::BASIS_P, In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.pressure))),
+    (names::BASIS_DELTA, In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.deformation))),
+    (names::SAMPLED_ROWS, In::None, |r| Some(Value::Count(r.reduced.as_ref()?.size.rows))),
+    (names::TRAINED, In::Result, |r| Some(Value::Truth(r.reduced.as_ref()?.trained))),
+    (names::RESIDUAL_ESTIMATE, In::Result, |r| number(r.reduced.as_ref()?.residual_estimate?)),
+    (names::H_C_BOUND, In::Result, |r| number(r.reduced.as_ref()?.error?.h_c.bound)),
+    (names::H_MIN_BOUND, In::Result, |r| number(r.reduced.as_ref()?.error?.h_min.bound)),
+    (names::TRACTION_BOUND, In::Result, |r| number(r.reduced.as_ref()?.error?.traction?.bound)),
+    (names::RISE_BOUND, In::Heat, |r| number(r.reduced.as_ref()?.error?.rise?.bound)),
+    (names::WALL_S, In::Result, |r| number(r.wall_s)),
 ];
 
 fn is_point(result: &ContactResult) -> bool {
@@ -227,6 +230,11 @@ fn text(word: &str) -> Option<Value> {
 /// Columns of a contact in tables.
 pub fn contact_columns() -> Vec<&'static str> {
     columns(&[In::Contact])
+}
+
+/// Columns of a contact in a table that begins with its varied values.
+pub(super) fn contact_columns_after(varied: &[String]) -> Vec<&'static str> {
+    contact_columns().into_iter().filter(|column| !varied.iter().any(|name| name == column)).collect()
 }
 
 /// Columns of its result, thermal or not.

@@ -4,9 +4,10 @@ use super::answer::Request;
 use super::axis::Steps;
 use super::bench::Bench;
 use super::check::MAX_POINTS;
-use super::contact_result::{ContactResult, contact_columns, result_columns};
+use super::contact_result::{ContactResult, contact_columns_after, result_columns};
 use super::contact_spec::{ContactSpec, Field, Refusal};
 use super::error::RunError;
+use super::names;
 use super::table::Table;
 use crate::solver::observer::Progress;
 use crate::solver::training::TrainingObserver;
@@ -16,8 +17,6 @@ use std::str::FromStr;
 /// One varied option and the values it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied {
-    /// Its word, as the table of results has it.
-    pub name: String,
     /// The field.
     pub field: Field,
     /// Its values.
@@ -30,7 +29,7 @@ impl Varied {
     /// # Errors
     /// A sentence when no number has that word.
     pub fn new(name: &str, steps: Steps) -> Result<Self, String> {
-        Ok(Self { name: name.to_owned(), field: Field::varied(name)?, steps })
+        Ok(Self { field: Field::varied(name)?, steps })
     }
 }
 
@@ -109,7 +108,7 @@ impl ContactSweep {
         };
         let tuples = Steps::combinations(varied.iter().map(|axis| &axis.steps));
         let points = tuples.into_iter().map(point).collect::<Result<_, Refusal>>()?;
-        Ok(Self { names: varied.iter().map(|v| v.name.clone()).collect(), points })
+        Ok(Self { names: varied.iter().map(|axis| names::of_field(axis.field)).collect(), points })
     }
 
     /// Solves them, each from its neighbour; `tell` is shown each result.
@@ -123,9 +122,9 @@ impl ContactSweep {
         mut tell: impl FnMut(&ContactResult) -> Result<(), E>,
     ) -> Result<Swept, E> {
         let heat = self.points.iter().any(|(_, request)| request.lubricant.heat.is_some());
-        let columns = [contact_columns(), result_columns(heat)].concat();
+        let columns = [contact_columns_after(&self.names), result_columns(heat)].concat();
         let titles: Vec<&str> = self.names.iter().map(String::as_str).chain(columns.iter().copied()).collect();
-        let mut table = Table { remarks_title: "warning", ..Table::new("sweep", &titles) };
+        let mut table = Table::new("sweep", &titles);
         let (mut former, mut results, total) = (None, Vec::new(), self.points.len());
         for (i, (values, request)) in self.points.into_iter().enumerate() {
             observer.progress(Progress { stage: "sweep".to_owned(), done: i, total });
@@ -133,12 +132,11 @@ impl ContactSweep {
             let result = answer.result.clone();
             tell(&result)?;
             table.rows.push(values.into_iter().chain(result.row(&columns)).collect());
-            table.remarks.push(result.warning());
             results.push(result);
             former = answer.into_fields().or(former);
         }
         let failures = results.iter().filter(|result| !result.converged).count();
-        let warnings = Warning::summary(results.iter().map(|result| &result.warnings[..]));
-        Ok(Swept { table, failures, warnings })
+        let warnings = || results.iter().map(|result| &result.warnings[..]);
+        Ok(Swept { table: table.with_warnings(warnings()), failures, warnings: Warning::summary(warnings()) })
     }
 }

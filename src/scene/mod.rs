@@ -29,6 +29,7 @@ mod grid;
 mod load_cases;
 mod method;
 pub mod named_lubricant;
+pub mod names;
 mod outcome;
 mod parallel;
 mod random_points;

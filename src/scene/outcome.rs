@@ -86,11 +86,11 @@ impl Findings {
         self.push("p99_s", method, percentile(seconds, 0.99));
     }
 
-    /// How often calibrated bounds hold, given each over the true error, and how far they lie above it in the median.
+    /// How often calibrated bounds hold, given each over the true error by the name of the bound, and how far they lie above it in the median.
     pub(super) fn push_bounds(&mut self, name: &str, method: Option<&Method>, ratios: &[f64]) {
         let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
-        self.push(format!("{name}_bound_holds_percent"), method, 100.0 * held as f64 / ratios.len() as f64);
-        self.push(format!("{name}_bound_over_error_median"), method, median(ratios));
+        self.push(format!("{name}.holds_percent"), method, 100.0 * held as f64 / ratios.len() as f64);
+        self.push(format!("{name}.over_error_median"), method, median(ratios));
     }
 
     /// The value of a name: of the method where one is given, else the first of that name.

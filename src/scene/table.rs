@@ -2,6 +2,9 @@
 
 pub use crate::solver::limits::Number;
 
+use super::names;
+use crate::solver::warning::Warning;
+
 /// A named table; NaN stands for an empty cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -37,6 +40,11 @@ impl Table {
     /// An empty table.
     pub fn new(name: impl Into<String>, columns: &[&str]) -> Self {
         Self { name: name.into(), columns: columns.iter().map(|&c| c.to_owned()).collect(), ..Self::default() }
+    }
+
+    /// With the warnings of each row as its last column.
+    pub fn with_warnings<'a>(self, rows: impl IntoIterator<Item = &'a [Warning]>) -> Self {
+        Self { remarks_title: names::WARNING, remarks: rows.into_iter().map(Warning::joined).collect(), ..self }
     }
 
     /// As CSV with a title line; numbers in the shortest form that reads back exactly. Names of rows make up the first

@@ -203,6 +203,11 @@ impl Warning {
         (relative > NOTABLE_STEP_ERROR || tolerance.is_some()).then_some(Self::TimeStepError { relative, tolerance })
     }
 
+    /// Whether it is of the discretisation error, of which tables of many contacts make a sentence of their own.
+    pub fn is_of_grid(&self) -> bool {
+        matches!(self, Self::DiscretisationError { .. } | Self::DiscretisationErrorUnknown)
+    }
+
     /// Its kind, values and sentence as one JSON object: `{"kind": …, values…, "text": …}`.
     pub fn to_json(&self) -> Value {
         let mut object = Map::new();

@@ -4,6 +4,7 @@ use crate::commands::{json, program};
 use crate::common::scratch::Scratch;
 use crate::common::six_contacts::Stated;
 use ehl_explorer::engine::{Workbench, run_scene};
+use ehl_explorer::scene::Scene;
 use serde_json::Value;
 
 /// What an interface says of a contact: named numbers, NaN if it has none, and the warnings as one sentence.
@@ -28,9 +29,7 @@ fn of_table(csv: &str, tag: &str) -> Said {
     let numbers: Vec<&str> = row.splitn(titles.len(), ',').collect();
     let (warning, numbers) = numbers.split_last().unwrap();
     let number = |name: &&str| {
-        let known = |title: &&str| {
-            *title == format!("{tag}{name}") || *title == *name || *title == "p_h_pa" && *name == "hertz.p_h_pa"
-        };
+        let known = |title: &&str| *title == format!("{tag}{name}") || *title == *name;
         let place = titles.iter().position(known).unwrap_or_else(|| panic!("{name} is no column of {titles:?}"));
         numbers[place].parse().unwrap_or(f64::NAN)
     };
@@ -76,6 +75,8 @@ fn six_contacts_are_answered_alike_by_commands_and_studies() {
         let cases = ["cases", &table, "--method", "reduced"];
         let text = String::from_utf8(program(&cases).stdout).unwrap();
         same(&of_table(&text, "reduced."), &wanted, &format!("{name}, cases"));
+        let rises = text.lines().next().unwrap().contains(",reduced.heat.mid_film_rise_k,");
+        assert_eq!(rises, solved["heat"].is_object(), "{name}: {text}");
         same(&of_object(&json(&program(&[&cases[..], &["--json"]].concat()))), &wanted, name);
 
         let methods = "methods: [Reduced(model: Embedded)]";
@@ -101,5 +102,59 @@ fn six_contacts_are_answered_alike_by_commands_and_studies() {
                 sweep.found.warnings
             );
         }
+    }
+}
+
+/// Named columns of a table with one method, by the first row.
+fn row<'a>(csv: &'a str, tag: &str) -> impl Fn(&str) -> &'a str {
+    let mut lines = csv.lines();
+    let titles: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let cells: Vec<&str> = lines.next().unwrap().splitn(titles.len(), ',').collect();
+    let tag = tag.to_owned();
+    move |name| {
+        let known = |title: &&str| **title == *name || **title == format!("{tag}{name}");
+        cells[titles.iter().position(|title| known(&title)).unwrap_or_else(|| panic!("{name} is not in {titles:?}"))]
+    }
+}
+
+#[test]
+fn every_row_of_every_table_says_that_a_contact_is_far_outside() {
+    let folder = Scratch::new("far-outside");
+    let contact = ["--moes-l", "10", "--method", "reduced"];
+    let solved = json(&program(&[&["solve", "--json", "--moes-m", "3000"][..], &contact].concat()));
+    assert!(solved["hertz"]["p_h_pa"].as_f64().unwrap() > 15e9 && solved["converged"] == true, "{solved}");
+    let told = |by: &str, trained: &str, warning: &str| {
+        assert!(trained == "0" || trained == "false", "{by}: trained is {trained}");
+        for part in ["M = 3000", "outside", "4.6 GPa"] {
+            assert!(warning.contains(part), "{by}: {part} is not in {warning}");
+        }
+    };
+    told("solve", &solved["reduced"]["trained"].to_string(), solved["warning"].as_str().unwrap());
+
+    let varied = [&["sweep", "moes-m=3000:3000:1"][..], &contact].concat();
+    let object = json(&program(&[&varied[..], &["--json"]].concat()));
+    assert_eq!(object["warnings"], solved["warnings"]);
+    let table = folder.write("cases.csv", "moes.M;moes.L\n3000;10\n");
+    let cases = ["cases", table.to_str().unwrap(), "--method", "reduced"];
+    for (by, arguments, tag) in [("sweep", &varied[..], ""), ("cases", &cases, "reduced.")] {
+        let text = String::from_utf8(program(arguments).stdout).unwrap();
+        let cell = row(&text, tag);
+        told(by, cell("reduced.trained"), cell("warning"));
+        assert_eq!((cell("moes.M").parse(), cell("moes.L").parse()), (Ok(3000.0), Ok(10.0)), "{by}");
+    }
+
+    let method = "Reduced(model: Embedded)";
+    let range = "range: (axes: {M: (2999.99, 3000.01), L: (9.99, 10.01)}, limits: {HertzPressure: (0.0, 5e10)})";
+    let studies = [
+        format!("Sweep(over: [(vary: M, values: List([3000.0]))], methods: [{method}])"),
+        format!("RandomTest({range}, tests: 2, seed: 1, method: {method})"),
+    ];
+    for study in studies {
+        let scene = format!("Scene(version: 1, title: \"far\", at: Moes(m: 40.0, l: 10.0), study: {study})");
+        let outcome = run_scene(&Scene::from_ron(&scene).unwrap(), &mut Workbench::new(""), &()).unwrap();
+        let text = outcome.tables[0].to_csv();
+        let cell = row(&text, "reduced.");
+        told(&study, cell("reduced.trained"), cell("warning").replace("M = 2999", "M = 3000").as_str());
+        assert!(outcome.found.warnings.iter().any(|said| said.contains("4.6 GPa")), "{:?}", outcome.found.warnings);
     }
 }

@@ -1,5 +1,6 @@
 //! The program as it is called: its commands, and what the papers promise of it.
 #![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -9,6 +10,7 @@ mod commands;
 mod ellipses;
 mod heat;
 mod in_time;
+mod installed;
 mod interfaces;
 mod load_cases;
 mod readme;

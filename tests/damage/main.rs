@@ -3,6 +3,7 @@
 //! Every test draws its cases from a seed of its own. Ten thousand steps of the window and twenty thousand files of each
 //! kind are made where the environment has `EHL_LONG`; the ordinary run takes its share of them.
 #![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 #![allow(unsafe_code, reason = "an allocator that counts")]
 
 #[path = "../common/mod.rs"]

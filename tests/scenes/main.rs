@@ -1,5 +1,6 @@
 //! Scenes: those of the repository, and every kind of study at a small size.
 #![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,5 +1,6 @@
 //! The solvers: full solutions against independent ones, the embedded models against full solutions, cancelling.
 #![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,5 +1,6 @@
 //! The explorer's window, driven without a display.
 #![cfg(test)]
+#![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -188,7 +188,7 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     let table = export(&mut harness, "Traction", "Curve as CSV…", &folder.join("traction.csv"));
     let table = Table::of(&table);
     // Half of the contacts lie where traction rises, and a Newtonian lubricant's would be ever larger.
-    assert_eq!(table.column("SRR").iter().take(41).filter(|srr| **srr <= 0.05 + 1e-9).count(), 21);
+    assert_eq!(table.column("srr").iter().take(41).filter(|srr| **srr <= 0.05 + 1e-9).count(), 21);
     let newtonian = table.column("newtonian_traction").into_iter().zip(table.column("traction")).skip(1).take(40);
     assert!(newtonian.into_iter().all(|(newtonian, traction)| newtonian > traction));
     let rows = table.rows;

@@ -54,7 +54,7 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     let (column, rows) = (|name: &str| series.at(name), &series.rows);
     let (film, moving) = (column("full.fixed.H_c"), column("full.ale.H_c"));
     assert_eq!(rows.len(), 41);
-    let load = column("full.fixed.w_over_ref");
+    let load = column("full.fixed.load");
     assert!((rows[10][load] - 1.1).abs() < 1e-12);
     assert!(rows.iter().all(|row| (row[moving] / row[film] - 1.0).abs() < 0.02));
     assert!(rows.iter().any(|row| (row[film] / rows[0][film] - 1.0).abs() > 0.01), "the film breathes");
@@ -187,7 +187,7 @@ fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
     assert_eq!(harness.state().in_time(), (true, 3, 0));
     let folder = Scratch::new("fresh");
     let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
-    assert!((series.column("full.fixed.w_over_ref")[20] - 1.2).abs() < 1e-9, "they are of the new amplitude");
+    assert!((series.column("full.fixed.load")[20] - 1.2).abs() < 1e-9, "they are of the new amplitude");
 
     // The moment stays where it was put, read-outs follow it, and the map goes to another.
     set(&mut harness, Role::Slider, "Time T", 3.0);

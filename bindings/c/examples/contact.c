@@ -28,8 +28,8 @@ int main(int count, char **words) {
             fprintf(stderr, "%s\n", message);
             return 1;
         }
-        printf("load %.3e: central film %.4e m, error below %.1e%s%s\n", inputs.load, outputs.film_central,
-               outputs.film_central_bound, status == EHL_WARNING ? "; " : "", message);
+        printf("load %.3e: central film %.4e m, error below %.1e%s%s\n", inputs.load, outputs.h_c_m,
+               outputs.h_c_error_bound, status == EHL_WARNING ? "; " : "", message);
         inputs.load *= 1.2;
     }
     inputs.load = NAN;

@@ -48,13 +48,13 @@ typedef struct EhlInputs {
   /*
    Sliding speed over mean speed.
    */
-  double slide_to_roll_ratio;
+  double srr;
   /*
    Load, N/m of a line contact and N of a point contact; the first guess where an approach is given.
    */
   double load;
   /*
-   Approach of points far inside both bodies, m; not read where the load is given.
+   Approach of the bodies since they touched, m; not read where the load is given.
    */
   double approach;
   /*
@@ -80,21 +80,21 @@ typedef struct EhlOutputs {
    */
   double load;
   /*
-   Approach, m; not a number for a line contact.
+   Approach of the bodies since they touched, m; of a line contact at the distance approach_reference.
    */
   double approach;
   /*
-   Central film, m.
+   Central film thickness, m.
    */
-  double film_central;
+  double h_c_m;
   /*
-   Smallest film, m.
+   Minimum film thickness, m.
    */
-  double film_minimum;
+  double h_min_m;
   /*
-   Friction over load.
+   Traction coefficient: friction over load.
    */
-  double friction_coefficient;
+  double traction;
   /*
    Friction, N/m or N.
    */
@@ -102,19 +102,27 @@ typedef struct EhlOutputs {
   /*
    Largest pressure of the dry contact, Pa.
    */
-  double hertz_pressure;
+  double hertz_p_h_pa;
   /*
-   Relative error of the central film in 99 of 100 contacts at most; not a number where unknown.
+   Relative error of the central film thickness in 99 of 100 contacts at most; not a number where unknown.
    */
-  double film_central_bound;
+  double h_c_error_bound;
   /*
-   The same of the smallest film.
+   The same of the minimum film thickness.
    */
-  double film_minimum_bound;
+  double h_min_error_bound;
   /*
-   The same of the friction coefficient.
+   The same of the traction coefficient.
    */
-  double friction_bound;
+  double traction_error_bound;
+  /*
+   Half width of the dry contact, m.
+   */
+  double hertz_a_m;
+  /*
+   Distance from a line contact at which its approach is measured: its radius, m; not a number for a point contact.
+   */
+  double approach_reference;
   /*
    1 where the model was trained for the contact, else 0.
    */

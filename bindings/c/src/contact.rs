@@ -28,10 +28,10 @@ pub struct EhlInputs {
     /// Mean entrainment speed, m/s.
     pub speed: f64,
     /// Sliding speed over mean speed.
-    pub slide_to_roll_ratio: f64,
+    pub srr: f64,
     /// Load, N/m of a line contact and N of a point contact; the first guess where an approach is given.
     pub load: f64,
-    /// Approach of points far inside both bodies, m; not read where the load is given.
+    /// Approach of the bodies since they touched, m; not read where the load is given.
     pub approach: f64,
     /// Reduced modulus E', Pa.
     pub modulus: f64,
@@ -47,24 +47,28 @@ pub struct EhlInputs {
 pub struct EhlOutputs {
     /// Load, N/m or N.
     pub load: f64,
-    /// Approach, m; not a number for a line contact.
+    /// Approach of the bodies since they touched, m; of a line contact at the distance approach_reference.
     pub approach: f64,
-    /// Central film, m.
-    pub film_central: f64,
-    /// Smallest film, m.
-    pub film_minimum: f64,
-    /// Friction over load.
-    pub friction_coefficient: f64,
+    /// Central film thickness, m.
+    pub h_c_m: f64,
+    /// Minimum film thickness, m.
+    pub h_min_m: f64,
+    /// Traction coefficient: friction over load.
+    pub traction: f64,
     /// Friction, N/m or N.
     pub friction_force: f64,
     /// Largest pressure of the dry contact, Pa.
-    pub hertz_pressure: f64,
-    /// Relative error of the central film in 99 of 100 contacts at most; not a number where unknown.
-    pub film_central_bound: f64,
-    /// The same of the smallest film.
-    pub film_minimum_bound: f64,
-    /// The same of the friction coefficient.
-    pub friction_bound: f64,
+    pub hertz_p_h_pa: f64,
+    /// Relative error of the central film thickness in 99 of 100 contacts at most; not a number where unknown.
+    pub h_c_error_bound: f64,
+    /// The same of the minimum film thickness.
+    pub h_min_error_bound: f64,
+    /// The same of the traction coefficient.
+    pub traction_error_bound: f64,
+    /// Half width of the dry contact, m.
+    pub hertz_a_m: f64,
+    /// Distance from a line contact at which its approach is measured: its radius, m; not a number for a point contact.
+    pub approach_reference: f64,
     /// 1 where the model was trained for the contact, else 0.
     pub trained: i32,
     /// 1 where the full solver took over, else 0.
@@ -77,7 +81,7 @@ impl From<EhlInputs> for Inputs {
             radius_m: given.radius,
             radius_ratio: given.radius_ratio,
             speed_m_per_s: given.speed,
-            slide_to_roll_ratio: given.slide_to_roll_ratio,
+            slide_to_roll_ratio: given.srr,
             load: given.load,
             approach_m: given.approach,
             modulus_pa: given.modulus,
@@ -93,7 +97,7 @@ impl From<Inputs> for EhlInputs {
             radius: own.radius_m,
             radius_ratio: own.radius_ratio,
             speed: own.speed_m_per_s,
-            slide_to_roll_ratio: own.slide_to_roll_ratio,
+            srr: own.slide_to_roll_ratio,
             load: own.load,
             approach: own.approach_m,
             modulus: own.modulus_pa,
@@ -105,18 +109,20 @@ impl From<Inputs> for EhlInputs {
 
 impl From<&Outputs> for EhlOutputs {
     fn from(own: &Outputs) -> Self {
-        let [film_central_bound, film_minimum_bound, friction_bound] = own.error_bounds;
+        let [h_c_error_bound, h_min_error_bound, traction_error_bound] = own.error_bounds;
         Self {
             load: own.load,
             approach: own.approach_m,
-            film_central: own.h_c_m,
-            film_minimum: own.h_min_m,
-            friction_coefficient: own.friction_coefficient,
+            h_c_m: own.h_c_m,
+            h_min_m: own.h_min_m,
+            traction: own.friction_coefficient,
             friction_force: own.friction_force,
-            hertz_pressure: own.hertz_pressure_pa,
-            film_central_bound,
-            film_minimum_bound,
-            friction_bound,
+            hertz_p_h_pa: own.hertz_pressure_pa,
+            h_c_error_bound,
+            h_min_error_bound,
+            traction_error_bound,
+            hertz_a_m: own.half_width_m,
+            approach_reference: own.approach_reference_m,
             trained: i32::from(own.trained),
             full: i32::from(own.full),
         }

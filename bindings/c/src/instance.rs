@@ -68,8 +68,8 @@ pub enum Contact {
 /// How far a communication point may lie from where an instance is, in steps and over its time.
 const ROUNDING: (f64, f64) = (1e-6, 1e-12);
 
-/// Nothing is to be told of a trained contact without warnings.
-pub const TOLD: (bool, bool, usize) = (true, false, 0);
+/// Nothing is to be told of a contact without warnings.
+pub const TOLD: (bool, usize) = (false, 0);
 
 pub struct Instance {
     pub name: CString,
@@ -80,8 +80,8 @@ pub struct Instance {
     pub roles: Vec<Option<Role>>,
     pub first: Inputs,
     pub state: State,
-    /// Trained range, full solver and number of warnings as they were last told: they are not told at every step.
-    pub told: (bool, bool, usize),
+    /// Full solver and number of warnings as they were last told: they are not told at every step.
+    pub told: (bool, usize),
 }
 
 /// A model that lives as long as instances share it.
@@ -144,7 +144,7 @@ impl Instance {
             let inputs = &self.state.inputs;
             let outputs = match &mut self.contact {
                 Contact::Stationary(contact) => {
-                    let outputs = contact.solve(inputs)?;
+                    let outputs = contact.solve(inputs)?.of_training()?;
                     // The load that was found is where the next one is sought.
                     self.state.inputs.load = outputs.load;
                     outputs
@@ -160,7 +160,7 @@ impl Instance {
 
     /// Takes outputs, and tells what is new about them.
     fn take(&mut self, outputs: Outputs) {
-        let now = (outputs.trained, outputs.full, outputs.warnings.len());
+        let now = (outputs.full, outputs.warnings.len());
         let news = now != self.told && !outputs.warnings.is_empty();
         let sentence = format!("at time {}: {}", self.state.time, outputs.warning());
         self.told = now;

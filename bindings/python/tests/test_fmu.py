@@ -75,7 +75,7 @@ class Unit:
         return self.slave.getReal([self.references[name] for name in names])
 
     def truths(self):
-        return self.slave.getBoolean([self.references["trained"], self.references["full"]])
+        return self.slave.getBoolean([self.references["reduced.trained"], self.references["full"]])
 
     def step(self, length=0.01):
         self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=length)
@@ -92,7 +92,7 @@ def starts(unit):
 
 def contact_of(kind, given):
     names = ["radius", "speed", "load", "modulus", "viscosity", "alpha"]
-    return ehl.Contact(contact=kind, srr=given["slide_to_roll_ratio"], **{name: given[name] for name in names})
+    return ehl.Contact(contact=kind, srr=given["srr"], **{name: given[name] for name in names})
 
 
 @pytest.mark.parametrize("kind, words", [("line", []), ("point", []), ("point", ["--approach"])])
@@ -112,9 +112,9 @@ def test_many_steps_are_what_solve_answers(kind, steps, units):
         "load": first["load"] * (1 + 0.2 * np.sin(7 * time)),
         "speed": first["speed"] * (1 + 0.3 * np.sin(11 * time)),
         "radius": first["radius"] * (1 + 0.05 * np.cos(3 * time)),
-        "slide_to_roll_ratio": 0.1 * np.sin(5 * time),
+        "srr": 0.1 * np.sin(5 * time),
     }
-    names = ["film_central", "film_minimum", "friction_coefficient", "friction_force", "hertz_pressure"]
+    names = ["h_c_m", "h_min_m", "traction", "friction_force", "hertz.p_h_pa"]
     seen, trained = np.empty((steps, len(names))), np.empty(steps)
     for k in range(steps):
         unit.set(**{name: float(values[k]) for name, values in drive.items()})
@@ -122,8 +122,7 @@ def test_many_steps_are_what_solve_answers(kind, steps, units):
         seen[k] = unit.get(*names)
         trained[k] = unit.truths()[0]
     unit.end()
-    options = {("srr" if name == "slide_to_roll_ratio" else name): values for name, values in drive.items()}
-    solved = ehl.solve_many(contact_of(kind, first), method="reduced", **options)
+    solved = ehl.solve_many(contact_of(kind, first), method="reduced", **drive)
     assert solved["converged"].all()
     np.testing.assert_array_equal(trained, solved["reduced.trained"])
     expected = [solved["h_c_m"], solved["h_min_m"], solved["traction"], solved["traction"] * drive["load"]]
@@ -133,8 +132,8 @@ def test_many_steps_are_what_solve_answers(kind, steps, units):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_fmpy_simulates_it(kind, units):
-    result = fmpy.simulate_fmu(units(kind), stop_time=0.1, step_size=0.01, output=["film_central", "trained"])
-    assert len(result) == 11 and (result["film_central"] > 0).all() and result["trained"].all()
+    result = fmpy.simulate_fmu(units(kind), stop_time=0.1, step_size=0.01, output=["h_c_m", "reduced.trained"])
+    assert len(result) == 11 and (result["h_c_m"] > 0).all() and result["reduced.trained"].all()
 
 
 @pytest.mark.parametrize("kind, words", [("line", []), ("point", ["--approach"])])
@@ -147,7 +146,7 @@ def test_a_state_is_kept_written_and_set_again(kind, words, units):
     unit.step()
     state = unit.slave.getFMUState()
     written = unit.slave.serializeFMUState(state)
-    outputs = ["film_central", "film_minimum", "load", "hertz_pressure"]
+    outputs = ["h_c_m", "h_min_m", "load", "hertz.p_h_pa"]
     kept = unit.get(*outputs)
 
     def go_on(unit):
@@ -178,15 +177,15 @@ def test_a_state_is_kept_written_and_set_again(kind, words, units):
 
 def test_reset_begins_anew(units):
     unit = Unit(units("line")).start()
-    before = unit.get("film_central")
+    before = unit.get("h_c_m")
     unit.set(load=2 * unit.get("load")[0])
     unit.step()
-    assert unit.get("film_central") != before
+    assert unit.get("h_c_m") != before
     unit.slave.reset()
     unit.slave.setupExperiment(startTime=0.0)
     unit.slave.enterInitializationMode()
     unit.start()
-    assert unit.get("film_central") == before
+    assert unit.get("h_c_m") == before
     unit.end()
 
 
@@ -201,7 +200,7 @@ def test_many_instances_work_at_once(units):
         for step in range(200):
             unit.set(load=first["load"] * (1 + 0.001 * step))
             unit.step()
-            films[k].append(unit.get("film_central")[0])
+            films[k].append(unit.get("h_c_m")[0])
         unit.end()
 
     threads = [threading.Thread(target=work, args=(k,)) for k in range(8)]
@@ -214,42 +213,85 @@ def test_many_instances_work_at_once(units):
 
 def test_what_makes_no_sense_is_refused_in_a_sentence_and_changes_nothing(units):
     unit = Unit(units("line")).start()
-    before = unit.get("film_central", "load")
-    for name, value in [("load", float("nan")), ("speed", float("inf")), ("film_central", 1.0)]:
+    before = unit.get("h_c_m", "load")
+    for name, value in [("load", float("nan")), ("speed", float("inf")), ("h_c_m", 1.0)]:
         with pytest.raises(FMICallException):
             unit.set(**{name: value})
         assert f"`{name}`" in unit.said[-1], unit.said
-    assert unit.get("film_central", "load") == before
+    assert unit.get("h_c_m", "load") == before
     unit.set(load=-5.0)
     with pytest.raises(FMICallException):
         unit.step()
     assert "load" in unit.said[-1]
     unit.set(load=before[1])
     unit.step()
-    assert unit.get("film_central", "load") == before
+    assert unit.get("h_c_m", "load") == before
     with pytest.raises(FMICallException):
         unit.slave.getReal([99])
     unit.end()
 
 
-def test_beyond_the_trained_range_it_says_so_once_and_sets_the_flag(units):
-    unit = Unit(units("line")).start()
-    first = starts(unit)
-    assert unit.truths()[0]
-    for _ in range(5):
+DISCARD = 2
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_step_beyond_the_trained_range_is_discarded_with_the_reason_of_solve(kind, units):
+    unit = Unit(units(kind)).start()
+    first, outputs = starts(unit), ["h_c_m", "traction", "approach"]
+    before = unit.get(*outputs)
+    solved = ehl.solve(contact_of(kind, {**first, "load": 40 * first["load"]}), method="reduced")
+    assert not solved.trained
+    for _ in range(3):
         unit.set(load=40 * first["load"])
-        unit.step()
-        trained, full = unit.truths()
-        assert not trained
-    assert len(unit.said) == 1 and "at time" in unit.said[0], unit.said
-    assert np.isnan(unit.get("film_central_bound")[0])
-    film = unit.get("film_central")[0]
-    solved = ehl.solve(contact_of("line", {**first, "load": 40 * first["load"]}), method="reduced")
-    np.testing.assert_allclose(film, solved.h_c_m, rtol=1e-12)
+        for refused in [unit.step, lambda: unit.get("h_c_m"), unit.truths]:
+            with pytest.raises(FMICallException) as raised:
+                refused()
+            assert raised.value.status == DISCARD
+            assert solved.warnings[0] in unit.said[-1], unit.said
+        # The simulation need not end.
+        assert unit.slave.getBooleanStatus(3) == 0 and unit.slave.getRealStatus(2) == 0.0
+        unit.set(load=first["load"])
+        assert unit.get(*outputs) == before
+    unit.step()
+    assert unit.get(*outputs) == before and unit.truths() == [True, False]
+    unit.end()
+
+
+def test_a_unit_that_begins_beyond_the_trained_range_may_begin_elsewhere(units):
+    unit = Unit(units("line"))
+    first = starts(unit)
+    unit.set(load=40 * first["load"])
+    with pytest.raises(FMICallException):
+        unit.start()
     unit.set(load=first["load"])
+    unit.start()
     unit.step()
     assert unit.truths() == [True, False]
     unit.end()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_stiffness_is_the_same_from_two_units_and_from_one(kind, units):
+    def approach(unit, load):
+        unit.set(load=load)
+        unit.step()
+        return unit.get("approach")[0]
+
+    one, other = (Unit(units(kind)).start() for _ in range(2))
+    load = starts(one)["load"]
+    light, heavy = approach(one, load), approach(one, 1.01 * load)
+    assert approach(other, 1.01 * load) == heavy > light > 0
+    radius, half_width = one.get("radius", "hertz.a_m")
+    solved = ehl.solve(contact_of(kind, {**starts(one), "load": 1.01 * load}), method="reduced")
+    np.testing.assert_allclose(half_width, solved.a_m, rtol=1e-12)
+    depth = half_width**2 / radius
+    wanted = -depth * (solved.H_0 + (0.5 * np.log(half_width / radius) if kind == "line" else 0))
+    np.testing.assert_allclose(heavy, wanted, rtol=1e-12)
+    assert ("approach_reference" in one.references) == (kind == "line")
+    if kind == "line":
+        assert one.get("approach_reference") == [radius]
+    one.end()
+    other.end()
 
 
 def test_an_approach_gives_the_film_of_its_load(units):
@@ -258,7 +300,7 @@ def test_an_approach_gives_the_film_of_its_load(units):
     for share in [0.95, 1.0, 1.1]:
         unit.set(approach=share * first["approach"])
         unit.step()
-        load, film = unit.get("load", "film_central")
+        load, film = unit.get("load", "h_c_m")
         solved = ehl.solve(contact_of("point", {**first, "load": load}), method="reduced")
         np.testing.assert_allclose(film, solved.h_c_m, rtol=1e-11)
         np.testing.assert_allclose(-solved.H_0 * solved.a_m**2 / first["radius"], share * first["approach"], rtol=1e-10)
@@ -294,7 +336,7 @@ def test_a_step_costs_little_more_than_the_solve(units):
     unit = Unit(units("line")).start()
     first = starts(unit)
     contact, runs = contact_of("line", first), 300
-    references, get = [unit.references["load"]], [unit.references["film_central"]]
+    references, get = [unit.references["load"]], [unit.references["h_c_m"]]
 
     def steps():
         begun = time.perf_counter()

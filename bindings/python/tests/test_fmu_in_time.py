@@ -17,7 +17,7 @@ from test_fmu import Unit  # noqa: E402
 
 POINT = dict(radius=0.002, speed=5.0, load=2e5, modulus=2.31e11, viscosity=0.01, alpha=1e-8)
 STEP = 0.01
-FILMS = ["film_central", "film_minimum"]
+FILMS = ["h_c_m", "h_min_m"]
 
 
 @pytest.fixture(scope="session")
@@ -66,9 +66,9 @@ def test_validation_has_no_remarks_and_only_what_was_trained_is_an_input(path):
     assert validate_fmu(path) == []
     description = fmpy.read_model_description(path)
     of = lambda causality: {v.name for v in description.modelVariables if v.causality == causality}
-    assert of("input") == {"load", "slide_to_roll_ratio"}
+    assert of("input") == {"load", "srr"}
     assert of("parameter") == set()
-    assert {*FILMS, "approach", "friction_force", "hertz_pressure", "trained"} <= of("output")
+    assert {*FILMS, "approach", "friction_force", "hertz.p_h_pa", "hertz.a_m", "approach_reference", "reduced.trained"} <= of("output")
     assert float(description.defaultExperiment.stepSize) > 0
 
 
@@ -97,7 +97,7 @@ def test_a_step_that_is_longer_is_divided_and_one_that_does_not_fit_is_divided_e
     for load in told:
         unit.set(load=float(load))
         unit.step(4 * STEP * seconds)
-        films += unit.get("film_central")
+        films += unit.get("h_c_m")
     unit.end()
     np.testing.assert_allclose(films, wanted["H_c"][1:] * metres, rtol=1e-12)
     # Two and a half steps of the model's own are three shorter ones.
@@ -105,7 +105,7 @@ def test_a_step_that_is_longer_is_divided_and_one_that_does_not_fit_is_divided_e
     for load in told[:20]:
         unit.set(load=float(load))
         unit.step(2.5 * STEP * seconds)
-        other += unit.get("film_central")
+        other += unit.get("h_c_m")
     assert np.isfinite(other).all() and max(other) / min(other) < 1.5
     unit.end()
 
@@ -132,7 +132,7 @@ def test_a_contact_may_begin_under_another_load(path, model, scales):
     unit = Unit(path)
     unit.set(load=1.06 * POINT["load"])
     unit.start()
-    film = unit.get("film_central")[0]
+    film = unit.get("h_c_m")[0]
     wanted = ehl.solve(ehl.Contact(**{**POINT, "load": 1.06 * POINT["load"]}, dx=0.02), method="full")
     np.testing.assert_allclose(film, wanted.h_c_m, rtol=5e-3)
     assert unit.truths()[0]
@@ -184,7 +184,7 @@ def test_many_instances_work_at_once(path, scales):
         for load in loads(100):
             unit.set(load=float(load))
             unit.step(STEP * scales[0])
-            films[k] += unit.get("film_central")
+            films[k] += unit.get("h_c_m")
         unit.end()
 
     threads = [threading.Thread(target=work, args=(k,)) for k in range(8)]
@@ -195,25 +195,44 @@ def test_many_instances_work_at_once(path, scales):
     assert len(films) == 8 and all(len(own) == 100 and own == films[0] for own in films.values())
 
 
-def test_beyond_the_training_it_says_so_once_and_sets_the_flag(path, scales):
+def test_a_step_beyond_the_training_is_discarded_and_changes_nothing(path, scales):
     unit = begun(path)
-    assert unit.truths()[0]
-    # Far faster than the sine of the training, then far above it.
+    before = unit.get(*FILMS, "approach")
+    # Far faster than the sine of the training, and far above it.
+    for load, length, reason in [(1.08, STEP, "faster than the trained"), (1.5, 100 * STEP, "outside the trained")]:
+        unit.set(load=load * POINT["load"])
+        with pytest.raises(FMICallException) as raised:
+            unit.slave.doStep(currentCommunicationPoint=0.0, communicationStepSize=length * scales[0])
+        assert raised.value.status == 2 and reason in unit.said[-1], unit.said
+        assert unit.get(*FILMS, "approach") == before and unit.truths() == [True, False]
+        assert unit.slave.getBooleanStatus(3) == 0 and unit.slave.getRealStatus(2) == 0.0
+    # More time for the same change.
     unit.set(load=1.08 * POINT["load"])
-    unit.step(STEP * scales[0])
-    assert not unit.truths()[0] and "faster than the trained" in unit.said[0], unit.said
-    for k in range(8):
-        unit.set(load=(1.08 + 0.01 * k) * POINT["load"])
-        unit.step(STEP * scales[0])
-    assert not unit.truths()[0] and any("outside the trained" in said for said in unit.said), unit.said
-    assert len(unit.said) < 5, unit.said
+    unit.step(20 * STEP * scales[0])
+    assert unit.get("approach")[0] > before[2] and unit.truths() == [True, False]
     unit.end()
+
+
+def test_stiffness_is_the_same_from_two_units_and_from_one_march(path, scales):
+    light, heavy = 0.995 * POINT["load"], 1.005 * POINT["load"]
+    one, other = Unit(path), Unit(path)
+    one.set(load=light)
+    other.set(load=heavy)
+    one.start(), other.start()
+    begun = one.get("approach")[0]
+    one.set(load=heavy)
+    for _ in range(500):
+        one.step(STEP * scales[0])
+    (by_march,), (by_unit,) = one.get("approach"), other.get("approach")
+    np.testing.assert_allclose(by_march - begun, by_unit - begun, rtol=1e-2)
+    one.end()
+    other.end()
 
 
 def test_what_makes_no_sense_is_refused_in_a_sentence_and_changes_nothing(path, scales):
     unit = begun(path)
     before = unit.get(*FILMS)
-    for name, value in [("load", float("nan")), ("film_central", 1.0)]:
+    for name, value in [("load", float("nan")), ("h_c_m", 1.0)]:
         with pytest.raises(FMICallException):
             unit.set(**{name: value})
         assert f"`{name}`" in unit.said[-1], unit.said

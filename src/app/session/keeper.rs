@@ -3,10 +3,12 @@
 use super::state::{FILE, Session};
 use crate::app::explorer::Explorer;
 use crate::app::refusal::Refusal;
+use crate::host::clock::Stopwatch;
+use crate::host::worker;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// From a change to its being written: a gesture of many changes is written now and then only.
 const DELAY: Duration = Duration::from_secs(2);
@@ -33,9 +35,9 @@ impl Keeper {
         let (says, refusals) = channel();
         let write = move || {
             while let Ok(mut session) = given.recv() {
-                let due = Instant::now() + DELAY;
+                let first = Stopwatch::start();
                 // The last one counts; when no more can come, it is written at once.
-                while let Ok(later) = given.recv_timeout(due.saturating_duration_since(Instant::now())) {
+                while let Ok(later) = given.recv_timeout(DELAY.saturating_sub(first.elapsed())) {
                     session = later;
                 }
                 if let Err(sentence) = session.write(&path) {
@@ -44,7 +46,7 @@ impl Keeper {
                 }
             }
         };
-        let writer = std::thread::Builder::new().name("session".to_owned()).spawn(write).map_err(cannot)?;
+        let writer = worker::spawn("session", write).map_err(cannot)?;
         Ok(Self { given: None, sessions: Some(sessions), refusals, writer: Some(writer) })
     }
 

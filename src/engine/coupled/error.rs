@@ -6,6 +6,7 @@ use crate::solver::limits::Number;
 use crate::solver::physics::contact::ContactError;
 use crate::solver::reduced::ReducedError;
 use crate::solver::reduced::transient::CoupledError as MarchError;
+use crate::solver::warning::Warning;
 
 /// Why a contact is refused, or has no solution.
 #[derive(Debug, thiserror::Error)]
@@ -14,7 +15,7 @@ pub enum CoupledError {
     #[error("the reduced model `{0}` holds no window")]
     NoWindow(String),
     /// Two half-planes have no approach.
-    #[error("the approach of a line contact hangs on the size of its bodies; give its load instead")]
+    #[error("the approach of a line contact depends on the size of its bodies; give its load instead")]
     LineApproach,
     /// Transient models have no approach as input.
     #[error("a model in time is driven by its load; leave out --approach")]
@@ -57,6 +58,9 @@ pub enum CoupledError {
     /// An input states no contact.
     #[error("{0}")]
     Stated(String),
+    /// The model was not trained for the contact, or for how its inputs change.
+    #[error("{}", Warning::joined(.0))]
+    Untrained(Vec<Warning>),
     /// The request is refused.
     #[error(transparent)]
     Run(#[from] Box<RunError>),

@@ -6,7 +6,7 @@
 use super::{Coupled, CoupledError, InTime, Inputs, Outputs, Pressed};
 use crate::engine::SavedModel;
 use crate::engine::archive::zip;
-use crate::scene::Field;
+use crate::scene::{Field, names};
 use crate::solver::physics::contact::ContactKind;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -67,8 +67,11 @@ const fn follows(
     Real { name, field: None, unit, about, role: Role::Output, input: None, output: Some(output) }
 }
 
+/// The distance that belongs to the approach of a line contact.
+const APPROACH_REFERENCE: &str = "approach_reference";
+
 /// All real variables.
-pub const REALS: [Real; 17] = [
+pub const REALS: [Real; 19] = [
     given(Field::Radius, Role::Input, |i| &mut i.radius_m),
     given(Field::Speed, Role::Input, |i| &mut i.speed_m_per_s),
     given(Field::Srr, Role::Input, |i| &mut i.slide_to_roll_ratio),
@@ -76,7 +79,12 @@ pub const REALS: [Real; 17] = [
     Real {
         role: Role::Input,
         input: Some(|i| &mut i.approach_m),
-        ..follows("approach", ["m"; 2], |o| o.approach_m, "approach of points far inside both bodies")
+        ..follows(
+            "approach",
+            ["m"; 2],
+            |o| o.approach_m,
+            "approach of both bodies as rigid ones since they touched; of a line contact at the distance approach_reference",
+        )
     },
     given(Field::Modulus, Role::Parameter, |i| &mut i.modulus_pa),
     given(Field::Viscosity, Role::Parameter, |i| &mut i.viscosity_pa_s),
@@ -86,28 +94,35 @@ pub const REALS: [Real; 17] = [
         about: "radius across over radius; 1 of a circle or a line",
         ..given(Field::RadiusY, Role::Parameter, |i| &mut i.radius_ratio)
     },
-    follows("film_central", ["m"; 2], |o| o.h_c_m, "central film"),
-    follows("film_minimum", ["m"; 2], |o| o.h_min_m, "smallest film"),
-    follows("friction_coefficient", [""; 2], |o| o.friction_coefficient, "friction over load"),
+    follows(names::H_C_M, ["m"; 2], |o| o.h_c_m, "central film thickness"),
+    follows(names::H_MIN_M, ["m"; 2], |o| o.h_min_m, "minimum film thickness"),
+    follows(names::TRACTION, [""; 2], |o| o.friction_coefficient, "traction coefficient: friction over load"),
     follows("friction_force", ["N/m", "N"], |o| o.friction_force, "friction; of a line contact by its length"),
-    follows("hertz_pressure", ["Pa"; 2], |o| o.hertz_pressure_pa, "largest pressure of the dry contact"),
+    follows(names::HERTZ_PRESSURE, ["Pa"; 2], |o| o.hertz_pressure_pa, "largest pressure of the dry contact"),
     follows(
-        "film_central_bound",
+        names::H_C_BOUND,
         [""; 2],
         |o| o.error_bounds[0],
-        "relative error of film_central in 99 of 100 contacts at most; NaN where unknown",
+        "relative error of h_c_m in 99 of 100 contacts at most; NaN where unknown",
     ),
     follows(
-        "film_minimum_bound",
+        names::H_MIN_BOUND,
         [""; 2],
         |o| o.error_bounds[1],
-        "relative error of film_minimum in 99 of 100 contacts at most; NaN where unknown",
+        "relative error of h_min_m in 99 of 100 contacts at most; NaN where unknown",
     ),
     follows(
-        "friction_bound",
+        names::TRACTION_BOUND,
         [""; 2],
         |o| o.error_bounds[2],
-        "relative error of friction_coefficient in 99 of 100 contacts at most; NaN where unknown",
+        "relative error of traction in 99 of 100 contacts at most; NaN where unknown",
+    ),
+    follows(names::HALF_WIDTH, ["m"; 2], |o| o.half_width_m, "half width of the dry contact"),
+    follows(
+        APPROACH_REFERENCE,
+        ["m"; 2],
+        |o| o.approach_reference_m,
+        "distance from a line contact at which approach is measured: its radius",
     ),
 ];
 
@@ -116,7 +131,7 @@ pub type Truth = (&'static str, &'static str, fn(&Outputs) -> bool);
 
 /// All of them; the place is the value reference.
 pub const TRUTHS: [Truth; 2] = [
-    ("trained", "whether the model was trained for the contact", |outputs| outputs.trained),
+    (names::TRAINED, "whether the model was trained for the contact", |outputs| outputs.trained),
     ("full", "whether the full solver took over where the model has no solution", |outputs| outputs.full),
 ];
 
@@ -132,13 +147,12 @@ impl Real {
     pub fn role(&self, model: &SavedModel, pressed: Pressed) -> Option<Role> {
         match (self.name, model) {
             // A model in time is of one contact, of which it lets vary what its trainings did.
-            ("load" | "slide_to_roll_ratio", SavedModel::InTime(_)) => Some(Role::Input),
+            ("load" | names::SRR, SavedModel::InTime(_)) => Some(Role::Input),
             ("speed", SavedModel::InTime(model)) => model.domain.speed.varies().then_some(Role::Input),
             ("radius", SavedModel::InTime(model)) => model.domain.radius.varies().then_some(Role::Input),
             ("approach", SavedModel::InTime(_)) => Some(Role::Output),
             (_, SavedModel::InTime(_)) => (self.role == Role::Output).then_some(Role::Output),
-            // Nobody knows the approach of a stationary line contact.
-            ("approach", SavedModel::Stationary(model)) if model.contact() == ContactKind::Line => None,
+            (APPROACH_REFERENCE, SavedModel::Stationary(model)) if model.contact() == ContactKind::Point => None,
             ("load", _) if pressed == Pressed::Approach => Some(Role::Output),
             ("approach", _) if pressed == Pressed::Load => Some(Role::Output),
             _ => Some(self.role),
@@ -265,7 +279,7 @@ fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<S
         text,
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <fmiModelDescription fmiVersion=\"2.0\" modelName=\"{title}\" guid=\"{guid}\" description=\"{about}\" \
-         generationTool=\"EHL Explorer {version}\" variableNamingConvention=\"flat\">\n\
+         generationTool=\"EHL Explorer {version}\" variableNamingConvention=\"structured\">\n\
          \x20 <CoSimulation modelIdentifier=\"{IDENTIFIER}\" canHandleVariableCommunicationStepSize=\"true\" \
          canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n\
          \x20 <UnitDefinitions>\n"
@@ -392,6 +406,44 @@ mod tests {
     }
 
     #[test]
+    fn stiffness_is_the_same_from_two_units_and_from_one_for_a_line_and_a_ball() {
+        for which in ["line", "point"] {
+            let (mut one, inputs) = first(which);
+            let (mut other, _) = first(which);
+            let heavier = Inputs { load: 1.01 * inputs.load, ..inputs };
+            let [light, heavy] = [inputs, heavier].map(|inputs| one.solve(&inputs).unwrap());
+            assert_eq!(other.solve(&heavier).unwrap().approach_m, heavy.approach_m);
+            let stiffness = |from: f64, to: f64| (heavy.load - light.load) / (to - from);
+            let own = stiffness(light.approach_m, heavy.approach_m);
+            // Of the dry contact: the film gives way too, by a few percent.
+            let point = one.request(&inputs, inputs.load).unwrap().point;
+            let dry = |load: f64| {
+                let point = OperatingPoint { load, ..point };
+                let hertz = point.hertz();
+                let depth = hertz.half_width_m.powi(2) / point.radius_m;
+                match point.kind {
+                    ContactKind::Line => 0.5 * depth * (0.5 + (2.0 * point.radius_m / hertz.half_width_m).ln()),
+                    ContactKind::Point => depth,
+                }
+            };
+            let wanted = stiffness(dry(light.load), dry(heavy.load));
+            assert!((own / wanted - 1.0).abs() < 0.1, "{which}: {own:e}, {wanted:e} when dry");
+            assert_eq!(light.approach_reference_m.is_nan(), which == "point");
+        }
+    }
+
+    #[test]
+    fn outside_the_training_the_reason_is_that_of_every_interface() {
+        let (mut coupled, inputs) = first("line");
+        let beyond = coupled.solve(&Inputs { load: 30.0 * inputs.load, ..inputs }).unwrap();
+        let request = coupled.request(&inputs, 30.0 * inputs.load).unwrap();
+        let result = Workbench::new("").answer(&request, None, &()).unwrap().result;
+        let refused = beyond.of_training().unwrap_err().to_string();
+        assert!(result.warning().starts_with(&refused), "{refused} against {}", result.warning());
+        assert!(coupled.solve(&inputs).unwrap().of_training().is_ok());
+    }
+
+    #[test]
     fn what_makes_no_sense_is_refused_and_what_is_unknown_is_told() {
         let (mut coupled, inputs) = first("line");
         for wrong in [
@@ -406,7 +458,7 @@ mod tests {
         assert!(!beyond.trained && !beyond.warnings.is_empty(), "{beyond:?}");
         let mut inputs = inputs;
         assert!(REALS[0].set(Role::Input, &mut inputs, f64::NAN).is_err_and(|why| why.to_string().contains("radius")));
-        let follows = REALS.iter().find(|real| real.name == "film_central").unwrap();
+        let follows = REALS.iter().find(|real| real.name == names::H_C_M).unwrap();
         assert!(follows.set(Role::Output, &mut inputs, 1.0).is_err());
     }
 
@@ -416,7 +468,8 @@ mod tests {
         let model = SavedModel::from_bytes(bytes).unwrap();
         for pressed in [Pressed::Load, Pressed::Approach] {
             let text = description(&model, bytes, pressed).unwrap();
-            assert_eq!(text.matches("<ScalarVariable ").count(), REALS.len() + TRUTHS.len());
+            // All but the distance that only line contacts have.
+            assert_eq!(text.matches("<ScalarVariable ").count(), REALS.len() - 1 + TRUTHS.len());
             assert_eq!(pressed_of(&identity(bytes, pressed), bytes), Some(pressed));
         }
         assert_eq!(pressed_of("load-0000000000000000", bytes), None);

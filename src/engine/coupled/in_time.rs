@@ -4,7 +4,7 @@
 //! evenly into steps no longer than those of the model's training ([`CoupledMarch`]).
 
 use super::error::{check, check_sliding};
-use super::{CoupledError, Inputs, Outputs};
+use super::{CoupledError, Inputs, Outputs, approach, approach_reference};
 use crate::engine::answer::outside;
 use crate::solver::full::transient::{Frame, Input, point_at};
 use crate::solver::full::{Mesh, Problem, Report, Scalars, Solution, Termination};
@@ -99,11 +99,13 @@ impl InTime {
     /// trained one nearest to their load.
     ///
     /// # Errors
-    /// With a sentence where an input makes no sense or the model finds no such contact; nothing has changed then.
+    /// With a sentence where an input makes no sense, the model was not trained for the contact or finds none; nothing has
+    /// changed then.
     pub fn begin(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         check_inputs(inputs)?;
         let reference = self.reference(self.reference_load(inputs.load)?)?;
         let input = over(inputs, &reference.point);
+        self.check_training(&reference, 0.0, input, AT_REST)?;
         let march = CoupledMarch::begin(&self.model, reference, input)?;
         (self.march, self.rate) = (Some(march), AT_REST);
         self.outputs(inputs)
@@ -112,20 +114,35 @@ impl InTime {
     /// Goes on by some seconds, at whose end the inputs are those.
     ///
     /// # Errors
-    /// With a sentence where an input makes no sense or a step cannot be taken; nothing has changed then.
+    /// With a sentence where an input makes no sense, the model was not trained for it or for how fast it changes, or a
+    /// step cannot be taken; nothing has changed then.
     pub fn advance(&mut self, seconds: f64, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         check_inputs(inputs)?;
-        let march = self.march.as_mut().ok_or(CoupledError::NotBegun)?;
-        let point = march.reference().point;
-        let (span, from) = (seconds / Self::seconds_per_time(&point), march.conditions().input);
-        let to = over(inputs, &point);
-        march.advance(span, to)?;
-        self.rate = Input {
+        let march = self.march.as_ref().ok_or(CoupledError::NotBegun)?;
+        let (reference, from) = (*march.reference(), march.conditions().input);
+        let (span, to) = (seconds / Self::seconds_per_time(&reference.point), over(inputs, &reference.point));
+        let rate = Input {
             radius: (to.radius - from.radius) / span,
             speed: (to.speed - from.speed) / span,
             load: (to.load - from.load) / span,
         };
+        self.check_training(&reference, march.moment().time + span, to, rate)?;
+        self.march.as_mut().ok_or(CoupledError::NotBegun)?.advance(span, to)?;
+        self.rate = rate;
         self.outputs(inputs)
+    }
+
+    /// What inputs at T, and their changes per unit of T, leave of what was trained.
+    fn outside(&self, reference: &Problem, time: f64, input: Input, rate: Input) -> Vec<Warning> {
+        let domain = &self.model.domain;
+        let of_march = domain.outside(time, input, rate).into_iter();
+        let of_march = of_march.map(|why| Warning::OutsideTrainedRange { outside: Outside::Other(why) });
+        outside(domain.reference.trust(reference)).into_iter().chain(of_march).collect()
+    }
+
+    fn check_training(&self, reference: &Problem, time: f64, input: Input, rate: Input) -> Result<(), CoupledError> {
+        let outside = self.outside(reference, time, input, rate);
+        if outside.is_empty() { Ok(()) } else { Err(CoupledError::Untrained(outside)) }
     }
 
     /// The outputs of the present state; of the inputs only the sliding counts, which moves no film.
@@ -134,20 +151,24 @@ impl InTime {
     /// With a sentence where it has not begun.
     pub fn outputs(&self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         let march = self.march.as_ref().ok_or(CoupledError::NotBegun)?;
-        let (moment, domain) = (march.moment(), &self.model.domain);
-        let reference = march.reference();
-        let mut warnings: Vec<Warning> = outside(domain.reference.trust(reference)).into_iter().collect();
-        let of_march = domain.outside(moment.time, moment.input, self.rate).into_iter();
-        warnings.extend(of_march.map(|why| Warning::OutsideTrainedRange { outside: Outside::Other(why) }));
+        let (moment, reference) = (march.moment(), march.reference());
+        let mut warnings = self.outside(reference, moment.time, moment.input, self.rate);
         let trained = warnings.is_empty();
         let point = point_at(&reference.point, moment.input);
-        let hertz_pressure_pa = point.hertz().pressure_pa;
+        let (hertz, at) = (point.hertz(), march.conditions());
+        let hertz_pressure_pa = hertz.pressure_pa;
         warnings.extend(Warning::of_hertz_pressure(hertz_pressure_pa));
         let friction_coefficient = self.friction(march, inputs.slide_to_roll_ratio, &mut warnings)?;
         let scale = reference.point.film_scale_m();
         Ok(Outputs {
             load: point.load,
-            approach_m: march.approach() * scale,
+            approach_m: approach(
+                &point,
+                march.separation() * scale,
+                reference.point.hertz().half_width_m * at.scales.half_width,
+            ),
+            approach_reference_m: approach_reference(&point),
+            half_width_m: hertz.half_width_m,
             h_c_m: moment.h_c * scale,
             h_min_m: moment.h_min * scale,
             friction_coefficient,
@@ -390,14 +411,57 @@ mod tests {
             assert_eq!(own.outputs(&first).unwrap().h_c_m, kept.h_c_m);
         }
         assert!(own.advance(1e9, &first).unwrap_err().to_string().contains("steps"));
-        let fast = own.advance(step, &Inputs { load: 1.05 * first.load, ..first }).unwrap();
-        assert!(!fast.trained && fast.warning().contains("faster"), "{:?}", fast.warnings);
-        let rested = own.advance(step, &Inputs { load: 1.05 * first.load, ..first }).unwrap();
+        let (fast, far) = (Inputs { load: 1.05 * first.load, ..first }, Inputs { load: 3.0 * first.load, ..first });
+        let quick = Inputs { speed_m_per_s: 1.1 * first.speed_m_per_s, ..first };
+        for (inputs, said) in [(fast, "faster"), (far, "outside the trained"), (quick, "rested")] {
+            let refused = own.advance(step, &inputs).unwrap_err();
+            assert!(matches!(refused, CoupledError::Untrained(_)) && refused.to_string().contains(said), "{refused}");
+            assert_eq!(format!("{:?}", own.outputs(&first).unwrap()), format!("{kept:?}"));
+        }
+        // The same load is reached in more time.
+        let rested = own.advance(20.0 * step, &fast).unwrap();
         assert!(rested.trained && rested.warnings.is_empty(), "{:?}", rested.warnings);
-        let quick =
-            own.advance(step, &Inputs { load: 1.05 * first.load, speed_m_per_s: 1.1 * first.speed_m_per_s, ..first });
-        let quick = quick.unwrap().warning();
-        assert!(quick.contains("speed") && quick.contains("rested"), "{quick}");
+        let refused = InTime::new(model).begin(&far).unwrap_err().to_string();
+        assert!(refused.contains("outside the trained"), "{refused}");
+    }
+
+    #[test]
+    fn stiffness_of_a_line_is_the_same_from_two_units_and_from_one_march() {
+        let times: Vec<f64> = (0..=20).map(|k| 0.05 * f64::from(k)).collect();
+        let slow = |load: f64, by: f64| {
+            let point = OperatingPoint { load, ..OperatingPoint::TABLE_4_2 };
+            let values = times.iter().map(|time| 1.0 + by * time).collect();
+            let signal = Signal::Sampled { times: times.clone(), values };
+            solve(GRID, &Transient { point, duration: 1.0, ..driven(signal) }, &()).unwrap()
+        };
+        // References of two loads, so that the scales of a contact change with the load under which it begins.
+        let load = OperatingPoint::TABLE_4_2.load;
+        let trainings = [slow(load, 0.05), slow(1.05 * load, -0.05)];
+        let settings = TrajectoryTraining { loss: 1e-7, ..TrajectoryTraining::default() };
+        let model = Arc::new(train_trajectories(&GRID.line().unwrap(), &trainings, &settings, &()).unwrap());
+        let first = InTime::first_inputs(&model).unwrap();
+        let [light, heavy] = [1.01, 1.02].map(|by| Inputs { load: by * load, ..first });
+        let mut march = InTime::new(Arc::clone(&model));
+        let begun = march.begin(&light).unwrap();
+        let other = InTime::new(Arc::clone(&model)).begin(&heavy).unwrap();
+        // Slowly to the heavier load, and until the film rests there.
+        let second = InTime::seconds_per_time(&OperatingPoint::TABLE_4_2);
+        march.advance(second, &heavy).unwrap();
+        let reached = march.advance(20.0 * second, &heavy).unwrap();
+        let stiffness = |to: &Outputs| (to.load - begun.load) / (to.approach_m - begun.approach_m);
+        let (by_units, by_march) = (stiffness(&other), stiffness(&reached));
+        assert!((by_units / by_march - 1.0).abs() < 1e-2, "{by_units:e} from two units, {by_march:e} from one march");
+        assert_eq!(begun.approach_reference_m, first.radius_m);
+        assert!((begun.half_width_m / other.half_width_m - (1.01f64 / 1.02).sqrt()).abs() < 1e-12);
+        // Stationary contacts have the same datum.
+        let stationary = |inputs: Inputs| {
+            let point = OperatingPoint { load: inputs.load, ..OperatingPoint::TABLE_4_2 };
+            let grid = FullSolver::on(GRID.line().unwrap());
+            let solution = { grid }.solve(&point, Default::default(), Start::Cold, &()).unwrap();
+            let separation = solution.scalars.h_0 * point.film_scale_m();
+            approach(&point, separation, point.hertz().half_width_m)
+        };
+        assert!((stationary(light) / begun.approach_m - 1.0).abs() < 1e-2, "{}", stationary(light));
     }
 
     #[test]
@@ -406,7 +470,7 @@ mod tests {
         let first = InTime::first_inputs(&model).unwrap();
         let step = 1.7 * model.domain.step * InTime::seconds_per_time(&model.starts[0].point);
         let go = |own: &mut InTime| -> Vec<Outputs> {
-            let inputs = |k: i32| Inputs { load: first.load * (1.0 + 0.01 * f64::from(k)), ..first };
+            let inputs = |k: i32| Inputs { load: first.load * (1.0 + 0.005 * f64::from(k)), ..first };
             (0..5).map(|k| own.advance(step, &inputs(k)).unwrap()).collect()
         };
         let mut own = InTime::new(Arc::clone(&model));

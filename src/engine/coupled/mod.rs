@@ -19,6 +19,7 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use crate::solver::warning::Warning;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// How close the load's logarithm is sought when an approach is given.
@@ -65,8 +66,14 @@ pub struct Inputs {
 pub struct Outputs {
     /// The load \[N/m\] or \[N\].
     pub load: f64,
-    /// The approach \[m\]; not a number for a line contact, whose approach hangs on its bodies.
+    /// Approach of both bodies \[m\]: how far points far from the contact have come together since the undeformed bodies
+    /// touched. In a line contact these are points at the distance [`Outputs::approach_reference_m`].
     pub approach_m: f64,
+    /// Distance from a line contact at which its approach is measured, its radius R \[m\]; not a number for a point
+    /// contact, whose elastic deformation vanishes far away.
+    pub approach_reference_m: f64,
+    /// Half width a of the dry contact \[m\].
+    pub half_width_m: f64,
     /// Central film \[m\].
     pub h_c_m: f64,
     /// Smallest film \[m\].
@@ -95,9 +102,12 @@ impl Outputs {
         let (scalars, friction_coefficient, scale) = (scalars?, traction?, point.film_scale_m());
         let error = reduced.as_ref().and_then(|facts| facts.error);
         let bounds = error.map_or([None; 3], |error| [Some(error.h_c), Some(error.h_min), error.traction]);
+        let half_width_m = point.hertz().half_width_m;
         Some(Self {
             load: point.load,
-            approach_m: if point.kind == ContactKind::Line { f64::NAN } else { -scalars.h_0 * scale },
+            approach_m: approach(&point, scalars.h_0 * scale, half_width_m),
+            approach_reference_m: approach_reference(&point),
+            half_width_m,
             h_c_m: scalars.h_c * scale,
             h_min_m: scalars.h_min * scale,
             friction_coefficient,
@@ -114,6 +124,33 @@ impl Outputs {
     pub fn warning(&self) -> String {
         Warning::joined(&self.warnings)
     }
+
+    /// Refuses outputs of a contact that the model was not trained for.
+    ///
+    /// # Errors
+    /// With the reason that every interface reports.
+    pub fn of_training(self) -> Result<Self, CoupledError> {
+        let is_outside = |warning: &&Warning| matches!(warning, Warning::OutsideTrainedRange { .. });
+        let outside: Vec<Warning> = self.warnings.iter().filter(is_outside).cloned().collect();
+        if outside.is_empty() { Ok(self) } else { Err(CoupledError::Untrained(outside)) }
+    }
+}
+
+/// Approach of both bodies \[m\], of a contact with the separation h₀ \[m\] of its rigid surfaces: zero where they touch.
+///
+/// The potential ln(|x − s|/d) of a line load needs a length d, with which h₀ changes. That of h₀ is `length_m`, such as
+/// the half width of (2.27), which changes with the load; that of the approach is [`approach_reference`].
+fn approach(point: &OperatingPoint, separation_m: f64, length_m: f64) -> f64 {
+    let elastic = match point.kind {
+        ContactKind::Line => 4.0 * point.load / (PI * point.modulus_pa) * (length_m / approach_reference(point)).ln(),
+        ContactKind::Point => 0.0,
+    };
+    -separation_m - elastic
+}
+
+/// Distance from a line contact at which its approach is measured: R \[m\], whatever the load.
+fn approach_reference(point: &OperatingPoint) -> f64 {
+    if point.kind == ContactKind::Line { point.radius_m } else { f64::NAN }
 }
 
 impl Inputs {
@@ -190,7 +227,7 @@ impl Coupled {
             alpha_per_pa: own.lubricant.own_coefficient().unwrap_or(point.alpha_per_pa),
         };
         let approach_m = own.solve(&inputs).ok()?.approach_m;
-        Some(Inputs { approach_m: if approach_m.is_finite() { approach_m } else { 0.0 }, ..inputs })
+        Some(Inputs { approach_m, ..inputs })
     }
 
     /// The outputs of some inputs.

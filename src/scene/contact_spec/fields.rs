@@ -5,6 +5,7 @@ use super::given::{Choices, Domain, Given, MethodName, OilGrade, ShearName};
 use super::words::Words;
 use crate::scene::grid::Grid;
 use crate::scene::named_lubricant::NamedLubricant;
+use crate::scene::names;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::BodyHeat;
 use crate::solver::physics::contact::ContactKind;
@@ -150,7 +151,7 @@ contact_fields! {
         { note: " (default: roelands)", placeholder: Some("LAW") };
     srr: f64, Srr, "srr", "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m",
         { measure: Measure::Of(Quantity::SlideToRollRatio), note: "; of a Newtonian fluid it moves only the traction",
-          default: Some("0"), titles: &["slip"], variable: "slide_to_roll_ratio" };
+          default: Some("0"), titles: &["slip"] };
     npr: f64, Npr, "npr", "Newtonian plateau ratio of a shear-thinning lubricant",
         { measure: Measure::Of(Quantity::NewtonianPlateauRatio), note: " (default: its own); 1 is a Newtonian fluid" };
     grid: Grid, Grid, "grid", "Grid of a full solution",
@@ -202,6 +203,11 @@ impl Field {
         Self::ALL.iter().copied().filter(move |field| !field.facts().absent.contains(&words))
     }
 
+    /// The field that results have by a name, such as `moes.M`.
+    fn in_results(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|field| names::of_field(*field) == name)
+    }
+
     /// The field of a word, with hyphens or underscores.
     pub fn named(word: &str) -> Option<Self> {
         let word = word.replace('_', "-");
@@ -213,6 +219,7 @@ impl Field {
         let key: String = title.to_lowercase().split_whitespace().collect();
         let known = |field: &Self| field.facts().titles.contains(&key.as_str());
         let own = Self::named(&key).or_else(|| Self::ALL.iter().copied().find(known));
+        let own = own.or_else(|| Self::in_results(title.trim()));
         own.filter(|field| !field.facts().absent.contains(&Words::Columns))
     }
 
@@ -224,7 +231,7 @@ impl Field {
         let found = match word {
             "m" | "M" => Some(Self::MoesM),
             "l" | "L" => Some(Self::MoesL),
-            word => Self::named(word).filter(|field| field.is_number()),
+            word => Self::named(word).or_else(|| Self::in_results(word)).filter(|field| field.is_number()),
         };
         found.ok_or_else(|| {
             let numbers = Self::of(Words::Flags).filter(|field| field.is_number());

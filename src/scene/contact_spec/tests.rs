@@ -1,7 +1,7 @@
 //! Fields and their spellings, refusals in the words of each interface, and contacts over others.
 
 use super::*;
-use crate::scene::{At, Grid, Scene};
+use crate::scene::{At, Grid, Scene, names};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, ShearLaw};
 
@@ -23,7 +23,7 @@ fn every_word_leads_back_to_its_field() {
         assert_eq!(Field::named(facts.name), Some(field));
         assert_eq!(Field::named(&facts.name.replace('-', "_")), Some(field));
         if Field::of(Words::Columns).any(|column| column == field) {
-            for title in facts.titles.iter().chain([&facts.column]) {
+            for title in facts.titles.iter().chain([&facts.column, &&*names::of_field(field)]) {
                 assert_eq!(Field::titled(title), Some(field), "{title}");
             }
         }
@@ -36,7 +36,7 @@ fn every_word_leads_back_to_its_field() {
         (Field::titled("method"), Field::titled("Modulus"), Field::named("colour")),
         (None, Some(Field::Modulus), None)
     );
-    assert_eq!(Field::varied("L"), Ok(Field::MoesL));
+    assert_eq!((Field::varied("L"), Field::varied("moes.L")), (Ok(Field::MoesL), Ok(Field::MoesL)));
     assert!(Field::varied("lubricant").unwrap_err().contains("accepted are radius, radius-y"));
 }
 
@@ -120,10 +120,7 @@ fn each_interface_names_its_own_words_in_a_refusal() {
     let unread = ContactSpec::default().read(Field::Contact, "cube", "").unwrap_err();
     assert_eq!(unread.in_words(Words::Keywords), "contact=: “cube” is none; accepted are line, point");
     let srr = ContactSpec { srr: Some(11.0), ..moes(&[]) }.request().unwrap_err();
-    assert_eq!(
-        srr.in_words(Words::Variables),
-        "`slide_to_roll_ratio` is 11, but must be a finite number between -10 and 10"
-    );
+    assert_eq!(srr.in_words(Words::Variables), "`srr` is 11, but must be a finite number between -10 and 10");
     // What is no field stays as it is.
     assert_eq!(Words::Flags.spelled("a < b, <name>, <speed>"), "a < b, <name>, --speed");
 }

@@ -5,6 +5,7 @@ use super::question::{
 };
 use crate::scene::check::{self, MAX_COMPARED, count};
 use crate::scene::method::ModelSource;
+use crate::scene::names;
 use crate::scene::parallel::{full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::rank_correlation;
@@ -169,13 +170,13 @@ impl Question for ErrorMeasureStudy {
             estimated.iter().map(|(estimate, truth)| (estimate.state.likely, truth.state)).unzip();
         found.push("rank.estimate.e_z", None, rank_correlation(&states, &truths));
         let ratios = |ratio: fn(&(ErrorEstimate, Measured)) -> f64| estimated.iter().map(ratio).collect::<Vec<f64>>();
-        found.push_bounds("H_c", None, &ratios(|(estimate, truth)| estimate.h_c.bound / truth.h_c));
-        found.push_bounds("H_min", None, &ratios(|(estimate, truth)| estimate.h_min.bound / truth.h_min));
+        found.push_bounds(names::H_C_BOUND, None, &ratios(|(estimate, truth)| estimate.h_c.bound / truth.h_c));
+        found.push_bounds(names::H_MIN_BOUND, None, &ratios(|(estimate, truth)| estimate.h_min.bound / truth.h_min));
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
         let measured = ordered(rows);
-        let mut columns: Vec<String> = ["M", "L"].iter().map(|&name| name.to_owned()).collect();
+        let mut columns: Vec<String> = [names::M, names::L].map(str::to_owned).into();
         columns.extend(COLUMNS.map(|(name, _)| name.to_owned()));
         columns.extend(MEASURES.map(|(name, _)| format!("{name}_normalised")));
         let largest = |get: fn(&Measured) -> f64| measured.iter().map(|(_, m)| get(m)).fold(0.0, f64::max);

@@ -6,6 +6,7 @@ use super::question::{
 };
 use crate::scene::check::{self, MAX_POINTS, refuse};
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::scene::statistics::{median, percentile};
 use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
@@ -158,7 +159,7 @@ impl Question for ErrorSplitStudy {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let contact = ["c", "M", "L", "alpha", "H_c", "H_min"].map(str::to_owned);
+        let contact = ["c", names::M, names::L, names::ALPHA, names::H_C, names::H_MIN].map(str::to_owned);
         let columns = contact.into_iter().chain(names()).collect();
         let row = |row: &&Row| {
             let (split, moes) = (row.split.as_ref().ok()?, row.point.moes());

@@ -6,9 +6,11 @@ use super::question::{
 use crate::scene::at::At;
 use crate::scene::check::{count, number, refuse};
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::scene::statistics::median;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::{FilmFormula, OperatingPoint};
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// Full solutions against a published film formula at all pairs of M and L in the default realisation.
@@ -24,7 +26,7 @@ pub struct FormulaComparison {
 }
 
 /// One contact.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Load number.
     pub m: f64,
@@ -36,6 +38,8 @@ pub struct Row {
     pub formula_m: f64,
     /// Whether the formula was made for this contact.
     pub in_range: bool,
+    /// What a reader of the full solution must know.
+    pub warnings: Vec<Warning>,
 }
 
 impl Row {
@@ -75,7 +79,8 @@ impl Question for FormulaComparison {
                 point.film_scale_m() * if self.formula.predicts_minimum() { s.h_min } else { s.h_c }
             });
             let predicted = self.formula.predict(&point);
-            tell(Row { m, l, full_m, formula_m: predicted.film_m, in_range: predicted.in_range });
+            let warnings = answer.result.warnings.clone();
+            tell(Row { m, l, full_m, formula_m: predicted.film_m, in_range: predicted.in_range, warnings });
             former = answer.into_fields().or(former);
         }
         Ok(())
@@ -88,17 +93,19 @@ impl Question for FormulaComparison {
         let deviations: Vec<f64> = rows.iter().map(|row| row.deviation().abs()).filter(|d| d.is_finite()).collect();
         found.converged &= failures == 0;
         found.push("failures", of, failures as f64);
+        found.warnings.extend(Warning::summary(rows.iter().map(|row| &row.warnings[..])));
         found.push("deviation_median", of, median(&deviations));
         found.push("deviation_max", of, deviations.iter().copied().fold(f64::NAN, f64::max));
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let mut table = Table::new("formula", &["M", "L", "h_full_m", "h_formula_m", "deviation", "in_range"]);
+        let mut table =
+            Table::new("formula", &[names::M, names::L, "h_full_m", "h_formula_m", "deviation", "in_range"]);
         table.rows.extend(rows.iter().map(|row| {
             let in_range = f64::from(u8::from(row.in_range));
             vec![row.m, row.l, row.full_m.unwrap_or(f64::NAN), row.formula_m, row.deviation(), in_range]
         }));
-        vec![table]
+        vec![table.with_warnings(rows.iter().map(|row| &row.warnings[..]))]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {

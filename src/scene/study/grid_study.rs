@@ -8,6 +8,7 @@ use crate::scene::check::{count, number, refuse};
 use crate::scene::contact_result::ContactResult;
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Solution;
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,10 @@ pub struct GridStudy {
     /// Spacings ΔX, falling by one constant factor; at least three.
     pub dx: Vec<f64>,
 }
+
+/// Spacing and nodes of a grid, and what its result is compared by.
+const COLUMNS: [&str; 7] =
+    ["dx", "nodes", names::H_C, names::H_MIN, names::P_C, names::NEWTON_ITERATIONS, names::WALL_S];
 
 /// One grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -109,14 +114,14 @@ impl Question for GridStudy {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let mut table = Table::new("grids", &["dx", "nodes", "H_c", "H_min", "P_c", "newton_iterations", "wall_s"]);
+        let mut table = Table::new("grids", &COLUMNS);
         table.rows.extend(rows.iter().map(|Row { dx, result }| {
             let nodes = (result.nodes.0 * result.nodes.1) as f64;
             let scalars = result.scalars.map_or([f64::NAN; 3], |s| [s.h_c, s.h_min, s.p_c]);
             let effort = [result.newton_iterations as f64, result.wall_s];
             [*dx, nodes].into_iter().chain(scalars).chain(effort).collect()
         }));
-        vec![table]
+        vec![table.with_warnings(rows.iter().map(|row| &row.result.warnings[..]))]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {

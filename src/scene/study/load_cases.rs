@@ -10,6 +10,7 @@ use crate::scene::check;
 use crate::scene::contact_result::{ContactResult, contact_columns, result_columns};
 use crate::scene::load_cases::{CaseTable, LoadCase};
 use crate::scene::method::Method;
+use crate::scene::names;
 use serde::{Deserialize, Serialize};
 
 /// Refused lines that are named one by one; the table names all of them.
@@ -167,7 +168,7 @@ impl Question for LoadCases {
             found.push("untrained", of, untrained as f64);
             let Some(full) = full else { continue };
             let error = |row: &&Row| {
-                let h_c = |k: usize| row.results().get(k)?.value("H_c");
+                let h_c = |k: usize| row.results().get(k)?.value(names::H_C);
                 Some((h_c(k)? / h_c(full)? - 1.0).abs())
             };
             let errors: Vec<f64> = rows.iter().filter_map(error).collect();
@@ -176,9 +177,10 @@ impl Question for LoadCases {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let (of_contact, of_result) = (contact_columns(), result_columns(false));
+        let heat = rows.iter().flat_map(|row| row.results()).any(|result| result.heat.is_some());
+        let (of_contact, of_result) = (contact_columns(), result_columns(heat));
         let results = (0..self.methods.len()).map(|k| tag(&self.methods, k));
-        let results = results.flat_map(|tag| of_result.iter().map(move |column| format!("{tag}.{column}")));
+        let results = results.flat_map(|tag| of_result.iter().map(move |column| names::by(&tag, column)));
         let columns: Vec<String> =
             std::iter::once(&"line").chain(&of_contact).map(|&column| column.to_owned()).chain(results).collect();
         let numbers = |row: &&Row| -> Vec<f64> {
@@ -195,7 +197,7 @@ impl Question for LoadCases {
             rows: rows.iter().map(numbers).collect(),
             labels: rows.iter().filter(|_| named).map(|row| row.name.clone()).collect(),
             remarks: rows.iter().map(|row| row.warning()).collect(),
-            remarks_title: "warning",
+            remarks_title: names::WARNING,
             columns,
         }]
     }
@@ -211,9 +213,9 @@ impl Question for LoadCases {
             chart
         };
         [
-            ("h_c_m", "Central film h_c [µm]", 1e6),
-            ("h_min_m", "Smallest film h_min [µm]", 1e6),
-            ("traction", "Traction coefficient", 1.0),
+            (names::H_C_M, "Central film h_c [µm]", 1e6),
+            (names::H_MIN_M, "Smallest film h_min [µm]", 1e6),
+            (names::TRACTION, "Traction coefficient", 1.0),
         ]
         .map(chart)
         .into()

@@ -6,6 +6,7 @@ use super::question::{
 use crate::scene::check::{count, number, refuse};
 use crate::scene::method::Method;
 use crate::solver::full::Solution;
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// The contact's film along Y = 0 against given ones.
@@ -30,8 +31,14 @@ pub struct GivenFilm {
     pub points: Vec<(f64, f64)>,
 }
 
-/// The computed film: place and thickness \[m\].
-pub type Row = Vec<[f64; 2]>;
+/// The computed film.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Place and thickness \[m\]; none where the solve failed.
+    pub film: Vec<[f64; 2]>,
+    /// What a reader must know of it.
+    pub warnings: Vec<Warning>,
+}
 
 /// Metres in the units of the points.
 const PLACE_M: f64 = 1e-6;
@@ -96,17 +103,18 @@ impl Question for MeasuredFilm {
             let (length, height) = (point.hertz().half_width_m, point.film_scale_m());
             solution.profile().map(|(x, _, h)| [length * x, height * h]).collect()
         };
-        if let Some(solution) = answer.fields() {
-            tell(along(solution));
-        }
+        let film = answer.fields().map(along).unwrap_or_default();
+        tell(Row { film, warnings: answer.result.warnings.clone() });
         Ok(())
     }
 
     /// Values of each given film, by its name: `.deviation_max`, `.deviation_mean` and `.minimum`, the deviation of the
     /// least film, all relative to it.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
-        found.converged &= !rows.is_empty();
-        for (film, computed) in self.films.iter().flat_map(|film| rows.iter().map(move |row| (film, row))) {
+        found.converged &= !rows.is_empty() && rows.iter().all(|row| !row.film.is_empty());
+        found.warnings.extend(rows.iter().flat_map(|row| row.warnings.iter().map(ToString::to_string)));
+        let computed = || rows.iter().map(|row| &row.film).filter(|film| !film.is_empty());
+        for (film, computed) in self.films.iter().flat_map(|film| computed().map(move |row| (film, row))) {
             let values = self.deviations(film, computed);
             for (name, value) in ["deviation_max", "deviation_mean", "minimum"].into_iter().zip(values) {
                 found.push(format!("{}.{name}", film.name), Some(&Method::Full), value);
@@ -117,7 +125,7 @@ impl Question for MeasuredFilm {
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
         let mut table = Table::new("films", &["film", "x_m", "h_given_m", "h_computed_m"]);
         for (k, film) in self.films.iter().enumerate() {
-            let pairs = rows.iter().flat_map(|row| self.pairs(film, row));
+            let pairs = rows.iter().flat_map(|row| self.pairs(film, &row.film));
             table.rows.extend(pairs.map(|[x, given, computed]| vec![k as f64 + 1.0, x, given, computed]));
         }
         vec![table]
@@ -129,7 +137,7 @@ impl Question for MeasuredFilm {
         let (from, to) = (1.3 * self.between.0 / PLACE_M, 1.3 * self.between.1 / PLACE_M);
         let shown = |[x, _]: &[f64; 2]| (from..=to).contains(x);
         for row in rows {
-            let computed = row.iter().map(|[x, h]| [x / PLACE_M, h / THICKNESS_M]);
+            let computed = row.film.iter().map(|[x, h]| [x / PLACE_M, h / THICKNESS_M]);
             chart.add("here", Marks::Line, computed.filter(shown));
         }
         for film in &self.films {

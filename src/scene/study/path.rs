@@ -2,9 +2,10 @@
 
 use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, RunError, Setting, Table, Tell};
 use crate::scene::answer::Request;
-use crate::scene::contact_result::{ContactResult, result_columns};
+use crate::scene::contact_result::{ContactResult, contact_columns_after, result_columns};
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::solver::full::Solution;
 use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA};
@@ -12,7 +13,7 @@ use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// What a reduced method's errors against the first full one are stated of.
-const COMPARED: [&str; 3] = ["H_c", "H_min", "traction"];
+const COMPARED: [&str; 3] = [names::H_C, names::H_MIN, names::TRACTION];
 
 /// Errors of smaller tractions are relative to this.
 const LEAST_TRACTION: f64 = 0.005;
@@ -167,30 +168,29 @@ fn error_of(name: &str, row: &PathRow, method: usize, full: Option<usize>) -> Op
     };
     let value = row.results.get(method)?.value(name)?;
     // Next to nothing has no relative error.
-    let size = if name == "traction" { truth.abs().max(LEAST_TRACTION) } else { truth };
+    let size = if name == names::TRACTION { truth.abs().max(LEAST_TRACTION) } else { truth };
     Some(((value - truth) / size).abs()).filter(|error| error.is_finite())
 }
 
 /// One row per contact: what is varied, the contact, and the result of each method.
-pub(super) fn table(name: &str, varied: &[&str], methods: &[Method], rows: &[&PathRow]) -> Table {
-    let mut columns: Vec<String> = varied.iter().map(|&v| v.to_owned()).collect();
-    columns.extend(["M", "L", "radius", "speed", "load", "alpha", "p_h_pa"].map(str::to_owned));
+pub(super) fn table(name: &str, varied: &[String], methods: &[Method], rows: &[&PathRow]) -> Table {
+    let of_contact = contact_columns_after(varied);
+    let mut columns: Vec<String> =
+        varied.iter().map(String::as_str).chain(of_contact.iter().copied()).map(str::to_owned).collect();
     let of_result = result_columns(has_heat(rows));
     let tags = (0..methods.len()).map(|k| tag(methods, k));
-    columns.extend(tags.flat_map(|tag| of_result.iter().map(move |column| format!("{tag}.{column}"))));
+    columns.extend(tags.flat_map(|tag| of_result.iter().map(move |column| names::by(&tag, column))));
     let row = |row: &&PathRow| {
-        let (point, moes) = (&row.point, row.point.moes());
-        let contact = [moes.m, moes.l, point.radius_m, point.speed_m_per_s, point.load, point.alpha_per_pa];
+        let contact = row.results.iter().take(1).flat_map(|result| result.row(&of_contact));
         let results = row.results.iter().flat_map(|result| result.row(&of_result));
-        let values = row.values.iter().copied().chain(contact).chain([point.hertz().pressure_pa]);
-        values.chain(results).collect()
+        row.values.iter().copied().chain(contact).chain(results).collect()
     };
     Table {
         name: name.to_owned(),
         columns,
         rows: rows.iter().map(row).collect(),
         remarks: rows.iter().map(|row| ContactResult::warning_of_all(&row.results)).collect(),
-        remarks_title: "warning",
+        remarks_title: names::WARNING,
         ..Table::default()
     }
 }
@@ -206,7 +206,7 @@ pub(super) fn tag(methods: &[Method], k: usize) -> String {
 
 /// Films, traction and pressure along the last varied quantity, a line for each combination of the others and each
 /// method; what failed is left out.
-pub(super) fn charts(x: &ChartAxis, varied: &[&str], methods: &[Method], rows: &[&PathRow]) -> Vec<Chart> {
+pub(super) fn charts(x: &ChartAxis, varied: &[String], methods: &[Method], rows: &[&PathRow]) -> Vec<Chart> {
     let chart = |(name, axis): (&str, &str)| {
         let mut chart = Chart::new(axis, x.clone(), ChartAxis::linear(axis));
         for k in 0..methods.len() {
@@ -224,17 +224,17 @@ pub(super) fn charts(x: &ChartAxis, varied: &[&str], methods: &[Method], rows: &
     };
     let slides = rows.iter().any(|row| row.point.sliding.slide_to_roll_ratio != 0.0);
     let quantities = [
-        ("H_c", "Central film H_c"),
-        ("H_min", "Smallest film H_min"),
-        ("P_max", "Largest pressure P_max"),
-        ("traction", "Traction coefficient"),
-        ("heat.mid_film_rise_k", "Rise of temperature at mid-film, X = 0 [K]"),
-        ("heat.surface_1_rise_k", "Rise of temperature of body 1, X = 0 [K]"),
-        ("heat.surface_2_rise_k", "Rise of temperature of body 2, X = 0 [K]"),
+        (names::H_C, "Central film H_c"),
+        (names::H_MIN, "Smallest film H_min"),
+        (names::P_MAX, "Largest pressure P_max"),
+        (names::TRACTION, "Traction coefficient"),
+        (names::MID_FILM_RISE, "Rise of temperature at mid-film, X = 0 [K]"),
+        (names::SURFACE_1_RISE, "Rise of temperature of body 1, X = 0 [K]"),
+        (names::SURFACE_2_RISE, "Rise of temperature of body 2, X = 0 [K]"),
     ];
     let warm = has_heat(rows);
     let shown = |name: &str| match name {
-        "traction" => slides,
+        names::TRACTION => slides,
         name => warm || !name.starts_with("heat."),
     };
     quantities.into_iter().filter(|(name, _)| shown(name)).map(chart).collect()

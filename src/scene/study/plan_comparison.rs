@@ -16,6 +16,7 @@ use super::question::{
 };
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count, number};
 use crate::scene::method::ModelSource;
+use crate::scene::names;
 use crate::scene::parallel::{Reduced, film_errors, full_solutions, reduced_solutions};
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::mean;
@@ -368,7 +369,8 @@ fn relative_losses(plans: &[&Trained], found: &mut Findings) {
 
 /// Fig. 3.3: where the snapshots lie. The column `plan` counts the plans from 1.
 fn snapshot_table(plans: &[&Trained]) -> Table {
-    let mut table = Table::new("snapshots", &["plan", "M", "L", "radius", "speed", "load", "alpha"]);
+    let mut table =
+        Table::new("snapshots", &["plan", names::M, names::L, names::RADIUS, names::SPEED, names::LOAD, names::ALPHA]);
     for (k, plan) in plans.iter().enumerate() {
         table.rows.extend(plan.window().snapshots.iter().map(|snapshot| {
             let (point, moes) = (&snapshot.point, snapshot.point.moes());
@@ -399,7 +401,7 @@ fn loss_table(plans: &[&Trained]) -> Table {
 
 /// Figs. 3.5 and 3.7: the path through the M–L plane, and what full and reduced models say along it.
 fn trajectory_table(tested: &[&Tested]) -> Table {
-    let mut table = Table::new("trajectory", &["c", "M", "L"]);
+    let mut table = Table::new("trajectory", &["c", names::M, names::L]);
     if let Some(first) = tested.first() {
         table.rows = first.along.iter().map(|at| vec![at.c, at.moes.m, at.moes.l]).collect();
     }

@@ -10,6 +10,7 @@ use super::question::{
 use crate::scene::answer::Request;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::scene::parallel::full_solutions_told;
 use crate::scene::random_points::all_random_points;
 use crate::scene::statistics::percentile;
@@ -17,6 +18,7 @@ use crate::solver::full::{GridCost, Solution, grid_doubts};
 use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::warning::Warning;
 use fastrand::Rng;
 use rows::COMPARED;
 use serde::{Deserialize, Serialize};
@@ -100,7 +102,8 @@ impl RandomTest {
                 }),
                 newton_iterations: result.newton_iterations,
                 wall_s: result.wall_s,
-                untrained: result.untrained(),
+                trained: result.reduced.as_ref().map(|facts| facts.trained),
+                warnings: result.warnings.clone(),
                 estimate: result.reduced.as_ref().and_then(|facts| facts.error),
             }));
         }
@@ -204,7 +207,7 @@ impl Question for RandomTest {
         let all: Vec<usize> = (0..points.len()).collect();
         let rows = Mutex::new(Vec::with_capacity(points.len()));
         self.test(&points, &all, setting, &|row| {
-            rows.lock().unwrap_or_else(PoisonError::into_inner).push(row);
+            rows.lock().unwrap_or_else(PoisonError::into_inner).push(row.clone());
             tell(row);
         })?;
         let rows = rows.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -234,10 +237,13 @@ impl Question for RandomTest {
             found.push("grid_error_max", None, percentile(&errors, 1.0));
         }
         found.warnings.extend(grid_doubts(judged));
+        let said = tests.iter().map(|(test, _)| test.warnings.iter().filter(|warning| !warning.is_of_grid()).cloned());
+        let said: Vec<Vec<Warning>> = said.map(Iterator::collect).collect();
+        found.warnings.extend(Warning::summary(said.iter().map(Vec::as_slice)));
         if self.method == Method::Full {
             return;
         }
-        found.push("untrained", of, tests.iter().filter(|(test, _)| test.untrained).count() as f64);
+        found.push("untrained", of, tests.iter().filter(|(test, _)| test.trained == Some(false)).count() as f64);
         let answers = || tests.iter().filter(|(test, _)| test.film.is_some());
         let without = answers().filter(|(test, _)| test.estimate.is_none()).count();
         if without < answers().count() {
@@ -265,13 +271,14 @@ impl Question for RandomTest {
                 "{too_hot} films are hotter than lubricants endure, where no law was measured: they are not compared"
             ));
         }
-        for ((name, errors), bounds) in COMPARED.iter().zip(&errors).zip(&bounds) {
+        for (k, (errors, bounds)) in errors.iter().zip(&bounds).enumerate() {
+            let name = COMPARED[k];
             if errors.is_empty() {
                 continue;
             }
             found.push_spread(&format!("{name}_error"), of, errors);
             if !bounds.is_empty() {
-                found.push_bounds(name, of, bounds);
+                found.push_bounds(names::BOUNDS[k], of, bounds);
             }
         }
     }
@@ -321,7 +328,15 @@ mod tests_of_doubts {
         let film = Film { h_c: 1.0, h_min: 0.9, traction: f64::NAN, rises: None, grid_cost: None };
         let test = |film, estimate| {
             let point = OperatingPoint::TABLE_2_1;
-            Row::Test(Test { point, film, newton_iterations: 3, wall_s: 0.0, untrained: false, estimate })
+            Row::Test(Test {
+                point,
+                film,
+                newton_iterations: 3,
+                wall_s: 0.0,
+                trained: Some(true),
+                warnings: Vec::new(),
+                estimate,
+            })
         };
         let rows = [
             test(Some(film), Some(bound(1e-3))),

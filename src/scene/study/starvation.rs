@@ -6,8 +6,10 @@ use super::question::{
 use crate::scene::answer::Request;
 use crate::scene::check::{count, number, refuse};
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::solver::full::Solution;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// The contact under supplied films r times as thick as what it draws when flooded, its central film without the
@@ -19,8 +21,11 @@ pub struct Starvation {
     pub ratios: Vec<f64>,
 }
 
+/// r, the supply, the film over the flooded one, the meniscus, and Newton steps.
+const COLUMNS: [&str; 5] = ["r", names::SUPPLY_FILM, "film_ratio", names::X_MENISCUS, names::NEWTON_ITERATIONS];
+
 /// One supply.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// r.
     pub ratio: f64,
@@ -32,6 +37,8 @@ pub struct Row {
     pub meniscus: Option<f64>,
     /// Newton steps.
     pub newton_iterations: usize,
+    /// What a reader must know of it.
+    pub warnings: Vec<Warning>,
 }
 
 /// h_c/h_cff = r/(1 + r^γ)^(1/γ): Chevalier, Lubrecht, Cann, Colin and Dalmaz 1998.
@@ -85,6 +92,7 @@ impl Question for Starvation {
                 film: fields.map(|solution| solution.scalars.h_c / scalars.h_c),
                 meniscus: fields.and_then(Solution::meniscus),
                 newton_iterations: answer.result.newton_iterations,
+                warnings: answer.result.warnings.clone(),
             });
         }
         Ok(())
@@ -100,18 +108,19 @@ impl Question for Starvation {
         let (gamma, miss) = fitted(&films(rows));
         found.push("gamma", of, gamma);
         found.push("law_error_max", of, miss);
+        found.warnings.extend(Warning::summary(rows.iter().map(|row| &row.warnings[..])));
         for (k, row) in rows.iter().enumerate() {
             found.push(format!("film_{k}"), of, row.film.unwrap_or(f64::NAN));
         }
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let mut table = Table::new("starvation", &["r", "supply_m", "film_ratio", "X_meniscus", "newton_iterations"]);
+        let mut table = Table::new("starvation", &COLUMNS);
         table.rows.extend(rows.iter().map(|row| {
             let [film, meniscus] = [row.film, row.meniscus].map(|value| value.unwrap_or(f64::NAN));
             vec![row.ratio, row.supply_m, film, meniscus, row.newton_iterations as f64]
         }));
-        vec![table]
+        vec![table.with_warnings(rows.iter().map(|row| &row.warnings[..]))]
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {

@@ -8,6 +8,7 @@ use crate::scene::axis::{Axis, Steps};
 use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
 use crate::scene::contact_spec::{ContactSpec, Field, Refusal, Words};
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
@@ -31,8 +32,8 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    fn varied(&self) -> Vec<&'static str> {
-        self.over.iter().map(|axis| axis.vary.name()).collect()
+    fn varied(&self) -> Vec<String> {
+        self.over.iter().map(|axis| names::of_quantity(axis.vary)).collect()
     }
 
     /// Contacts in a row that know of each other: each starts from the one before it, unless all are full and cold.

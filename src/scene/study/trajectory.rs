@@ -48,10 +48,10 @@ impl Question for Trajectory {
     }
 
     fn tables(&self, rows: &[&PathRow]) -> Vec<Table> {
-        vec![path::table("trajectory", &["c"], &self.methods, rows)]
+        vec![path::table("trajectory", &["c".to_owned()], &self.methods, rows)]
     }
 
     fn charts(&self, rows: &[&PathRow]) -> Vec<Chart> {
-        path::charts(&ChartAxis::linear("c"), &["c"], &self.methods, rows)
+        path::charts(&ChartAxis::linear("c"), &["c".to_owned()], &self.methods, rows)
     }
 }

@@ -6,8 +6,10 @@ use super::question::{
 use crate::scene::At;
 use crate::scene::check::{count, number};
 use crate::scene::method::Method;
+use crate::scene::names;
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// Pressure and film along the entrainment axis at several load numbers, in the default realisation.
@@ -30,6 +32,8 @@ pub struct Row {
     /// Deformation at X = 0 less that at X = −1, over the gap of ½ between them: 0 of a rigid body, 1 of one that is
     /// flat.
     pub flattening: f64,
+    /// What a reader must know of it.
+    pub warnings: Vec<Warning>,
 }
 
 /// Where profiles are drawn.
@@ -53,7 +57,8 @@ impl Question for Transition {
             let answer = setting.bench.answer(&request, None, setting.observer)?;
             let profile = |solution: &Solution| solution.profile().collect::<Vec<_>>();
             let profile = answer.fields().map(profile).unwrap_or_default();
-            tell(Row { m, flattening: flattening(&profile), profile });
+            let warnings = answer.result.warnings.clone();
+            tell(Row { m, flattening: flattening(&profile), profile, warnings });
         }
         Ok(())
     }
@@ -64,6 +69,7 @@ impl Question for Transition {
         let failures = rows.iter().filter(|row| row.profile.is_empty()).count();
         found.converged &= failures == 0;
         found.push("failures", of, failures as f64);
+        found.warnings.extend(Warning::summary(rows.iter().map(|row| &row.warnings[..])));
         for (k, row) in rows.iter().enumerate() {
             let largest = row.profile.iter().map(|(_, p, _)| *p).fold(f64::NAN, f64::max);
             found.push(format!("P_max_{k}"), of, largest);
@@ -72,7 +78,7 @@ impl Question for Transition {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let mut table = Table::new("transition", &["M", "X", "P", "H"]);
+        let mut table = Table::new("transition", &[names::M, "X", "P", "H"]);
         for row in rows {
             table.rows.extend(row.profile.iter().map(|&(x, p, h)| vec![row.m, x, p, h]));
         }

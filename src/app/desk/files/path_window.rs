@@ -6,11 +6,13 @@ use crate::app::desk::Desk;
 use crate::app::notice::Notice;
 use crate::app::purpose::{Purpose, Words, Written};
 use crate::app::refusal::Refusal;
+use crate::host::clock::Stopwatch;
+use crate::host::worker;
 use crate::scene::atomic_file;
 use egui::{Context, Id, Modal, RichText, TextEdit};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A system dialog that is gone sooner than this was never there.
 const NO_DIALOG: Duration = Duration::from_millis(700);
@@ -21,7 +23,7 @@ pub struct PathWindow {
     path: String,
     message: Option<String>,
     overwrite: Option<PathBuf>,
-    browse: Option<(Receiver<Option<PathBuf>>, Instant)>,
+    browse: Option<(Receiver<Option<PathBuf>>, Stopwatch)>,
     fresh: bool,
     /// Whether the system was found to have no dialog.
     no_dialog: bool,
@@ -32,7 +34,7 @@ impl Desk {
     pub fn ask_path(&mut self, ctx: &Context, purpose: Purpose) {
         let known = self.files.path.as_deref().filter(|_| purpose == Purpose::Save);
         let suggestion = known.unwrap_or(Path::new(purpose.words().name)).display().to_string();
-        let browse = self.files.native_dialogs.then(|| (browse(ctx, &purpose, &suggestion), Instant::now()));
+        let browse = self.files.native_dialogs.then(|| (browse(ctx, &purpose, &suggestion), Stopwatch::start()));
         self.files.window = Some(PathWindow {
             purpose,
             path: suggestion,
@@ -107,7 +109,7 @@ impl Desk {
         });
         if again {
             let (purpose, path) = (window.purpose.clone(), window.path.clone());
-            window.browse = Some((browse(ctx, &purpose, &path), Instant::now()));
+            window.browse = Some((browse(ctx, &purpose, &path), Stopwatch::start()));
         }
         if act {
             self.act_on_path(ctx);
@@ -212,6 +214,6 @@ fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option
         }
     };
     // Without a thread there is no system dialog: the receiver is disconnected at once and the text field remains.
-    let _handle = std::thread::Builder::new().name("file dialog".into()).spawn(run);
+    let _handle = worker::spawn("file dialog", run);
     receiver
 }

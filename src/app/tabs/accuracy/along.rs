@@ -13,6 +13,7 @@ use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::Background;
+use crate::scene::names;
 use crate::scene::study::PathRow;
 use crate::scene::study::trajectory::Trajectory;
 use crate::scene::{ContactResult, Method, Study, StudyRow};
@@ -311,7 +312,8 @@ pub fn csv(results: &Followed) -> String {
             results.wanted.through.name(results.in_use.model.contact()).replace('’', "'")
         ),
     ];
-    let own = ["trained", "H_c", "H_c_full", "H_c_error_bound", "H_c_error"];
+    let full = names::by(Method::Full.name(), names::H_C);
+    let own = [names::TRAINED, names::H_C, &full, names::H_C_BOUND, "H_c_error"];
     let header: Vec<&str> = ["c"].into_iter().chain(CONTACT_COLUMNS).chain(own).collect();
     let rows = results.steps.iter().map(|step| {
         let mut row = vec![Some(step.c())];

@@ -12,6 +12,7 @@ use crate::app::plot::axes;
 use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::{Palette, rich, sequential};
 use crate::app::{export, numbers};
+use crate::scene::names;
 use crate::scene::study::random_test::{Tested, errors};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use egui::{Color32, Ui};
@@ -262,7 +263,15 @@ pub fn csv(results: &Results) -> String {
         format!("random tests (3.17) of the trained range, seed {}", results.wanted.seed),
         "converged 0: the reduced model failed; empty errors: not compared, or no full solution".to_owned(),
     ];
-    let own = ["converged", "newton_steps", "H_c", "H_min", "H_c_error_bound", "H_c_error", "H_min_error"];
+    let own = [
+        names::CONVERGED,
+        names::NEWTON_ITERATIONS,
+        names::H_C,
+        names::H_MIN,
+        names::H_C_BOUND,
+        "H_c_error",
+        "H_min_error",
+    ];
     let header: Vec<&str> = CONTACT_COLUMNS.into_iter().chain(own).collect();
     let rows = results.tests.iter().map(|tested| {
         let (test, [h_c, h_min, ..]) = (&tested.0, errors(tested));

@@ -7,6 +7,7 @@ use crate::app::theme::{Palette, rich};
 use crate::engine::Store;
 use crate::engine::job::Background;
 use crate::scene::StudyRow;
+use crate::scene::names;
 use crate::solver::physics::contact::OperatingPoint;
 use egui::{DragValue, Ui};
 
@@ -70,7 +71,7 @@ pub fn bound_note(ui: &mut Ui, mut bounds: impl Iterator<Item = Option<f64>>) {
 
 /// Columns that say which contact a row of an exported table is.
 pub const CONTACT_COLUMNS: [&str; 8] =
-    ["M", "L", "R_m", "u_m_m_per_s", "w_n_per_m", "E_pa", "eta_0_pa_s", "alpha_per_pa"];
+    [names::M, names::L, names::RADIUS, names::SPEED, names::LOAD, names::MODULUS, names::VISCOSITY, names::ALPHA];
 
 /// The values of [`CONTACT_COLUMNS`].
 pub fn contact_cells(point: &OperatingPoint) -> [f64; 8] {

@@ -127,7 +127,7 @@ impl RandomTests {
         self.work.receive(|row| {
             if let StudyRow::RandomTest(row) = row {
                 results.revision += 1;
-                add(&mut results.tests, row);
+                add(&mut results.tests, &row);
             }
         });
     }

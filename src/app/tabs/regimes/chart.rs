@@ -2,6 +2,7 @@
 
 use crate::app::export;
 use crate::app::theme::Palette;
+use crate::scene::names;
 use crate::scene::regimes::{L_AXIS, M_AXIS, Regime, SAMPLES, boundaries, names, spread};
 use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{
@@ -99,7 +100,7 @@ impl ChartLines {
         let rows = self.lines.iter().flat_map(|line| line.points.iter().map(move |p| row(line, p)));
         let comment = "kind 0: contour of Moes' film number (value); 1: regime boundary; 2: p_H 3.2 GPa; \
                        3: trained range; 4: snapshot; 5: Table 3.4; 6: trajectory (3.21)";
-        export::csv(&[comment.to_owned()], &["M", "L", "kind", "value"], rows)
+        export::csv(&[comment.to_owned()], &[names::M, names::L, "kind", "value"], rows)
     }
 }
 

@@ -4,10 +4,11 @@ use crate::engine::Workbench;
 use crate::engine::campaign::Status;
 use crate::engine::campaign::watch::{News, watch};
 use crate::engine::job::{Background, Job, Standing, Wake};
+use crate::host::clock::Stopwatch;
 use crate::scene::study::transient;
 use crate::scene::{Chart, Scene, SceneOutcome, StudyRow, Table};
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Shortest time between two looks at a study that runs.
 const LOOK_EVERY: Duration = Duration::from_millis(250);
@@ -32,7 +33,7 @@ pub struct Look {
 
 impl Look {
     fn at(scene: &Scene, rows: &[StudyRow], wall_s: f64, complete: bool) -> Self {
-        let begun = Instant::now();
+        let begun = Stopwatch::start();
         let mut charts = scene.study.charts(rows);
         for series in charts.iter_mut().flat_map(|chart| &mut chart.series) {
             let stride = series.points.len().div_ceil(DRAWN).max(1);
@@ -102,8 +103,9 @@ pub struct Run {
     rows: Rows,
     looking: Background<(Rows, Look)>,
     wake: Wake,
-    begun: Instant,
-    next_look: Instant,
+    begun: Stopwatch,
+    /// Time after `begun`.
+    next_look: Duration,
     /// Rows that no look has seen.
     unseen: bool,
     stopped: bool,
@@ -129,7 +131,6 @@ impl Run {
     }
 
     fn waiting(scene: Scene, wake: Wake) -> Self {
-        let begun = Instant::now();
         Self {
             scene,
             look: None,
@@ -138,8 +139,8 @@ impl Run {
             rows: Rows::default(),
             looking: Background::default(),
             wake,
-            begun,
-            next_look: begun,
+            begun: Stopwatch::start(),
+            next_look: Duration::ZERO,
             unseen: false,
             stopped: false,
             wall_s: None,
@@ -197,10 +198,10 @@ impl Run {
             (*rows, *look) = (seen, Some(newer));
         });
         if !self.goes_on() && self.wall_s.is_none() {
-            self.wall_s = Some(self.begun.elapsed().as_secs_f64());
+            self.wall_s = Some(self.begun.seconds());
             self.unseen = true;
         }
-        let due = self.wall_s.is_some() || Instant::now() >= self.next_look;
+        let due = self.wall_s.is_some() || self.begun.elapsed() >= self.next_look;
         if self.unseen && due && self.looking.job().is_none() {
             self.take_a_look();
         }
@@ -208,9 +209,9 @@ impl Run {
 
     fn take_a_look(&mut self) {
         self.unseen = false;
-        let (scene, mut rows, now) = (self.scene.clone(), std::mem::take(&mut self.rows), Instant::now());
+        let (scene, mut rows, now) = (self.scene.clone(), std::mem::take(&mut self.rows), self.begun.elapsed());
         let complete = self.wall_s.is_some() && !self.stopped && self.message().is_none();
-        let wall_s = self.wall_s.unwrap_or_else(|| self.begun.elapsed().as_secs_f64());
+        let wall_s = self.wall_s.unwrap_or_else(|| self.begun.seconds());
         let taken = self.look.as_ref().map_or(Duration::ZERO, |look| look.took);
         self.next_look = now + LOOK_EVERY.max(taken * LOOK_SHARE);
         self.looking.run(Job::start("Looking at the rows", self.wake.clone(), move |reporter| {

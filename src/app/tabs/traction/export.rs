@@ -4,6 +4,7 @@ use super::sweeps::Sweeps;
 use crate::app::document::Key;
 use crate::app::export as tables;
 use crate::app::tabs::traction::{Companion, Sample, Served, Sweep};
+use crate::scene::names;
 
 /// What a sweep belongs to, as lines over a table.
 pub fn describe(sweep: &Sweep) -> Vec<String> {
@@ -44,14 +45,14 @@ pub fn csv(view: &Sweeps) -> Option<String> {
     let companion = companion.filter_map(Sweep::companion).next().unwrap_or(Companion::Newtonian);
     let columns = [
         "full",
-        "SRR",
-        "NPR",
-        "u_m_m_per_s",
-        "M",
-        "L",
-        "traction",
-        "h_c_m",
-        "h_min_m",
+        names::SRR,
+        names::NPR,
+        names::SPEED,
+        names::M,
+        names::L,
+        names::TRACTION,
+        names::H_C_M,
+        names::H_MIN_M,
         companion.column(),
         "unphysical",
     ];

@@ -7,6 +7,7 @@ use crate::app::in_use::{InUse, question};
 use crate::app::refusal::Refusal;
 use crate::engine::Store;
 use crate::engine::job::{Background, Standing};
+use crate::scene::names;
 use crate::scene::study::random_test::{RandomTest, Tested, errors, tests};
 use crate::scene::{Findings, Grid, Method, Scene, Study, StudyRow, View};
 use crate::solver::reduced::{ReducedModel, Window};
@@ -90,7 +91,7 @@ impl Comparison {
 
     /// Every contact with each model's errors of H_c and H_min, as a table.
     pub fn csv(&self) -> String {
-        let mut header = vec!["M".to_owned(), "L".to_owned()];
+        let mut header = vec![names::M.to_owned(), names::L.to_owned()];
         for score in &self.scores {
             header.extend(["H_c_error", "H_min_error"].map(|what| format!("{}.{what}", score.name)));
         }

@@ -6,6 +6,7 @@ use crate::app::wake::wake;
 use crate::engine::job::{Ending, Job, Reporter, guarded};
 use crate::engine::model_file;
 use crate::engine::training_file::{self, TrainingKeeper};
+use crate::host::clock::Stopwatch;
 use crate::host::pool::on_spare_cores;
 use crate::scene::atomic_file;
 use crate::solver::reduced::ReducedModel;
@@ -15,7 +16,6 @@ use crate::solver::training::{
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
 
 /// Checkpoints by which the pace is judged.
 const PACE: usize = 12;
@@ -78,7 +78,7 @@ struct Live {
     /// Full solutions so far.
     chart: Arc<Chart>,
     /// The last checkpoints with their numbers of full solutions, of the slowest part: the search, where there is one.
-    pace: VecDeque<(Instant, usize)>,
+    pace: VecDeque<(Stopwatch, usize)>,
     /// Why it is not kept on disk, until that is told.
     unkept: Option<String>,
 }
@@ -146,8 +146,8 @@ impl Running {
         let live = lock(&self.live);
         let ((begin, from), (end, to)) = (live.pace.front()?, live.pace.back()?);
         let done = to.checked_sub(*from).filter(|done| *done > 0)?;
-        let per_solution = end.duration_since(*begin).as_secs_f64() / done as f64;
-        let left = per_solution * self.most.saturating_sub(*to) as f64 - end.elapsed().as_secs_f64();
+        let per_solution = (begin.seconds() - end.seconds()) / done as f64;
+        let left = per_solution * self.most.saturating_sub(*to) as f64 - end.seconds();
         Some(left.max(0.0))
     }
 }
@@ -187,7 +187,7 @@ impl TrainingObserver for Watched<'_> {
             if live.pace.len() == PACE {
                 live.pace.pop_front();
             }
-            live.pace.push_back((Instant::now(), chart.solved.len()));
+            live.pace.push_back((Stopwatch::start(), chart.solved.len()));
         }
         live.chart = chart;
     }

@@ -12,21 +12,8 @@ type Block = (String, Vec<Vec<Option<f64>>>);
 /// All moments of every run with their SI twins, each run in columns of its own.
 pub fn series(view: &TransientRuns) -> Option<String> {
     const COLUMNS: [&str; 15] = [
-        "T",
-        "R_over_ref",
-        "u_over_ref",
-        "w_over_ref",
-        "H_c",
-        "H_min",
-        "X_H_min",
-        "P_c",
-        "P_max",
-        "X_P_max",
-        "t_s",
-        "h_c_m",
-        "h_min_m",
-        "p_c_pa",
-        "p_max_pa",
+        "T", "radius", "speed", "load", "H_c", "H_min", "X_H_min", "P_c", "P_max", "X_P_max", "t_s", "h_c_m",
+        "h_min_m", "p_c_pa", "p_max_pa",
     ];
     let setup = view.setup.as_ref()?;
     let (seconds, film, pressure) = (setup.time_scale_s(), setup.point.film_scale_m(), setup.point.hertz().pressure_pa);

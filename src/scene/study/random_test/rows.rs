@@ -1,14 +1,15 @@
 //! The rows of a random test: tests, what they are compared with, and how they compare.
 
-use crate::scene::Table;
+use crate::scene::{Method, Table, names};
 use crate::solver::full::heat::Rises;
 use crate::solver::full::{GridCost, Scalars, Solution};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ErrorEstimate;
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// What comes of a random test.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[expect(clippy::large_enum_variant, reason = "most rows are tests")]
 pub enum Row {
     /// A test; they come in the order they were drawn in.
@@ -18,7 +19,7 @@ pub enum Row {
 }
 
 /// One test.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Test {
     /// Where.
     pub point: OperatingPoint,
@@ -28,8 +29,10 @@ pub struct Test {
     pub newton_iterations: usize,
     /// Seconds of the solve alone.
     pub wall_s: f64,
-    /// Whether it was a model's answer that was not trained for the point.
-    pub untrained: bool,
+    /// Whether the model was trained for the point; `None` of a full solution.
+    pub trained: Option<bool>,
+    /// What a reader must know of it.
+    pub warnings: Vec<Warning>,
     /// Calibrated bounds on the errors, where the model has them.
     pub estimate: Option<ErrorEstimate>,
 }
@@ -50,33 +53,39 @@ pub struct Film {
 }
 
 /// What a film is compared by.
-pub(super) const COMPARED: [&str; 4] = ["H_c", "H_min", "traction", "mid_film_rise"];
+pub(super) const COMPARED: [&str; 4] = [names::H_C, names::H_MIN, names::TRACTION, "mid_film_rise"];
 
-/// One column of the table, of a test and its truth.
-type Compared = (&'static str, fn(&Test, &Film) -> f64);
+/// A column of the contact and the method, and one of the full solution.
+type Own = (&'static str, fn(&Test) -> f64);
+type Full = (&'static str, fn(&Film) -> f64);
 
-const COLUMNS: [Compared; 21] = [
-    ("M", |test, _| test.point.moes().m),
-    ("L", |test, _| test.point.moes().l),
-    ("alpha", |test, _| test.point.alpha_per_pa),
-    ("p_h_pa", |test, _| test.point.hertz().pressure_pa),
-    ("converged", |test, _| f64::from(u8::from(test.film.is_some()))),
-    ("H_c", |test, _| test.film.unwrap_or(Film::NONE).h_c),
-    ("newton_iterations", |test, _| test.newton_iterations as f64),
-    ("wall_s", |test, _| test.wall_s),
-    ("H_c_full", |_, full| full.h_c),
-    ("H_min", |test, _| test.film.unwrap_or(Film::NONE).h_min),
-    ("H_min_full", |_, full| full.h_min),
-    ("srr", |test, _| test.point.sliding.slide_to_roll_ratio),
-    ("npr", |test, _| test.point.sliding.newtonian_plateau_ratio.unwrap_or(1.0)),
-    ("traction", |test, _| test.film.unwrap_or(Film::NONE).traction),
-    ("traction_full", |_, full| full.traction),
-    ("mid_film_rise_k", |test, _| test.film.unwrap_or(Film::NONE).mid_film_rise_k()),
-    ("mid_film_rise_k_full", |_, full| full.mid_film_rise_k()),
-    ("H_c_bound", |test, _| test.bounds()[0].unwrap_or(f64::NAN)),
-    ("H_min_bound", |test, _| test.bounds()[1].unwrap_or(f64::NAN)),
-    ("traction_bound", |test, _| test.bounds()[2].unwrap_or(f64::NAN)),
-    ("mid_film_rise_bound", |test, _| test.bounds()[3].unwrap_or(f64::NAN)),
+const OWN: [Own; 18] = [
+    (names::M, |test| test.point.moes().m),
+    (names::L, |test| test.point.moes().l),
+    (names::ALPHA, |test| test.point.alpha_per_pa),
+    (names::HERTZ_PRESSURE, |test| test.point.hertz().pressure_pa),
+    (names::SRR, |test| test.point.sliding.slide_to_roll_ratio),
+    (names::NPR, |test| test.point.sliding.newtonian_plateau_ratio.unwrap_or(1.0)),
+    (names::CONVERGED, |test| f64::from(u8::from(test.film.is_some()))),
+    (names::H_C, |test| test.film.unwrap_or(Film::NONE).h_c),
+    (names::H_MIN, |test| test.film.unwrap_or(Film::NONE).h_min),
+    (names::TRACTION, |test| test.film.unwrap_or(Film::NONE).traction),
+    (names::MID_FILM_RISE, |test| test.film.unwrap_or(Film::NONE).mid_film_rise_k()),
+    (names::NEWTON_ITERATIONS, |test| test.newton_iterations as f64),
+    (names::TRAINED, |test| test.trained.map_or(f64::NAN, |trained| f64::from(u8::from(trained)))),
+    (names::H_C_BOUND, |test| test.bounds()[0].unwrap_or(f64::NAN)),
+    (names::H_MIN_BOUND, |test| test.bounds()[1].unwrap_or(f64::NAN)),
+    (names::TRACTION_BOUND, |test| test.bounds()[2].unwrap_or(f64::NAN)),
+    (names::RISE_BOUND, |test| test.bounds()[3].unwrap_or(f64::NAN)),
+    (names::WALL_S, |test| test.wall_s),
+];
+
+/// Columns of full solutions, behind `full.`.
+const FULL: [Full; 4] = [
+    (names::H_C, |full| full.h_c),
+    (names::H_MIN, |full| full.h_min),
+    (names::TRACTION, |full| full.traction),
+    (names::MID_FILM_RISE, Film::mid_film_rise_k),
 ];
 
 impl Film {
@@ -123,12 +132,12 @@ pub fn errors((test, truth): &Tested) -> [Option<f64>; 4] {
 }
 
 /// Adds a row to the tests that came before it.
-pub fn add(tests: &mut Vec<Tested>, row: Row) {
+pub fn add(tests: &mut Vec<Tested>, row: &Row) {
     match row {
-        Row::Test(test) => tests.push((test, None)),
+        Row::Test(test) => tests.push((test.clone(), None)),
         Row::Truth(index, film) => {
-            if let Some((_, truth)) = tests.get_mut(index) {
-                *truth = Some(film);
+            if let Some((_, truth)) = tests.get_mut(*index) {
+                *truth = Some(*film);
             }
         }
     }
@@ -137,19 +146,21 @@ pub fn add(tests: &mut Vec<Tested>, row: Row) {
 /// All tests so far.
 pub fn tests<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<Tested> {
     let mut tests = Vec::new();
-    rows.into_iter().for_each(|row| add(&mut tests, *row));
+    rows.into_iter().for_each(|row| add(&mut tests, row));
     tests
 }
 
 /// Tests as a table.
 pub(super) fn table(tests: &[Tested]) -> Table {
-    let mut table = Table::new("random", &COLUMNS.map(|(name, _)| name));
+    let own = OWN.iter().map(|(name, _)| (*name).to_owned());
+    let columns = own.chain(FULL.iter().map(|(name, _)| names::by(Method::Full.name(), name))).collect();
     let row = |(test, truth): &Tested| {
         let full = truth.flatten().unwrap_or(Film::NONE);
-        COLUMNS.iter().map(|(_, get)| get(test, &full)).collect()
+        OWN.iter().map(|(_, get)| get(test)).chain(FULL.iter().map(|(_, get)| get(&full))).collect()
     };
-    table.rows.extend(tests.iter().map(row));
-    table
+    let rows = tests.iter().map(row).collect();
+    let table = Table { name: "random".to_owned(), columns, rows, ..Table::default() };
+    table.with_warnings(tests.iter().map(|(test, _)| &test.warnings[..]))
 }
 
 #[cfg(test)]
@@ -167,12 +178,18 @@ mod tests_of_rows {
             film: Some(Film { h_c: 1.1, h_min: 0.9, traction: f64::NAN, rises: None, grid_cost: None }),
             newton_iterations: 3,
             wall_s: 0.0,
-            untrained: false,
+            trained: Some(true),
+            warnings: Vec::new(),
             estimate: None,
         };
         let full = Film { h_c: 1.0, h_min: 1.0, traction: 0.05, rises: None, grid_cost: None };
-        let rows =
-            [Row::Test(test), Row::Test(test), Row::Truth(1, Some(full)), Row::Truth(0, None), Row::Truth(7, None)];
+        let rows = [
+            Row::Test(test.clone()),
+            Row::Test(test.clone()),
+            Row::Truth(1, Some(full)),
+            Row::Truth(0, None),
+            Row::Truth(7, None),
+        ];
         let seen = tests(&rows);
         assert_eq!((seen.len(), seen[0].1, seen[1].1), (2, Some(None), Some(Some(full))));
         let [h_c, h_min, traction, rise] = test.film.unwrap().errors(&full);

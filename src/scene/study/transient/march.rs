@@ -3,6 +3,7 @@
 use super::TOO_STEEP;
 use super::data::TransientStudy;
 use super::timed_march::Timed;
+use crate::scene::names;
 use crate::scene::outcome::Findings;
 use crate::scene::statistics::{median, percentile};
 use crate::scene::table::{Column, Table};
@@ -88,14 +89,14 @@ const SERIES: [Column<Moment>; 13] = [
     ("radius", |m| m.input.radius),
     ("speed", |m| m.input.speed),
     ("load", |m| m.input.load),
-    ("H_c", |m| m.h_c),
-    ("H_min", |m| m.h_min),
+    (names::H_C, |m| m.h_c),
+    (names::H_MIN, |m| m.h_min),
     ("X_H_min", |m| m.x_h_min),
     ("P_c", |m| m.p_c),
     ("P_max", |m| m.p_max),
     ("X_P_max", |m| m.x_p_max),
-    ("newton", |m| m.effort.newton_iterations as f64),
-    ("krylov", |m| m.effort.linear_iterations as f64),
+    (names::NEWTON_ITERATIONS, |m| m.effort.newton_iterations as f64),
+    (names::LINEAR_ITERATIONS, |m| m.effort.linear_iterations as f64),
 ];
 
 impl March {

@@ -6,6 +6,7 @@ use super::timed_march::{Timed, timed_march};
 use super::{Row, Runner};
 use crate::host::clock::Stopwatch;
 use crate::scene::error::RunError;
+use crate::scene::names;
 use crate::scene::outcome::Findings;
 use crate::scene::table::Table;
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Trajectory, Transient};
@@ -130,7 +131,7 @@ impl Model {
             Kind::Linearised { model, label, .. } => {
                 let mut table = Table::new(
                     format!("operating_points_{label}"),
-                    &["trajectory", "reference load N/m", "T", "radius", "speed", "load", "H_0", "spacing"],
+                    &["trajectory", names::LOAD, "T", "radius", "speed", "load", "H_0", "spacing"],
                 );
                 table.rows.extend(model.points.iter().map(|point| {
                     let (input, time) = (point.moment.input, point.moment.time);

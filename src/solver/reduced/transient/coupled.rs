@@ -3,13 +3,11 @@
 use super::model::TrajectoryModel;
 use super::steps::{Kept, ReducedMarch};
 use crate::solver::full::transient::{
-    Conditions, Effort, Ended, Frame, GREATEST_RATIO, Input, MOST_PARTS, Marching, Moment, ROUNDING, Scales, State,
-    Step,
+    Conditions, Effort, Ended, Frame, GREATEST_RATIO, Input, MOST_PARTS, Marching, Moment, ROUNDING, State, Step,
 };
 use crate::solver::full::{Problem, Termination};
 use crate::solver::reduced::ReducedError;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// More steps of the model's own length are not taken at once.
@@ -113,12 +111,10 @@ impl CoupledMarch {
         &self.march.grid().x
     }
 
-    /// The approach of both bodies in the film scale of the reference contact, less that of points one reference half
-    /// width away from the contact: −H₀ with the kernel of (2.27) in the reference's own lengths, whatever the frame.
-    pub fn approach(&self) -> f64 {
-        let Scales { half_width, film, .. } = self.at.scales;
-        // In the frame's lengths the kernel is ln|x − s|/a, which H₀ makes up for.
-        -film * (self.march.h_0() + self.at.problem.load / PI * half_width.ln())
+    /// Rigid-body separation H₀ with the kernel of (2.27) in the lengths of the frame, in the film scale of the reference
+    /// contact.
+    pub fn separation(&self) -> f64 {
+        self.at.scales.film * self.march.h_0()
     }
 
     /// p̃ of the present state.

@@ -8,6 +8,7 @@ use crate::app::tabs::transient::linearised::{Linearised, NumberRow};
 use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name, word};
 use crate::engine::arrays::Array;
 use crate::engine::model_arrays;
+use crate::scene::names;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
 
@@ -34,11 +35,11 @@ pub fn points(shown: &ShownModel<'_>) -> String {
     let header = [
         "point",
         "training",
-        "load_ref_n_per_m",
+        names::LOAD,
         "T",
-        "R_over_ref",
-        "u_over_ref",
-        "w_over_ref",
+        "radius",
+        "speed",
+        "load",
         "H_c",
         "P_c",
         "H_0",

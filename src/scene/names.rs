@@ -1,0 +1,151 @@
+//! Names of the quantities of results, each once: keys of the object of `solve --json`; as dotted paths columns of
+//! tables, values of expectations, keys in Python and outputs of Functional Mock-up Units. `moes-m` is only a flag.
+
+use super::contact_spec::{Field, Measure};
+use crate::solver::parameters::Quantity;
+
+macro_rules! names {
+    ($($constant:ident $name:literal)*) => {
+        $(#[doc = concat!("`", $name, "`")] pub const $constant: &str = $name;)*
+
+        /// All names.
+        pub const ALL: &[&str] = &[$($name),*];
+    };
+}
+
+names! {
+    CONTACT "contact"
+    METHOD "method"
+    CONVERGED "converged"
+    WARNING "warning"
+    WARNINGS "warnings"
+    RADIUS "si.radius"
+    RADIUS_Y "si.radius_y"
+    SPEED "si.speed"
+    LOAD "si.load"
+    MODULUS "si.modulus"
+    VISCOSITY "si.viscosity"
+    ALPHA "si.alpha"
+    SRR "srr"
+    NPR "npr"
+    M "moes.M"
+    L "moes.L"
+    HALF_WIDTH "hertz.a_m"
+    HALF_LENGTH "hertz.b_m"
+    KAPPA "hertz.kappa"
+    HERTZ_PRESSURE "hertz.p_h_pa"
+    CAVITATION "cavitation"
+    SUPPLY_FILM "supply_film_m"
+    GRID_KIND "grid.kind"
+    GRID_NX "grid.nx"
+    GRID_NY "grid.ny"
+    GRID_DOFS "grid.dofs"
+    TRUNCATION_ERROR "grid.truncation_error"
+    RESOLUTION_ERROR "grid.resolution_error"
+    H_C "H_c"
+    H_MIN "H_min"
+    X_H_MIN "X_H_min"
+    Y_H_MIN "Y_H_min"
+    P_C "P_c"
+    P_MAX "P_max"
+    X_P_MAX "X_P_max"
+    X_MENISCUS "X_meniscus"
+    H_0 "H_0"
+    H_C_M "h_c_m"
+    H_MIN_M "h_min_m"
+    TRACTION "traction"
+    ROLLING_RESISTANCE "rolling_resistance"
+    ROLLING_RESISTANCE_FIT "rolling_resistance_fit"
+    LOAD_RESIDUAL "load_residual"
+    RESIDUAL_NORM "residual_norm"
+    NEWTON_ITERATIONS "newton_iterations"
+    LINEAR_ITERATIONS "linear_iterations"
+    MID_FILM_RISE "heat.mid_film_rise_k"
+    SURFACE_1_RISE "heat.surface_1_rise_k"
+    SURFACE_2_RISE "heat.surface_2_rise_k"
+    MID_FILM_RISE_MAX "heat.mid_film_rise_max_k"
+    SURFACE_1_RISE_MAX "heat.surface_1_rise_max_k"
+    SURFACE_2_RISE_MAX "heat.surface_2_rise_max_k"
+    HEAT_INTO_BODIES "heat.into_bodies"
+    ENERGY_BALANCE "heat.energy_balance"
+    BASIS_P "reduced.basis_p"
+    BASIS_DELTA "reduced.basis_delta"
+    SAMPLED_ROWS "reduced.sampled_rows"
+    TRAINED "reduced.trained"
+    RESIDUAL_ESTIMATE "reduced.residual_estimate"
+    H_C_BOUND "reduced.h_c_error_bound"
+    H_MIN_BOUND "reduced.h_min_error_bound"
+    TRACTION_BOUND "reduced.traction_error_bound"
+    RISE_BOUND "reduced.mid_film_rise_error_bound"
+    WALL_S "wall_s"
+}
+
+/// Bounds on the errors of H_c, H_min, traction and the rise at mid-film.
+pub const BOUNDS: [&str; 4] = [H_C_BOUND, H_MIN_BOUND, TRACTION_BOUND, RISE_BOUND];
+
+/// Returns the name of a value by one of several methods: `full.H_c`.
+pub fn by(method: &str, name: &str) -> String {
+    format!("{method}.{name}")
+}
+
+/// Returns the name of a quantity of a contact.
+pub fn of_quantity(quantity: Quantity) -> String {
+    let name = match quantity {
+        Quantity::M => M,
+        Quantity::L => L,
+        Quantity::Radius => RADIUS,
+        Quantity::RadiusY => RADIUS_Y,
+        Quantity::Speed => SPEED,
+        Quantity::Load => LOAD,
+        Quantity::Modulus => MODULUS,
+        Quantity::Viscosity => VISCOSITY,
+        Quantity::Alpha => ALPHA,
+        Quantity::HertzPressure => HERTZ_PRESSURE,
+        other => return other.name().replace('-', "_"),
+    };
+    name.to_owned()
+}
+
+/// Returns the name of a stated field, which is its word where no result has it.
+pub fn of_field(field: Field) -> String {
+    match (field, field.facts().measure) {
+        (Field::SupplyFilm, _) => SUPPLY_FILM.to_owned(),
+        (_, Measure::Of(quantity)) => of_quantity(quantity),
+        _ => field.facts().name.replace('-', "_"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::examples;
+
+    #[test]
+    fn no_name_stands_twice_and_none_is_the_end_of_another() {
+        for (k, name) in ALL.iter().enumerate() {
+            assert!(!ALL[..k].contains(name), "{name}");
+            assert!(ALL.iter().all(|other| *other == *name || !other.ends_with(&format!(".{name}"))), "{name}");
+        }
+    }
+
+    /// Numbers of modes that a training finds, which are no values of a contact.
+    const OF_TRAININGS: [&str; 2] = ["basis_p", "basis_delta"];
+
+    #[test]
+    fn tables_of_studies_call_quantities_by_these_names() {
+        let short = |name: &str| ALL.iter().any(|known| known.ends_with(&format!(".{name}")));
+        let mut seen = 0;
+        for example in examples::all() {
+            for column in example.scene.study.tables(&[]).into_iter().flat_map(|table| table.columns) {
+                // A method or a model may stand before a name.
+                let ends = || std::iter::successors(Some(&*column), |name| name.split_once('.').map(|(_, end)| end));
+                let known = ends().any(|name| ALL.contains(&name));
+                let other = !OF_TRAININGS.contains(&&*column)
+                    && ends().any(|name| short(name) || name.ends_with("_bound") || name.ends_with("_full"));
+                assert!(known || !other, "{}: {column}", example.path);
+                seen += usize::from(known);
+            }
+        }
+        assert!(seen > 500, "{seen} columns");
+    }
+}
