@@ -176,7 +176,8 @@ impl Question for LoadCases {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let (of_contact, of_result) = (contact_columns(), result_columns(false));
+        let warm = rows.iter().flat_map(|row| row.results()).any(|result| result.heat.is_some());
+        let (of_contact, of_result) = (contact_columns(), result_columns(warm));
         let results = (0..self.methods.len()).map(|k| tag(&self.methods, k));
         let results = results.flat_map(|tag| of_result.iter().map(move |column| format!("{tag}.{column}")));
         let columns: Vec<String> =
