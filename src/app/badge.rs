@@ -53,9 +53,9 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     };
     let waits = answers.runs(JobKind::Live);
     let full = match () {
-        () if waits && !answers.picture_is_current() => "full solver at work",
-        () if answers.is_quick() => "full solution on a quick grid",
-        () => "full solution",
+        () if waits && !answers.picture_is_current() => "full solver at work".to_owned(),
+        () if answers.is_quick() => format!("sketch on a quick grid{}", off(picture)),
+        () => "full solution".to_owned(),
     };
     // Of a picture that is still another contact's nothing is said here.
     let warned = answers.current_picture().map_or_else(String::new, Picture::warned);
@@ -68,37 +68,55 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         ),
         (_, Some(PassedOver::Failed(why))) => make(
             "Reduced model failed",
-            full.to_owned(),
+            full,
             format!("{}. {warned}The full solver draws the picture instead", sentence(why).trim_end_matches('.')),
             Kind::Warning,
         ),
         (_, Some(PassedOver::Reading)) => make(
             "Reading the reduced model",
-            full.to_owned(),
-            "The reduced model of such contacts is being read; until it is there the full solver draws the picture".to_owned(),
+            full,
+            "The reduced model of such contacts is being read; until it is there the full solver draws the picture"
+                .to_owned(),
             Kind::Neutral,
         ),
         (origin, _) if !answers.picture_is_current() => make(
             "Computing",
-            if origin == Origin::Full { full } else { "reduced model at work" }.to_owned(),
+            if origin == Origin::Full { full } else { "reduced model at work".to_owned() },
             "The picture shown belongs to the sliders as they were a moment ago".to_owned(),
             Kind::Neutral,
         ),
         (Origin::Full, _) if answers.is_quick() => make(
             "Quick grid",
-            format!("full solution on {}", grid(picture)),
-            "A converged full solution on a quick grid, which follows the hand. The chosen grid answers when the sliders rest".to_owned(),
-            Kind::Neutral,
+            full,
+            format!(
+                "{warned}A converged full solution on {}, which follows the hand. Its errors are estimated from this grid \
+                 alone. The chosen grid answers when the sliders rest",
+                grid(picture)
+            ),
+            if picture.grid_errors().is_some_and(|(_, h_min)| h_min <= thresholds.far_off) {
+                Kind::Neutral
+            } else {
+                Kind::Warning
+            },
         ),
         (Origin::Full, _) => match &picture.unresolved {
             Some(_) => {
                 let title = if picture.costly_grid { "Grid does not do" } else { "Side lobes unresolved" };
-                make(title, format!("full solution on {}", grid(picture)), warned, Kind::Warning)
+                make(title, format!("full solution on {}{}", grid(picture), off(picture)), warned, Kind::Warning)
             }
+            // The warnings of a grid begin at the same error of H_c.
+            None if picture.grid_errors().is_some_and(|(_, h_min)| h_min > COARSE) => make(
+                "Roughly right",
+                format!("full solution on {}{}", grid(picture), off(picture)),
+                format!("{warned}A converged full solution on a coarse grid; a finer one moves H_min"),
+                Kind::Warning,
+            ),
             None => make(
                 "Verified",
-                if picture.has_plane() { format!("full solution on {}", grid(picture)) } else { full.to_owned() },
-                format!("{warned}No reduced model is loaded for this contact: the picture itself is a converged full solution"),
+                if picture.has_plane() { format!("full solution on {}{}", grid(picture), off(picture)) } else { full },
+                format!(
+                    "{warned}No reduced model is loaded for this contact: the picture itself is a converged full solution"
+                ),
                 Kind::Verified,
             ),
         },
@@ -134,7 +152,9 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                             "Calibrated bounds: 99 of 100 random contacts of the trained range err by less. They count \
                              against a full solution on the same grid",
                         ),
-                        None if stands_in => ("no error bound: a window beside its own answers".to_owned(), neighbour.as_str()),
+                        None if stands_in => {
+                            ("no error bound: a window beside its own answers".to_owned(), neighbour.as_str())
+                        }
                         None => (
                             format!("no error bound, residual {{e_f}} {}", numbers::small(residual_estimate)),
                             "The model was not calibrated as it is used here (fewer modes, or an older training). e_f of \
@@ -147,12 +167,20 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                     };
                     let doubtful = answers.verify_failure().is_some() || picture.costly_grid || stands_in;
                     let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
-                    make("Reduced model", with_grid(detail, grid_cost), format!("{} {warned}{next}. {how}", sentence(meaning)), kind)
+                    make(
+                        "Reduced model",
+                        with_grid(detail, grid_cost),
+                        format!("{} {warned}{next}. {how}", sentence(meaning)),
+                        kind,
+                    )
                 }
             }
         }
     }
 }
+
+/// Estimated error of H_min beyond which a grid is called coarse.
+const COARSE: f64 = 0.03;
 
 /// What is said of the errors of a model, and of what its grid costs the film.
 fn with_grid(errors: String, cost: Option<f64>) -> String {
@@ -174,6 +202,16 @@ fn judged(truth: &Comparison, thresholds: Thresholds) -> (&'static str, Kind) {
 /// The nodes of a point contact's grid, in words.
 fn grid(picture: &Picture) -> String {
     format!("{}×{} nodes", picture.solution.x.len(), picture.solution.y.len())
+}
+
+/// What the grid of a full solution costs its films, as a part of a sentence with symbols in braces.
+fn off(picture: &Picture) -> String {
+    let Some((h_c, h_min)) = picture.grid_errors() else { return String::new() };
+    if h_c.is_nan() {
+        return ", its error is unknown".to_owned();
+    }
+    let [h_c, h_min] = [h_c, h_min].map(numbers::error_percent);
+    format!(", {{H_c}} off by about {h_c}, {{H_min}} by {h_min}")
 }
 
 /// Whether the truth lies within what was promised.

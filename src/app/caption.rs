@@ -1,5 +1,7 @@
-//! A contact in one line, for captions of figures.
+//! A contact in one line, and how its picture was obtained, for captions of figures.
 
+use crate::app::answers::Answers;
+use crate::app::answers::picture::Origin;
 use crate::app::numbers;
 use crate::scene::named_lubricant;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
@@ -33,4 +35,23 @@ pub fn contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
         significant(point.viscosity_pa_s),
         significant(1e9 * point.alpha_per_pa)
     )
+}
+
+/// Returns how the picture was obtained and how far it can be trusted; `None` without a picture.
+pub fn means(answers: &Answers) -> Option<String> {
+    let picture = answers.picture()?;
+    Some(match picture.origin {
+        Origin::Full => {
+            let sketch = if answers.is_quick() { ", a sketch on a quick grid" } else { "" };
+            let off = picture.grid_errors().map_or_else(String::new, |(h_c, h_min)| {
+                let [h_c, h_min] = [h_c, h_min].map(numbers::error_percent);
+                format!(", by its grid H_c off by about {h_c}, H_min by {h_min}")
+            });
+            format!("full solution{sketch}{off}")
+        }
+        Origin::Reduced { error: Some(error), .. } => {
+            format!("reduced model, H_c within {}", numbers::error_percent(error.h_c.bound))
+        }
+        Origin::Reduced { error: None, .. } => "reduced model".to_owned(),
+    })
 }

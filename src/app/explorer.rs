@@ -66,7 +66,7 @@ impl Explorer {
         Self::with_models(Models::embedded(&store), store)
     }
 
-    fn with_models(models: Models, store: Store) -> Self {
+    pub(super) fn with_models(models: Models, store: Store) -> Self {
         Self {
             desk: Desk::new(Document::default(), models, store),
             tree: Layout::default().tree(Place::default().size.0),

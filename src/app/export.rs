@@ -68,13 +68,13 @@ pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     const COLUMNS: [&str; 6] = ["X", "P", "H", "x_m", "p_pa", "h_m"];
     let picture = answers.picture()?;
     let full = answers.comparison().and(answers.full());
-    let mut comments = vec![describe(picture), picture.origin.describe()];
+    let mut comments = vec![describe(picture), answers.means()];
     let mut header: Vec<String> = COLUMNS.map(str::to_owned).to_vec();
     if full.is_some() {
         header.extend(["P_full", "H_full"].map(str::to_owned));
     }
     for pin in answers.pins() {
-        comments.push(format!("pin{}: {}; {}", pin.number, describe(&pin.picture), pin.picture.origin.describe()));
+        comments.push(format!("pin{}: {}; {}", pin.number, describe(&pin.picture), pin.picture.means()));
         header.extend(COLUMNS.map(|column| format!("pin{}.{column}", pin.number)));
     }
     let live_width = COLUMNS.len() + if full.is_some() { 2 } else { 0 };
@@ -108,11 +108,12 @@ pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     Some(csv(&comments, &header, (0..rows).map(row)))
 }
 
-/// The profile across a point contact with its SI twins.
-pub fn profile_across(picture: &Picture, x: f64) -> String {
+/// The profile across a point contact with its SI twins; empty without a picture.
+pub fn profile_across(answers: &Answers, x: f64) -> String {
+    let Some(picture) = answers.picture() else { return String::new() };
     let half_length_m = picture.key.point.hertz().half_length_m;
     let rows = picture.solution.across(x).into_iter().map(|node| row_in(picture, half_length_m, node).to_vec());
-    let comments = [describe(picture), picture.origin.describe(), format!("profile across at X {x:e}")];
+    let comments = [describe(picture), answers.means(), format!("profile across at X {x:e}")];
     csv(&comments, &["Y", "P", "H", "y_m", "p_pa", "h_m"], rows)
 }
 
@@ -132,5 +133,6 @@ pub fn readouts_table(answers: &Answers) -> String {
     for (name, value, unit) in rows {
         let _ok = writeln!(out, "{name}\t{}\t{}", numbers::significant(value), unit.replace(numbers::THIN, " "));
     }
+    let _ok = writeln!(out, "computed by\t{}\t", answers.means());
     out
 }

@@ -34,6 +34,8 @@ mod presentation;
 mod purpose;
 mod refusal;
 mod seen;
+#[cfg(test)]
+mod sequences;
 mod session;
 mod sheets;
 mod tab;

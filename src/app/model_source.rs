@@ -19,20 +19,23 @@ enum Known {
     Read(Arc<ReducedModel>),
     /// Its name and what it covers.
     Later(&'static str, &'static Domain),
+    /// It is being read, or could not be. It keeps its place: which of two equally near models serves a contact does not
+    /// depend on the order in which they were needed.
+    Asked(&'static Domain),
 }
 
 impl Known {
     fn domain(&self) -> &Domain {
         match self {
             Self::Read(model) => &model.domain,
-            Self::Later(_, domain) => domain,
+            Self::Later(_, domain) | Self::Asked(domain) => domain,
         }
     }
 
     fn model(&self) -> Option<&Arc<ReducedModel>> {
         match self {
             Self::Read(model) => Some(model),
-            Self::Later(..) => None,
+            Self::Later(..) | Self::Asked(_) => None,
         }
     }
 }
@@ -64,14 +67,10 @@ impl Models {
     pub fn late_for(&mut self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<&'static str> {
         let all = self.known.iter().enumerate().map(|(place, known)| (place, known.domain()));
         let place = best(all, point, lubricant)?;
-        match self.known.get(place) {
-            Some(Known::Later(name, _)) => {
-                let name = *name;
-                self.known.remove(place);
-                Some(name)
-            }
-            _ => None,
-        }
+        let known = self.known.get_mut(place)?;
+        let Known::Later(name, domain) = *known else { return None };
+        *known = Known::Asked(domain);
+        Some(name)
     }
 
     /// Returns the model that serves a contact with a lubricant, of those that have been read.

@@ -66,6 +66,33 @@ fn a_campaign_fills_while_it_is_watched_and_ends_as_one_run_does() {
     assert_eq!(timeless(&shown), timeless(&one.tables[0].to_csv()));
 }
 
+const TRAINING: &str = "Scene(version: 1, title: \"Model in pieces\", study: Training(title: \"small\", range: (axes: \
+    {Radius: (2e-3, 3e-3, Linear), Speed: (3.0, 5.0, Linear), Load: (1e5, 2e5, Linear), Alpha: (6e-9, 10e-9, Linear)}, \
+    fixed: {Modulus: 231e9, Viscosity: 0.01}), plan: FarthestPoint(snapshots: 14), windows: Given([(m: (1.0, 500.0), \
+    grid: Uniform(dx: 0.04, domain: (-4.0, 2.0)))]), pressure_loss: 1e-6, deformation_loss: 1e-6, sampling: QDeim, \
+    evidence: 0, rows_per_mode: 2.0, penalty: 1e6, seed: 3), \
+    expect: [(name: \"snapshots\", value: 14, within: Absolute(0), from: \"as many as are asked for\"), \
+    (name: \"training_s\", within: AtLeast(0), from: \"the shards’ seconds\")])";
+
+#[test]
+fn a_training_that_was_merged_is_judged_as_one_run_is() {
+    let scratch = Scratch::new("trained-campaign");
+    scratch.write("model.ron", TRAINING);
+    let document = scratch.write("campaign.txt", "(version: 1, scene: \"model.ron\", shard: Pieces(7))");
+    let folder = plan(&document, &scratch.join("dir"), &()).unwrap();
+    (0..folder.shards()).for_each(|number| shard(&folder, number));
+    let Merged::Result(whole) = merge(&folder, &()).unwrap() else { panic!("another round") };
+    assert!(whole.outcome.passed());
+    let mut harness = window(Explorer::with_embedded_models(), [1280.0, 800.0]);
+    harness.state_mut().open_scene(&folder.path.join("campaign.ron")).unwrap();
+    wait_within(PATIENCE, &mut harness, "the end", |app| app.verdict().is_some());
+    assert_eq!(harness.state().verdict(), Some(true));
+    wait_until(PATIENCE, &mut harness, "its verdicts", |harness| shows(harness, "All 2 hold"));
+    let windows = harness.state().result_table("windows").unwrap();
+    let merged = whole.outcome.tables.iter().find(|table| table.name == "windows").unwrap();
+    assert_eq!(windows, merged.to_csv());
+}
+
 #[test]
 fn watching_is_stopped_and_a_folder_without_a_campaign_is_refused() {
     let scratch = Scratch::new("stopped-campaign");

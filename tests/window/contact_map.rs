@@ -43,6 +43,9 @@ fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
     // A quick grid answers first, the graded one when the sliders rest.
     wait(&mut harness, "the first picture", |app| app.central_film().is_some());
     assert_eq!(harness.state().nodes(), Some((151, 41)));
+    assert_eq!(harness.state().badge(), "Quick grid");
+    let detail = harness.state().badge_detail();
+    assert!(detail.starts_with("sketch on a quick grid, {H_c} off by about "), "{detail}");
     solved(&mut harness, (301, 59));
     assert_eq!(harness.state().badge(), "Verified");
     let load = harness.get_by_role_and_label(Role::TextInput, "Load w").accesskit_node().value();
@@ -191,6 +194,8 @@ fn the_map_leaves_as_table_and_picture() {
     let folder = Scratch::new("map");
     let table = export(&mut harness, "Contact map", "Map as CSV…", &folder.join("map.csv"));
     assert_eq!(table.lines().nth(2), Some("X,Y,P,H,x_m,y_m,p_pa,h_m"));
+    let means = table.lines().nth(1).unwrap();
+    assert!(means.starts_with("# full solution on 151×41 nodes; grid error H_c "), "{means}");
     assert_eq!(table.lines().count(), 3 + 151 * 81);
     let drawing = export_plot(&mut harness, "Contact map", "Map of the contact", &folder.join("map.svg"));
     assert!(drawing.starts_with("<svg") && drawing.contains("polyline") && drawing.trim_end().ends_with("</svg>"));

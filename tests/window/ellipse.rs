@@ -165,6 +165,11 @@ fn the_reduced_model_of_ellipses_is_read_when_it_is_needed_and_the_slider_answer
     wait(&mut harness, "a full solution", |app| app.central_film().is_some());
     let told = |app: &Explorer| (app.badge(), app.badge_detail().contains("on a quick grid"));
     assert_eq!(told(harness.state()), ("Outside the reduced model".to_owned(), true));
+    let detail = harness.state().badge_detail();
+    assert!(
+        detail.starts_with("sketch on a quick grid, {H_c} off by about ") && detail.contains("{H_min} by "),
+        "{detail}"
+    );
     assert!(harness.state().badge_detail().contains("ratio of radii"), "{}", harness.state().badge_detail());
     wait(&mut harness, "the chosen grid", |app| !app.busy());
     assert_eq!(told(harness.state()), ("Outside the reduced model".to_owned(), false));

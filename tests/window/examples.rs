@@ -85,6 +85,30 @@ fn a_table_of_load_cases_is_read_as_it_is_typed_and_solved_as_headless() {
     assert!(lines.len() == wanted.len() + 1 && shown.lines().last().unwrap().contains("refused"), "{shown}");
 }
 
+#[test]
+fn load_cases_with_heat_are_a_table_of_all_of_them() {
+    let mut harness = fresh();
+    click(&mut harness, "Heat");
+    click(&mut harness, "File");
+    click(&mut harness, "Load cases…");
+    let field = harness.get_by_role_and_label(Role::MultilineTextInput, "Table of load cases");
+    field.focus();
+    harness.run_steps(2);
+    let field = harness.get_by_role_and_label(Role::MultilineTextInput, "Table of load cases");
+    field.type_text("name,speed,load,srr\nslow,1,2e5,0.1\nfast,4,2e5,0.3\nbackwards,-1,2e5,0.1");
+    harness.run_steps(3);
+    assert!(shows(&harness, "2 contacts can be solved, 1 lines are refused"));
+    click(&mut harness, "Solve all");
+    wait(&mut harness, "all lines", |app| app.verdict().is_some());
+    assert!(shows(&harness, "Load cases"));
+    let shown = harness.state().result_table("load_cases").unwrap();
+    let lines: Vec<&str> = shown.lines().collect();
+    let at = lines[0].split(',').position(|title| title == "full.heat.mid_film_rise_k").unwrap();
+    let rise = |line: &str| line.split(',').nth(at).unwrap().parse::<f64>().unwrap();
+    assert!(lines.len() == 4 && rise(lines[2]) > rise(lines[1]) && rise(lines[1]) > 0.0, "{shown}");
+    assert!(lines[3].contains("refused"), "{shown}");
+}
+
 /// Cells of a table without names and remarks, and without the seconds that solves took, which no two runs share.
 fn timeless(csv: &str) -> Vec<Vec<String>> {
     let numbers = |line: &str| match line.strip_prefix('"').and_then(|quoted| quoted.split_once("\",")) {

@@ -1,7 +1,7 @@
 //! The Training tab without a display: a training is started, watched, stopped, resumed, used, saved and compared.
 
 use crate::common::scratch::Scratch;
-use crate::driver::{Window, assert_cheap, click, give_path, undo, wait};
+use crate::driver::{Table, Window, assert_cheap, click, give_path, undo, wait};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{embedded, model_file, training_file};
@@ -132,6 +132,18 @@ fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothi
     // The next window has it, and offers to save it.
     let mut harness = open(&folder, "Small box", TINY);
     assert!(harness.query_by_label_contains("of a former session is not saved").is_some());
+    // Models are compared over its range, whatever training the form shows now.
+    click(&mut harness, "Whole slider range");
+    click(&mut harness, "Compare models");
+    wait(&mut harness, "the comparison", |app| !app.training());
+    assert!(harness.query_by_label_contains("of the range of “Small box”").is_some());
+    click(&mut harness, "Export comparison…");
+    let path = folder.join("comparison.csv");
+    give_path(&mut harness, &path, "Export");
+    let loads = Table::of(&std::fs::read_to_string(&path).unwrap()).column("M");
+    let (low, high) = model_file::read(&kept).unwrap().domain.m();
+    assert!(loads.len() == 200 && loads.iter().all(|m| (low..=high).contains(m)), "{low} {high}: {loads:?}");
+    undo(&mut harness);
     click(&mut harness, "Use this model");
     assert_eq!(harness.state().model_title(), Some("Small box"));
     // Another training would replace it, so it asks; Cancel leaves everything as it is.

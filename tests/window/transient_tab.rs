@@ -263,3 +263,20 @@ fn a_reduced_model_is_trained_on_the_spot_and_runs_beside_the_full_system() {
     let Study::Transient(study) = Scene::read(&folder.join("scene.ron")).unwrap().study else { panic!() };
     assert_eq!(study.reduced.map(|reduced| reduced.loss), Some(1e-6));
 }
+
+#[test]
+fn nothing_of_a_scene_stays_when_another_one_is_opened() {
+    let (mut harness, folder) = open("another", &scene(BREATHING, 2.0, "Fixed"));
+    run_in_time(&mut harness);
+    assert!(harness.state().transient_moments() > 0 && shows(&harness, "Film, pressure and inputs against time"));
+    // It takes more than a moment, and does not run by itself.
+    let long = scene("load: Harmonic(amplitude: 0.2, period: 1.0)", 40.0, "Fixed").replace("dx: 0.02", "dx: 0.004");
+    let path = folder.write("long.ron", &long);
+    harness.state_mut().open_scene(&path).unwrap();
+    harness.run_steps(5);
+    assert_eq!((harness.state().transient_moments(), harness.state().front()), (0, Some("Transient")));
+    assert!(!shows(&harness, "Film, pressure and inputs against time") && shows(&harness, "Not run yet"));
+    press(&mut harness, Modifiers::COMMAND, Key::N);
+    rest_in_time(&mut harness);
+    assert!(harness.state().in_time().0, "a fresh document has a contact in time of its own");
+}

@@ -6,11 +6,14 @@ use super::jobs::{JobKind, Outcome};
 use super::picture::Cuts;
 use crate::app::document::Key;
 use crate::engine::Answer;
+use crate::solver::discrete::grid::GridSpec;
 
 /// What happened.
 pub enum Event {
     /// The document asks for something else, at a time \[s\]; and why its reduced model is not even tried, if it is not.
     Asked(Ask, Option<PassedOver>, f64),
+    /// Full solutions of the present line contact lie on another grid from now on: that of the model in use.
+    LineGrid(Option<GridSpec>),
     /// The reduced model has answered.
     Reduced(Ask, Box<Answer>),
     /// The reduced solve was cancelled.

@@ -166,6 +166,8 @@ fn prepared(store: &Store, last: Option<Online>, ask: &Ask, model: Arc<ReducedMo
 }
 
 fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Answer>>) -> Ending {
+    // The picture depends on what is asked alone, not on what was asked before.
+    online.forget();
     let request = ask.key.request(Grid::Model, Method::EMBEDDED);
     let answer = answer(&request, Solver::Reduced(online), reporter).map_err(|error| error.to_string())?;
     let none = answer.result.warnings.iter().find(|warning| matches!(warning, Warning::NoReducedSolution { .. }));

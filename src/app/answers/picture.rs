@@ -4,6 +4,7 @@ use crate::app::controls::sentence;
 use crate::app::document::Key;
 use crate::app::numbers;
 use crate::engine::{Answer, ContactResult, Warning};
+use crate::solver::full::point::side_lobe_error;
 use crate::solver::full::{Problem, Solution, TractionDoubt};
 use crate::solver::reduced::ErrorEstimate;
 use egui_plot::PlotPoint;
@@ -160,6 +161,25 @@ impl Picture {
         self.unphysical = self.solution.problem.doubts_traction(self.traction, &self.solution.scalars);
         self.warnings.retain(|warning| Some(warning) != former.as_ref());
         self.warnings.extend(self.unphysical.map(Warning::from));
+    }
+
+    /// Relative errors of H_c and H_min by the grid of a full solution, estimated from this solution alone; `None` for a
+    /// reduced one.
+    pub fn grid_errors(&self) -> Option<(f64, f64)> {
+        let cost = self.solution.grid_cost.filter(|_| self.origin == Origin::Full)?.total();
+        Some((cost, cost + side_lobe_error(&self.solution)))
+    }
+
+    /// How it was obtained, for the heads of tables: of a full solution with its grid and what that costs.
+    pub fn means(&self) -> String {
+        let (nx, ny) = (self.solution.x.len(), self.solution.y.len());
+        let nodes = if self.has_plane() { format!(" on {nx}×{ny} nodes") } else { String::new() };
+        let grid = match self.grid_errors() {
+            Some((h_c, h_min)) if h_c.is_finite() => format!("{nodes}; grid error H_c {h_c:.1e}, H_min {h_min:.1e}"),
+            Some(_) => format!("{nodes}; the grid error cannot be estimated"),
+            None => String::new(),
+        };
+        self.origin.describe() + &grid
     }
 
     /// Its warnings as sentences that end with a space; empty without any.

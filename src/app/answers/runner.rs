@@ -42,6 +42,10 @@ impl Answers {
         }
         let ask = Ask::of(document, &self.work.models);
         if self.asked() != Some(ask) {
+            let line = document.chosen_plane().is_none();
+            let grid =
+                line.then(|| GridChoice::of(self.model(document).map(Arc::as_ref), None, &document.point).spec());
+            self.on(Event::LineGrid(grid));
             self.follow(ctx, document, Event::Asked(ask, self.untried(document), ctx.input(|i| i.time)));
         }
         for (ask, answer) in self.work.live.poll() {
@@ -109,11 +113,10 @@ impl Answers {
         let plane = chosen.map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
         let model = self.model(document).filter(|_| own).map(Arc::as_ref);
         let grid = GridChoice::of(model, plane, &key.point);
-        let start = match kind {
-            // The truth must not depend on what it checks.
-            JobKind::Verify => None,
-            _ => self.picture().map(|picture| Arc::clone(&picture.solution)),
-        };
+        // What stands as the answer depends on its request alone; a sketch, which is soon replaced, may start from the
+        // picture.
+        let sketch = kind == JobKind::Live && plane != chosen;
+        let start = self.picture().filter(|_| sketch).map(|picture| Arc::clone(&picture.solution));
         self.work.jobs.submit(ctx, FullSolve { kind, key, grid, start });
     }
 
@@ -229,6 +232,12 @@ impl Answers {
     /// Returns true if a picture is on its way.
     pub fn coming(&self) -> bool {
         self.work.live.busy() || self.runs(JobKind::Live)
+    }
+
+    /// Returns true if a model is being read.
+    #[cfg(test)]
+    pub fn reads(&self) -> bool {
+        self.work.reading.is_some()
     }
 
     /// Returns the progress of the reduced solve for the picture.

@@ -12,7 +12,7 @@ use super::work::Work;
 use crate::app::document::Key;
 use crate::app::model_source::Models;
 use crate::engine::{Answer, Store};
-use crate::solver::discrete::grid::PointGridSpec;
+use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::{Report, Solution, Termination};
 use std::sync::Arc;
 
@@ -24,6 +24,8 @@ pub struct Answers {
     changed_at: f64,
     /// A full solution is to follow when the sliders rest.
     full_due: bool,
+    /// The grid of full solutions of the present line contact.
+    line: Option<GridSpec>,
     cuts: Cuts,
     /// The last valid picture.
     picture: Option<Picture>,
@@ -51,6 +53,7 @@ impl Answers {
             asked: None,
             changed_at: 0.0,
             full_due: false,
+            line: None,
             cuts: Cuts::default(),
             picture: None,
             full: None,
@@ -71,6 +74,7 @@ impl Answers {
     pub(super) fn on(&mut self, event: Event) -> Option<Wish> {
         match event {
             Event::Asked(ask, passed_over, now) => return self.ask(ask, passed_over, now),
+            Event::LineGrid(grid) => self.line = grid,
             Event::Reduced(ask, answer) => self.reduced(ask, *answer),
             Event::ReducedStopped(ask) if self.asked == Some(ask) => {
                 let message = "The reduced solve was cancelled".to_owned();
@@ -117,6 +121,7 @@ impl Answers {
         if former.is_none_or(|former| former.key != key) {
             self.failure = None;
             self.verify_failure = None;
+            self.no_estimate = None;
             self.slide(key);
             // The same film by the same means is on the screen already, and what is known of it stays.
             if drawn && same_means && self.picture_is_current() && passed_over == self.passed_over {
@@ -163,7 +168,8 @@ impl Answers {
     fn full_follows(&mut self, ask: &Ask) -> Option<Wish> {
         let key = ask.key;
         self.comparison = None;
-        let live = self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full);
+        let elsewhere = |p: &Picture| self.line.is_some_and(|grid| p.solution.mesh.spec != grid);
+        let live = self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full || elsewhere(p));
         // A quick grid follows the hand; the chosen one answers when it rests.
         let finer = ask.plane.is_some_and(|plane| !live || plane != quick(plane));
         self.full_due = finer && !self.is_settled(&key);
@@ -397,6 +403,12 @@ impl Answers {
         let on = |picture: &Picture, plane: PointGridSpec| picture.solution.mesh.plane() == Some(plane);
         matches!((&self.picture, self.plane()), (Some(picture), Some(plane))
             if picture.origin == Origin::Full && !on(picture, plane))
+    }
+
+    /// Returns how the picture was obtained, for the heads of tables.
+    pub fn means(&self) -> String {
+        let sketch = if self.is_quick() { "sketch on a quick grid; " } else { "" };
+        self.picture.as_ref().map_or_else(String::new, |picture| format!("{sketch}{}", picture.means()))
     }
 
     /// Returns true if the picture belongs to the sliders.

@@ -197,13 +197,16 @@ impl Desk {
         self.tabs.results.watch(self.document.to_scene(), folder, wake);
     }
 
-    /// Replaces the document, as New and Open do.
+    /// Replaces the document, as New and Open do. Nothing of the previous one stays, except pinned curves, which state
+    /// their contacts, and what belongs to reduced models.
     pub fn replace_document(&mut self, document: Document) {
         self.history.restart(&document);
         self.document = document;
         self.own_lubricant = false;
         self.headline = None;
         self.tabs.results.forget();
+        self.tabs.regimes.forget();
+        self.transient.forget();
         self.entries.clear();
     }
 }

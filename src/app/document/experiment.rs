@@ -301,7 +301,23 @@ impl Document {
         })
     }
 
-    /// The document as a scene. What was opened and not changed is written as it was.
+    /// Returns why the question of the opened scene cannot be asked of the present contact; `None` if it can.
+    pub fn lost_question(&self) -> Option<&'static str> {
+        let scene = self.scene.as_ref()?;
+        let in_time = matches!(scene.study, Study::Transient(_));
+        if scene.contact != self.point.kind {
+            Some("it is about the other kind of contact")
+        } else if in_time && self.lubricant.shear != ShearLaw::Newtonian {
+            Some("it is answered with Newtonian lubricants only")
+        } else if self.lubricant.heat.is_some() && scene.study.check_heat().is_err() {
+            Some("it is answered without heat only")
+        } else {
+            None
+        }
+    }
+
+    /// The document as a scene. What was opened and not changed is written as it was. A question that the present contact
+    /// has lost gives way to the contact itself.
     pub fn to_scene(&self) -> Scene {
         let moes = self.point.moes();
         let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
@@ -309,18 +325,16 @@ impl Document {
         scene.set_laws(self.lubricant);
         let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = self.point.sliding;
         (scene.srr, scene.npr) = (slide_to_roll_ratio, newtonian_plateau_ratio);
-        let in_time = matches!(scene.study, Study::Transient(_));
-        if scene.contact != self.point.kind || in_time && self.lubricant.shear != ShearLaw::Newtonian {
-            // Its question and what it expects belonged to the other kind of contact, or to a Newtonian fluid.
+        let lost = self.lost_question().is_some();
+        if lost {
+            // Neither the title nor the source is that of the contact itself.
+            default_title(self.point.kind).clone_into(&mut scene.title);
+        }
+        if lost || scene.contact != self.point.kind {
             scene.contact = self.point.kind;
             scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
             scene.expect.clear();
             scene.source.clear();
-        }
-        if self.lubricant.heat.is_some() && scene.study.check_heat().is_err() {
-            // Few studies know heat.
-            scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
-            scene.expect.clear();
         }
         scene.grid = self.grid;
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {

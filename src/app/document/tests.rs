@@ -196,6 +196,27 @@ fn a_contact_in_time_gives_way_to_a_lubricant_that_thins_under_shear() {
 }
 
 #[test]
+fn a_question_that_the_contact_has_lost_takes_its_title_along_and_is_said() {
+    let load_cases = include_str!("../../../scenes/load_cases/rollers_and_balls.ron");
+    for (text, keeps_with_heat) in
+        [(load_cases, true), (include_str!("../../../scenes/accuracy/grid_convergence.ron"), false)]
+    {
+        let scene = Scene::from_ron(text).unwrap();
+        let mut document = Document::of_scene(scene.clone()).unwrap();
+        assert_eq!(document.lost_question(), None);
+        document.switch_heat(true).unwrap();
+        let warm = document.to_scene();
+        warm.check().unwrap();
+        assert_eq!(document.lost_question().is_none(), keeps_with_heat);
+        assert_eq!(warm.study == scene.study && warm.title == scene.title, keeps_with_heat);
+        document.switch_heat(false).unwrap();
+        assert_eq!((document.to_scene().study, document.to_scene().title), (scene.study, scene.title));
+        document.set_shape(Shape::Ball).unwrap();
+        assert!(document.lost_question().is_some() && document.to_scene().title == "Point contact");
+    }
+}
+
+#[test]
 fn refused_values_leave_the_document_as_it_was() {
     let mut document = Document::default();
     let before = document.clone();

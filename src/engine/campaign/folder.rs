@@ -165,6 +165,16 @@ impl Folder {
         self.path.join(RESULT)
     }
 
+    /// The model of a training, among what came of it.
+    pub fn model_path(&self) -> PathBuf {
+        self.result_path().join(self.model_name())
+    }
+
+    /// Name of the file of a training's model.
+    pub(super) fn model_name(&self) -> String {
+        format!("{}.rom", self.plan.name)
+    }
+
     /// Where the state of a training is kept between rounds.
     pub fn state_path(&self, round: usize) -> PathBuf {
         self.path.join(ROUNDS).join(format!("{round:03}.training"))

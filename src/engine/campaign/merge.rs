@@ -72,9 +72,8 @@ pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, Campaig
             Err(reason) => Err(EngineError::from(reason).into()),
             Ok(model) => {
                 let row = |wall_s| vec![StudyRow::Training(Row { model: Arc::new(model.clone()), wall_s })];
-                let name = format!("{}.rom", folder.plan.name);
                 let keep = |beside: &Path| {
-                    let path = beside.join(&name);
+                    let path = beside.join(folder.model_name());
                     // A model that does not solve its own training points is refused.
                     let written = model_file::write(&model, &path);
                     written.map_err(|reason| EngineError::Model { path, reason: reason.into() })

@@ -3,10 +3,13 @@
 use super::error::CampaignError;
 use super::folder::{Folder, Status};
 use crate::engine::job::{Job, JobError, Wake};
+use crate::engine::{EngineError, model_file};
 use crate::host::worker::pause;
 use crate::scene::StudyRow;
+use crate::scene::study::training::Row;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// How long nobody looks into the folder.
@@ -50,6 +53,9 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
             let before = status.done.min(*there.get_or_insert(status.done));
             reporter.stage("new shards", status.done - before, status.shards - before);
             let merged = status.merged && status.open.is_empty();
+            if merged && !folder.holds_rows() {
+                reporter.send(News::Rows(0, vec![trained(&folder)?]));
+            }
             if told.as_ref() != Some(&status) {
                 reporter.send(News::Status(Box::new(status.clone())));
                 told = Some(status);
@@ -67,4 +73,14 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
             }
         }
     })
+}
+
+/// The row of a training that was merged, as one run has it: its model, with the seconds of all shards.
+fn trained(folder: &Folder) -> Result<StudyRow, JobError> {
+    let path = folder.model_path();
+    let model = model_file::read(&path)
+        .map_err(|reason| JobError::failed(EngineError::Model { path: path.clone(), reason: reason.into() }))?;
+    let seconds = |shard: usize| folder.shard(shard).map(|shard| shard.seconds);
+    let wall_s = (0..folder.shards()).map(seconds).sum::<Result<f64, CampaignError>>().map_err(JobError::failed)?;
+    Ok(StudyRow::Training(Row { model: Arc::new(model), wall_s }))
 }

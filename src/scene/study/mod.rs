@@ -212,13 +212,14 @@ impl Study {
     /// # Errors
     /// Naming the field `heat`.
     pub fn check_heat(&self) -> Checked {
-        if !matches!(self, Self::Point(_) | Self::Sweep(_) | Self::RandomTest(_) | Self::Training(_)) {
-            return Err(refuse(
+        match self {
+            Self::Point(_) | Self::Sweep(_) | Self::RandomTest(_) | Self::LoadCases(_) | Self::Training(_) => Ok(()),
+            _ => Err(refuse(
                 "heat",
-                "is computed by the studies Point, Sweep, RandomTest and Training only; leave it out, or ask one of them",
-            ));
+                "is computed by the studies Point, Sweep, RandomTest, LoadCases and Training only; leave it out, or ask \
+                 one of them",
+            )),
         }
-        Ok(())
     }
 
     /// The reduced model whose grid [`Grid::Model`](super::Grid::Model) means: the first one used, else the embedded

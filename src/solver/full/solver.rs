@@ -24,8 +24,21 @@ pub enum Start<'a> {
     /// Hertzian pressure and a film from a formula.
     Cold,
     /// Any solution of the same kind of contact, also at another operating point or on another grid; one of the other
-    /// kind means cold.
+    /// kind means cold. A contact with a supplied film always starts cold.
     From(&'a Solution),
+}
+
+impl<'a> Start<'a> {
+    /// The solution that a problem starts from; `None` for a cold start. The discrete equations of a starved inlet have
+    /// solutions with several menisci, and an iteration ends at that of its start.
+    pub(super) fn former(self, problem: &Problem) -> Option<&'a Solution> {
+        match self {
+            Self::From(former) if former.problem.point.kind == problem.point.kind && problem.supply.is_none() => {
+                Some(former)
+            }
+            _ => None,
+        }
+    }
 }
 
 /// Rises of pressure by which the meniscus of a starved inlet is guessed, one start each.
@@ -116,10 +129,7 @@ impl<S: NewtonSpace> Solver<S> {
         if problem.heat.is_some() {
             return heat::solve(self, problem, start, observer);
         }
-        let former = match start {
-            Start::From(former) if former.problem.point.kind == S::KIND => Some(former),
-            _ => None,
-        };
+        let former = start.former(&problem);
         let mut report = Report::empty();
         let cold = match problem.supply {
             None => S::COLD_FILMS.map(|film| Beginning::Cold(film, 1.0)),

@@ -56,6 +56,14 @@ impl GridChoice {
         }
     }
 
+    /// What the grid is built from.
+    pub fn spec(&self) -> GridSpec {
+        match self {
+            Self::Existing(grid) => grid.spec(),
+            Self::Spec(spec) => *spec,
+        }
+    }
+
     /// The grid as a request states it.
     pub fn stated(&self) -> Grid {
         match self {

@@ -28,10 +28,14 @@ impl Desk {
             let text = "The study of the scene runs: what it has found so far is not saved.";
             self.tabs.results.would_lose().then(|| text.to_owned())
         };
+        let march = || {
+            let text = "The contact is being followed in time: what was computed so far is not saved.";
+            self.transient.runs_by_hand().then(|| text.to_owned())
+        };
         match pending {
             Pending::Open(path) if is_model(path) => Vec::new(),
             Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::OpenScene(_) => {
-                edits().into_iter().chain(study()).collect()
+                edits().into_iter().chain(study()).chain(march()).collect()
             }
             Pending::Quit => edits().into_iter().chain(study()).chain(self.tabs.training.work.unkept()).collect(),
             Pending::Train => self.tabs.training.work.replaced(),

@@ -2,11 +2,11 @@
 
 use super::map_view::Shown;
 use crate::app::answers::Answers;
-use crate::app::answers::picture::{Origin, Picture};
-use crate::app::{export as tables, numbers};
+use crate::app::answers::picture::Picture;
+use crate::app::{caption, export as tables};
 
 /// All nodes of both halves, X after X, with their SI twins.
-pub fn csv(picture: &Picture) -> String {
+pub fn csv(picture: &Picture, means: String) -> String {
     let (hertz, scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
     let solution = &picture.solution;
     let ny = solution.y.len();
@@ -19,7 +19,7 @@ pub fn csv(picture: &Picture) -> String {
             [x, y, p, h, x * a, y * b, p * hertz.pressure_pa, h * scale].map(Some).to_vec()
         })
     });
-    let comments = [tables::describe(picture), picture.origin.describe()];
+    let comments = [tables::describe(picture), means];
     tables::csv(&comments, &["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"], rows)
 }
 
@@ -35,12 +35,6 @@ pub fn particulars(answers: &Answers, view: &super::map_view::MapView) -> Option
         _ => String::new(),
     };
     let (nx, ny) = (solution.x.len(), solution.y.len());
-    let means = match picture.origin {
-        Origin::Full => "full solution".to_owned(),
-        Origin::Reduced { error: Some(error), .. } => {
-            format!("reduced model, H_c within {}", numbers::error_percent(error.h_c.bound))
-        }
-        Origin::Reduced { error: None, .. } => "reduced model".to_owned(),
-    };
+    let means = caption::means(answers)?;
     Some(format!("{}; {nx}×{ny} nodes; {means}{light}", view.shown.name()))
 }

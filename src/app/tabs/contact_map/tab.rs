@@ -160,7 +160,7 @@ impl View for ContactMap {
         let tip = "X, Y, P, H of all nodes of both halves, with their SI twins";
         let image = || Command::Ask(Purpose::Write(Written::Png, self.images.png().into()));
         vec![
-            Offer::table("Map as CSV…", tip, picture, |picture| export::csv(picture)),
+            Offer::table("Map as CSV…", tip, picture, |picture| export::csv(picture, context.answers.means())),
             Offer::new("Bare map as PNG…", "The map alone, pixel by pixel", picture.map(|_| image)),
         ]
     }
@@ -170,7 +170,7 @@ impl View for ContactMap {
             return shared::caption(context.transient);
         }
         let more = export::particulars(context.answers, &self.view)?;
-        let key = context.document.key();
+        let key = context.answers.picture()?.key;
         Some(format!("{}; {more}", caption::contact(&key.point, &key.lubricant)))
     }
 

@@ -5,6 +5,7 @@ use super::curves::{Scene, key_ui};
 use super::film_shear::{self, FilmShear, FilmShearImage};
 use super::plots::{difference_plot, film_plot, pressure_plot};
 use super::temperatures::{self, TemperatureImage};
+use crate::app::answers::Answers;
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -15,7 +16,7 @@ use crate::app::plot::direction::Direction;
 use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, rich};
 use crate::app::units::Scales;
-use crate::app::{badge, export, numbers};
+use crate::app::{badge, caption, export, numbers};
 use egui::{Checkbox, ComboBox, Ui};
 use serde::{Deserialize, Serialize};
 
@@ -165,12 +166,17 @@ impl View for Profiles {
         let picture = answers.picture();
         let tip = "Live, full and pinned profiles with their SI twins, all of the domain";
         let mut offers = vec![Offer::new("Profiles as CSV…", tip, picture.map(|_| || Command::ExportProfiles))];
-        if let Some(picture) = picture.filter(|picture| picture.has_plane()) {
+        if picture.is_some_and(Picture::has_plane) {
             let tip = "The live profile across, with its SI twins";
-            let across = move |picture: &&Picture| export::profile_across(picture, cuts.x);
-            offers.push(Offer::table("Profile across as CSV…", tip, Some(picture), across));
+            let across = move |answers: &&Answers| export::profile_across(answers, cuts.x);
+            offers.push(Offer::table("Profile across as CSV…", tip, Some(answers), across));
         }
         offers
+    }
+
+    fn caption(&self, context: &Context<'_>) -> Option<String> {
+        let key = context.answers.picture()?.key;
+        Some(format!("{}; {}", caption::contact(&key.point, &key.lubricant), caption::means(context.answers)?))
     }
 
     fn kept(&self) -> Option<String> {

@@ -55,6 +55,11 @@ impl Regimes {
         self.trail.follow(kind, at(moes));
     }
 
+    /// Forgets where the contact has been: another document is on the screen.
+    pub fn forget(&mut self) {
+        self.trail = Trail::default();
+    }
+
     fn chart(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands, height: f32) {
         let ctx = ui.ctx().clone();
         let palette = Palette::of(ui);

@@ -4,6 +4,7 @@
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::context::Context;
 use crate::app::drawn::{self, Owner};
+use crate::app::export::describe;
 use crate::app::theme::{Palette, rich};
 use crate::app::{badge, formulas, numbers};
 use crate::scene::Table;
@@ -184,5 +185,5 @@ pub fn csv(context: &Context<'_>) -> Option<String> {
         table.labels.push(symbol.to_owned());
         table.rows.push(columns.iter().filter_map(|column| Some(column.get(k)?.value)).collect());
     }
-    Some(table.to_csv())
+    Some(format!("# {}\n# {}\n{}", describe(picture), context.answers.means(), table.to_csv()))
 }

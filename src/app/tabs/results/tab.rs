@@ -97,6 +97,10 @@ impl Results {
             }
         });
         self.toolbar(ui, commands);
+        if let Some(why) = context.document.lost_question() {
+            let title = &context.document.title;
+            warning_ui(ui, &format!("The question of “{title}” gives way to the contact itself: {why}"));
+        }
         let Some(run) = &self.run else {
             ui.separator();
             contact::ui(ui, context);

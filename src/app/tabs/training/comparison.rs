@@ -1,4 +1,4 @@
-//! Models over the range of a training: the random test of each with the same seed, one after the other, so that none
+//! Models over the range of one of them: the random test of each with the same seed, one after the other, so that none
 //! disturbs the other's times.
 
 use crate::app::document::Key;
@@ -10,8 +10,8 @@ use crate::engine::job::{Background, Standing};
 use crate::scene::names;
 use crate::scene::study::random_test::{RandomTest, Tested, errors, tests};
 use crate::scene::{Findings, Grid, Method, Scene, Study, StudyRow, View};
-use crate::solver::reduced::{ReducedModel, Window};
-use crate::solver::training::{TrainingSpec, random_points};
+use crate::solver::reduced::{Domain, ReducedModel, Window};
+use crate::solver::training::random_points;
 use egui::Context;
 use std::sync::Arc;
 
@@ -52,6 +52,8 @@ impl ModelScore {
 pub struct Comparison {
     /// What each model is worth that has been tested, in their order.
     pub scores: Vec<ModelScore>,
+    /// Title of the model or training whose range holds the contacts.
+    pub range_of: String,
     question: Scene,
     models: Vec<(String, Arc<ReducedModel>)>,
     rows: Vec<StudyRow>,
@@ -61,7 +63,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Begins to compare models by their names over the range of a training.
+    /// Begins to compare models by their names at random contacts of a domain, which belongs to `range_of`.
     ///
     /// # Errors
     /// A sentence when the range holds no contact.
@@ -69,15 +71,16 @@ impl Comparison {
         ctx: &Context,
         store: &Store,
         models: Vec<(String, Arc<ReducedModel>)>,
-        spec: &TrainingSpec,
+        (range_of, domain): (String, &Domain),
     ) -> Result<Self, Refusal> {
-        let points = random_points(&spec.range, spec.contact(), 1, SEED);
+        let points = random_points(&domain.space, domain.contact, 1, SEED);
         let point = *points.first().ok_or_else(|| Refusal::new("the range holds no points to compare at"))?;
-        let range = spec.range.clone();
+        let range = domain.space.clone();
         let test = RandomTest { range, tests: POINTS, seed: SEED, method: Method::EMBEDDED, compare: POINTS, worst: 0 };
-        let key = Key { point, lubricant: spec.lubricant };
+        let key = Key { point, lubricant: domain.lubricant };
         let mut comparison = Self {
             scores: Vec::new(),
+            range_of,
             question: question("Comparing models", &key, Grid::Model, Study::RandomTest(test)),
             models,
             rows: Vec::new(),
@@ -97,7 +100,8 @@ impl Comparison {
         }
         let titles: Vec<&str> = header.iter().map(String::as_str).collect();
         let comment = |score: &ModelScore| format!("{}: {}", score.name, score.model.title);
-        let comments: Vec<String> = self.scores.iter().map(comment).collect();
+        let range = format!("random points of the range of {}", self.range_of);
+        let comments: Vec<String> = std::iter::once(range).chain(self.scores.iter().map(comment)).collect();
         let count = self.scores.iter().map(|score| score.tests.len()).min().unwrap_or(0);
         let row = |k: usize| {
             let moes = self.scores.first().and_then(|score| score.tests.get(k)).map(|tested| tested.0.point.moes());

@@ -30,7 +30,8 @@ pub fn ui(ui: &mut Ui, training: &Training, commands: &mut Commands) {
         }
     });
     ui.weak(format!(
-        "{POINTS} random points of the trained range; errors against full solutions on each model’s own grid"
+        "{POINTS} random points of the range of “{}”; errors against full solutions on each model’s own grid",
+        comparison.range_of
     ))
     .on_hover_text("Uniform random numbers in the range (3.17)");
     let unknown = comparison.scores.iter().map(|score| score.value("full_failures")).fold(0.0, f64::max);

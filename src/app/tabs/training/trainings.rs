@@ -13,7 +13,7 @@ use crate::app::document::Document;
 use crate::engine::job::{Background, Standing};
 use crate::engine::registry::{alike, loads_in_common};
 use crate::engine::{Store, catalogue, training_file};
-use crate::solver::reduced::ReducedModel;
+use crate::solver::reduced::{Domain, ReducedModel};
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use egui::Context;
 use std::io::ErrorKind;
@@ -204,32 +204,45 @@ impl Training {
         Ok(())
     }
 
-    /// What a comparison is about: the training that the model was made by, or the one that the tab shows.
-    fn compared_spec<'a>(&'a self, document: &'a Document) -> Option<&'a TrainingSpec> {
-        self.made.as_ref().and(self.spec.as_deref()).or_else(|| document.training_spec())
+    /// Returns the contacts at which models are compared, and what they belong to: those of the trained model, else of the
+    /// last one that was added of the kind that the form shows, else of the one in use, else those of the form.
+    fn compared(&self, answers: &Answers, document: &Document) -> Option<(String, Domain)> {
+        let of = |model: &Arc<ReducedModel>| (model.title.clone(), model.domain.clone());
+        if let Some(made) = &self.made {
+            return Some(of(&made.model));
+        }
+        let spec = document.training_spec()?;
+        let added = self.beside.iter().rev().map(|(_, model)| model).find(|model| spec.is_of(model));
+        let own = spec.domain();
+        let model = added.or_else(|| answers.models().counterpart(&own));
+        Some(model.map_or_else(|| (spec.title.clone(), own), of))
     }
 
     /// The models that can be compared, by what they are called: the program's, the one in use, the one before, those of
     /// files, and the one that was made.
     pub fn comparable(&self, answers: &Answers, document: &Document) -> Vec<(String, Arc<ReducedModel>)> {
-        let Some(spec) = self.compared_spec(document) else { return Vec::new() };
-        let domain = spec.domain();
+        self.compared(answers, document).map_or_else(Vec::new, |(_, domain)| self.of_domain(answers, &domain))
+    }
+
+    /// The models that can be compared at the contacts of a domain.
+    fn of_domain(&self, answers: &Answers, domain: &Domain) -> Vec<(String, Arc<ReducedModel>)> {
         // That of ellipses is large: it stands here once it is in use.
-        let round = catalogue().iter().filter(|entry| !domain.space.of_ellipses() && alike(&entry.domain, &domain));
+        let round = catalogue().iter().filter(|entry| !domain.space.of_ellipses() && alike(&entry.domain, domain));
         let nearest = round.max_by(|a, b| {
-            let [a, b] = [a, b].map(|entry| loads_in_common(&entry.domain, &domain));
+            let [a, b] = [a, b].map(|entry| loads_in_common(&entry.domain, domain));
             a.total_cmp(&b)
         });
         let embedded = nearest.and_then(|entry| answers.store().embedded(entry.name).ok());
-        let in_use = answers.models().counterpart(&domain).cloned();
+        let in_use = answers.models().counterpart(domain).cloned();
         let known = [("in the program", embedded), ("in use", in_use), ("before", self.former.clone())];
         let known = known.into_iter().filter_map(|(name, model)| Some((name.to_owned(), model?)));
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));
+        let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats());
         let mut models: Vec<(String, Arc<ReducedModel>)> = Vec::new();
         // The new one keeps its name, though it may be in use.
         let is_made = |model: &Arc<ReducedModel>| self.made.iter().any(|made| Arc::ptr_eq(&made.model, model));
         for (name, model) in known.chain(self.beside.iter().cloned()).filter(|(_, model)| !is_made(model)).chain(made) {
-            if spec.is_of(&model) && !models.iter().any(|(_, known)| Arc::ptr_eq(known, &model)) {
+            if kind(domain) == kind(&model.domain) && !models.iter().any(|(_, known)| Arc::ptr_eq(known, &model)) {
                 models.push((name, model));
             }
         }
@@ -238,9 +251,12 @@ impl Training {
 
     /// Starts the comparison of all comparable models.
     pub fn compare(&mut self, ctx: &Context, answers: &Answers, document: &Document) {
-        let models = self.comparable(answers, document);
-        let Some(spec) = self.compared_spec(document).filter(|_| models.len() > 1) else { return };
-        match Comparison::start(ctx, answers.store(), models, spec) {
+        let Some((title, domain)) = self.compared(answers, document) else { return };
+        let models = self.of_domain(answers, &domain);
+        if models.len() < 2 {
+            return;
+        }
+        match Comparison::start(ctx, answers.store(), models, (title, &domain)) {
             Ok(comparison) => self.comparison = Some(comparison),
             Err(why) => self.notices.push(Notice::wrong(why)),
         }

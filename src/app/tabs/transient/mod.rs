@@ -1,5 +1,6 @@
 //! Transient contacts: their runs, and the views of them (series, profiles, space and time, linearised model).
 
+mod advice;
 pub mod badge;
 mod cost;
 mod dials;

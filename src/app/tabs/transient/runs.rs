@@ -290,6 +290,11 @@ impl TransientRuns {
         self.number.work.stop();
     }
 
+    /// Forgets all runs and models: another document is on the screen.
+    pub fn forget(&mut self) {
+        *self = Self { generation: self.generation + 1, ..Self::default() };
+    }
+
     /// Runs a set-up from the beginning, unless it is refused.
     pub fn start(&mut self, ctx: &Context, store: &Store, setup: Setup) {
         let setup = Arc::new(setup);

@@ -1,5 +1,6 @@
 //! Parts that the transient tabs share: form, run button, status line and time bar.
 
+use super::advice::advice;
 use super::export;
 use super::runs::{TransientCommand, TransientRuns};
 use crate::app::command::Command;
@@ -139,7 +140,7 @@ fn sentences<'a>(
     }
     let steep = |(_, run): (_, &Run)| !run.replayed && run.record.as_ref().is_some_and(TpwlRecord::too_steep);
     if view.linearised_runs().any(steep) {
-        warn(format!("{TOO_STEEP}. Tick Reduced model, or train on inputs like these"));
+        warn(format!("{TOO_STEEP}: {}", advice(view)));
     }
     let quiet = palette.quiet;
     for run in &view.runs {

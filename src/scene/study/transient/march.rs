@@ -192,8 +192,26 @@ impl March {
             found.push(format!("{}.reach_median", self.name), None, median(&reach));
             found.push(format!("{}.reach_max", self.name), None, percentile(&reach, 1.0));
             if record.too_steep() {
-                found.warnings.push(format!("{}: {TOO_STEEP}", self.name));
+                found.warnings.push(format!("{}: {TOO_STEEP}; {}", self.name, self.advice(study, marches)));
             }
+        }
+    }
+
+    /// What to do instead of a linearised march, from the measured errors of H_c.
+    fn advice(&self, study: &TransientStudy, marches: &[&Self]) -> String {
+        let error = |march: &Self| Some(march.difference(Quantity::CentralFilm, study, marches)?.0);
+        let full = self.reference(marches).map(|full| full.name.as_str());
+        let same_inputs = |march: &&&Self| march.reference(marches).map(|full| full.name.as_str()) == full;
+        let reduced = marches.iter().filter(|march| matches!(march.by, By::Model { method: "rnsa", .. }));
+        let reduced = reduced.filter(same_inputs).filter_map(|march| Some((&march.name, error(march)?)));
+        match (reduced.min_by(|a, b| a.1.total_cmp(&b.1)), error(self)) {
+            (Some((name, reduced)), Some(own)) if reduced < own => {
+                format!("{name} errs less in H_c: {reduced:.1e} instead of {own:.1e}")
+            }
+            (Some((name, reduced)), Some(own)) => {
+                format!("train on inputs like these; {name} errs no less in H_c: {reduced:.1e} beside {own:.1e}")
+            }
+            _ => "train on inputs like these, or march by a reduced model as well to compare both".to_owned(),
         }
     }
 

@@ -28,8 +28,7 @@ use crate::solver::reduced::transient::TrajectoryModel;
 use std::sync::Arc;
 
 /// Said of inputs that a linearised model cannot carry.
-pub const TOO_STEEP: &str =
-    "the inputs are too steep for linearised models; a reduced model with sampled rows is the right choice";
+pub const TOO_STEEP: &str = "the inputs are too steep for linearised models";
 
 /// What comes of a contact in time.
 #[derive(Clone, Debug)]

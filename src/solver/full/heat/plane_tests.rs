@@ -115,3 +115,35 @@ fn a_long_ellipse_is_a_line_contact_on_its_axis() {
     assert!((other / rise - 1.0).abs() < 0.05, "{other} {rise}");
     assert!(rise > 10.0, "{rise}");
 }
+
+/// A supplied film starves the inlet whatever was solved before: without it, with another one, with heat or without.
+#[test]
+fn a_starved_contact_has_the_film_of_a_cold_start_whatever_it_starts_from() {
+    let mut solver = PointSolver::new(COARSE).unwrap();
+    let of = |supply_film_m: Option<f64>, heat: Option<Heat>| Lubricant {
+        cavitation: Cavitation::MassConserving { supply_film_m },
+        heat,
+        ..Lubricant::default()
+    };
+    let (point, heat) = (ball(0.1), Some(Heat::default()));
+    let flooded = solved(&mut solver, &point, of(None, heat));
+    let film_m = flooded.scalars.h_c * point.film_scale_m();
+    let formers = [
+        flooded,
+        solved(&mut solver, &point, Lubricant { heat, ..Lubricant::default() }),
+        solved(&mut solver, &point, of(Some(4.0 * film_m), None)),
+        solved(&mut solver, &OperatingPoint { load: 40.0, ..point }, of(Some(0.5 * film_m), heat)),
+    ];
+    for laws in [of(Some(1.5 * film_m), heat), of(Some(1.5 * film_m), None)] {
+        let cold = solved(&mut solver, &point, laws);
+        assert!(cold.scalars.h_c < 0.97 * formers[0].scalars.h_c, "{}", cold.scalars.h_c);
+        for former in &formers {
+            let warm = solver.solve(&point, laws, Start::From(former), &()).unwrap();
+            assert!(
+                (warm.scalars.h_c / cold.scalars.h_c - 1.0).abs() < 1e-9,
+                "{:?}",
+                former.problem.lubricant.cavitation
+            );
+        }
+    }
+}

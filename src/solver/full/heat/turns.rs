@@ -22,10 +22,7 @@ pub(in crate::solver::full) fn solve<S: NewtonSpace>(
 ) -> Result<Solution, SolveError> {
     let Some(heat) = problem.heat else { return solver.solve_problem(problem, start, observer) };
     let mut spent = Report::empty();
-    if let Start::From(former) = start
-        && former.heat.is_some()
-        && former.problem.point.kind == problem.point.kind
-    {
+    if let Some(former) = start.former(&problem).filter(|former| former.heat.is_some()) {
         let solution = from(solver, problem, &heat, (former, Pace::QUICK), spent, observer)?;
         if solution.report.ended() {
             return Ok(solution);

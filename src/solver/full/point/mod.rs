@@ -7,6 +7,6 @@ mod preconditioner;
 #[cfg(test)]
 mod tests;
 
-pub use accuracy::{Accuracy, Estimate, resolution_warning, second_grid, side_lobe_curvature};
+pub use accuracy::{Accuracy, Estimate, resolution_warning, second_grid, side_lobe_curvature, side_lobe_error};
 pub use limited_steps::{Cycles, LimitedSteps};
 pub use preconditioner::PlaneMatrix;

@@ -36,8 +36,7 @@ const FAR_REACH: f64 = 2.0;
 
 impl TpwlRecord {
     /// Whether more than half of the steps lie farther from the trained trajectories than two distances between
-    /// operating points: the inputs are too steep or too strange, and a reduced model that solves the nonlinear
-    /// equations is the right choice.
+    /// operating points: the inputs are too steep or too different.
     pub fn too_steep(&self) -> bool {
         let far = self.steps.iter().filter(|step| step.reach() > FAR_REACH).count();
         2 * far > self.steps.len()

@@ -4,11 +4,10 @@
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{RangeSlider, choice};
 use crate::app::document::Edit;
-use crate::app::tabs::transient::TransientRuns;
+use crate::app::tabs::transient::advice::advice;
 use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
 use crate::app::tabs::transient::reach::beyond;
 use crate::app::theme::{Palette, rich};
-use crate::scene::study::transient::MarchedBy;
 use egui::{Grid, Ui};
 
 /// Under this name the window knows what was refused.
@@ -61,17 +60,6 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     });
     if study != before {
         commands.edit(Edit::Transient(Box::new(study)), NAME);
-    }
-}
-
-/// What to do beyond what was trained: the reduced model solves the nonlinear equations, but its modes are trained ones.
-fn advice(view: &TransientRuns) -> &'static str {
-    let error = |of: fn(MarchedBy) -> bool| view.runs.iter().find(|run| of(run.by)).and_then(|run| run.difference);
-    let reduced = error(|by| by == MarchedBy::Reduced);
-    let linearised = error(|by| matches!(by, MarchedBy::Linearised(_)));
-    match reduced.zip(linearised) {
-        Some((reduced, linearised)) if reduced >= linearised => "train on inputs like these",
-        _ => "use the reduced model",
     }
 }
 

@@ -175,7 +175,7 @@ const ABOUT: About = About {
           along a trained trajectory, and the weights w follow the state: drag the time and watch them pass from \
           point to point. Tangents on one side of a curved path err to one side; the dual Taylor form expands half \
           about the points and half about their barycentre, which cancels that, while far from every point, under \
-          inputs steeper than the trained ones, no weights help and the reduced model is the right choice.",
+          inputs steeper than the trained ones, no weights help.",
 };
 
 impl View for Tpwl {
