@@ -15,7 +15,7 @@ pub const PLAUSIBLE_TRACTION: f64 = 0.15;
 /// Temperature \[K\] above which lubricants decompose: 300 °C.
 pub(in crate::solver) const ENDURED_K: f64 = 573.0;
 /// Péclet number u_i a/(2κ_i) below which heat flows upstream within a body.
-pub(in crate::solver) const SMALLEST_PECLET: f64 = 5.0;
+const SMALLEST_PECLET: f64 = 5.0;
 /// Estimated discretisation errors beyond this are likely to be too small.
 const SATURATED: f64 = 0.1;
 
@@ -184,6 +184,11 @@ impl Warning {
     /// The warning of a Hertzian pressure \[Pa\], if it exceeds what bearing steel carries.
     pub fn of_hertz_pressure(pressure_pa: f64) -> Option<Self> {
         (pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA).then_some(Self::HertzPressure { pressure_pa })
+    }
+
+    /// The warning about the Péclet number of a body, 1 or 2, if heat flows upstream within it.
+    pub fn of_peclet((body, peclet): (usize, f64)) -> Option<Self> {
+        (peclet < SMALLEST_PECLET).then_some(Self::SmallPeclet { body, peclet })
     }
 
     /// Its kind, values and sentence as one JSON object: `{"kind": …, values…, "text": …}`.
