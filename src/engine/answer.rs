@@ -35,7 +35,8 @@ pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) ->
     if let Some(solution) = answer.solution.as_ref().filter(|_| scalars.is_some()) {
         warnings.extend(solution.grid_warning());
         warnings.extend(resolution_warning(solution));
-        warnings.extend(problem.heat.as_ref().and_then(|heat| heat.warning(&problem.point)));
+        let peclet = problem.heat.as_ref().map(|heat| heat.smallest_peclet(&problem.point));
+        warnings.extend(peclet.and_then(Warning::of_peclet));
         warnings.extend(solution.heat.as_deref().and_then(Temperatures::too_hot));
         let heat = solution.heat.as_deref().filter(|_| reduced.is_none());
         warnings.extend(heat.and_then(Temperatures::heat_lost));

@@ -129,7 +129,7 @@ pub fn describe(model: &ReducedModel) -> String {
         let shapes = window
             .shapes
             .as_ref()
-            .map_or_else(String::new, |shapes| format!(", R_y/R {}…{}", shapes.radius_ratio.0, shapes.radius_ratio.1));
+            .map_or_else(String::new, |shapes| format!(", R_y/R {}…{}", shapes.ratios.0, shapes.ratios.1));
         let scheme = match window.scheme {
             Scheme::Galerkin => String::new(),
             other => format!(", {}", other.name()),

@@ -23,7 +23,7 @@ struct Remoteness {
 impl Remoteness {
     fn of(domain: &Domain, problem: Option<&Problem>, point: &OperatingPoint, lubricant: &Lubricant) -> Self {
         let outside = problem.is_none_or(|problem| domain.trust(problem) != Trust::Trained);
-        let other_shape = domain.space.of_ellipses() != (point.radius_ratio() != 1.0);
+        let other_shape = domain.space.of_ellipses() != point.is_elliptic();
         if !outside {
             return Self { outside, kinds: [other_shape.into(), 0, 0, 0], far: extent(domain) };
         }

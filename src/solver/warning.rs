@@ -15,7 +15,7 @@ pub const PLAUSIBLE_TRACTION: f64 = 0.15;
 /// Temperature \[K\] above which lubricants decompose: 300 °C.
 pub(in crate::solver) const ENDURED_K: f64 = 573.0;
 /// Péclet number u_i a/(2κ_i) below which heat flows upstream within a body.
-pub(in crate::solver) const SMALLEST_PECLET: f64 = 5.0;
+const SMALLEST_PECLET: f64 = 5.0;
 /// Estimated errors of the steps in time beyond this are warned of.
 const NOTABLE_STEP_ERROR: f64 = 0.03;
 /// Estimated discretisation errors beyond this are likely to be too small.
@@ -206,6 +206,11 @@ impl Warning {
     /// Whether it is of the discretisation error, of which tables of many contacts make a sentence of their own.
     pub fn is_of_grid(&self) -> bool {
         matches!(self, Self::DiscretisationError { .. } | Self::DiscretisationErrorUnknown)
+    }
+
+    /// The warning about the Péclet number of a body, 1 or 2, if heat flows upstream within it.
+    pub fn of_peclet((body, peclet): (usize, f64)) -> Option<Self> {
+        (peclet < SMALLEST_PECLET).then_some(Self::SmallPeclet { body, peclet })
     }
 
     /// Its kind, values and sentence as one JSON object: `{"kind": …, values…, "text": …}`.

@@ -139,7 +139,7 @@ fn shapes_survive_a_round_trip_and_must_fit_the_windows() {
     let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
     assert_eq!(read.domain, model.domain);
     for (own, other) in read.windows.iter().zip(&model.windows) {
-        let [one, two] = [own, other].map(|window| window.shapes.as_ref().map(|shapes| shapes.radius_ratio));
+        let [one, two] = [own, other].map(|window| window.shapes.as_ref().map(|shapes| shapes.ratios));
         assert!(one == two && one.is_some());
         for (own, other) in own.snapshots.iter().zip(&other.snapshots) {
             assert_eq!(own.point.radius_y_m, other.point.radius_y_m);

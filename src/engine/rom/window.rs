@@ -200,7 +200,7 @@ pub(super) fn write_window(
     Some(WindowEntry {
         m: matches!(rounding, Rounding::Steady { .. }).then_some(window.m),
         anchor: window.anchor.map(|anchor| (anchor.m, anchor.l)),
-        radius_ratio: window.shapes.as_ref().map(|shapes| shapes.radius_ratio),
+        radius_ratio: window.shapes.as_ref().map(|shapes| shapes.ratios),
         grid,
         penalty: window.penalty,
         sampling: window.sampling,

@@ -216,7 +216,7 @@ impl<S: NewtonSpace> Solver<S> {
             // Near a flooded film, for which complementarity is the surer way.
             Cavitation::MassConserving { .. } => !system.is_starved(),
             // The front of a wide ellipse takes three times as many steps to where it belongs.
-            Cavitation::Penalty => problem.point.radius_ratio() != 1.0 && matches!(beginning, Beginning::Cold(..)),
+            Cavitation::Penalty => problem.point.is_elliptic() && matches!(beginning, Beginning::Cold(..)),
             Cavitation::Complementarity => false,
         };
         if by_complementarity {
@@ -327,8 +327,8 @@ fn formula_film(problem: &Problem) -> f64 {
         // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
         ContactKind::Line => moes_film(ContactKind::Line, problem.moes) * PI / (8.0 * problem.moes.m),
         ContactKind::Point => {
-            let circle = problem.point.radius_ratio() == 1.0;
-            let formula = if circle { FilmFormula::HamrockDowsonCentral } else { FilmFormula::NijenbanningVennerMoes };
+            let ellipse = problem.point.is_elliptic();
+            let formula = if ellipse { FilmFormula::NijenbanningVennerMoes } else { FilmFormula::HamrockDowsonCentral };
             formula.predict(&problem.point).film_m / problem.point.film_scale_m()
         }
     }

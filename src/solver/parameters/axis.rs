@@ -1,19 +1,11 @@
 //! One varied quantity of a space with its interval.
 
 use super::quantity::Quantity;
+use super::scale::Scale;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::ser::SerializeTuple;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
-
-/// How values are spread over an interval.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Scale {
-    /// Equal differences.
-    Linear,
-    /// Equal ratios.
-    Log,
-}
 
 /// A quantity that varies within an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,12 +7,14 @@ mod named;
 mod outside;
 mod quantity;
 mod sampling;
+mod scale;
 mod space;
 mod tables;
 
-pub use axis::{Axis, Scale};
+pub use axis::Axis;
 pub use metric::{MOST_NUMBERS, Metric, Place, SHAPE_WEIGHT, apart, distance, separation};
 pub use outside::Outside;
 pub use quantity::Quantity;
 pub use sampling::{MOST_AXES, Unit, middle};
+pub use scale::Scale;
 pub use space::{CIRCLES, ParameterSpace};

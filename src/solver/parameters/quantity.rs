@@ -1,6 +1,6 @@
 //! The quantities of a contact, each defined once: names, symbol, units, range, and how it is read and set.
 
-use super::axis::Scale;
+use super::scale::Scale;
 use crate::solver::physics::bodies::BodyHeat;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint, expected_film, limits};
 use crate::solver::physics::engineering::Dimension;

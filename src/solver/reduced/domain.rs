@@ -192,7 +192,7 @@ impl Domain {
     }
 
     fn other_shape(&self, point: &OperatingPoint) -> Option<Outside> {
-        let ellipse = self.space.radius_ratio() == CIRCLES && point.radius_ratio() != 1.0;
+        let ellipse = self.space.radius_ratio() == CIRCLES && point.is_elliptic();
         ellipse.then(|| Outside::Other("the model was trained for circular contacts only".to_owned()))
     }
 

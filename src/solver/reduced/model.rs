@@ -12,7 +12,7 @@ use super::traction::TractionRule;
 use crate::solver::discrete::grid::{ContactGrid, FIRST_UNKNOWN};
 use crate::solver::discrete::reynolds::PENALTY;
 use crate::solver::full::{GridCost, Problem};
-use crate::solver::parameters::{CIRCLES, Metric, apart, separation};
+use crate::solver::parameters::{Metric, apart, separation};
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use faer::Mat;
@@ -187,7 +187,7 @@ impl Window {
 
     /// R_y/R that it serves: all of a window that knows one shape.
     pub fn served_ratios(&self) -> (f64, f64) {
-        self.shapes.as_ref().map_or((0.0, f64::INFINITY), |shapes| shapes.radius_ratio)
+        self.shapes.as_ref().map_or((0.0, f64::INFINITY), |shapes| shapes.ratios)
     }
 
     /// How large it is with all its modes.
@@ -224,11 +224,8 @@ impl ReducedModel {
         if let Some(nearest) = self.nearest_anchor(moes) {
             return nearest;
         }
-        let (ratio, m) = (point.radius_ratio(), moes.m);
-        let aside = |window: &Window| {
-            let (low, high) = window.shapes.as_ref().map_or(CIRCLES, |shapes| shapes.radius_ratio);
-            (low / ratio).max(ratio / high).max(1.0)
-        };
+        let m = moes.m;
+        let aside = |window: &Window| Shapes::aside(window.shapes.as_ref(), point);
         let nearest = self.windows.iter().map(aside).fold(f64::INFINITY, f64::min);
         let beside = |w: &&Window| aside(w) <= nearest;
         let own = self.windows.iter().position(|w| beside(&w) && m <= w.m.1);
@@ -257,7 +254,7 @@ impl ReducedModel {
 
     /// Whether it is a model of this kind of contact: of lines, of circles, or of ellipses.
     pub fn is_of(&self, point: &OperatingPoint) -> bool {
-        self.contact() == point.kind && self.of_ellipses() == (point.radius_ratio() != 1.0)
+        self.contact() == point.kind && self.of_ellipses() == point.is_elliptic()
     }
 
     /// Whether the model was trained for a problem.

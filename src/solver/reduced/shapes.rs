@@ -6,7 +6,8 @@
 
 use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::{ContactGrid, GridError, PointGrid};
-use crate::solver::physics::contact::Ellipse;
+use crate::solver::parameters::CIRCLES;
+use crate::solver::physics::contact::{Ellipse, OperatingPoint};
 use faer::Mat;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -21,7 +22,7 @@ const BEYOND: f64 = 0.1;
 #[derive(Clone, Debug)]
 pub struct Shapes {
     /// R_y/R that it is made for.
-    pub radius_ratio: (f64, f64),
+    pub ratios: (f64, f64),
     /// Ends of ln κ.
     ends: (f64, f64),
     /// K(κ) V over the node array, one for each node in ln κ.
@@ -38,8 +39,8 @@ impl Shapes {
     ///
     /// # Errors
     /// When a kernel cannot be built, or a ratio is none of an ellipse.
-    pub fn new(grid: &Arc<PointGrid>, modes: &Mat<f64>, radius_ratio: (f64, f64)) -> Result<Self, GridError> {
-        let (low, high) = radius_ratio;
+    pub fn new(grid: &Arc<PointGrid>, modes: &Mat<f64>, ratios: (f64, f64)) -> Result<Self, GridError> {
+        let (low, high) = ratios;
         let log_kappa = |ratio: f64| match Ellipse::of_ratio(ratio) {
             Ok(ellipse) => Ok(ellipse.kappa.ln()),
             Err(error) => Err(GridError::Refused(error.to_string())),
@@ -53,7 +54,13 @@ impl Shapes {
             Ok(Mat::from_fn(flexed.nrows(), flexed.ncols(), |node, k| flexed[(node, k)] as f32))
         };
         let flexed = on_all_cores(|| (0..count).into_par_iter().map(flexed).collect::<Result<_, GridError>>())?;
-        Ok(Self { radius_ratio, ends, flexed })
+        Ok(Self { ratios, ends, flexed })
+    }
+
+    /// The factor, at least 1, by which R_y/R of a contact lies outside those of some shapes, or of circles.
+    pub fn aside(shapes: Option<&Self>, point: &OperatingPoint) -> f64 {
+        let ((low, high), ratio) = (shapes.map_or(CIRCLES, |shapes| shapes.ratios), point.radius_ratio());
+        (low / ratio).max(ratio / high).max(1.0)
     }
 
     /// Whether it holds for an ellipse, a little beyond its range too.

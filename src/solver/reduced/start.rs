@@ -137,8 +137,8 @@ pub(super) fn film_number(point: &OperatingPoint) -> f64 {
             moes_film(ContactKind::Line, moes) / moes.m
         }
         ContactKind::Point => {
-            let circle = point.radius_ratio() == 1.0;
-            let formula = if circle { FilmFormula::HamrockDowsonCentral } else { FilmFormula::ChittendenCentral };
+            let ellipse = point.is_elliptic();
+            let formula = if ellipse { FilmFormula::ChittendenCentral } else { FilmFormula::HamrockDowsonCentral };
             formula.predict(point).film_m / point.film_scale_m()
         }
     }

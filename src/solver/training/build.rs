@@ -8,7 +8,7 @@ use super::one_thread::on_one_thread;
 use super::plan::Within;
 use super::rows::sample_rows;
 use super::spec::{TrainingSpec, WindowSpec, Windows};
-use super::state::{FEWEST, OVERLAP, Part, Solved, TrainingState};
+use super::state::{FEWEST, Part, Solved, TrainingState};
 use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::full::{ContactSolver, SolveError, Start};
@@ -60,11 +60,7 @@ impl<'a> WindowTraining<'a> {
 
     /// The contacts that it is trained from.
     pub fn within(&self) -> Within {
-        let (low, high) = self.window.radius_ratio.unwrap_or((0.0, f64::INFINITY));
-        let (radius_ratio, cell) = ((low / OVERLAP, high * OVERLAP), self.cell.clone());
-        let within = self.spec.within(self.reach);
-        let range = within.range.beyond();
-        Within { radius_ratio, cell, range, ..within }
+        Within { cell: self.cell.clone(), ..self.spec.within(self.reach).beyond(&self.window) }
     }
 
     pub fn too_few(&self, count: usize) -> TrainingError {
@@ -156,7 +152,7 @@ impl<'a> WindowTraining<'a> {
         let (grid, solutions, shared) = (grid.clone(), solutions.to_vec(), self.in_common.clone());
         let own: Vec<bool> = solutions.iter().map(|s| spec.lubricant_of(&s.point) == spec.lubricant).collect();
         let cavitation = spec.lubricant.cavitation;
-        let ratio = window.radius_ratio.unwrap_or(spec.range.radius_ratio());
+        let ratio = spec.shapes_of(window);
         let (anchored, shapes) = (anchor(window).is_some(), ratio != CIRCLES);
         let keeping = Keeping { kind: grid.kind(), anchored, heat: spec.heats(), shapes };
         let mut model = on_one_thread(*observer, move || {
@@ -204,7 +200,7 @@ impl<'a> WindowTraining<'a> {
         }
         if spec.sampling != Sampling::All {
             let (from, to) = window.m;
-            let served = Within { radius_ratio: window.served_ratios(), ..self.within() };
+            let served = self.within().served_by(&window, self.cell.clone());
             let sampled = sample_rows(spec, &Arc::new(spec.model_of(&window)), &served, rng, *observer)?;
             let mut rows = sampled.ok_or(TrainingError::Decomposition { from, to })?;
             let short = Keeping::of(&window, spec.heats()).shortens_rules();

@@ -9,7 +9,6 @@ use super::error::TrainingError;
 use super::indicator::Corrector;
 use super::observer::TrainingObserver;
 use super::one_thread::{in_parallel, on_one_thread};
-use super::plan::Within;
 use super::spec::TrainingSpec;
 use crate::solver::reduced::{
     Calibration, Evidence, FeatureSet, Features, Online, ReducedModel, ReducedOptions, Window,
@@ -31,7 +30,7 @@ pub(super) fn measured(
     let Some(window) = model.windows.first() else { return Ok(Vec::new()) };
     let seed = spec.seed ^ 0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(k as u64 + 1);
     let m = if cell.is_some() { (0.0, f64::INFINITY) } else { served(ends, window) };
-    let served = Within { radius_ratio: window.served_ratios(), cell, ..spec.within(m) };
+    let served = spec.within(m).served_by(window, cell);
     let mut rng = Rng::with_seed(seed);
     let points = served.random_points(spec.evidence, &mut rng);
     let contacts: Vec<_> = points.into_iter().map(|point| (point, spec.random_lubricant(&mut rng))).collect();

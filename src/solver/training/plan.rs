@@ -1,10 +1,11 @@
 //! Sampling plans: which operating points of a range are solved in full, and which are tested.
 
 use super::cell::Cell;
-use super::spec::TrainingSpec;
+use super::spec::{TrainingSpec, WindowSpec};
+use super::state::OVERLAP;
 use crate::solver::parameters::{Metric, ParameterSpace, SHAPE_WEIGHT, Unit, apart, distance, middle};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::reduced::BEYOND_CELLS;
+use crate::solver::reduced::{BEYOND_CELLS, Window};
 use fastrand::Rng;
 use std::f64::consts::PI;
 
@@ -96,6 +97,17 @@ impl Within {
             radius_ratio: (0.0, f64::INFINITY),
             cell: None,
         }
+    }
+
+    /// With the shapes that a window serves, and the cell of its anchor if it has one.
+    pub fn served_by(self, window: &Window, cell: Option<Cell>) -> Self {
+        Self { radius_ratio: window.served_ratios(), cell, ..self }
+    }
+
+    /// With the shapes of a window, and with what training reaches beyond the ends of the range and of these.
+    pub fn beyond(self, window: &WindowSpec) -> Self {
+        let (low, high) = window.radius_ratio.unwrap_or((0.0, f64::INFINITY));
+        Self { radius_ratio: (low / OVERLAP, high * OVERLAP), range: self.range.beyond(), ..self }
     }
 
     fn at(&self, unit: Unit) -> Option<OperatingPoint> {

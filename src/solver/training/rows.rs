@@ -180,9 +180,9 @@ pub fn with_rows(
     exact.set_rows(Sampling::All, all_rows(&TestSpace::new(own.pressure.basis(), &own.grid)));
     let exact = Arc::new(spec.model_of(&exact));
     let mut rng = Rng::with_seed(spec.seed);
-    let (radius_ratio, cell) = (own.served_ratios(), Cell::of_model(model, window));
+    let cell = Cell::of_model(model, window);
     let m = if cell.is_some() { (0.0, f64::INFINITY) } else { own.m };
-    let served = Within { radius_ratio, cell, ..spec.within(m) };
+    let served = spec.within(m).served_by(own, cell);
     let Some(shown) = Shown::by(spec, &exact, &served, &mut rng, observer)? else { return Ok(Vec::new()) };
     let rows_per_mode = rows_per_mode.to_vec();
     let sampled = on_one_thread(observer, move || shown.rows(&rows_per_mode))?;

@@ -254,6 +254,11 @@ impl TrainingSpec {
         self.range.with_random_constants(self.lubricant, rng)
     }
 
+    /// Returns R_y/R of a window.
+    pub(super) fn shapes_of(&self, window: &WindowSpec) -> (f64, f64) {
+        window.radius_ratio.unwrap_or(self.range.radius_ratio())
+    }
+
     /// Returns a model of one window only.
     pub(super) fn model_of(&self, window: &Window) -> ReducedModel {
         let (windows, domain) = (vec![window.clone()], self.domain());
@@ -320,5 +325,10 @@ impl WindowSpec {
     /// A window of circles or lines.
     pub fn new(m: (f64, f64), grid: GridSpec) -> Self {
         Self { m, grid, radius_ratio: None, anchor: None }
+    }
+
+    /// True if it serves the same shapes as another window.
+    pub(super) fn has_shapes_of(&self, other: &Self) -> bool {
+        self.radius_ratio == other.radius_ratio
     }
 }

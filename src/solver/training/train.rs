@@ -168,7 +168,7 @@ fn reach(windows: &[WindowState], k: usize) -> (f64, f64) {
 /// Whether a window has the lowest and the highest M of all of its shapes.
 fn ends(windows: &[WindowState], k: usize) -> (bool, bool) {
     let own = &windows[k].window;
-    let beside = |other: &&WindowState| other.window.radius_ratio == own.radius_ratio;
+    let beside = |other: &&WindowState| other.window.has_shapes_of(own);
     let first = windows[..k].iter().filter(beside).count() == 0;
     (first, windows[k + 1..].iter().filter(beside).count() == 0)
 }

@@ -113,6 +113,11 @@ impl OperatingPoint {
         self.radius_y_m.map_or(1.0, |radius_y| radius_y / self.radius_m)
     }
 
+    /// True for an elliptical contact, false for a circular and for a line contact.
+    pub fn is_elliptic(&self) -> bool {
+        self.radius_ratio() != 1.0
+    }
+
     /// The shape of the dry contact; a circle for a line.
     pub fn ellipse(&self) -> Ellipse {
         Ellipse::near(self.radius_ratio())
@@ -121,6 +126,18 @@ impl OperatingPoint {
     /// The six SI quantities in the order radius, speed, load, modulus, viscosity, alpha.
     pub fn quantities(&self) -> [f64; 6] {
         [self.radius_m, self.speed_m_per_s, self.load, self.modulus_pa, self.viscosity_pa_s, self.alpha_per_pa]
+    }
+
+    /// The contact at the share `t` (0…1) of the way to another one, along the logarithms of SI quantities and R_y/R.
+    pub fn towards(&self, other: &Self, t: f64) -> Self {
+        let (from, to) = (self.quantities(), other.quantities());
+        let q: [f64; 6] = std::array::from_fn(|i| from[i] * (to[i] / from[i]).powf(t));
+        let mut point = Self::from_quantities(other.kind, q, self.sliding.towards(other.sliding, t));
+        if self.radius_y_m.or(other.radius_y_m).is_some() {
+            let [here, there] = [self, other].map(Self::radius_ratio);
+            point.radius_y_m = Some(here * (there / here).powf(t) * point.radius_m);
+        }
+        point
     }
 
     /// Refuses values that are not finite, not positive, or outside any sense.

@@ -7,7 +7,6 @@ use super::warm::WarmFluid;
 use crate::solver::limits::Number;
 use crate::solver::physics::bodies::{BodyHeat, surface_speeds};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::warning::{SMALLEST_PECLET, Warning};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -180,16 +179,15 @@ impl ScaledHeat {
         }
     }
 
-    /// A warning if a surface moves so slowly that heat flows upstream within its body, which is left out.
-    pub fn warning(&self, point: &OperatingPoint) -> Option<Warning> {
+    /// The body with the smaller Péclet number, 1 or 2, and that number: heat that flows upstream within a body is left out.
+    pub fn smallest_peclet(&self, point: &OperatingPoint) -> (usize, f64) {
         let half_width = point.hertz().half_width_m;
         let peclet = |body: &BodyHeat, speed: f64| {
             let diffusivity = body.conductivity / (body.density * body.heat_capacity);
             point.speed_m_per_s * speed * half_width / (2.0 * diffusivity)
         };
         let [first, second] = [0, 1].map(|i| peclet(&self.heat.bodies[i], self.speeds[i]));
-        let (body, peclet) = if first <= second { (1, first) } else { (2, second) };
-        (peclet < SMALLEST_PECLET).then_some(Warning::SmallPeclet { body, peclet })
+        if first <= second { (1, first) } else { (2, second) }
     }
 }
 

@@ -4,8 +4,6 @@ use super::{ReducedError, ReducedOptions, Starts};
 use crate::solver::discrete::heat::Profile;
 use crate::solver::full::Problem;
 use crate::solver::observer::Observer;
-use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
 use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Start, Stop};
@@ -116,17 +114,7 @@ pub(super) fn walk(
     options: &ReducedOptions,
     watch: &mut Watch<'_>,
 ) -> Option<Found> {
-    let (from, to) = (snapshot.point.quantities(), target.point.quantities());
-    let at = |t: f64| {
-        let q: [f64; 6] = std::array::from_fn(|i| from[i] * (to[i] / from[i]).powf(t));
-        let sliding = snapshot.point.sliding.towards(target.point.sliding, t);
-        let mut point = OperatingPoint::from_quantities(target.point.kind, q, sliding);
-        if window.shapes.is_some() {
-            let [here, there] = [&snapshot.point, &target.point].map(OperatingPoint::radius_ratio);
-            point = Quantity::RadiusRatio.at(&point, here * (there / here).powf(t));
-        }
-        Problem::new(&point, target.lubricant).ok()
-    };
+    let at = |t: f64| Problem::new(&snapshot.point.towards(&target.point, t), target.lubricant).ok();
     let (mut t, mut stride) = (0.0, 0.25);
     let (coefficients, fronts) = (snapshot.coefficients.clone(), snapshot.fronts.clone());
     let mut guess = Guess { coefficients, h_c: snapshot.h_c, fronts, theta: Vec::new() };

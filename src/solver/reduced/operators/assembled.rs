@@ -3,7 +3,7 @@
 use super::case::{Case, Start, State};
 use super::deformation::Deformation;
 use super::equations::Equations;
-use super::part::{Centre, Flow, Part};
+use super::part::{Centre, Flow, Part, Setting};
 use super::parts::{needed, parts_of};
 use super::readings::Readings;
 use super::sampled_system::SampledSystem;
@@ -42,7 +42,7 @@ impl Operators {
         }
         let mut system = SampledSystem::new(window, (modes, axes), &deformation, needed);
         system.transient = matches!(flow, Flow::Transient(_));
-        let parts = parts_of(window, flow, &deformation, &mut system);
+        let parts = parts_of(Setting { window, flow, deformation: &deformation }, &mut system);
         let equations = Equations::of(window, modes);
         let (whole_lift, readings) = (vec![0.0; modes], Readings::default());
         Self { system, deformation, equations, parts, lifted_at: f64::NAN, whole_lift, readings }

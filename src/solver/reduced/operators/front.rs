@@ -18,7 +18,7 @@ pub(crate) use reach::{cut_off, fronts, passed_rows};
 use self::bending::{Bent, Kept};
 use self::reach::{each_passed, passed};
 use super::case::{Case, Start, State};
-use super::part::{Centre, Kind, Moved, Part, Step};
+use super::part::{Centre, Kind, Moved, Part, Setting, Step};
 use super::readings::Readings;
 use super::sampled_system::SampledSystem;
 use crate::solver::discrete::grid::dot;
@@ -36,7 +36,7 @@ pub(super) const KIND: Kind = Kind {
             each_passed(window, |_, unknown| nodes.at_times.extend(window.grid.row(unknown).0));
         }
     },
-    make: |window, _, _, system| {
+    make: |Setting { window, .. }, system| {
         let cavitates = window.cavitation == Cavitation::Complementarity;
         cavitates.then(|| -> Box<dyn Part> { Box::new(Front::new(window, system)) })
     },

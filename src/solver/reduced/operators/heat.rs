@@ -7,7 +7,7 @@ mod stations;
 pub(crate) use stations::{Stations, carried};
 
 use super::case::{Case, Start, State};
-use super::part::{Flow, Kind, Moved, Part, Step};
+use super::part::{Flow, Kind, Moved, Part, Setting, Step};
 use super::readings::{Readings, RuleTraction};
 use super::sampled_system::SampledSystem;
 use super::traction::{Rule, RuleNode};
@@ -39,7 +39,7 @@ pub(super) const KIND: Kind = Kind {
             nodes.always.extend(stations.nodes().flatten().chain(stations.inlets().flatten()));
         }
     },
-    make: |window, flow, deformation, system| {
+    make: |Setting { window, flow, deformation }, system| {
         (flow == Flow::Thermal).then(|| -> Box<dyn Part> {
             let rule = Rule::of(window, (system.modes, system.axes), deformation);
             Box::new(Heated::new(&window.grid, system, rule))

@@ -14,6 +14,8 @@ mod readings;
 mod sampled_system;
 mod shaped;
 mod support;
+#[cfg(test)]
+mod tests;
 mod traction;
 
 pub(crate) use assembled::Operators;

@@ -21,12 +21,20 @@ pub(crate) enum Flow<'a> {
     Transient(&'a [usize]),
 }
 
+/// What operators are made for.
+#[derive(Clone, Copy)]
+pub(super) struct Setting<'a> {
+    pub window: &'a Window,
+    pub flow: Flow<'a>,
+    pub deformation: &'a Deformation,
+}
+
 /// How a kind of part comes into operators.
 pub(super) struct Kind {
     /// Adds the nodes that the part reads in addition to those of the sampled rows.
     pub nodes: fn(&Window, Flow<'_>, &mut Needed),
     /// Makes the part; `None` if operators of this window need none.
-    pub make: fn(&Window, Flow<'_>, &Deformation, &mut SampledSystem) -> Option<Box<dyn Part>>,
+    pub make: fn(Setting<'_>, &mut SampledSystem) -> Option<Box<dyn Part>>,
 }
 
 /// The film at X = 0 (and Y = 0), as an interpolation between nodes.

@@ -1,7 +1,6 @@
 //! The list of all parts that reduced operators are composed of.
 
-use super::deformation::Deformation;
-use super::part::{Flow, Kind, Part};
+use super::part::{Flow, Kind, Part, Setting};
 use super::sampled_system::SampledSystem;
 use super::support::Needed;
 use super::{front, heat, shaped, traction};
@@ -18,11 +17,6 @@ pub(super) fn needed(window: &Window, flow: Flow<'_>) -> Needed {
 }
 
 /// Makes the parts of the operators of a window over their rows.
-pub(super) fn parts_of(
-    window: &Window,
-    flow: Flow<'_>,
-    deformation: &Deformation,
-    system: &mut SampledSystem,
-) -> Vec<Box<dyn Part>> {
-    KINDS.iter().filter_map(|kind| (kind.make)(window, flow, deformation, system)).collect()
+pub(super) fn parts_of(setting: Setting<'_>, system: &mut SampledSystem) -> Vec<Box<dyn Part>> {
+    KINDS.iter().filter_map(|kind| (kind.make)(setting, system)).collect()
 }

@@ -13,9 +13,9 @@ use crate::solver::reduced::shapes::Shapes;
 /// Operators of a window that serves ellipses have it.
 pub(super) const KIND: Kind = Kind {
     nodes: |_, _, _| {},
-    make: |window, _, _, system| {
+    make: |setting, system| {
         let SampledSystem { modes, support, geometry, basis, .. } = system;
-        let shaped = Shaped::of(window, (&support.nodes(), *modes), (geometry, &support.places, basis))?;
+        let shaped = Shaped::of(setting.window, (&support.nodes(), *modes), (geometry, &support.places, basis))?;
         Some(Box::new(shaped))
     },
 };

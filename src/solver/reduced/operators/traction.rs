@@ -3,7 +3,7 @@
 
 use super::case::{Case, Start, State};
 use super::deformation::Deformation;
-use super::part::{Flow, Kind, Part};
+use super::part::{Flow, Kind, Part, Setting};
 use super::readings::{Readings, RuleTraction};
 use super::sampled_system::SampledSystem;
 use super::shaped::Shaped;
@@ -15,7 +15,7 @@ use crate::solver::reduced::model::Window;
 /// Operators of sliding isothermal contacts have it; those of thermal ones read the traction with their temperatures.
 pub(super) const KIND: Kind = Kind {
     nodes: |_, _, _| {},
-    make: |window, flow, deformation, system| {
+    make: |Setting { window, flow, deformation }, system| {
         if flow == Flow::Thermal {
             return None;
         }

@@ -1,0 +1,12 @@
+//! How values are spread over an interval.
+
+use serde::{Deserialize, Serialize};
+
+/// How values are spread over an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Scale {
+    /// Equal differences.
+    Linear,
+    /// Equal ratios.
+    Log,
+}
