@@ -118,6 +118,13 @@ mod tests {
             compare_on_model_grid: false,
         });
         assert!(message(Scene { study: huge, ..good.clone() }).contains("study.over.M"));
+        let follows = Study::Sweep(sweep::Sweep {
+            over: vec![Axis { vary: Quantity::HertzPressure, values: Steps::List(vec![1e9]) }],
+            methods: vec![Method::Full],
+            cold: false,
+            compare_on_model_grid: false,
+        });
+        assert!(message(Scene { study: follows, ..good.clone() }).contains("cannot be varied; accepted are M, L"));
         let alone = Study::Sweep(sweep::Sweep {
             over: vec![Axis { vary: Quantity::M, values: Steps::List(vec![20.0]) }],
             methods: vec![Method::Full],

@@ -205,6 +205,7 @@ impl Field {
 
     /// The field that results have by a name, such as `moes.M`.
     fn in_results(name: &str) -> Option<Self> {
+        let name = name.replace('-', "_");
         Self::ALL.iter().copied().find(|field| names::of_field(*field) == name)
     }
 
