@@ -1,10 +1,10 @@
 //! `info`: what a reduced model holds.
 
 use super::failure::Failure;
-use super::output;
+use super::output::{self, ProgressLine};
 use super::verdict::Verdict;
 use crate::engine::arrays::npz;
-use crate::engine::{EngineError, SavedModel, model_arrays, model_text};
+use crate::engine::{EngineError, SavedModel, model_arrays, model_snapshots, model_text};
 use crate::scene::atomic_file;
 use clap::Args;
 use std::path::PathBuf;
@@ -18,17 +18,38 @@ pub struct InfoArgs {
     /// Write its bases, sampled rows and snapshots as arrays that numpy reads
     #[arg(long, value_name = "FILE.npz")]
     arrays: Option<PathBuf>,
+    /// Solve the training contacts again in full, and write their fields into the arrays too
+    #[arg(long, requires = "arrays")]
+    snapshots: bool,
+    /// Write the pressures after every Newton step of these solves too
+    #[arg(long, requires = "snapshots")]
+    iterates: bool,
 }
+
+/// Why a transient model has no such fields.
+const TRANSIENT: &str = "a transient model was trained from the steps of marches, which its file does not hold; leave out \
+                         --snapshots";
 
 /// Runs the command.
 pub fn run(args: &InfoArgs) -> Result<Verdict, Failure> {
     let path = &args.file;
     let model =
         SavedModel::read(path).map_err(|reason| EngineError::Model { path: path.clone(), reason: reason.into() })?;
-    let (holds, text) = match &model {
+    let (mut holds, text) = match &model {
         SavedModel::Stationary(model) => (model_arrays::of_model(model), model_text::describe(model)),
         SavedModel::InTime(model) => (model_arrays::of_trajectories(model), model_text::describe_in_time(model)),
     };
+    match &model {
+        SavedModel::Stationary(model) if args.snapshots => {
+            let line = ProgressLine::new(true);
+            for window in 1..=model.windows.len() {
+                holds.extend(model_snapshots::solve(model, window, args.iterates, &line)?);
+            }
+            line.finish();
+        }
+        SavedModel::InTime(_) if args.snapshots => return Err(Failure::Request(TRANSIENT.to_owned())),
+        _ => {}
+    }
     if let Some(file) = &args.arrays {
         atomic_file::replace(file, &npz(&holds))?;
     }

@@ -27,6 +27,12 @@ impl Array {
         Self { name: name.into(), shape: vec![rows.len(), columns], values }
     }
 
+    /// Columns of `length` numbers each, next to each other.
+    pub fn columns(name: impl Into<String>, length: usize, columns: &[&Vec<f64>]) -> Self {
+        let row = |i: usize| columns.iter().map(move |column| column.get(i).copied().unwrap_or(f64::NAN));
+        Self { name: name.into(), shape: vec![length, columns.len()], values: (0..length).flat_map(row).collect() }
+    }
+
     /// The array as a file of its own.
     fn to_npy(&self) -> Vec<u8> {
         let shape: String = self.shape.iter().map(|length| format!("{length}, ")).collect();

@@ -4,7 +4,7 @@ use super::rom::{self, Catalogue, ModelFileError};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel};
-use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// The steady models by name, each with the content of its file. Scenes in `scenes/training` train them.
 const MODELS: [(&str, &[u8]); 11] = [
@@ -44,6 +44,22 @@ pub fn bytes_of(name: &str) -> Option<&'static [u8]> {
     MODELS.iter().chain(&[IN_TIME]).find(|(known, _)| *known == name).map(|(_, bytes)| *bytes)
 }
 
+/// Models that have been read, by name.
+pub(super) type Read = Vec<(String, Arc<ReducedModel>)>;
+
+static READ: Mutex<Read> = Mutex::new(Vec::new());
+
+fn read() -> MutexGuard<'static, Read> {
+    // A thread that panicked leaves a whole list.
+    READ.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Locks the models that have been read, with the catalogue made.
+pub(super) fn hold() -> MutexGuard<'static, Read> {
+    catalogue();
+    read()
+}
+
 /// Reads a model of the program. That its parts belong together was checked when it was tested, and is not checked again.
 ///
 /// # Errors
@@ -57,12 +73,7 @@ pub fn embedded(name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
 /// # Errors
 /// As [`embedded`], and when the observer cancels.
 pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
-    static READ: Mutex<Vec<(String, Arc<ReducedModel>)>> = Mutex::new(Vec::new());
-    // A thread that panicked leaves a whole list.
-    let read = || READ.lock().unwrap_or_else(PoisonError::into_inner);
-    let known = |read: &[(String, Arc<ReducedModel>)]| {
-        read.iter().find(|(known, _)| known == name).map(|(_, model)| Arc::clone(model))
-    };
+    let known = |read: &Read| read.iter().find(|(known, _)| known == name).map(|(_, model)| Arc::clone(model));
     if let Some(model) = known(&read()) {
         return Ok(model);
     }

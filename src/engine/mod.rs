@@ -20,6 +20,7 @@ mod grid_accuracy;
 pub mod job;
 pub mod model_arrays;
 pub mod model_file;
+pub mod model_snapshots;
 pub mod model_text;
 pub mod registry;
 pub mod results;
@@ -32,7 +33,7 @@ pub use answer::{Solver, answer};
 pub use embedded::{Entry, bytes_of, catalogue, embedded, line_in_time};
 pub use grid_accuracy::GridAccuracy;
 pub use rom::{Catalogue, ModelKind, SavedModel};
-pub use store::Store;
+pub use store::{Held, Store};
 pub use workbench::Workbench;
 
 pub use crate::scene::study::transient::TOO_STEEP;

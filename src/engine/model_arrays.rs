@@ -3,7 +3,7 @@
 use super::arrays::Array;
 use crate::solver::reduced::tpwl::TpwlModel;
 use crate::solver::reduced::transient::{TrajectoryModel, TrajectoryStart};
-use crate::solver::reduced::{PodBasis, ReducedModel, Window};
+use crate::solver::reduced::{PodBasis, ReducedModel, Window, deformation_weights};
 use faer::Mat;
 
 /// A matrix by rows.
@@ -30,6 +30,7 @@ fn of_window(prefix: &str, window: &Window) -> Vec<Array> {
         Array::list(name("weights"), grid.weights().to_vec()),
     ];
     arrays.extend(basis(&name("pressure"), window.pressure.basis()));
+    arrays.push(Array::list(name("deformation_weights"), deformation_weights(grid)));
     arrays.extend(basis(&name("deformation"), &window.deformation));
     arrays.push(Array::list(name("sampled_nodes"), sampled));
     arrays.push(matrix(name("reconstruction"), &window.reconstruction));
@@ -54,9 +55,10 @@ pub fn of_trajectories(model: &TrajectoryModel) -> Vec<Array> {
 }
 
 /// Every window of a model, its names beginning with `window_1_` and so on: `m` (from, to), `xi` and `y` of the nodes
-/// (X over the reference half width, Y), quadrature `weights`, `pressure_modes` and `deformation_modes` (nodes × modes)
-/// with their `_singular_values`, `sampled_nodes` (from 0), `reconstruction` (modes × rows), and of the snapshots
-/// `snapshots` (M, L, R, u_m, w, E′, η₀, α, SRR, H₀, H_c) with `snapshot_coefficients`.
+/// (X over the reference half width, Y), quadrature `weights`, `pressure_modes` (nodes × modes, orthonormal under
+/// `weights`) and `deformation_modes` (orthonormal under `deformation_weights`) with their `_singular_values`,
+/// `sampled_nodes` (from 0), `reconstruction` (modes × rows), and of the snapshots `snapshots` (M, L, R, u_m, w, E′, η₀, α,
+/// SRR, H₀, H_c) with `snapshot_coefficients`. The first node of a line contact lies outside the inlet.
 pub fn of_model(model: &ReducedModel) -> Vec<Array> {
     let mut arrays = Vec::new();
     for (k, window) in model.windows.iter().enumerate() {
@@ -80,8 +82,8 @@ pub fn of_model(model: &ReducedModel) -> Vec<Array> {
     arrays
 }
 
-/// A linearised model: `x` and quadrature `weights` of the nodes, `pressure_modes` and `deformation_modes` (nodes ×
-/// modes), `singular_values`, and of the operating points `points` (trajectory from 1, reference load, T, R, u, w over
+/// A linearised model: `x` and quadrature `weights` of the nodes, `pressure_modes` V (nodes × modes, orthonormal under
+/// `weights`), `mode_deformations` K V (the deformation by each pressure mode), `singular_values`, and of the operating points `points` (trajectory from 1, reference load, T, R, u, w over
 /// their references, spacing), `states` (p̃, H₀), and the linearised systems (4.27), points × state × columns:
 /// `storage_by_state`, `storage_by_input`, `flux_by_state`, `flux_by_input`, with `storage` and `flux` at the points.
 pub fn of_linearised(model: &TpwlModel) -> Vec<Array> {
@@ -100,7 +102,7 @@ pub fn of_linearised(model: &TpwlModel) -> Vec<Array> {
         Array::list("x", space.grid.x.clone()),
         Array::list("weights", space.grid.weights.clone()),
         matrix("pressure_modes".to_owned(), &space.pressure),
-        matrix("deformation_modes".to_owned(), &space.deformation),
+        matrix("mode_deformations".to_owned(), &space.deformation),
         Array::list("singular_values", model.singular_values.clone()),
         Array::rows("points", &rows),
         Array::rows("states", &states),
@@ -136,14 +138,18 @@ mod tests {
         let model = embedded("line").unwrap();
         let arrays = of_model(&model);
         let of = |name: &str| arrays.iter().find(|array| array.name == name).unwrap();
-        let (modes, weights) = (of("window_1_pressure_modes"), of("window_1_weights"));
-        let [nodes, columns] = modes.shape[..] else { panic!("{:?}", modes.shape) };
-        assert_eq!(nodes, weights.values.len());
-        let product = |a: usize, b: usize| -> f64 {
-            let at = |i: usize, k: usize| modes.values[i * columns + k];
-            (0..nodes).map(|i| weights.values[i] * at(i, a) * at(i, b)).sum()
-        };
-        assert!((product(0, 0) - 1.0).abs() < 1e-9 && product(0, 1).abs() < 1e-9, "orthonormal under the weights");
+        for (modes, weights) in [("pressure_modes", "weights"), ("deformation_modes", "deformation_weights")] {
+            let (modes, weights) = (of(&format!("window_1_{modes}")), of(&format!("window_1_{weights}")));
+            let [nodes, columns] = modes.shape[..] else { panic!("{:?}", modes.shape) };
+            assert_eq!(nodes, weights.values.len());
+            let product = |a: usize, b: usize| -> f64 {
+                let at = |i: usize, k: usize| modes.values[i * columns + k];
+                (0..nodes).map(|i| weights.values[i] * at(i, a) * at(i, b)).sum()
+            };
+            for (a, b) in [(0, 0), (0, 1), (columns - 1, columns - 1), (0, columns - 1)] {
+                assert!((product(a, b) - f64::from(u8::from(a == b))).abs() < 1e-9, "{}: {a}, {b}", modes.name);
+            }
+        }
         let snapshots = of("window_1_snapshots");
         assert_eq!(snapshots.shape, [model.windows[0].snapshots.len(), 11]);
         assert_eq!(of("window_1_snapshot_coefficients").shape[0], snapshots.shape[0]);

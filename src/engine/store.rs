@@ -38,6 +38,16 @@ struct Shelves {
     online: Mutex<Vec<Online>>,
 }
 
+/// Everything that is shared, held still.
+pub struct Held<'a> {
+    _program: MutexGuard<'static, embedded::Read>,
+    _grids: MutexGuard<'a, Vec<ContactGrid>>,
+    _full: MutexGuard<'a, Vec<ContactSolver>>,
+    _models: MutexGuard<'a, Vec<(Origin, Arc<ReducedModel>)>>,
+    _in_time: MutexGuard<'a, Vec<(Origin, Arc<TrajectoryModel>)>>,
+    _online: MutexGuard<'a, Vec<Online>>,
+}
+
 /// What a reduced model was made from, by which it is known again.
 #[derive(Clone, PartialEq)]
 enum Origin {
@@ -153,6 +163,20 @@ impl Store {
     ) -> Result<Arc<ReducedModel>, EngineError> {
         let origin = Origin::Training(Box::new(spec.clone()));
         Ok(made_once(&self.0.models, origin, || train(spec, observer).map(Arc::new))?)
+    }
+
+    /// Locks everything that is shared. A process that is forked meanwhile finds it whole and, once the child drops what it
+    /// has of this, open: no thread that the child lacks was in the middle of a change.
+    pub fn hold(&self) -> Held<'_> {
+        let Shelves { grids, full, models, in_time, online } = &*self.0;
+        Held {
+            _program: embedded::hold(),
+            _grids: lock(grids),
+            _full: lock(full),
+            _models: lock(models),
+            _in_time: lock(in_time),
+            _online: lock(online),
+        }
     }
 
     /// The same where it has been trained already and is still kept.

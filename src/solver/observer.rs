@@ -11,6 +11,9 @@ pub trait Observer: Sync {
     /// Called after every Newton step of a full solve.
     fn newton_step(&self, _step: &NewtonStep) {}
 
+    /// Called with P (node array) after every Newton step of a full solve.
+    fn iterate(&self, _pressure: &[f64]) {}
+
     /// Called after every Krylov iteration of a point contact's linear solve, with their count within the present
     /// Newton step.
     fn krylov_iteration(&self, _count: usize) {}

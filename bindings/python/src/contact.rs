@@ -9,7 +9,8 @@ use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyString, PyTuple};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -18,15 +19,20 @@ use std::sync::Arc;
 ///
 /// ``Contact(moes_m=40, moes_l=10)``, ``Contact(radius=0.0225, speed=5.04, load=646e3, modulus=287.8e9,
 /// viscosity=4e-3, alpha=22e-9)``; numbers in SI units, or texts with a unit as ``radius="12 mm"``; ``contact="point"`` for
-/// balls and ellipses. It is checked as it is made and never changes.
+/// balls and ellipses. It is checked as it is made and never changes. Contacts are equal if the same is to be solved; they
+/// can be pickled and be keys of dictionaries.
 #[pyclass(frozen, module = "ehl_explorer")]
 pub struct Contact {
     /// What was stated.
     pub spec: ContactSpec,
     /// What that asks for.
     pub request: Request,
-    words: Vec<String>,
+    /// The keywords with their values, in the order of the fields.
+    given: Vec<(Field, Py<PyAny>)>,
 }
+
+/// A field with the value that is stated of it.
+type Given<'py> = (Field, Bound<'py, PyAny>);
 
 /// States a field by a Python value.
 fn state(spec: &mut ContactSpec, field: Field, value: &Bound<'_, PyAny>) -> PyResult<()> {
@@ -51,39 +57,81 @@ fn state(spec: &mut ContactSpec, field: Field, value: &Bound<'_, PyAny>) -> PyRe
     spec.read(field, &text, "").map_err(|refusal| refused(stated(refusal)))
 }
 
+/// Keywords as fields, which `field_of` finds. `None` states nothing.
+fn stated_fields<'py>(
+    keywords: Option<&Bound<'py, PyDict>>,
+    field_of: fn(&str) -> Option<Field>,
+) -> PyResult<Vec<Given<'py>>> {
+    let field = |(name, value): (Bound<'py, PyAny>, Bound<'py, PyAny>)| {
+        let name: String = name.extract()?;
+        let field = field_of(&name).ok_or_else(|| {
+            let accepted: Vec<_> = Field::of(Words::Keywords).map(|field| field.facts().name).collect();
+            let accepted = accepted.join(", ").replace('-', "_");
+            refused(format!("{name}= is no keyword of a contact; accepted are {accepted}"))
+        })?;
+        Ok((field, value))
+    };
+    keywords.into_iter().flatten().map(field).collect()
+}
+
+/// A value that nobody can change any more: numbers of Python in place of lists and arrays.
+fn unchangeable<'py>(field: Field, value: Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    if value.is_instance_of::<PyString>() || value.is_instance_of::<PyBool>() || value.is_instance_of::<PyTuple>() {
+        return Ok(value);
+    }
+    if let Some(number) = value.extract::<f64>().ok().filter(|_| field.is_number()) {
+        return Ok(PyFloat::new(value.py(), number).into_any());
+    }
+    match value.extract::<Vec<f64>>() {
+        Ok(numbers) => Ok(PyTuple::new(value.py(), numbers)?.into_any()),
+        Err(_) => Ok(value),
+    }
+}
+
+/// The keyword of a field.
+fn keyword(field: Field) -> String {
+    field.facts().name.replace('-', "_")
+}
+
 impl Contact {
-    /// The contact of some fields and of keywords, whose fields `field_of` finds.
-    fn of(
-        mut spec: ContactSpec,
-        keywords: Option<&Bound<'_, PyDict>>,
-        field_of: fn(&str) -> Option<Field>,
-    ) -> PyResult<Self> {
-        let mut given = Vec::new();
-        for (name, value) in keywords.into_iter().flatten().filter(|(_, value)| !value.is_none()) {
-            let name: String = name.extract()?;
-            let field = field_of(&name).ok_or_else(|| {
-                let accepted: Vec<_> = Field::of(Words::Keywords).map(|field| field.facts().name).collect();
-                refused(format!(
-                    "{name}= is no keyword of a contact; accepted are {}",
-                    accepted.join(", ").replace('-', "_")
-                ))
-            })?;
-            given.push((field, value));
+    /// The contact of some fields; a later value takes the place of an earlier one.
+    fn of(fields: Vec<Given<'_>>) -> PyResult<Self> {
+        let mut given: Vec<Given<'_>> = Vec::with_capacity(fields.len());
+        for (field, value) in fields {
+            given.retain(|(other, _)| *other != field);
+            if !value.is_none() {
+                given.push((field, unchangeable(field, value)?));
+            }
         }
         // The unit of a load depends on the kind of contact, which is the first field.
         given.sort_by_key(|(field, _)| *field);
+        let mut spec = ContactSpec::default();
         given.iter().try_for_each(|(field, value)| state(&mut spec, *field, value))?;
-        let request = spec.request().map_err(|refusal| refused(stated(refusal)))?;
-        let mut words = Vec::new();
-        for &field in Field::ALL {
-            let word = Words::Keywords.of(field);
-            match (spec.number(field), given.iter().find(|(other, _)| *other == field)) {
-                (Some(number), _) => words.push(format!("{word}{number:?}")),
-                (None, Some((_, value))) => words.push(format!("{}={}", field.facts().name, value.repr()?)),
-                (None, None) => {}
+        for (field, _) in &given {
+            // Zero has one sign, by which equal contacts have equal hashes.
+            if spec.number(*field) == Some(0.0) {
+                spec.set(*field, 0.0);
             }
         }
-        Ok(Self { spec, request, words })
+        let request = spec.request().map_err(|refusal| refused(stated(refusal)))?;
+        let given = given.into_iter().map(|(field, value)| (field, value.unbind())).collect();
+        Ok(Self { spec, request, given })
+    }
+
+    /// The contact of some numbers and of keywords, which take their place.
+    fn of_numbers(
+        py: Python<'_>,
+        numbers: impl IntoIterator<Item = (Field, Option<f64>)>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let number = |(field, number): (Field, Option<f64>)| Some((field, PyFloat::new(py, number?).into_any()));
+        let mut fields: Vec<Given<'_>> = numbers.into_iter().filter_map(number).collect();
+        fields.extend(stated_fields(options, Field::named)?);
+        Self::of(fields)
+    }
+
+    fn fields<'py>(&self, py: Python<'py>) -> Vec<Given<'py>> {
+        self.given.iter().map(|(field, value)| (*field, value.bind(py).clone())).collect()
     }
 
     /// What a call asks for by its method and its model: one in memory, or a file's name.
@@ -98,7 +146,7 @@ impl Contact {
         };
         let model = match model.map(|model| model.cast::<Model>().map_err(|_| model)) {
             None => None,
-            Some(Ok(model)) => Some(Arc::clone(&model.get().0)),
+            Some(Ok(model)) => Some(Arc::clone(&model.get().model)),
             Some(Err(path)) => {
                 spec.rom = Some(path.extract()?);
                 None
@@ -137,13 +185,15 @@ impl Contact {
     #[new]
     #[pyo3(signature = (**options))]
     fn new(options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        Self::of(ContactSpec::default(), options, Field::named)
+        Self::of(stated_fields(options, Field::named)?)
     }
 
     /// A contact in SI units: R [m], u_m [m/s], load [N/m line, N point], E' [Pa], viscosity [Pa s], alpha [1/Pa].
     #[staticmethod]
     #[pyo3(signature = (radius, speed, load, modulus=None, viscosity=None, alpha=None, **options))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn si(
+        py: Python<'_>,
         radius: f64,
         speed: f64,
         load: f64,
@@ -152,17 +202,22 @@ impl Contact {
         alpha: Option<f64>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let (radius, speed, load) = (Some(radius), Some(speed), Some(load));
-        let spec = ContactSpec { radius, speed, load, modulus, viscosity, alpha, ..ContactSpec::default() };
-        Self::of(spec, options, Field::named)
+        let numbers = [
+            (Field::Radius, Some(radius)),
+            (Field::Speed, Some(speed)),
+            (Field::Load, Some(load)),
+            (Field::Modulus, modulus),
+            (Field::Viscosity, viscosity),
+            (Field::Alpha, alpha),
+        ];
+        Self::of_numbers(py, numbers, options)
     }
 
     /// A contact by Moes' numbers M and L; what is given besides is kept, the rest takes its default.
     #[staticmethod]
     #[pyo3(signature = (m, l, **options))]
-    fn moes(m: f64, l: f64, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let spec = ContactSpec { moes_m: Some(m), moes_l: Some(l), ..ContactSpec::default() };
-        Self::of(spec, options, Field::named)
+    fn moes(py: Python<'_>, m: f64, l: f64, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        Self::of_numbers(py, [(Field::MoesM, Some(m)), (Field::MoesL, Some(l))], options)
     }
 
     /// A contact by the columns of a table of load cases, as
@@ -170,10 +225,47 @@ impl Contact {
     /// temperature="60 °C", srr="5 %")``.
     #[staticmethod]
     #[pyo3(signature = (contact="line", **quantities))]
-    fn engineering(contact: &str, quantities: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let mut spec = ContactSpec::default();
-        spec.read(Field::Contact, contact, "").map_err(|refusal| refused(stated(refusal)))?;
-        Self::of(spec, quantities, Field::titled)
+    fn engineering(py: Python<'_>, contact: &str, quantities: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut fields = vec![(Field::Contact, PyString::new(py, contact).into_any())];
+        fields.extend(stated_fields(quantities, Field::titled)?);
+        Self::of(fields)
+    }
+
+    /// The contact with some keywords changed: that of all keywords of this one and of these, which take their place.
+    /// ``None`` leaves a keyword out.
+    ///
+    /// ``contact.replace(load=3e5)``; a contact by Moes' numbers keeps those: its other quantities follow.
+    #[pyo3(signature = (**changes))]
+    fn replace(&self, py: Python<'_>, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut fields = self.fields(py);
+        fields.extend(stated_fields(changes, Field::named)?);
+        Self::of(fields)
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
+        let keywords = PyDict::new(py);
+        for (field, value) in &self.given {
+            keywords.set_item(keyword(*field), value)?;
+        }
+        Ok((PyTuple::empty(py), keywords))
+    }
+
+    fn __copy__(own: Py<Self>) -> Py<Self> {
+        own
+    }
+
+    fn __deepcopy__(own: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        own
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.request == other.request
+    }
+
+    fn __hash__(&self) -> PyResult<u64> {
+        let mut hasher = DefaultHasher::new();
+        serde_json::to_string(&self.request).map_err(refused)?.hash(&mut hasher);
+        Ok(hasher.finish())
     }
 
     /// Load number M.
@@ -221,7 +313,12 @@ impl Contact {
         Ok(dict)
     }
 
-    fn __repr__(&self) -> String {
-        format!("Contact({})", self.words.join(", "))
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let word = |(field, value): &(Field, Py<PyAny>)| match self.spec.number(*field) {
+            Some(number) => Ok(format!("{}{number:?}", Words::Keywords.of(*field))),
+            None => Ok(format!("{}={}", keyword(*field), value.bind(py).repr()?)),
+        };
+        let words = self.given.iter().map(word).collect::<PyResult<Vec<_>>>()?;
+        Ok(format!("Contact({})", words.join(", ")))
     }
 }

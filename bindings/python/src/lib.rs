@@ -12,28 +12,43 @@ mod study;
 mod tables;
 mod work;
 
-use ehl_explorer::engine::Store;
+use ehl_explorer::engine::{Held, Store};
 use pyo3::prelude::*;
+use std::cell::RefCell;
 use std::sync::LazyLock;
 
 /// Grids, solvers and models of this process.
 static STORE: LazyLock<Store> = LazyLock::new(Store::default);
 
+thread_local! {
+    /// What the thread holds that forks.
+    static HELD: RefCell<Option<Held<'static>>> = const { RefCell::new(None) };
+}
+
+/// Called before and after a fork: while one thread forks, no other one is in the middle of a change to what they share.
+#[pyfunction]
+fn _hold(held: bool) {
+    let held = held.then(|| STORE.hold());
+    HELD.with(|place| *place.borrow_mut() = held);
+}
+
 /// The native half of `ehl_explorer`.
 #[pymodule]
 mod _native {
+    #[pymodule_export]
+    use super::_hold;
     #[pymodule_export]
     use super::contact::Contact;
     #[pymodule_export]
     use super::many::{measure, solve_many};
     #[pymodule_export]
-    use super::model::Model;
+    use super::model::{_model, Model};
     #[pymodule_export]
-    use super::result::{Result, solve};
+    use super::result::{_result, Result, solve};
     #[pymodule_export]
     use super::study::{random_test, run, sweep, transient};
     #[pymodule_export]
-    use super::work::EhlError;
+    use super::work::{EhlError, MarchStopped};
 
     use pyo3::prelude::*;
 

@@ -2,7 +2,7 @@
 
 use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
-use crate::work::{long, refused, stated};
+use crate::work::{Watch, long, refused, stated};
 use ehl_explorer::engine::{EngineError, Workbench, contact_columns, result_columns};
 use ehl_explorer::host::clock::Stopwatch;
 use ehl_explorer::host::pool::on_all_cores;
@@ -26,12 +26,54 @@ fn varied(contact: &ContactSpec, columns: &[(Field, &[f64])], k: usize) -> Conta
     own
 }
 
+/// What is said of a row in words.
+#[derive(Clone, Default)]
+struct Said {
+    status: &'static str,
+    reason: String,
+    warning: String,
+}
+
+/// Solves one contact into a row of its table; says how it went.
+///
+/// # Errors
+/// If a model cannot be read, by which every row would be refused, or the observer cancels.
+fn solve_row(
+    bench: &mut Workbench,
+    contact: &ContactSpec,
+    (names, row): (&[&str], &mut [f64]),
+    watch: &Watch,
+) -> Result<Said, EngineError> {
+    bench.forget();
+    let answered = contact.request().map_err(stated).and_then(|request| bench.answer(&request, None, watch));
+    match answered {
+        Ok(answer) => {
+            let result = answer.result;
+            row.iter_mut().zip(result.row(names)).for_each(|(place, value)| *place = value);
+            let warning = result.warning();
+            let (status, reason) =
+                if result.converged { ("converged", String::new()) } else { ("not converged", warning.clone()) };
+            Ok(Said { status, reason, warning })
+        }
+        Err(error) if error.cancelled() || matches!(error, EngineError::Model { .. } | EngineError::Embedded(_)) => {
+            Err(error)
+        }
+        Err(error) => {
+            if let Some(place) = names.iter().position(|name| *name == "converged").and_then(|k| row.get_mut(k)) {
+                *place = 0.0;
+            }
+            let reason = error.to_string();
+            Ok(Said { status: "refused", warning: reason.clone(), reason })
+        }
+    }
+}
+
 /// Solves a contact with some of its options varied, a contact for each element of the arrays (float64, shape (n,)),
 /// on all cores. Each is solved afresh, so that neither order nor cores matter.
 ///
 /// A structured array of shape (n,): the contact and its result by the names of ``sweep``'s tables, NaN where a solve did
-/// not converge; ``reduced.trained`` is 1 or 0, ``warning`` a text. A contact that makes no sense refuses all of them by
-/// its number.
+/// not converge; ``reduced.trained`` is 1 or 0, ``warning`` a text. ``status`` is "converged", "not converged" or "refused",
+/// ``reason`` why it is not the first.
 #[pyfunction]
 #[pyo3(signature = (contact, columns, method=None, model=None, progress=None))]
 pub fn solve_many<'py>(
@@ -54,32 +96,27 @@ pub fn solve_many<'py>(
     let names = [contact_columns(), result_columns(heat)].concat();
     let Asked { spec, model } = asked;
     let width = names.len();
-    let (numbers, warnings) = long(py, progress, |watch| {
-        let (mut numbers, mut warnings) = (vec![f64::NAN; width * total], vec![String::new(); total]);
+    let (numbers, said) = long(py, progress, |watch| {
+        let (mut numbers, mut said) = (vec![f64::NAN; width * total], vec![Said::default(); total]);
         let done = AtomicUsize::new(0);
-        let chunks = numbers.par_chunks_mut(width * CHUNK).zip(warnings.par_chunks_mut(CHUNK)).enumerate();
-        let solve = |(chunk, (rows, warnings)): (usize, (&mut [f64], &mut [String]))| {
+        let chunks = numbers.par_chunks_mut(width * CHUNK).zip(said.par_chunks_mut(CHUNK)).enumerate();
+        let solve = |(chunk, (rows, said)): (usize, (&mut [f64], &mut [Said]))| {
             let mut bench = bench_with(model.as_ref());
-            for (i, (row, warning)) in rows.chunks_exact_mut(width).zip(&mut *warnings).enumerate() {
-                let k = chunk * CHUNK + i;
-                let at = |error: EngineError| match error {
-                    stopped if stopped.cancelled() => stopped,
-                    refused => EngineError::Study(format!("contact {k}: {refused}")),
-                };
-                let request = varied(&spec, &columns, k).request().map_err(|refusal| at(stated(refusal)))?;
-                bench.forget();
-                let result = bench.answer(&request, None, watch).map_err(at)?.result;
-                *warning = result.warning();
-                row.iter_mut().zip(result.row(&names)).for_each(|(place, value)| *place = value);
+            for (i, (row, said)) in rows.chunks_exact_mut(width).zip(&mut *said).enumerate() {
+                let contact = varied(&spec, &columns, chunk * CHUNK + i);
+                *said = solve_row(&mut bench, &contact, (&names, row), watch)?;
             }
-            let done = done.fetch_add(warnings.len(), Ordering::Relaxed) + warnings.len();
+            let done = done.fetch_add(said.len(), Ordering::Relaxed) + said.len();
             watch.progress(Progress { stage: "contacts".to_owned(), done, total });
             if watch.cancelled() { Err(EngineError::Cancelled) } else { Ok(()) }
         };
         on_all_cores(|| chunks.try_for_each(solve))?;
-        Ok((numbers, warnings))
+        Ok((numbers, said))
     })?;
-    structured(py, &names, numbers, Some(("warning", &warnings)))
+    let texts = |of: fn(&Said) -> String| said.iter().map(of).collect::<Vec<String>>();
+    let [statuses, reasons, warnings] =
+        [texts(|said| said.status.to_owned()), texts(|said| said.reason.clone()), texts(|said| said.warning.clone())];
+    structured(py, &names, numbers, &[("warning", &warnings), ("status", &statuses), ("reason", &reasons)])
 }
 
 /// Seconds of `runs` solves of a contact without Python between them, each afresh, on the caller's thread; where more

@@ -11,9 +11,11 @@ use pyo3::exceptions::{PyAttributeError, PyKeyError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// One contact solved: scalars by the names of ``solve --json`` (``H_c``, ``h_c_m``, ``traction``, ``converged``, and
-/// those of groups as ``p_h_pa`` or ``trained``), fields as arrays. What does not apply is absent.
+/// those of groups as ``p_h_pa`` or ``trained``), fields as arrays. What does not apply is absent. Results are equal if
+/// everything but the time ``wall_s`` is; they can be pickled.
 #[pyclass(frozen, module = "ehl_explorer")]
 pub struct Result {
     result: ContactResult,
@@ -27,10 +29,14 @@ struct Fields {
     y: Py<PyAny>,
     pressure: Py<PyAny>,
     film: Py<PyAny>,
-    further: Vec<(&'static str, Py<PyAny>)>,
+    further: Vec<(String, Py<PyAny>)>,
 }
 
 impl Fields {
+    fn arrays(&self) -> impl Iterator<Item = &Py<PyAny>> {
+        [&self.x, &self.y, &self.pressure, &self.film].into_iter().chain(self.further.iter().map(|(_, array)| array))
+    }
+
     /// The fields of a solution, moved out of it.
     fn of(py: Python<'_>, solution: Solution) -> PyResult<Self> {
         // A line's node arrays begin with one outside the inlet.
@@ -43,7 +49,7 @@ impl Fields {
         let mut further = Vec::new();
         for (name, values) in [("multiplier", solution.multiplier), ("filled", solution.fraction)] {
             if !values.is_empty() {
-                further.push((name, field(values)?));
+                further.push((name.to_owned(), field(values)?));
             }
         }
         if let Some(rises) = rises {
@@ -54,7 +60,7 @@ impl Fields {
             ];
             for (name, values) in columns {
                 let length = values.len();
-                further.push((name, shaped(py, values, &[length])?.unbind()));
+                further.push((name.to_owned(), shaped(py, values, &[length])?.unbind()));
             }
         }
         Ok(Self {
@@ -67,7 +73,40 @@ impl Fields {
     }
 }
 
+/// The arrays of a result as Python has them: X, Y, P, H, and the further ones by name.
+type Kept<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyDict>);
+
+/// The result that was pickled.
+#[pyfunction]
+#[pyo3(signature = (result, fields=None))]
+pub fn _result(result: &str, fields: Option<Kept<'_>>) -> PyResult<Result> {
+    let result = ron::from_str(result).map_err(refused)?;
+    let fields = fields.map(|(x, y, pressure, film, further)| {
+        let further = further.iter().map(|(name, array)| Ok((name.extract()?, array.unbind())));
+        let further = further.collect::<PyResult<_>>()?;
+        let (x, y, pressure, film) = (x.unbind(), y.unbind(), pressure.unbind(), film.unbind());
+        Ok::<_, PyErr>(Fields { x, y, pressure, film, further })
+    });
+    Ok(Result { result, values: PyOnceLock::new(), fields: fields.transpose()? })
+}
+
 impl Result {
+    /// What is pickled of its values.
+    fn text(&self) -> PyResult<String> {
+        ron::to_string(&self.result).map_err(refused)
+    }
+
+    /// The same but for the clock, by which results are compared.
+    fn text_without_clock(&self) -> PyResult<String> {
+        ron::to_string(&ContactResult { wall_s: 0.0, ..self.result.clone() }).map_err(refused)
+    }
+
+    fn kept<'py>(&self, py: Python<'py>) -> PyResult<Option<Kept<'py>>> {
+        let Some(Fields { x, y, pressure, film, .. }) = &self.fields else { return Ok(None) };
+        let [x, y, pressure, film] = [x, y, pressure, film].map(|array| array.bind(py).clone());
+        Ok(Some((x, y, pressure, film, self.fields(py)?)))
+    }
+
     fn of(py: Python<'_>, answer: Answer) -> PyResult<Self> {
         let result = answer.result.clone();
         let fields = answer.into_fields().map(|solution| Fields::of(py, solution)).transpose()?;
@@ -179,6 +218,41 @@ impl Result {
     /// Everything but the fields, as the object of ``solve --json``.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         Ok(py.import("copy")?.call_method1("deepcopy", (self.values(py)?,))?.cast_into::<PyDict>()?)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String, Option<Kept<'py>>))> {
+        let made_by = py.import("ehl_explorer._native")?.getattr("_result")?;
+        Ok((made_by, (self.text()?, self.kept(py)?)))
+    }
+
+    fn __copy__(own: Py<Self>) -> Py<Self> {
+        own
+    }
+
+    fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
+        if self.text_without_clock()? != other.text_without_clock()? {
+            return Ok(false);
+        }
+        let (Some(own), Some(others)) = (&self.fields, &other.fields) else {
+            return Ok(self.fields.is_none() && other.fields.is_none());
+        };
+        let named = |(name, _): &(String, Py<PyAny>)| name.clone();
+        if !own.further.iter().map(named).eq(others.further.iter().map(named)) {
+            return Ok(false);
+        }
+        let equal = py.import("numpy")?.getattr("array_equal")?;
+        for (own, others) in own.arrays().zip(others.arrays()) {
+            if !equal.call1((own, others))?.is_truthy()? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    fn __hash__(&self) -> PyResult<u64> {
+        let mut hasher = DefaultHasher::new();
+        self.text_without_clock()?.hash(&mut hasher);
+        Ok(hasher.finish())
     }
 
     fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {

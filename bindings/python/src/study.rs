@@ -3,8 +3,8 @@
 use crate::contact::Contact;
 use crate::model::{Model, scene_of};
 use crate::tables::array_of;
-use crate::work::{long, refused, stated};
-use ehl_explorer::engine::{EngineError, SceneOutcome, Workbench, run_scene};
+use crate::work::{long, march_stopped, refused, stated, warn};
+use ehl_explorer::engine::{EngineError, SceneOutcome, Table, Workbench, run_scene};
 use ehl_explorer::scene::study::random_test::RandomTest;
 use ehl_explorer::scene::study::transient::series;
 use ehl_explorer::scene::{At, ContactSweep, Grid, Method, Scene, Steps, Study, TransientStudy, Varied};
@@ -84,7 +84,8 @@ pub fn random_test<'py>(
     let study = Study::RandomTest(RandomTest { range, tests, seed, method, compare, worst: 0 });
     let scene = Scene { contact: kind, study, grid: Grid::Usual, ..Scene::at_moes(40.0, 10.0) };
     let outcome = outcome(py, &scene, bench_of(model, PathBuf::new())?, progress)?;
-    first_table(py, outcome)
+    warn(py, outcome.found.warnings)?;
+    array_of(py, first_table(outcome.tables)?)
 }
 
 /// A contact in time, in full: the study ``Transient`` of scenes with inputs R, u_m and load that vary around those of
@@ -93,7 +94,8 @@ pub fn random_test<'py>(
 ///
 /// Times are in units of a/u_m. ``radius``, ``speed`` and ``load`` are pairs (T, values) of times and multiples of the
 /// contact's own; what is not given stays. Steps are all of the length ``step``. A structured array of the march: T,
-/// inputs, films, pressures.
+/// inputs, films, pressures. What a reader must know of it is a warning. A march that cannot take a step raises
+/// :class:`MarchStopped`.
 #[pyfunction]
 #[pyo3(signature = (contact, duration, step, radius=None, speed=None, load=None, model=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
@@ -144,8 +146,13 @@ pub fn transient<'py>(
         ..Scene::at_moes(40.0, 10.0)
     };
     scene.set_laws(request.lubricant);
-    let outcome = outcome(py, &scene, bench_of(None, PathBuf::new())?, progress)?;
-    first_table(py, outcome)
+    let SceneOutcome { found, tables, .. } = outcome(py, &scene, bench_of(None, PathBuf::new())?, progress)?;
+    let sentences = found.warnings.iter().map(|said| said.strip_prefix("fixed: ").unwrap_or(said).to_owned());
+    let (ended, warnings): (Vec<_>, Vec<_>) =
+        sentences.partition(|said| !found.converged && said.starts_with("the march "));
+    warn(py, warnings)?;
+    let reached = array_of(py, first_table(tables)?)?;
+    if found.converged { Ok(reached) } else { Err(march_stopped(py, ended.join("; "), reached)) }
 }
 
 /// The march by the reduced model in time of a file.
@@ -167,13 +174,12 @@ fn by_model<'py>(
         let outside = model.domain.left_by(&trajectory);
         Ok((trajectory, outside))
     })?;
+    warn(py, outside)?;
+    let reached = array_of(py, series("reduced", &trajectory.moments))?;
     if !trajectory.finished() {
-        return Err(refused(format!("the march {}", trajectory.ended.describe())));
+        return Err(march_stopped(py, format!("the march {}", trajectory.ended.describe()), reached));
     }
-    for sentence in outside {
-        py.import("warnings")?.call_method1("warn", (sentence,))?;
-    }
-    array_of(py, series("reduced", &trajectory.moments))
+    Ok(reached)
 }
 
 /// Runs a scene, given by its text or its file, and holds it against its expectations: an :class:`Outcome`.
@@ -205,7 +211,7 @@ fn bench_of(model: Option<&Bound<'_, PyAny>>, base: PathBuf) -> PyResult<Workben
     let bench = Workbench::on(&crate::STORE, base);
     let Some(model) = model else { return Ok(bench) };
     Ok(bench.with_model(&match model.cast::<Model>() {
-        Ok(model) => Arc::clone(&model.get().0),
+        Ok(model) => Arc::clone(&model.get().model),
         Err(_) => crate::STORE.model_of_file(&model.extract::<PathBuf>()?).map_err(refused)?,
     }))
 }
@@ -219,7 +225,6 @@ fn outcome(
     long(py, progress, |watch| run_scene(scene, &mut bench, watch))
 }
 
-fn first_table(py: Python<'_>, outcome: SceneOutcome) -> PyResult<Bound<'_, PyAny>> {
-    let none = || refused("the study gave no table");
-    array_of(py, outcome.tables.into_iter().next().ok_or_else(none)?)
+fn first_table(tables: Vec<Table>) -> PyResult<Table> {
+    tables.into_iter().next().ok_or_else(|| refused("the study gave no table"))
 }

@@ -6,35 +6,37 @@ use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
 use std::collections::HashMap;
 
-/// Rows of numbers as a structured array, one field for each column, and behind them a column of texts if there is one.
-/// Numbers alone are moved, not copied.
+/// Rows of numbers as a structured array, one field for each column, and behind them the columns of texts. Numbers alone are
+/// moved, not copied.
 pub fn structured<'py>(
     py: Python<'py>,
     columns: &[impl AsRef<str>],
     numbers: Vec<f64>,
-    texts: Option<(&str, &[String])>,
+    texts: &[(&str, &[String])],
 ) -> PyResult<Bound<'py, PyAny>> {
     let mut fields = columns.iter().map(|name| (name.as_ref(), "<f8")).collect::<Vec<_>>();
-    let Some((title, texts)) = texts else {
+    let Some((_, first)) = texts.first() else {
         return PyArray1::from_vec(py, numbers).call_method1("view", (fields,));
     };
-    fields.push((title, "O"));
-    let array = py.import("numpy")?.call_method1("empty", (texts.len(), fields))?;
+    fields.extend(texts.iter().map(|(title, _)| (*title, "O")));
+    let array = py.import("numpy")?.call_method1("empty", (first.len(), fields))?;
     for (k, name) in columns.iter().enumerate() {
         let column = numbers.iter().skip(k).step_by(columns.len()).copied();
         array.set_item(name.as_ref(), PyArray1::from_iter(py, column))?;
     }
     // Most rows have no text, many the same: each is one object.
     let mut kept: HashMap<&str, Bound<'py, PyString>> = HashMap::new();
-    let texts = texts.iter().map(|text| kept.entry(text).or_insert_with(|| PyString::new(py, text)).clone());
-    array.set_item(title, texts.collect::<Vec<_>>())?;
+    for (title, texts) in texts {
+        let texts = texts.iter().map(|text| kept.entry(text).or_insert_with(|| PyString::new(py, text)).clone());
+        array.set_item(title, texts.collect::<Vec<_>>())?;
+    }
     Ok(array)
 }
 
 /// A table as such an array.
 pub fn array_of<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'py, PyAny>> {
-    let texts = table.remarks_title().map(|title| (title, &table.remarks[..]));
-    structured(py, &table.columns, table.rows.concat(), texts)
+    let texts: Vec<_> = table.remarks_title().map(|title| (title, &table.remarks[..])).into_iter().collect();
+    structured(py, &table.columns, table.rows.concat(), &texts)
 }
 
 /// Numbers as an array of a shape; the numbers are moved, not copied.

@@ -13,6 +13,12 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A request that is refused, in one sentence.");
+pyo3::create_exception!(
+    ehl_explorer,
+    MarchStopped,
+    EhlError,
+    "A march that could not take a step. ``reached`` is the structured array of the march up to there."
+);
 
 /// How often Python is asked for signals, and told how far work is.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
@@ -25,6 +31,21 @@ pub fn stated(refusal: Refusal) -> EngineError {
 /// The exception of a sentence.
 pub fn refused(sentence: impl ToString) -> PyErr {
     EhlError::new_err(sentence.to_string())
+}
+
+/// The exception of a march that stopped, with the array that it reached.
+pub fn march_stopped(py: Python<'_>, sentence: impl ToString, reached: Bound<'_, PyAny>) -> PyErr {
+    let stopped = MarchStopped::new_err(sentence.to_string());
+    match stopped.value(py).setattr("reached", reached) {
+        Ok(()) => stopped,
+        Err(error) => error,
+    }
+}
+
+/// Shows sentences as warnings of Python.
+pub fn warn(py: Python<'_>, sentences: impl IntoIterator<Item = String>) -> PyResult<()> {
+    let warn = py.import("warnings")?.getattr("warn")?;
+    sentences.into_iter().try_for_each(|sentence| warn.call1((sentence,)).map(drop))
 }
 
 /// What work under way knows of its caller.

@@ -12,16 +12,16 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 @pytest.fixture(scope="session")
 def program():
-    """Runs the program with some arguments; what it prints."""
+    """Runs the program with some arguments; what it prints, on standard error where it fails."""
     target = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     binary = pathlib.Path(os.environ.get("EHL_EXPLORER", target / "release" / "ehl-explorer"))
     if not binary.exists():
         pytest.fail(f"{binary} is missing; build it with `cargo build --release`")
 
-    def run(*arguments, code=0):
+    def run(*arguments, code=0, stream=None):
         done = subprocess.run([binary, *map(str, arguments)], capture_output=True, text=True)
         assert done.returncode == code, done.stderr
-        return done.stdout if code == 0 else done.stderr
+        return getattr(done, stream or ("stderr" if code else "stdout"))
 
     return run
 

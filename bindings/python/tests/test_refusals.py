@@ -64,7 +64,7 @@ def test_refusals_are_value_errors_with_words():
     for call, part in [
         (lambda: ehl.solve(contact, method="halved"), "accepted are full, reduced"),
         (lambda: ehl.solve(contact, model="no/such.rom"), "no/such.rom"),
-        (lambda: ehl.solve_many(contact, load=[1e5, float("nan")]), "contact "),
+        (lambda: ehl.solve_many(contact, load=[1e5], model="no/such.rom"), "no/such.rom"),
         (lambda: ehl.solve_many(contact, colour=[1.0]), "cannot be varied"),
         (lambda: ehl.solve_many(contact), "nothing is varied"),
         (lambda: ehl.sweep(contact, "moes-m=1:2"), "NAME=FROM:TO:N"),

@@ -86,6 +86,33 @@ def test_many_are_each_solved_as_one_alone():
     np.testing.assert_array_equal(again["H_c"][::-1], many["H_c"])
 
 
+def test_a_contact_that_makes_no_sense_refuses_its_own_row_only():
+    contact = ehl.Contact.moes(40, 10)
+    ms = np.array([[40.0, float("nan")], [-1.0, 60.0]])
+    rows = ehl.solve_many(contact, moes_m=ms, method="reduced")
+    assert rows["status"].tolist() == [["converged", "refused"], ["refused", "converged"]]
+    assert rows["converged"].tolist() == [[1, 0], [0, 1]]
+    for (i, j), m in np.ndenumerate(ms):
+        row = rows[i, j]
+        if row["status"] == "converged":
+            assert row["H_c"] == ehl.solve(contact.replace(moes_m=m), method="reduced").H_c and row["reason"] == ""
+            continue
+        assert all(np.isnan(row[name]) for name in ["H_c", "moes.M", "reduced.trained", "wall_s"])
+        with pytest.raises(ehl.EhlError) as refused:
+            contact.replace(moes_m=m)
+        assert row["reason"] == row["warning"] == str(refused.value)
+
+
+def test_a_contact_of_many_that_does_not_converge_says_so():
+    contact = ehl.Contact.moes(1, 1, dx=0.02)
+    ms, ls = [40.0, 1e5], [10.0, 60.0]
+    rows = ehl.solve_many(contact, moes_m=ms, moes_l=ls)
+    for row, m, l in zip(rows, ms, ls):
+        alone = ehl.solve(contact.replace(moes_m=m, moes_l=l))
+        assert row["status"] == ("converged" if alone.converged else "not converged")
+        assert bool(row["reason"]) != alone.converged and row["warning"] == "; ".join(alone.warnings)
+
+
 def test_a_scalar_varied_gives_one_row():
     assert ehl.solve_many(ehl.Contact.moes(40, 10), moes_m=50, method="reduced").shape == ()
 

@@ -286,6 +286,7 @@ impl<S: NewtonSpace> System<S> {
             residual = after;
             report.steps.push(size);
             observer.newton_step(&NewtonStep { iteration: report.newton_iterations, residual: before, step: size });
+            observer.iterate(&self.pressure);
             if !(residual.is_finite() && size.is_finite() && shift.is_finite()) || residual > S::WORST_RESIDUAL {
                 report.termination = Termination::Diverged;
                 break;

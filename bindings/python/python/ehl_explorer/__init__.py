@@ -6,8 +6,10 @@
 >>> result.h_c_m, result.pressure.max()
 
 SI units throughout, or texts with a unit; X, P and H are dimensionless as in the dissertation (X = x/a, P = p/p_H,
-H = h R/a**2). What makes no sense is refused by an :class:`EhlError` in one sentence. Work that takes long runs without
-Python's lock, calls ``progress(stage, done, total)``, and is stopped by Ctrl-C.
+H = h R/a**2). What makes no sense is refused by an :class:`EhlError` in one sentence; a march that cannot take a step raises
+:class:`MarchStopped` with what was reached. Work that takes long runs without Python's lock, calls
+``progress(stage, done, total)``, and is stopped by Ctrl-C. Contacts, models and results can be pickled and compared:
+``pool.map(ehl.solve, contacts)`` works in processes that are forked or spawned.
 """
 
 from __future__ import annotations
@@ -18,11 +20,12 @@ from typing import Any, Callable, Mapping, Optional, Union
 import numpy as np
 
 from . import _native
-from ._native import Contact, EhlError, Model, Result, __version__, random_test, solve, transient
+from ._native import Contact, EhlError, MarchStopped, Model, Result, __version__, random_test, solve, transient
 
 __all__ = [
     "Contact",
     "EhlError",
+    "MarchStopped",
     "Model",
     "Outcome",
     "Result",
@@ -34,6 +37,14 @@ __all__ = [
     "sweep",
     "transient",
 ]
+
+if hasattr(os, "register_at_fork"):
+    # A forked process has none of the other threads: they must not be in the middle of something.
+    os.register_at_fork(
+        before=lambda: _native._hold(True),
+        after_in_parent=lambda: _native._hold(False),
+        after_in_child=lambda: _native._hold(False),
+    )
 
 
 def sweep(contact, *varied, method=None, model=None, progress=None):
@@ -55,7 +66,8 @@ def solve_many(contact, *, method=None, model=None, progress=None, **options):
     Options are those of :class:`Contact` that are numbers; arrays are broadcast against each other. Each contact is solved
     afresh, so that neither order nor cores matter. Returns a structured array of the broadcast shape: the contact and
     its result by the names of :func:`sweep`'s columns; ``converged`` and ``reduced.trained`` are 1 or 0, values NaN where
-    a solve did not converge, ``warning`` is a text.
+    a solve did not converge or was refused, ``warning`` is a text. ``status`` is ``"converged"``, ``"not converged"`` or
+    ``"refused"``, and ``reason`` says why; a contact that makes no sense refuses its own row only.
     """
     if not options:
         raise EhlError("nothing is varied; write solve_many(contact, load=[...])")

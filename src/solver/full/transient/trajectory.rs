@@ -142,14 +142,22 @@ impl Ended {
         match self {
             Self::Finished => "finished".to_owned(),
             Self::Cancelled { time } => format!("was cancelled at T = {time:.4}"),
-            Self::StepRefused { time, step, termination } => format!(
-                "could not take the step of {step:.1e} to T = {time:.4}, whose iteration {}; what was computed before is kept",
-                match termination {
+            Self::StepRefused { time, step, termination } => {
+                let iteration = match termination {
                     Termination::IterationLimit => "did not end",
                     Termination::Effort => "would have been one of too many",
                     _ => "diverged",
+                };
+                if *step == 0.0 {
+                    return format!(
+                        "could not begin: the iteration for the steady contact at T = {time:.4} {iteration}"
+                    );
                 }
-            ),
+                format!(
+                    "could not take the step of {step:.1e} to T = {time:.4}, whose iteration {iteration}; what was computed \
+                     before is kept"
+                )
+            }
             Self::ContactRefused { time, reason } => {
                 format!("stopped at T = {time:.4}: {reason}; what was computed before is kept")
             }

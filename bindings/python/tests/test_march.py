@@ -1,0 +1,75 @@
+"""Marches in time: one that cannot take a step says so in every interface, with what it reached."""
+
+import json
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+
+import ehl_explorer as ehl
+
+SI = dict(radius=0.002, speed=5.0, load=2e5, modulus=2.31e11, viscosity=0.01, alpha=1e-8)
+CONTACT = ehl.Contact(**SI, dx=0.02)
+# A load that jumps to thirty times itself within one step.
+JUMP = ([0.0, 1.0, 1.05, 2.0], [1.0, 1.0, 30.0, 30.0])
+
+
+def scene(study):
+    at = ", ".join(f"{name}: {value!r}" for name, value in SI.items())
+    return f"""Scene(version: 1, title: "jump", at: Si({at}), grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)), study: Transient(
+        inputs: (load: Sampled(times: {JUMP[0]}, values: {JUMP[1]})), duration: 2.0, time_step: Fixed(0.05){study}))"""
+
+
+def stopped(**options):
+    with pytest.raises(ehl.MarchStopped) as stopped, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        ehl.transient(CONTACT, duration=2, step=0.05, load=JUMP, **options)
+    return stopped.value
+
+
+def test_a_march_that_stops_is_an_exception_with_what_it_reached():
+    error = stopped()
+    assert isinstance(error, ehl.EhlError) and isinstance(error, ValueError)
+    assert str(error).startswith("the march could not take the step of ")
+    reached = error.reached
+    assert 1 < len(reached) < 41 and reached["T"][0] == 0 and np.isfinite(reached["H_c"]).all()
+    # Up to there it is the march that ends before the jump.
+    before = ehl.transient(CONTACT, duration=0.5, step=0.05, load=JUMP)
+    np.testing.assert_array_equal(before["H_c"], reached["H_c"][: len(before)])
+    again = pickle.loads(pickle.dumps(error))
+    assert str(again) == str(error)
+    np.testing.assert_array_equal(again.reached["H_c"], reached["H_c"])
+
+
+def test_a_march_that_goes_through_returns_all_its_rows():
+    march = ehl.transient(CONTACT, duration=2, step=0.05)
+    assert len(march) == 41 and march["T"][-1] == pytest.approx(2)
+
+
+def test_scenes_and_the_command_line_say_that_a_march_stopped(program, tmp_path):
+    error, text = stopped(), scene("")
+    outcome = ehl.run(text)
+    assert not outcome.converged and not outcome.passed
+    assert any(str(error) in warning for warning in outcome.warnings)
+    (table,) = outcome.tables.values()
+    assert len(table) == len(error.reached)
+    (tmp_path / "jump.ron").write_text(text)
+    program("run", tmp_path / "jump.ron", "--out", tmp_path / "out", code=1)
+    told = json.loads(next((tmp_path / "out").glob("*.json")).read_text())
+    assert (told["converged"], told["passed"]) == (False, False) and str(error) in told["warning"]
+
+
+def test_a_model_trained_from_a_march_that_stopped_says_so(program, tmp_path):
+    (tmp_path / "jump.ron").write_text(scene(", reduced: (loss: 1e-4)"))
+    said = program("train", tmp_path / "jump.ron", "--out", tmp_path / "jump.rom", stream="stderr")
+    assert "the march could not take the step" in said
+
+
+def test_what_a_reader_must_know_is_a_warning(in_time_training, program, tmp_path):
+    (tmp_path / "breathes.ron").write_text(in_time_training)
+    program("train", tmp_path / "breathes.ron", "--out", tmp_path / "breathes.rom")
+    swing = ([0.0, 0.5, 1.0], [1.0, 1.5, 1.0])
+    with pytest.warns(UserWarning, match="load"):
+        march = ehl.transient(CONTACT, duration=1, step=0.01, load=swing, model=tmp_path / "breathes.rom")
+    assert len(march) == 101
