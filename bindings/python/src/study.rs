@@ -93,30 +93,39 @@ pub fn random_test<'py>(
 /// for is a warning.
 ///
 /// Times are in units of a/u_m. ``radius``, ``speed`` and ``load`` are pairs (T, values) of times and multiples of the
-/// contact's own; what is not given stays. Steps are all of the length ``step``. A structured array of the march: T,
-/// inputs, films, pressures. What a reader must know of it is a warning. A march that cannot take a step raises
-/// :class:`MarchStopped`.
+/// contact's own; what is not given stays. Steps are all of the length ``step``, or so short that their estimated error of
+/// H_c is at most ``tolerance``. A structured array of the march: T, inputs, films, pressures, and ``step_error``, the
+/// estimated greatest relative error that the steps leave in H_c. What a reader must know of it is a warning. A march
+/// that cannot take a step raises :class:`MarchStopped`.
 #[pyfunction]
-#[pyo3(signature = (contact, duration, step, radius=None, speed=None, load=None, model=None, progress=None))]
+#[pyo3(signature = (
+    contact, duration, step=None, radius=None, speed=None, load=None, model=None, progress=None, tolerance=None,
+))]
 #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
 pub fn transient<'py>(
     py: Python<'py>,
     contact: &Contact,
     duration: f64,
-    step: f64,
+    step: Option<f64>,
     radius: Option<(Vec<f64>, Vec<f64>)>,
     speed: Option<(Vec<f64>, Vec<f64>)>,
     load: Option<(Vec<f64>, Vec<f64>)>,
     model: Option<PathBuf>,
     progress: Option<&Bound<'py, PyAny>>,
+    tolerance: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
+    let time_step = match (step, tolerance) {
+        (Some(step), None) => TimeStep::Fixed(step),
+        (None, Some(tolerance)) => TimeStep::Controlled(tolerance),
+        _ => return Err(refused("give either step= or tolerance=")),
+    };
     let signal = |given: Option<(Vec<f64>, Vec<f64>)>| {
         given.map_or(Signal::Constant, |(times, values)| Signal::Sampled { times, values })
     };
     let inputs = Inputs { radius: signal(radius), speed: signal(speed), load: signal(load) };
     if let Some(path) = model {
         let (point, lubricant) = (contact.request.point, contact.request.lubricant);
-        let own = Transient { lubricant, ..Transient::new(point, inputs, duration, step) };
+        let own = Transient { lubricant, time_step, ..Transient::new(point, inputs, duration, duration) };
         return by_model(py, &path, own, progress);
     }
     let study = TransientStudy {
@@ -124,7 +133,7 @@ pub fn transient<'py>(
         sampled: None,
         duration,
         further: Vec::new(),
-        time_step: TimeStep::Fixed(step),
+        time_step,
         frames: vec![Frame::Fixed],
         window: None,
         trainings: Vec::new(),
@@ -162,20 +171,22 @@ fn by_model<'py>(
     asked: Transient,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (trajectory, outside) = long(py, progress, |watch| {
+    let (trajectory, warnings) = long(py, progress, |watch| {
         let model = crate::STORE.trajectory_model_of_file(path)?;
         let asked = Transient { frame: model.frame, ..asked };
         let observer = MarchProgress { observer: watch, stage: "reduced model".to_owned(), duration: asked.duration };
         let mut reduced = ReducedMarch::new(&model, &asked).map_err(EngineError::from)?;
-        let trajectory = march(&mut reduced, &asked, &observer).map_err(EngineError::from)?;
+        let mut trajectory = march(&mut reduced, &asked, &observer).map_err(EngineError::from)?;
+        trajectory.estimate_step_error(&mut reduced, watch);
         if watch.cancelled() {
             return Err(EngineError::Cancelled);
         }
-        let outside = model.domain.left_by(&trajectory);
-        Ok((trajectory, outside))
+        let mut warnings = model.domain.left_by(&trajectory);
+        warnings.extend(trajectory.step_warning().map(|warning| warning.to_string()));
+        Ok((trajectory, warnings))
     })?;
-    warn(py, outside)?;
-    let reached = array_of(py, series("reduced", &trajectory.moments))?;
+    warn(py, warnings)?;
+    let reached = array_of(py, series("reduced", &trajectory))?;
     if !trajectory.finished() {
         return Err(march_stopped(py, format!("the march {}", trajectory.ended.describe()), reached));
     }

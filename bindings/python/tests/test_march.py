@@ -73,3 +73,21 @@ def test_what_a_reader_must_know_is_a_warning(in_time_training, program, tmp_pat
     with pytest.warns(UserWarning, match="load"):
         march = ehl.transient(CONTACT, duration=1, step=0.01, load=swing, model=tmp_path / "breathes.rom")
     assert len(march) == 101
+
+
+def test_a_coarse_step_is_warned_of_and_a_tolerance_chooses_the_steps():
+    time = np.linspace(0, 2, 81)
+    swing = (time, 1 + 0.15 * np.sin(2 * np.pi * time / 0.3))
+    with pytest.warns(UserWarning, match="the time steps leave H_c off by about"):
+        coarse = ehl.transient(CONTACT, duration=2, step=0.05, load=swing)
+    assert coarse["step_error"][0] > 0.03 and len(set(coarse["step_error"])) == 1
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        fine = ehl.transient(CONTACT, duration=2, tolerance=0.01, load=swing)
+    assert fine["step_error"][0] <= 0.01 and len(fine) > len(coarse)
+    shortest = ehl.transient(CONTACT, duration=2, step=0.0025, load=swing)
+    true = np.interp(fine["T"], shortest["T"], shortest["H_c"])
+    assert np.max(np.abs(fine["H_c"] / true - 1)) < 0.02
+    for given in ({}, {"step": 0.1, "tolerance": 0.01}):
+        with pytest.raises(ehl.EhlError, match="either step= or tolerance="):
+            ehl.transient(CONTACT, duration=1, **given)

@@ -149,11 +149,12 @@ def random_test(
 def transient(
     contact: Contact,
     duration: float,
-    step: float,
+    step: Optional[float] = None,
     radius: Optional[_Series] = None,
     speed: Optional[_Series] = None,
     load: Optional[_Series] = None,
     model: Optional[_Path] = None,
     progress: Optional[_Progress] = None,
+    tolerance: Optional[float] = None,
 ) -> npt.NDArray[Any]: ...
 def run(scene: _Path, model: Optional[_Model] = None, progress: Optional[_Progress] = None) -> Outcome: ...

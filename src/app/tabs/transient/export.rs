@@ -26,7 +26,11 @@ pub fn series(view: &TransientRuns) -> Option<String> {
         });
         (name(run), rows.collect())
     });
-    Some(table(setup, &[], &COLUMNS, blocks.collect()))
+    let estimated = view.runs.iter().filter_map(|run| Some((run, run.trajectory.step_error?)));
+    let errors: Vec<String> = estimated
+        .map(|(run, error)| format!("{}: the lengths of the steps leave H_c off by about {error:.1e}", name(run)))
+        .collect();
+    Some(table(setup, &errors, &COLUMNS, blocks.collect()))
 }
 
 /// P and H of every run at the moment that is looked at, in the scales of the reference contact and in SI units.

@@ -251,11 +251,16 @@ impl March {
 
     /// Its time series.
     pub(super) fn series(&self) -> Table {
-        series(&self.name, &self.trajectory.moments)
+        series(&self.name, &self.trajectory)
     }
 }
 
-/// The time series of the march of a name.
-pub fn series(name: &str, moments: &[Moment]) -> Table {
-    Table::of(format!("transient_{}", name.replace('.', "_")), &SERIES, moments)
+/// The time series of the march of a name. Its last column is the estimated greatest relative error that the lengths of
+/// the steps leave in H_c, the same in every row.
+pub fn series(name: &str, trajectory: &Trajectory) -> Table {
+    let mut table = Table::of(format!("transient_{}", name.replace('.', "_")), &SERIES, &trajectory.moments);
+    table.columns.push("step_error".to_owned());
+    let error = trajectory.step_error.unwrap_or(f64::NAN);
+    table.rows.iter_mut().for_each(|row| row.push(error));
+    table
 }
