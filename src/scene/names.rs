@@ -128,8 +128,8 @@ mod tests {
         }
     }
 
-    /// Numbers of modes that a training finds, which are no values of a contact.
-    const OF_TRAININGS: [&str; 2] = ["basis_p", "basis_delta"];
+    /// Sizes that a training finds, which are no values of a contact.
+    const OF_TRAININGS: [&str; 3] = ["basis_p", "basis_delta", "sampled_rows"];
 
     #[test]
     fn tables_of_studies_call_quantities_by_these_names() {
@@ -146,6 +146,6 @@ mod tests {
                 seen += usize::from(known);
             }
         }
-        assert!(seen > 500, "{seen} columns");
+        assert!(seen > 100, "{seen} columns");
     }
 }

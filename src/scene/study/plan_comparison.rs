@@ -125,10 +125,10 @@ type Known = (&'static str, fn(&Followed) -> Option<f64>);
 
 /// What the table of the trajectory holds of each plan.
 const ALONG: [Known; 8] = [
-    ("H_c_full", |f| Some(f.full?.0)),
-    ("P_c_full", |f| Some(f.full?.1)),
-    ("H_c", |f| Some(f.reduced?.0)),
-    ("P_c", |f| Some(f.reduced?.1)),
+    ("full.H_c", |f| Some(f.full?.0)),
+    ("full.P_c", |f| Some(f.full?.1)),
+    (names::H_C, |f| Some(f.reduced?.0)),
+    (names::P_C, |f| Some(f.reduced?.1)),
     ("H_c_error", Followed::h_c_error),
     ("P_c_error", |f| Some((f.reduced?.1 / f.full?.1 - 1.0).abs())),
     ("e_z", |f| f.state_error),
