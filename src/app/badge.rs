@@ -54,7 +54,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     let waits = answers.runs(JobKind::Live);
     let full = match () {
         () if waits && !answers.picture_is_current() => "full solver at work".to_owned(),
-        () if answers.is_quick() => format!("sketch on a quick grid{}", off(picture)),
+        () if answers.picture_is_current() && answers.is_quick() => format!("sketch on a quick grid{}", off(picture)),
         () => "full solution".to_owned(),
     };
     // Of a picture that is still another contact's nothing is said here.

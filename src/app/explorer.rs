@@ -146,7 +146,8 @@ impl Explorer {
         if room {
             self.readouts_ui(ui, in_time);
         }
-        if let Some(headline) = self.desk.headline.as_ref().filter(|_| self.desk.presentation.is_none()) {
+        let asked_above = self.desk.presentation.is_none() && self.desk.document.lost_question().is_none();
+        if let Some(headline) = self.desk.headline.as_ref().filter(|_| asked_above) {
             Panel::top("headline").show(ui, |ui| headline.ui(ui, &mut commands));
         }
         CentralPanel::no_frame().show(ui, |ui| {

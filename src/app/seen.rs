@@ -4,6 +4,7 @@ use super::answers::PassedOver;
 use super::tab::Tab;
 use super::{Explorer, badge, panels};
 use crate::scene::Table;
+use crate::solver::full::Problem;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
@@ -27,6 +28,14 @@ impl Explorer {
     /// H_c of the picture, when it belongs to the sliders.
     pub fn central_film(&self) -> Option<f64> {
         self.desk.answers.current_picture().map(|p| p.solution.scalars.h_c)
+    }
+
+    /// True if the contact of the sliders was asked for, and its picture, if there is one, was solved for that contact.
+    pub fn answers_the_request(&self) -> bool {
+        let (document, answers) = (&self.desk.document, &self.desk.answers);
+        let asked = Problem::new(&document.point, document.lubricant);
+        let solved = answers.current_picture().map(|picture| picture.solution.problem);
+        answers.is_answer_to(document) && solved.is_none_or(|solved| asked == Ok(solved))
     }
 
     /// Whether the contact of the sliders is a point contact.

@@ -15,6 +15,8 @@ const SIZE: Vec2 = vec2(1280.0, 800.0);
 /// Steps half of which are enough for memory to level off, and the memory \[MB\] below which fewer and more of them stay.
 const LEVELLED: usize = 8000;
 const LEVELS: [f64; 2] = [900.0, 1500.0];
+/// Gestures after which what is shown is held against what is asked.
+const BURST: usize = 5;
 /// How long the last solves may take.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// What a hand can be laid on.
@@ -181,6 +183,13 @@ fn a_hand_that_knows_nothing_breaks_nothing() {
         }
         let (moes, load) = (app.moes(), app.load());
         assert!(moes.m > 0.0 && moes.l >= 0.0 && load > 0.0 && (moes.m * moes.l * load).is_finite(), "step {step}");
+        if step % BURST == BURST - 1 {
+            window.step();
+            let app = window.state();
+            assert!(app.answers_the_request(), "step {step}: an answer to another request");
+            let stale = app.drawn().find(|(_, present, grey)| !present && !grey);
+            assert!(stale.is_none(), "step {step}: {stale:?} is of another request, and not grey");
+        }
         if step % (steps / 10) == 0 {
             resident.extend(resident_megabytes());
         }
