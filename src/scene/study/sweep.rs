@@ -166,26 +166,10 @@ pub(super) fn check_axes(over: &[Axis], experiment: &Experiment) -> Checked {
     count("study.over (points)", points.unwrap_or(usize::MAX), 1, MAX_POINTS)
 }
 
-/// What an operating point can be varied by; all others follow from these, or belong to lubricant and bodies.
-const VARIED: [Quantity; 12] = [
-    Quantity::M,
-    Quantity::L,
-    Quantity::Radius,
-    Quantity::RadiusY,
-    Quantity::RadiusRatio,
-    Quantity::Speed,
-    Quantity::Load,
-    Quantity::Modulus,
-    Quantity::Viscosity,
-    Quantity::Alpha,
-    Quantity::SlideToRollRatio,
-    Quantity::NewtonianPlateauRatio,
-];
-
 fn check_axis(axis: &Axis) -> Checked {
     let field = format!("study.over.{}", axis.vary.name());
-    if !VARIED.contains(&axis.vary) {
-        let accepted: Vec<String> = VARIED.iter().map(|quantity| format!("{quantity:?}")).collect();
+    if !Quantity::VARIED.contains(&axis.vary) {
+        let accepted: Vec<String> = Quantity::VARIED.iter().map(|quantity| format!("{quantity:?}")).collect();
         return Err(refuse(&field, format!("cannot be varied; accepted are {}", accepted.join(", "))));
     }
     let (least, most) = axis.vary.range();

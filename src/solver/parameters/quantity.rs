@@ -94,6 +94,22 @@ struct Facts {
 }
 
 impl Quantity {
+    /// What an operating point can be varied by; all others follow from these, or belong to lubricant and bodies.
+    pub const VARIED: [Self; 12] = [
+        Self::M,
+        Self::L,
+        Self::Radius,
+        Self::RadiusY,
+        Self::RadiusRatio,
+        Self::Speed,
+        Self::Load,
+        Self::Modulus,
+        Self::Viscosity,
+        Self::Alpha,
+        Self::SlideToRollRatio,
+        Self::NewtonianPlateauRatio,
+    ];
+
     /// The six in SI units, in the order of [`OperatingPoint::quantities`].
     pub const SI: [Self; 6] = [Self::Radius, Self::Speed, Self::Load, Self::Modulus, Self::Viscosity, Self::Alpha];
 
@@ -345,23 +361,9 @@ mod tests {
 
     #[test]
     fn a_contact_that_was_moved_has_the_value_and_keeps_all_others() {
-        const ALL: [Quantity; 12] = [
-            Quantity::M,
-            Quantity::L,
-            Quantity::Radius,
-            Quantity::RadiusY,
-            Quantity::RadiusRatio,
-            Quantity::Speed,
-            Quantity::Load,
-            Quantity::Modulus,
-            Quantity::Viscosity,
-            Quantity::Alpha,
-            Quantity::SlideToRollRatio,
-            Quantity::NewtonianPlateauRatio,
-        ];
         for kind in [ContactKind::Line, ContactKind::Point] {
             let here = OperatingPoint { kind, ..OperatingPoint::TABLE_2_1 };
-            for quantity in ALL {
+            for quantity in Quantity::VARIED {
                 if kind == ContactKind::Line && matches!(quantity, Quantity::RadiusY | Quantity::RadiusRatio) {
                     assert_eq!(quantity.of(&here), None);
                     continue;
