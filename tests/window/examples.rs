@@ -87,8 +87,11 @@ fn a_table_of_load_cases_is_read_as_it_is_typed_and_solved_as_headless() {
 
 #[test]
 fn load_cases_with_heat_are_a_table_of_all_of_them() {
-    let mut harness = fresh();
+    // High enough that all of the panel can be reached.
+    let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 1900.0]);
+    harness.run_steps(3);
     click(&mut harness, "Heat");
+    assert!(harness.state().lubricant().heat.is_some());
     click(&mut harness, "File");
     click(&mut harness, "Load cases…");
     let field = harness.get_by_role_and_label(Role::MultilineTextInput, "Table of load cases");
@@ -99,6 +102,7 @@ fn load_cases_with_heat_are_a_table_of_all_of_them() {
     harness.run_steps(3);
     assert!(shows(&harness, "2 contacts can be solved, 1 lines are refused"));
     click(&mut harness, "Solve all");
+    click(&mut harness, "Discard changes");
     wait(&mut harness, "all lines", |app| app.verdict().is_some());
     assert!(shows(&harness, "Load cases"));
     let shown = harness.state().result_table("load_cases").unwrap();
