@@ -83,6 +83,16 @@ def test_the_command_line_writes_the_same_arrays(model, program, tmp_path):
     assert "a transient model was trained from the steps of marches" in told and not (tmp_path / "transient.npz").exists()
 
 
+def test_snapshots_of_a_model_of_the_program_have_its_singular_values():
+    model = ehl.Model.embedded("line")
+    arrays = model.arrays() | model.snapshots(1)
+    fields, weights = arrays["window_1_snapshot_pressures"], arrays["window_1_weights"]
+    values = np.linalg.svd(np.sqrt(weights)[:, None] * fields, compute_uv=False)
+    known = arrays["window_1_pressure_singular_values"]
+    assert len(known) == len(values) == len(arrays["window_1_snapshots"])
+    np.testing.assert_allclose(known[:20], values[:20], rtol=3e-6)
+
+
 def test_what_a_model_does_not_have_is_refused(model):
     for window in [0, 2]:
         with pytest.raises(ehl.EhlError, match=f"no window {window}; accepted are 1 to 1"):
