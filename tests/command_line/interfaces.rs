@@ -112,8 +112,8 @@ fn row<'a>(csv: &'a str, tag: &str) -> impl Fn(&str) -> &'a str {
     let cells: Vec<&str> = lines.next().unwrap().splitn(titles.len(), ',').collect();
     let tag = tag.to_owned();
     move |name| {
-        let known = |title: &&str| **title == *name || **title == format!("{tag}{name}");
-        cells[titles.iter().position(|title| known(&title)).unwrap_or_else(|| panic!("{name} is not in {titles:?}"))]
+        let known = |title: &&str| *title == name || *title == format!("{tag}{name}");
+        cells[titles.iter().position(known).unwrap_or_else(|| panic!("{name} is not in {titles:?}"))]
     }
 }
 

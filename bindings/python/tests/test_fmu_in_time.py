@@ -151,7 +151,7 @@ def test_a_state_is_kept_written_and_set_again(path, scales):
             films += unit.get(*FILMS, "approach", "friction_force")
         return films
 
-    unit = begun(path, slide_to_roll_ratio=0.01)
+    unit = begun(path, srr=0.01)
     go_on(unit)
     state, time = unit.slave.getFMUState(), unit.time
     written = unit.slave.serializeFMUState(state)
@@ -161,7 +161,7 @@ def test_a_state_is_kept_written_and_set_again(path, scales):
     unit.time = time
     assert unit.get(*FILMS, "approach") == kept
     assert go_on(unit) == onwards
-    other = begun(path, slide_to_roll_ratio=0.01)
+    other = begun(path, srr=0.01)
     again = other.slave.deserializeFMUState(written)
     other.slave.setFMUState(again)
     other.time = time
