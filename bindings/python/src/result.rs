@@ -76,6 +76,9 @@ impl Fields {
 /// The arrays of a result as Python has them: X, Y, P, H, and the further ones by name.
 type Kept<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyDict>);
 
+/// What makes a pickled result again, and of what.
+type Reduced<'py> = (Bound<'py, PyAny>, (String, Option<Kept<'py>>));
+
 /// The result that was pickled.
 #[pyfunction]
 #[pyo3(signature = (result, fields=None))]
@@ -220,7 +223,7 @@ impl Result {
         Ok(py.import("copy")?.call_method1("deepcopy", (self.values(py)?,))?.cast_into::<PyDict>()?)
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String, Option<Kept<'py>>))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let made_by = py.import("ehl_explorer._native")?.getattr("_result")?;
         Ok((made_by, (self.text()?, self.kept(py)?)))
     }
