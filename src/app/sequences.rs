@@ -10,6 +10,7 @@ use super::context::Commands;
 use super::document::{Document, Edit, Shape};
 use super::model_source::Models;
 use crate::engine::Store;
+use crate::host::clock::Stopwatch;
 use crate::scene::named_lubricant::NAMED;
 use crate::scene::{Scene, View};
 use crate::solver::discrete::grid::PointGridSpec;
@@ -20,7 +21,7 @@ use egui_kittest::Harness;
 use fastrand::Rng;
 use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Changes of a sequence.
 const CHANGES: usize = 10;
@@ -58,7 +59,7 @@ fn edit(window: &mut Window, edit: Edit) {
 
 /// Waits for what stands as the answer to the document; `false` if that takes too long.
 fn rest(window: &mut Window) -> bool {
-    let (begin, mut still) = (Instant::now(), 0);
+    let (begin, mut still) = (Stopwatch::start(), 0);
     while still < 3 {
         window.step();
         let desk = &window.state().desk;

@@ -146,8 +146,10 @@ mod tests {
                 let at = |i: usize, k: usize| modes.values[i * columns + k];
                 (0..nodes).map(|i| weights.values[i] * at(i, a) * at(i, b)).sum()
             };
-            for (a, b) in [(0, 0), (0, 1), (columns - 1, columns - 1), (0, columns - 1)] {
-                assert!((product(a, b) - f64::from(u8::from(a == b))).abs() < 1e-9, "{}: {a}, {b}", modes.name);
+            // Rare modes have fewer digits in the file.
+            let last = columns - 1;
+            for (a, b, digits) in [(0, 0, 1e-9), (0, 1, 1e-9), (last, last, 1e-6), (0, last, 1e-6)] {
+                assert!((product(a, b) - f64::from(u8::from(a == b))).abs() < digits, "{}: {a}, {b}", modes.name);
             }
         }
         let snapshots = of("window_1_snapshots");

@@ -114,7 +114,7 @@ fn solve_json_has_the_fields_of_the_contract_and_no_others() {
     assert!(output.stderr.is_empty());
     let object = json(&output);
     let mut names: Vec<&str> = object.as_object().unwrap().keys().map(String::as_str).collect();
-    let wanted = "contact method converged si moes hertz cavitation grid H_c H_min X_H_min P_c P_max X_P_max H_0 h_c_m h_min_m \
+    let wanted = "contact method converged si srr moes hertz cavitation grid H_c H_min X_H_min P_c P_max X_P_max H_0 h_c_m h_min_m \
         traction rolling_resistance rolling_resistance_fit load_residual residual_norm newton_iterations linear_iterations wall_s";
     let mut wanted: Vec<&str> = wanted.split_whitespace().collect();
     names.sort_unstable();
@@ -285,7 +285,7 @@ fn sweep_writes_a_table() {
     let text = std::fs::read_to_string(&csv).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 7);
-    assert!(lines[0].starts_with("m,l,si.radius"));
+    assert!(lines[0].starts_with("moes.M,moes.L,si.radius"));
     assert!(lines[3].starts_with("20") && lines[6].starts_with("40,6,"));
     // Both Moes numbers may come from the sweep alone.
     let output = program(&["sweep", "m=10:40:2", "--moes-l", "5", "--dx", "0.02"]);

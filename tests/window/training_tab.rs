@@ -140,7 +140,7 @@ fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothi
     click(&mut harness, "Export comparison…");
     let path = folder.join("comparison.csv");
     give_path(&mut harness, &path, "Export");
-    let loads = Table::of(&std::fs::read_to_string(&path).unwrap()).column("M");
+    let loads = Table::of(&std::fs::read_to_string(&path).unwrap()).column("moes.M");
     let (low, high) = model_file::read(&kept).unwrap().domain.m();
     assert!(loads.len() == 200 && loads.iter().all(|m| (low..=high).contains(m)), "{low} {high}: {loads:?}");
     undo(&mut harness);

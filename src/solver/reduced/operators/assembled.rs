@@ -44,7 +44,7 @@ impl Operators {
         system.transient = matches!(flow, Flow::Transient(_));
         let parts = parts_of(Setting { window, flow, deformation: &deformation }, &mut system);
         let equations = Equations::of(window, modes);
-        let (whole_lift, readings) = (vec![0.0; modes], Readings::default());
+        let (whole_lift, readings) = (vec![0.0; modes], Readings::with_room(system.stencils.len()));
         Self { system, deformation, equations, parts, lifted_at: f64::NAN, whole_lift, readings }
     }
 

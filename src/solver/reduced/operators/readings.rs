@@ -15,6 +15,13 @@ pub(crate) struct Readings {
     pub warmth: Option<Warmth>,
 }
 
+impl Readings {
+    /// Empty, with room for what a cavitation boundary over so many rows reports.
+    pub(super) fn with_room(rows: usize) -> Self {
+        Self { fronts: Vec::with_capacity(rows), cut: Vec::with_capacity(rows), ..Self::default() }
+    }
+}
+
 /// The traction of a reduced solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RuleTraction {
