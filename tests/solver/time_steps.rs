@@ -119,6 +119,16 @@ fn controlled_steps_keep_the_tolerance_in_full_and_reduced() {
 }
 
 #[test]
+fn controlled_steps_do_not_miss_an_input_whose_period_is_their_length() {
+    let quick = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 0.1 });
+    let equal = Transient::new(OperatingPoint::TABLE_2_1, quick, DURATION, 0.01);
+    let (mut model, trajectory) = marched(&Transient { time_step: TimeStep::Controlled(0.02), ..equal });
+    let (estimate, error) = (trajectory.step_error.unwrap(), true_error(&trajectory, &mut model, 0.001));
+    println!("{} steps, error {error:.2e}, estimated {estimate:.2e}", trajectory.moments.len() - 1);
+    assert!(trajectory.moments.len() > 200 && estimate <= 0.02 && error <= 2.0 * estimate, "{error} {estimate}");
+}
+
+#[test]
 fn a_tolerance_without_sense_is_refused() {
     let equal = Transient::new(OperatingPoint::TABLE_2_1, Inputs::default(), DURATION, 0.01);
     for tolerance in [0.0, -1.0, 1e-6, 0.5, f64::NAN, f64::INFINITY] {

@@ -324,7 +324,7 @@ def test_exports_that_make_no_sense_are_refused(program, tmp_path):
         (["fmu", line, "--approach"], "give its load instead"),
         (["fmu", line, "--lubricant", "squalane-pip"], "another lubricant"),
         (["fmu", line, "--lubricant", "butter"], "accepted are"),
-        (["fmu", line, "--library", "no_such.so"], "cargo build"),
+        (["fmu", line, "--library", "no_such.so"], "no_such.so"),
     ]:
         said = program("export", *words, "--out", out, code=2)
         assert part in said and said.count("\n") == 1, said

@@ -8,15 +8,17 @@ use super::trajectory::{Ended, Moment, Quantity, Trajectory};
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::warning::Warning;
 
-/// Inputs that bend by more than this share of their range over two steps are not resolved by longer ones.
+/// Inputs that bend by more than this share of their range over two steps are not resolved by steps twice as long.
 const BENT: f64 = 0.05;
+/// Inputs that bend by more than this are not resolved by the steps themselves.
+const BENT_TOO_FAR: f64 = 0.2;
 /// What a march errs by, over its difference from one with steps twice as long. Second order would give a third; inputs
 /// with kinks give up to 0.6.
 const OF_DOUBLED: f64 = 0.5;
 /// What a march errs by, over its difference from one with steps half as long, by second order.
 const OF_HALVED: f64 = 4.0 / 3.0;
 /// ‖P − extrapolation‖/‖P‖ of the first march of a controlled one, over its tolerance for H_c.
-const FIRST_DEVIATION: f64 = 6.0;
+const FIRST_DEVIATION: f64 = 40.0;
 /// Each march of a controlled one has steps shorter by this.
 const SHORTER: f64 = 2.0;
 /// Most marches that are compared with each other.
@@ -50,7 +52,7 @@ impl Trajectory {
         if self.step_error.is_some() || self.moments.len() < 2 || observer.cancelled() {
             return;
         }
-        if self.resolves_inputs() {
+        if self.resolves_inputs_to(BENT) {
             self.step_error = self.marched_again(0.5, model, observer).map(|greatest| OF_DOUBLED * greatest);
         }
         if self.step_error.is_none() {
@@ -89,8 +91,8 @@ impl Trajectory {
         self.moments.last().map_or(0.0, |moment| moment.time)
     }
 
-    /// Whether the inputs are nearly straight over any two steps.
-    fn resolves_inputs(&self) -> bool {
+    /// Whether the inputs bend by at most this share of their range over any two steps.
+    fn resolves_inputs_to(&self, share: f64) -> bool {
         let values = |input: Input| [input.radius, input.speed, input.load];
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut bent = [0.0f64; 3];
@@ -106,7 +108,7 @@ impl Trajectory {
                 }
             }
         }
-        (0..bent.len()).all(|k| bent[k] <= BENT * (high[k] - low[k]).max(0.0) + f64::EPSILON)
+        (0..bent.len()).all(|k| bent[k] <= share * (high[k] - low[k]).max(0.0) + f64::EPSILON)
     }
 }
 
@@ -132,7 +134,8 @@ pub(super) fn controlled(
             former.difference(&marched, Quantity::CentralFilm, (0.0, transient.duration)).map(|(greatest, _)| greatest)
         };
         step_error = both.and_then(difference);
-        let met = step_error.is_some_and(|error| error <= tolerance);
+        // Steps that miss a part of the inputs agree with each other too.
+        let met = step_error.is_some_and(|error| error <= tolerance) && marched.resolves_inputs_to(BENT_TOO_FAR);
         if met || count == MOST_MARCHES || matches!(marched.ended, Ended::Cancelled { .. }) {
             break;
         }
