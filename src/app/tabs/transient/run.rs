@@ -129,7 +129,7 @@ impl Run {
 
     /// The last T reached; 0 where not even the start was found.
     pub fn reached(&self) -> f64 {
-        self.trajectory.moments.last().map_or(0.0, |moment| moment.time)
+        self.trajectory.reached()
     }
 
     /// The fields last kept at or before T, else the first ones; `None` where it has not come to T.

@@ -1,11 +1,11 @@
 //! What the lengths of the steps leave in a march: estimated by a second march with other steps, and kept below a
 //! tolerance by repeated ones.
 
-use super::march::{Keep, Marching, Transient, TransientError, TransientObserver, march_once};
+use super::march::{Keep, MarchProgress, Marching, Transient, TransientError, TransientObserver, march_once};
 use super::pace::TimeStep;
 use super::signal::Input;
-use super::trajectory::{Ended, Moment, Quantity, Trajectory};
-use crate::solver::observer::{Observer, Progress};
+use super::trajectory::{Ended, Quantity, Trajectory};
+use crate::solver::observer::Observer;
 use crate::solver::warning::Warning;
 
 /// Inputs that bend by more than this share of their range over two steps are not resolved by steps twice as long.
@@ -23,26 +23,6 @@ const FIRST_DEVIATION: f64 = 40.0;
 const SHORTER: f64 = 2.0;
 /// Most marches that are compared with each other.
 const MOST_MARCHES: usize = 8;
-
-/// Passes on that work goes on, and whether to stop; its moments are nobody's.
-struct Silent<'a> {
-    observer: &'a dyn Observer,
-    stage: &'static str,
-    duration: f64,
-}
-
-impl Observer for Silent<'_> {
-    fn cancelled(&self) -> bool {
-        self.observer.cancelled()
-    }
-}
-
-impl TransientObserver for Silent<'_> {
-    fn moment(&self, moment: &Moment) {
-        let done = (1000.0 * moment.time / self.duration) as usize;
-        self.observer.progress(Progress { stage: self.stage.to_owned(), done, total: 1000 });
-    }
-}
 
 impl Trajectory {
     /// Estimates the greatest relative error that the lengths of the steps leave in H_c, by marching the same model with
@@ -80,15 +60,11 @@ impl Trajectory {
             let steps = (transient.duration / step).round();
             transient.duration = (2.0 * (0.5 * steps).floor() * step).min(transient.duration);
         }
-        let silent = Silent { observer, stage: "error of the time step", duration: transient.duration };
-        let other = march_once(model, &transient, &silent).ok().filter(Self::finished)?;
+        let stage = "error of the time step".to_owned();
+        let told = MarchProgress { observer, stage, duration: transient.duration };
+        let other = march_once(model, &transient, &told).ok().filter(Self::finished)?;
         let (coarse, fine) = if factor < 1.0 { (&other, self) } else { (self, &other) };
         Some(coarse.difference(fine, Quantity::CentralFilm, (0.0, transient.duration))?.0)
-    }
-
-    /// The last T that was reached.
-    fn reached(&self) -> f64 {
-        self.moments.last().map_or(0.0, |moment| moment.time)
     }
 
     /// Whether the inputs bend by at most this share of their range over any two steps.
@@ -99,12 +75,12 @@ impl Trajectory {
         for pair in self.moments.windows(3).step_by(2) {
             let [from, _, to] = pair else { continue };
             let ends = [values(from.input), values(to.input)];
-            for share in [0.25, 0.5, 0.75] {
-                let between = values(self.transient.inputs.at(from.time + share * (to.time - from.time)));
+            for part in [0.25, 0.5, 0.75] {
+                let between = values(self.transient.inputs.at(from.time + part * (to.time - from.time)));
                 for k in 0..between.len() {
                     low[k] = low[k].min(between[k]).min(ends[0][k]);
                     high[k] = high[k].max(between[k]).max(ends[0][k]);
-                    bent[k] = bent[k].max((between[k] - (1.0 - share) * ends[0][k] - share * ends[1][k]).abs());
+                    bent[k] = bent[k].max((between[k] - (1.0 - part) * ends[0][k] - part * ends[1][k]).abs());
                 }
             }
         }
@@ -125,10 +101,12 @@ pub(super) fn controlled(
     let mut time_step = TimeStep::Adaptive { tolerance: FIRST_DEVIATION * tolerance, longest };
     let mut former: Option<Trajectory> = None;
     let mut step_error = None;
-    let silent = Silent { observer, stage: "lengths of the time steps", duration: transient.duration };
+    // Moments of these marches are nobody's: only how far they are is told.
+    let stage = "lengths of the time steps".to_owned();
+    let told = MarchProgress { observer, stage, duration: transient.duration };
     for count in 1..=MOST_MARCHES {
         let asked = Transient { time_step, keep: Keep::Scalars, ..transient.clone() };
-        let marched = march_once(model, &asked, &silent)?;
+        let marched = march_once(model, &asked, &told)?;
         let both = former.as_ref().filter(|former| former.finished() && marched.finished());
         let difference = |former: &Trajectory| {
             former.difference(&marched, Quantity::CentralFilm, (0.0, transient.duration)).map(|(greatest, _)| greatest)

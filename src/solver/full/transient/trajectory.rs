@@ -213,6 +213,11 @@ impl Trajectory {
         self.ended == Ended::Finished
     }
 
+    /// The last T reached; 0 where not even the start was found.
+    pub fn reached(&self) -> f64 {
+        self.moments.last().map_or(0.0, |moment| moment.time)
+    }
+
     /// A quantity at T, on the straight line between the neighbouring times; `None` outside what was computed.
     pub fn at(&self, quantity: Quantity, time: f64) -> Option<f64> {
         let next = self.moments.partition_point(|moment| moment.time < time);
