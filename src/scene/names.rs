@@ -111,7 +111,7 @@ pub fn of_field(field: Field) -> String {
     match (field, field.facts().measure) {
         (Field::SupplyFilm, _) => SUPPLY_FILM.to_owned(),
         (_, Measure::Of(quantity)) => of_quantity(quantity),
-        _ => field.facts().name.replace('-', "_"),
+        _ => field.keyword(),
     }
 }
 

@@ -65,8 +65,7 @@ fn stated_fields<'py>(
     let field = |(name, value): (Bound<'py, PyAny>, Bound<'py, PyAny>)| {
         let name: String = name.extract()?;
         let field = field_of(&name).ok_or_else(|| {
-            let accepted: Vec<_> = Field::of(Words::Keywords).map(|field| field.facts().name).collect();
-            let accepted = accepted.join(", ").replace('-', "_");
+            let accepted = Field::of(Words::Keywords).map(Field::keyword).collect::<Vec<_>>().join(", ");
             refused(format!("{name}= is no keyword of a contact; accepted are {accepted}"))
         })?;
         Ok((field, value))
@@ -86,11 +85,6 @@ fn unchangeable<'py>(field: Field, value: Bound<'py, PyAny>) -> PyResult<Bound<'
         Ok(numbers) => Ok(PyTuple::new(value.py(), numbers)?.into_any()),
         Err(_) => Ok(value),
     }
-}
-
-/// The keyword of a field.
-fn keyword(field: Field) -> String {
-    field.facts().name.replace('-', "_")
 }
 
 impl Contact {
@@ -245,7 +239,7 @@ impl Contact {
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
         let keywords = PyDict::new(py);
         for (field, value) in &self.given {
-            keywords.set_item(keyword(*field), value)?;
+            keywords.set_item(field.keyword(), value)?;
         }
         Ok((PyTuple::empty(py), keywords))
     }
@@ -316,7 +310,7 @@ impl Contact {
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let word = |(field, value): &(Field, Py<PyAny>)| match self.spec.number(*field) {
             Some(number) => Ok(format!("{}{number:?}", Words::Keywords.of(*field))),
-            None => Ok(format!("{}={}", keyword(*field), value.bind(py).repr()?)),
+            None => Ok(format!("{}={}", field.keyword(), value.bind(py).repr()?)),
         };
         let words = self.given.iter().map(word).collect::<PyResult<Vec<_>>>()?;
         Ok(format!("Contact({})", words.join(", ")))

@@ -203,6 +203,11 @@ impl Field {
         Self::ALL.iter().copied().filter(move |field| !field.facts().absent.contains(&words))
     }
 
+    /// Its keyword in Python and its field in a scene, such as `moes_m`.
+    pub fn keyword(self) -> String {
+        self.facts().name.replace('-', "_")
+    }
+
     /// The field that results have by a name, such as `moes.M`.
     fn in_results(name: &str) -> Option<Self> {
         let name = name.replace('-', "_");

@@ -10,9 +10,9 @@ impl Words {
         match self {
             Self::Flags => format!("--{}", facts.name),
             Self::Keywords if field.is_switch() => format!("{}=True", facts.name),
-            Self::Keywords => format!("{}=", facts.name.replace('-', "_")),
+            Self::Keywords => format!("{}=", field.keyword()),
             Self::Columns => facts.column.to_owned(),
-            Self::Scene => format!("`{}`", facts.name.replace('-', "_")),
+            Self::Scene => format!("`{}`", field.keyword()),
             Self::Variables => format!("`{}`", facts.variable),
         }
     }
