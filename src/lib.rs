@@ -6,11 +6,11 @@
 //! * [`solver`] is the core: physics, the discrete equations, full and reduced systems, training.
 //! * [`scene`] is the experiment as a document: read, check, write; [`scene::study`] has one file for each question.
 //! * [`engine`] owns what is expensive and shared: grids, solvers, models and their files, jobs, the speed table.
-//! * [`host`] owns the clock, the threads and the pool for parallel work.
-//! * [`cli`] holds the commands, `app` is the explorer on the screen; without the feature `desktop` both are left out, for
-//!   programs that only solve.
+//! * [`host`] owns the clock, the threads, the files and the pool for parallel work, natively and in a web page.
+//! * [`cli`] holds the commands, `app` is the explorer on the screen. Without the feature `desktop` there are no commands
+//!   and no native window, without `screen` there is no `app` either, for programs that only solve.
 
-#[cfg(feature = "desktop")]
+#[cfg(feature = "screen")]
 pub mod app;
 #[cfg(feature = "desktop")]
 pub mod cli;

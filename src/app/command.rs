@@ -10,6 +10,7 @@ use super::sheets::Form;
 use super::tab::Tab;
 use crate::app::tabs::training::TrainingCommand;
 use crate::app::tabs::transient::TransientCommand;
+use crate::host::browser;
 use crate::scene::Scene;
 use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, ThemePreference};
 use std::path::PathBuf;
@@ -26,6 +27,12 @@ pub enum Command {
     Examples,
     /// Solve a table of load cases.
     LoadCases,
+    /// Put a link to what is shown on the clipboard.
+    CopyLink,
+    /// Ask for a link and open it.
+    OpenLink,
+    /// Open what a link holds.
+    OpenFragment(String),
     /// Save under the known name.
     Save,
     /// Save under a name to be given.
@@ -178,8 +185,10 @@ pub static MENUS: &[Item] = {
         item("File", 0, C::Open, "Open…", "", Some((CTRL, Key::O))),
         item("File", 0, C::Examples, "Examples…", "scenes tables figures dissertation search", None),
         item("File", 0, C::LoadCases, "Load cases…", "table csv paste bearings gears batch", None),
+        item("File", 0, C::OpenLink, "Open link…", "address url share fragment", None),
         item("File", 1, C::Save, "Save", "", Some((CTRL, Key::S))),
         item("File", 1, C::SaveAs, "Save as…", "", Some((CTRL_SHIFT, Key::S))),
+        item("File", 1, C::CopyLink, "Copy link", "address url share send fragment", None),
         item("File", 2, C::ExportFigures, "Export figure…", "picture plot image svg png", Some((CTRL, Key::E))),
         item("File", 2, C::ExportProfiles, "Export profiles as CSV…", "table data", None),
         item("File", 3, C::Quit, "Quit", "", Some((CTRL, Key::Q))),
@@ -235,10 +244,32 @@ pub static MENUS: &[Item] = {
     ]
 };
 
+/// Keys that belong to a browser: reload, full screen, bookmarks, its own windows and zoom.
+const OF_BROWSERS: [(Modifiers, Key); 12] = [
+    (CTRL, Key::N),
+    (CTRL, Key::Q),
+    (CTRL, Key::E),
+    (CTRL, Key::D),
+    (CTRL_SHIFT, Key::D),
+    (CTRL_SHIFT, Key::C),
+    (CTRL, Key::Plus),
+    (CTRL, Key::Minus),
+    (CTRL, Key::Num0),
+    (PLAIN, Key::F1),
+    (PLAIN, Key::F5),
+    (PLAIN, Key::F11),
+];
+
 impl Item {
     /// Its key, when it has one.
     pub fn shortcut(&self) -> Option<KeyboardShortcut> {
-        self.key.map(|(modifiers, key)| KeyboardShortcut::new(modifiers, key))
+        let key = self.key.filter(|key| !(browser::PAGE && OF_BROWSERS.contains(key)));
+        key.map(|(modifiers, key)| KeyboardShortcut::new(modifiers, key))
+    }
+
+    /// Whether it can be done here: a page cannot be quit from inside.
+    pub fn is_there(&self) -> bool {
+        !(browser::PAGE && self.command == Command::Quit)
     }
 }
 

@@ -5,6 +5,8 @@ use super::context::Commands;
 use super::desk::files::Pending;
 use super::display::Display;
 use super::layouts::Layout;
+use super::links::Fragment;
+use super::notice::Notice;
 use super::presentation::{Presentation, enlargement};
 use super::purpose::Purpose;
 use super::session::Place;
@@ -33,6 +35,15 @@ impl Explorer {
             Command::Open => desk.request(ctx, Pending::OpenDialog),
             Command::Examples => self.examples.open(),
             Command::LoadCases => desk.load_cases.open(),
+            Command::CopyLink => match Fragment::link(&desk.document, &self.tree) {
+                Ok(link) => {
+                    ctx.copy_text(link);
+                    desk.files.notice = Some(Notice::Done("A link to this is on the clipboard".to_owned()));
+                }
+                Err(why) => desk.files.notice = Some(Notice::wrong(why)),
+            },
+            Command::OpenLink => self.link_window.open(),
+            Command::OpenFragment(text) => desk.request(ctx, Pending::OpenLink(text)),
             Command::Save => desk.save(ctx),
             Command::SaveAs => desk.ask_path(ctx, Purpose::Save),
             Command::ExportFigures => desk.figures.ask(None, desk.display.units),

@@ -1,15 +1,17 @@
 //! The explorer: a window in which a contact is dragged and answers at once.
 //!
-//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`](super::run) puts it into a native one.
+//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` puts it into a native one.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
+use crate::app::desk::files::Pending;
 use crate::app::desk::{Desk, Opened};
 use crate::app::document::Document;
 use crate::app::drawn::{self, Drawn};
 use crate::app::examples::Examples;
 use crate::app::layouts::{self, Layout};
 use crate::app::lessons::{self, Lessons, OnScreen};
+use crate::app::links::{Address, Embed, LinkWindow};
 use crate::app::model_source::Models;
 use crate::app::notice::Notice;
 use crate::app::palette::Palette;
@@ -22,6 +24,7 @@ use crate::app::tabs::frame::Frame;
 use crate::app::wake::wake;
 use crate::app::{panels, theme};
 use crate::engine::Store;
+use crate::host::browser;
 use crate::host::clock::Stopwatch;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::ReducedModel;
@@ -52,6 +55,10 @@ pub struct Explorer {
     pub(super) installed: bool,
     pub(super) place: Place,
     pub(super) keeper: Option<Keeper>,
+    pub(super) link_window: LinkWindow,
+    /// One tab with chosen sliders, and nothing else.
+    pub(super) embed: Option<Embed>,
+    address: Address,
 }
 
 impl Explorer {
@@ -80,6 +87,9 @@ impl Explorer {
             installed: false,
             place: Place::default(),
             keeper: None,
+            link_window: LinkWindow::default(),
+            embed: None,
+            address: Address::default(),
         }
     }
 
@@ -127,14 +137,15 @@ impl Explorer {
         self.desk.figures.begin(ui);
         drawn::begin(&ctx);
         self.desk.receive();
-        let asked = self.desk.files.asks() || self.desk.figures.asks() || self.palette.is_open();
+        let asked =
+            self.desk.files.asks() || self.desk.figures.asks() || self.palette.is_open() || self.link_window.is_open();
         let mut commands = Commands::default();
         if !asked {
             commands.extend(Command::pressed(&ctx));
         }
         self.panels(ui, &mut commands);
         self.execute_all(&ctx, &mut commands);
-        self.answer_opened(&ctx);
+        self.answer_opened(&ctx, &mut commands);
         let here = self.desk.document.point;
         self.desk.tabs.regimes.follow(here.kind, here.moes());
         self.desk.answers.refresh(&ctx, &self.desk.document);
@@ -152,12 +163,17 @@ impl Explorer {
         }
         CentralPanel::no_frame().show(ui, |ui| {
             let narrow = ui.available_width() < NARROW;
-            self.tree.ui(&mut Frame { desk: &mut self.desk, commands: &mut commands, narrow }, ui);
+            let mut frame = Frame { desk: &mut self.desk, commands: &mut commands, narrow };
+            match &self.embed {
+                Some(embed) => frame.tab_ui(ui, embed.tab),
+                None => self.tree.ui(&mut frame, ui),
+            }
         });
         self.drawn = drawn::all(&ctx);
         self.desk.files_ui(ui);
         self.desk.figures_ui(&ctx);
         panels::help::ui(&ctx, &mut self.help);
+        self.link_window.ui(&ctx, &mut commands);
         self.settings.ui(&ctx, &self.desk, &mut commands);
         self.examples.ui(&ctx, &mut commands);
         self.desk.load_cases.ui(&ctx, &self.desk.document, &mut commands);
@@ -165,6 +181,7 @@ impl Explorer {
         self.settle(&ctx);
         self.execute_all(&ctx, &mut commands);
         self.keep_session(&ctx);
+        self.follow_address(&ctx);
         // What a plot or a command changed shows in the next frame.
         if !self.desk.answers.is_answer_to(&self.desk.document) {
             ctx.request_repaint();
@@ -209,13 +226,20 @@ impl Explorer {
 
     /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done
     /// without asking.
-    fn answer_opened(&mut self, ctx: &egui::Context) {
+    fn answer_opened(&mut self, ctx: &egui::Context, commands: &mut Commands) {
         match self.desk.opened.take() {
             None => {}
             Some(Opened::Scene(tab)) => {
                 self.show(tab);
                 if tab == Tab::Results {
                     self.desk.run_study(wake(ctx));
+                }
+            }
+            Some(Opened::Link { tree, embed, lesson }) => {
+                self.tree = tree.unwrap_or_else(|| self.tree.clone());
+                self.embed = embed;
+                if let Some(lesson) = lesson {
+                    commands.extend(self.lessons.open_lesson(lesson));
                 }
             }
             Some(Opened::Campaign(folder)) => {
@@ -248,13 +272,44 @@ impl Explorer {
         self.keeper = Some(keeper);
     }
 
+    /// Opens a link that the user has put into the address of the page, and lets the address follow what is shown.
+    fn follow_address(&mut self, ctx: &egui::Context) {
+        if !browser::PAGE {
+            return;
+        }
+        if let Some(asked) = browser::asked().filter(|asked| asked.len() > 1) {
+            self.desk.request(ctx, Pending::OpenLink(asked));
+            ctx.request_repaint();
+        } else if self.embed.is_none()
+            && !ctx.input(|i| i.pointer.any_down())
+            && let Some(seconds) = self.address.follow(&self.desk.document, &self.tree)
+        {
+            ctx.request_repaint_after_secs(seconds as f32);
+        }
+        if !ctx.input(|i| i.pointer.any_down())
+            && let Some(news) = panels::readouts::spoken(&self.desk.context())
+        {
+            let wrong = match &self.desk.files.notice {
+                Some(Notice::Wrong(why)) => format!("{why}. "),
+                _ => String::new(),
+            };
+            browser::say(&format!("{wrong}{news}"));
+        }
+    }
+
     /// The panels around the tabs that are drawn before them.
     fn panels(&mut self, ui: &mut Ui, commands: &mut Commands) {
         let (desk, frame_s) = (&mut self.desk, self.frame_s);
         // What is typed belongs to the panels while they are drawn.
         let (mut entries, mut own_laws) = (std::mem::take(&mut desk.entries), desk.own_lubricant);
         let context = desk.context();
-        if context.presenting {
+        if let Some(embed) = &self.embed {
+            let chosen = |quantity| embed.sliders.is_empty() || embed.sliders.contains(&quantity);
+            let free = |quantity| !embed.locked.contains(&quantity);
+            Panel::bottom("embed").show(ui, |ui| {
+                panels::sliders::side_by_side(ui, &context, (&chosen, &free), &mut entries, commands);
+            });
+        } else if context.presenting {
             let locked = !desk.locked.is_empty();
             Panel::bottom("presentation").show(ui, |ui| {
                 panels::presentation::ui(ui, &context, locked, &mut entries, commands);

@@ -35,6 +35,7 @@ const PAGES: &[Page] = pages![
     "transient.md",
     "trust.md",
     "programs.md",
+    "web.md",
     "files.md",
     "model_file.md",
     "physics.md",

@@ -1,6 +1,6 @@
 //! The explorer: a window in which a contact is dragged and answers at once.
 //!
-//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; [`run`] puts it into a native one.
+//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` puts it into a native one.
 
 mod answers;
 mod badge;
@@ -22,6 +22,7 @@ mod formulas;
 mod in_use;
 mod layouts;
 mod lessons;
+mod links;
 mod load_cases;
 mod manual;
 mod model_source;
@@ -40,11 +41,15 @@ mod session;
 mod sheets;
 mod tab;
 mod tabs;
+mod tasks;
 mod theme;
 mod units;
 mod wake;
+#[cfg(feature = "desktop")]
 mod window;
 
 pub use explorer::Explorer;
 pub use refusal::Refusal;
+pub use tasks::perform;
+#[cfg(feature = "desktop")]
 pub use window::run;

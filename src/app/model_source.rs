@@ -47,13 +47,15 @@ pub struct Models {
 }
 
 impl Models {
-    /// The models of the program, some of them read later. Without them (a damaged build) the full solver computes the
-    /// pictures.
+    /// The models of the program. Some of them are read later, as are those of which the file is not there yet; until
+    /// then the full solver computes the pictures.
     pub fn embedded(store: &Store) -> Self {
         // Operators are computed as a model is read: all of them at once, for the window waits.
-        let read = || FIRST.par_iter().filter_map(|name| store.embedded(name).ok()).map(Known::Read).collect();
-        let mut known: Vec<Known> = on_all_cores(read);
-        let later = catalogue().iter().filter(|entry| !FIRST.contains(&entry.name));
+        let read = |name: &'static str| (name, store.embedded(name).ok());
+        let first: Vec<_> = on_all_cores(|| FIRST.into_par_iter().map(read).collect());
+        let mut known: Vec<Known> = first.iter().filter_map(|(_, model)| model.clone()).map(Known::Read).collect();
+        let there = |name| first.iter().any(|(first, model)| *first == name && model.is_some());
+        let later = catalogue().iter().filter(|entry| !there(entry.name));
         known.extend(later.map(|entry| Known::Later(entry.name, &entry.domain)));
         Self { known }
     }

@@ -73,7 +73,7 @@ pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
 /// The model of a file, or one of the program by its name, and the content of its file.
 fn model_of(path: &Path) -> Result<(SavedModel, Vec<u8>), Failure> {
     let read = match path.to_str().and_then(bytes_of).filter(|_| !path.exists()) {
-        Some(content) => SavedModel::from_bytes(content).map(|model| (model, content.to_vec())),
+        Some(content) => SavedModel::from_bytes(&content).map(|model| (model, content.to_vec())),
         None => SavedModel::read_with_content(path),
     };
     Ok(read.map_err(|reason| EngineError::Model { path: path.to_owned(), reason: reason.into() })?)

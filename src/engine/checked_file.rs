@@ -3,7 +3,8 @@
 //! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of everything else (u64), all little-endian,
 //! then the payload, and nothing after it.
 
-use std::io::{self, Read};
+use crate::host::files;
+use std::io;
 use std::path::Path;
 use xxhash_rust::xxh3::Xxh3;
 
@@ -87,21 +88,17 @@ impl Format {
 
     /// Reads a whole file. Its announced size is checked before anything is allocated.
     pub fn read(&self, path: &Path) -> Result<Vec<u8>, Unreadable> {
-        let mut file = std::fs::File::open(path)?;
-        let length = file.metadata()?.len();
-        let mut bytes = Vec::with_capacity(HEADER);
-        file.by_ref().take(HEADER as u64).read_to_end(&mut bytes)?;
-        let wanted = self.announced(&bytes)?;
-        if length.saturating_sub(HEADER as u64) < wanted {
-            return Err(Flaw::Truncated { found: length, wanted: wanted + HEADER as u64 }.into());
+        let length = files::size(path)?;
+        let wanted = self.announced(&files::read_at_most(path, HEADER as u64)?)? + HEADER as u64;
+        if length < wanted {
+            return Err(Flaw::Truncated { found: length, wanted }.into());
         }
         // One byte more shows that there is something after the payload.
-        file.take(wanted + 1).read_to_end(&mut bytes)?;
-        Ok(bytes)
+        Ok(files::read_at_most(path, wanted + 1)?)
     }
 
     /// Checks magic, version and announced size.
-    fn announced(&self, bytes: &[u8]) -> Result<u64, Flaw> {
+    pub fn announced(&self, bytes: &[u8]) -> Result<u64, Flaw> {
         if !bytes.starts_with(self.magic) {
             return Err(Flaw::Foreign);
         }

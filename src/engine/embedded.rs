@@ -1,24 +1,43 @@
 //! The reduced models that are part of the program, with a catalogue of what they cover.
 
 use super::rom::{self, Catalogue, ModelFileError};
+use crate::host::models;
 use crate::solver::observer::Observer;
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel};
+use std::borrow::Cow;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// The steady models by name, each with the content of its file. Scenes in `scenes/training` train them.
+/// What the program holds of the file of a model: all of it, or without the feature `models` its header and directory.
+#[cfg(feature = "models")]
+macro_rules! held {
+    ($path:literal) => {
+        include_bytes!($path)
+    };
+}
+#[cfg(not(feature = "models"))]
+macro_rules! held {
+    ($path:literal) => {{
+        // The file itself is needed at compile time only.
+        const FILE: &[u8] = include_bytes!($path);
+        static HEAD: [u8; rom::head_length(FILE)] = rom::head(FILE);
+        &HEAD
+    }};
+}
+
+/// The steady models by name, each with what the program holds of its file. Scenes in `scenes/training` train them.
 const MODELS: [(&str, &[u8]); 11] = [
-    ("line", include_bytes!("../../assets/line.rom")),
-    ("line_shear", include_bytes!("../../assets/line_shear.rom")),
-    ("point", include_bytes!("../../assets/point.rom")),
-    ("point_light", include_bytes!("../../assets/point_light.rom")),
-    ("point_shear", include_bytes!("../../assets/point_shear.rom")),
-    ("ellipse", include_bytes!("../../assets/ellipse.rom")),
-    ("line_heat", include_bytes!("../../assets/line_heat.rom")),
-    ("point_heat", include_bytes!("../../assets/point_heat.rom")),
-    ("line_sliding", include_bytes!("../../assets/line_sliding.rom")),
-    ("point_sliding", include_bytes!("../../assets/point_sliding.rom")),
-    ("point_light_sliding", include_bytes!("../../assets/point_light_sliding.rom")),
+    ("line", held!("../../assets/line.rom")),
+    ("line_shear", held!("../../assets/line_shear.rom")),
+    ("point", held!("../../assets/point.rom")),
+    ("point_light", held!("../../assets/point_light.rom")),
+    ("point_shear", held!("../../assets/point_shear.rom")),
+    ("ellipse", held!("../../assets/ellipse.rom")),
+    ("line_heat", held!("../../assets/line_heat.rom")),
+    ("point_heat", held!("../../assets/point_heat.rom")),
+    ("line_sliding", held!("../../assets/line_sliding.rom")),
+    ("point_sliding", held!("../../assets/point_sliding.rom")),
+    ("point_light_sliding", held!("../../assets/point_light_sliding.rom")),
 ];
 
 /// A model of the program in the catalogue.
@@ -33,15 +52,16 @@ pub struct Entry {
 /// Returns the catalogue of the steady models, from the directories of their files; a damaged one is left out.
 pub fn catalogue() -> &'static [Entry] {
     static CATALOGUE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
-        let entry = |(name, bytes)| Some(Entry { name, domain: Catalogue::of(bytes).ok()?.domain });
+        let entry = |(name, bytes)| Some(Entry { name, domain: Catalogue::of_head(bytes).ok()?.domain });
         MODELS.into_iter().filter_map(entry).collect()
     });
     &CATALOGUE
 }
 
-/// Returns the content of the file of a model; `None` for an unknown name.
-pub fn bytes_of(name: &str) -> Option<&'static [u8]> {
-    MODELS.iter().chain(&[IN_TIME]).find(|(known, _)| *known == name).map(|(_, bytes)| *bytes)
+/// Returns the content of the file of a model; `None` for an unknown name, and where the file is not there (yet).
+pub fn bytes_of(name: &str) -> Option<Cow<'static, [u8]>> {
+    let (_, held) = MODELS.iter().chain(&[IN_TIME]).find(|(known, _)| *known == name)?;
+    if cfg!(feature = "models") { Some(Cow::Borrowed(held)) } else { models::now(name).map(Cow::Owned) }
 }
 
 /// Models that have been read, by name.
@@ -58,6 +78,11 @@ fn read() -> MutexGuard<'static, Read> {
 pub(super) fn hold() -> MutexGuard<'static, Read> {
     catalogue();
     read()
+}
+
+/// Name of a model of the program that has been read; `None` for other models.
+pub fn name_of(model: &Arc<ReducedModel>) -> Option<String> {
+    read().iter().find(|(_, read)| Arc::ptr_eq(read, model)).map(|(name, _)| name.clone())
 }
 
 /// Reads a model of the program. That its parts belong together was checked when it was tested, and is not checked again.
@@ -78,7 +103,7 @@ pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Ar
         return Ok(model);
     }
     let bytes = bytes_of(name).ok_or(ModelFileError::Foreign)?;
-    let model = rom::from_own_bytes(bytes, observer)?.stationary()?;
+    let model = rom::from_own_bytes(&bytes, observer)?.stationary()?;
     let mut read = read();
     // If another thread has read it in the meantime, everybody gets that one.
     Ok(known(&read).unwrap_or_else(|| {
@@ -88,7 +113,7 @@ pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Ar
 }
 
 /// The transient model with the content of its file.
-const IN_TIME: (&str, &[u8]) = ("line_in_time", include_bytes!("../../assets/line_in_time.rom"));
+const IN_TIME: (&str, &[u8]) = ("line_in_time", held!("../../assets/line_in_time.rom"));
 
 /// The model in time of line contacts whose load varies: `scenes/training/line_in_time.ron`. It is read once: every picture
 /// needs what it was trained for.
@@ -100,7 +125,8 @@ pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
     if let Some(model) = MODEL.get() {
         return Ok(Arc::clone(model));
     }
-    let read = rom::from_own_bytes(IN_TIME.1, &())?.in_time()?;
+    let bytes = bytes_of(IN_TIME.0).ok_or(ModelFileError::Foreign)?;
+    let read = rom::from_own_bytes(&bytes, &())?.in_time()?;
     Ok(Arc::clone(MODEL.get_or_init(|| read)))
 }
 

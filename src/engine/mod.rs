@@ -30,7 +30,7 @@ pub mod training_file;
 mod workbench;
 
 pub use answer::{Solver, answer};
-pub use embedded::{Entry, bytes_of, catalogue, embedded, line_in_time};
+pub use embedded::{Entry, bytes_of, catalogue, embedded, line_in_time, name_of};
 pub use grid_accuracy::GridAccuracy;
 pub use rom::{Catalogue, ModelKind, SavedModel};
 pub use store::{Held, Store};

@@ -1,9 +1,12 @@
 //! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their
 //! operators.
 
+use super::job::{Job, Wake};
 use super::rom::{ModelFileError, SavedModel};
 use super::{EngineError, embedded, model_file};
 use crate::host::clock::FileTime;
+use crate::host::models;
+use crate::host::pool::on_spare_cores;
 use crate::scene::Scene;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::full::ContactSolver;
@@ -102,6 +105,20 @@ impl Store {
     /// For an unknown name, and when the program was built with a damaged one.
     pub fn embedded(&self, name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
         self.embedded_watched(name, &())
+    }
+
+    /// Begins to read a reduced model of the program by its name, once its file is there.
+    pub fn read(&self, name: &'static str, wake: Wake) -> Job<Arc<ReducedModel>> {
+        let store = self.clone();
+        Job::once(
+            "Reading a reduced model",
+            wake,
+            |begin| models::then(name, begin),
+            move |reporter| {
+                reporter.send(on_spare_cores(|| store.embedded(name)).map_err(|error| error.to_string())?);
+                Ok(())
+            },
+        )
     }
 
     /// The same while an observer watches: reading takes a tenth of a second and more. All stores share these models.

@@ -52,6 +52,18 @@ impl Workbench {
     }
 }
 
+impl Workbench {
+    /// The store it works with.
+    pub fn store(&self) -> &Store {
+        &self.store
+    }
+
+    /// The model in place of embedded ones, and whether it is in place of all of them.
+    pub fn in_use(&self) -> Option<(&Arc<ReducedModel>, bool)> {
+        self.in_use.as_ref().map(|model| (model, self.for_all))
+    }
+}
+
 impl Bench for Workbench {
     fn answer(
         &mut self,

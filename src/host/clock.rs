@@ -1,7 +1,8 @@
 //! Monotonic time and today's date.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use time::{Date, OffsetDateTime};
+use web_time::Instant;
 
 /// Time of the last change of a file.
 pub type FileTime = std::time::SystemTime;

@@ -1,7 +1,7 @@
 //! Replacing a file as a whole or not at all.
 
-use std::fs::{self, File};
-use std::io::{self, Write};
+use crate::host::files;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A file could not be written; whatever stood there before still does.
@@ -27,7 +27,7 @@ pub fn said(reason: &io::Error) -> String {
 /// # Errors
 /// When the folder does not exist or cannot be written.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    write(path, bytes).map_err(|reason| WriteError { path: path.to_owned(), reason })
+    files::replace(path, bytes).map_err(|reason| WriteError { path: path.to_owned(), reason })
 }
 
 /// Writes files that belong together, the first one last: it refers to the others.
@@ -38,36 +38,10 @@ pub fn replace_all(files: &[(PathBuf, String)]) -> Result<(), WriteError> {
     files.iter().rev().try_for_each(|(path, text)| replace(path, text.as_bytes()))
 }
 
-fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // A link is followed, and a device or pipe is written to instead of being replaced.
-    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    if let Ok(metadata) = fs::metadata(&target) {
-        if metadata.is_dir() {
-            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
-        }
-        if !metadata.is_file() {
-            return File::options().write(true).open(&target)?.write_all(bytes);
-        }
-    }
-    let name = target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "it names no file"))?;
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    // A name of full length leaves no room for more.
-    let prefix: String = format!(".{}.", name.to_string_lossy()).chars().take(40).collect();
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(".part");
-    // Others may read it as any file of this user, not only this user as a temporary one.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut beside = builder.tempfile_in(folder)?;
-    beside.write_all(bytes)?;
-    beside.as_file().sync_all()?;
-    // What is not put in its place is removed.
-    beside.persist(&target).map(|_| ()).map_err(|refused| refused.error)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn replaces_whole_files_and_leaves_nothing_beside_them() {

@@ -10,6 +10,7 @@ use super::study::{Study, point};
 use super::view::View;
 use super::written::is_default;
 use super::{atomic_file, examples};
+use crate::host::files;
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, Sliding};
 use crate::solver::training::TrainingSpec;
@@ -17,8 +18,6 @@ use ron::Options;
 use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
-use std::io::Read as _;
 use std::path::Path;
 
 /// Largest scene file that is read \[bytes\].
@@ -238,10 +237,7 @@ impl Scene {
         if path.is_dir() {
             return Err(unreadable("it is a folder".to_owned()));
         }
-        let mut bytes = Vec::new();
-        // Devices and pipes announce no length: what is read is limited instead.
-        let read = File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
-        read.map_err(|error| unreadable(atomic_file::said(&error)))?;
+        let bytes = files::read_at_most(path, MAX_BYTES + 1).map_err(|error| unreadable(atomic_file::said(&error)))?;
         if bytes.len() as u64 > MAX_BYTES {
             return Err(unreadable(format!("it is larger than {MAX_BYTES} bytes, which no scene is")));
         }

@@ -1,8 +1,8 @@
 //! Inputs of a contact in time from a CSV file: a column T and any of radius, speed and load, relative to the
 //! reference.
 
+use crate::host::files;
 use crate::solver::full::transient::{Inputs, Signal};
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// Largest file that is read \[bytes\].
@@ -37,9 +37,8 @@ pub enum SampledError {
 /// When the file cannot be read, or with the first line that makes no sense.
 pub fn read_into(inputs: &mut Inputs, path: &Path) -> Result<(), SampledError> {
     let unreadable = |reason: String| SampledError::Read { path: path.to_owned(), reason };
-    let file = std::fs::File::open(path).map_err(|error| unreadable(error.to_string()))?;
-    let mut text = String::new();
-    file.take(MAX_SAMPLED_BYTES + 1).read_to_string(&mut text).map_err(|error| unreadable(error.to_string()))?;
+    let bytes = files::read_at_most(path, MAX_SAMPLED_BYTES + 1).map_err(|error| unreadable(error.to_string()))?;
+    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
     if text.len() as u64 > MAX_SAMPLED_BYTES {
         return Err(unreadable(format!("it is larger than {} MiB", MAX_SAMPLED_BYTES >> 20)));
     }

@@ -11,6 +11,7 @@ use ehl_explorer::solver::reduced::ReducedModel;
 use ehl_explorer::solver::training::train;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyString};
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
@@ -46,7 +47,12 @@ impl Model {
 
     /// The content of its file.
     fn content(&self, py: Python<'_>) -> PyResult<&[u8]> {
-        if let Some(content) = self.name.and_then(engine::bytes_of).or_else(|| self.content.get().map(|own| &own[..])) {
+        let own = || self.content.get().map(|own| &own[..]);
+        let of_program = |name| match engine::bytes_of(name) {
+            Some(Cow::Borrowed(content)) => Some(content),
+            _ => None,
+        };
+        if let Some(content) = self.name.and_then(of_program).or_else(own) {
             return Ok(content);
         }
         let content = py.detach(|| model_file::to_bytes(&self.model)).map_err(refused)?;

@@ -13,8 +13,7 @@ use crate::app::in_use::InUse;
 use crate::app::model_source::Models;
 use crate::app::wake::wake;
 use crate::engine::Store;
-use crate::engine::job::{Job, Standing};
-use crate::host::pool::on_spare_cores;
+use crate::engine::job::Standing;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::point::second_grid;
@@ -135,11 +134,7 @@ impl Answers {
 
     /// Begins to read a model of the program. Until it is there the full solver draws the pictures.
     fn read(&mut self, ctx: &Context, name: &'static str) {
-        let store = self.work.store.clone();
-        self.work.reading = Some(Job::start("Reading a reduced model", wake(ctx), move |reporter| {
-            reporter.send(on_spare_cores(|| store.embedded(name)).map_err(|error| error.to_string())?);
-            Ok(())
-        }));
+        self.work.reading = Some(self.work.store.read(name, wake(ctx)));
     }
 
     /// Puts the model in use that has been read.
@@ -263,7 +258,7 @@ mod tests {
     use crate::app::badge::verdict;
     use crate::app::display::Thresholds;
     use crate::engine::embedded;
-    use crate::engine::job::Wake;
+    use crate::engine::job::{Job, Wake};
     use crate::host::clock::Stopwatch;
     use std::sync::mpsc::channel;
 

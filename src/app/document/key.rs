@@ -3,9 +3,10 @@
 use crate::scene::{Grid, Method, ModelSource, Request};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use serde::{Deserialize, Serialize};
 
 /// What a result belongs to.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Key {
     /// The operating point.
     pub point: OperatingPoint,

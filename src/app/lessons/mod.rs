@@ -5,4 +5,4 @@ mod panel;
 mod text;
 
 pub use goal::OnScreen;
-pub use panel::{BESIDE, HEIGHT, Lessons, WIDTH};
+pub use panel::{BESIDE, HEIGHT, Lessons, WIDTH, count};

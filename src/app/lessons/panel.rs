@@ -32,6 +32,7 @@ const TEXTS: [&str; 11] = [
 static LESSONS: LazyLock<Vec<Lesson>> = LazyLock::new(|| TEXTS.iter().flat_map(|text| Lesson::read(text)).collect());
 
 /// Most lessons of one's own.
+#[cfg(feature = "desktop")]
 const MOST_OWN: usize = 100;
 /// Width of the panel beside the tabs \[points\].
 pub const WIDTH: f32 = 300.0;
@@ -58,6 +59,11 @@ struct Standing {
     step: usize,
     /// Whether what the step asks for was done; it stays done.
     done: bool,
+}
+
+/// Number of lessons of the program.
+pub fn count() -> usize {
+    LESSONS.len()
 }
 
 impl Lessons {
@@ -128,6 +134,16 @@ impl Lessons {
         if let Some(lesson) = chosen {
             self.begin(lesson, commands);
         }
+    }
+
+    /// Opens a lesson by its number, from 1; returns what is to be done for it.
+    pub fn open_lesson(&mut self, number: usize) -> Vec<Command> {
+        let mut commands = Commands::default();
+        if let Some(lesson) = number.checked_sub(1).and_then(|k| LESSONS.get(k)) {
+            self.open = true;
+            self.begin(lesson.clone(), &mut commands);
+        }
+        commands.take()
     }
 
     fn begin(&mut self, lesson: Lesson, commands: &mut Commands) {

@@ -45,7 +45,7 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
     };
     let tabs = Tab::ALL.iter().map(go_to);
     // The palette itself is open already.
-    let commands = MENUS.iter().filter(|item| item.command != Command::Palette);
+    let commands = MENUS.iter().filter(|item| item.is_there() && item.command != Command::Palette);
     let commands = commands.map(|item| Entry {
         shortcut: item.shortcut(),
         refusal: desk.refusal(&item.command),

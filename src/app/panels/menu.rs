@@ -18,7 +18,7 @@ pub fn ui(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
                     if k > 0 {
                         ui.separator();
                     }
-                    group.iter().for_each(|item| item_ui(ui, desk, item, commands));
+                    group.iter().filter(|item| item.is_there()).for_each(|item| item_ui(ui, desk, item, commands));
                     if group.iter().any(|item| item.command == Command::Open) {
                         recent(ui, desk, commands);
                     }

@@ -1,6 +1,7 @@
 //! The read-outs under the plots: what the contact amounts to, and how it differs from the last pin.
 
 use crate::app::answers::picture::Picture;
+use crate::app::badge::verdict;
 use crate::app::context::Context;
 use crate::app::controls::sentence;
 use crate::app::drawn::{self, Owner};
@@ -105,6 +106,21 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
             );
         }
     });
+}
+
+/// Badge and read-outs in words, for people who cannot see them; `None` while the picture follows a change.
+pub fn spoken(context: &Context<'_>) -> Option<String> {
+    let answers = context.answers;
+    let verdict = verdict(answers, context.thresholds);
+    let badge = format!("{} {}.", verdict.title, verdict.detail);
+    let Some(picture) = answers.current_picture() else { return answers.failure().map(|_| badge) };
+    Some(format!(
+        "{badge} Central film {}, minimum film {}, largest pressure {}, traction coefficient {}.",
+        numbers::length(picture.central_film_m()),
+        numbers::length(picture.minimum_film_m()),
+        numbers::pressure(picture.largest_pressure_pa()),
+        numbers::significant(picture.traction),
+    ))
 }
 
 /// A symbol, its value, and this in SI units.

@@ -33,6 +33,9 @@ const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is 
 const RATIO_TIP: &str = "R_y/R, the radius across over that along the rolling direction: 1 is a circle, large ratios are nearly a line, \
     small ones an ellipse that is long along the rolling direction. R stays, R_y follows. Double click: the circle";
 
+/// What has a slider.
+pub const SLIDERS: [Quantity; 5] =
+    [Quantity::M, Quantity::L, Quantity::RadiusRatio, Quantity::SlideToRollRatio, Quantity::NewtonianPlateauRatio];
 /// Under these names entries are refused.
 pub const FIELDS: [&str; 10] =
     ["M", "L", "R_y/R", "SRR", "NPR", "M value", "L value", "R_y/R value", "SRR value", "NPR value"];
@@ -129,13 +132,24 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
 pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let document = context.document;
     let slides = thins(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
-    let used = |row: &Row| match row.quantity {
+    let used = |quantity: Quantity| match quantity {
         Quantity::SlideToRollRatio => slides,
         Quantity::NewtonianPlateauRatio => thins(document),
         Quantity::RadiusRatio => Shape::of(&document.point) == Shape::Ellipse,
         _ => true,
     };
-    let rows: Vec<Row> = rows(context).into_iter().filter(used).collect();
+    side_by_side(ui, context, (&used, &|_| true), entries, commands);
+}
+
+/// Chosen ones side by side; those that are `free` can be moved.
+pub fn side_by_side(
+    ui: &mut Ui,
+    context: &Context<'_>,
+    (chosen, free): (&dyn Fn(Quantity) -> bool, &dyn Fn(Quantity) -> bool),
+    entries: &mut Entries,
+    commands: &mut Commands,
+) {
+    let rows: Vec<Row> = rows(context).into_iter().filter(|row| chosen(row.quantity)).collect();
     let each = ui.available_width() / rows.len() as f32;
     let named = each >= ROOM_FOR_NAME;
     let name = if named { NAME_WIDTH } else { SYMBOL_WIDTH };
@@ -143,7 +157,8 @@ pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     let mut wanted = None;
     ui.horizontal(|ui| {
         for row in rows {
-            wanted = row.ui(ui, entries, width, named).or(wanted);
+            let moved = ui.add_enabled_ui(free(row.quantity), |ui| row.ui(ui, entries, width, named)).inner;
+            wanted = moved.or(wanted);
             ui.add_space(8.0);
         }
     });

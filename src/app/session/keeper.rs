@@ -4,8 +4,8 @@ use super::state::{FILE, Session};
 use crate::app::explorer::Explorer;
 use crate::app::refusal::Refusal;
 use crate::host::clock::Stopwatch;
-use crate::host::worker;
-use std::path::Path;
+use crate::host::{files, worker};
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -18,7 +18,19 @@ pub struct Keeper {
     given: Option<Session>,
     sessions: Option<Sender<Session>>,
     refusals: Receiver<Refusal>,
-    writer: Option<JoinHandle<()>>,
+    writer: Writer,
+}
+
+/// Who writes.
+enum Writer {
+    Thread(Option<JoinHandle<()>>),
+    /// The window itself where there are no threads: what waits, where it goes, and when the last was written.
+    Window {
+        waiting: Receiver<Session>,
+        path: PathBuf,
+        says: Sender<Refusal>,
+        last: Option<Stopwatch>,
+    },
 }
 
 impl Keeper {
@@ -29,25 +41,26 @@ impl Keeper {
     pub fn new(folder: &Path) -> Result<Self, Refusal> {
         let cannot =
             |error: std::io::Error| Refusal::new(format!("No session can be kept in {}: {error}", folder.display()));
-        std::fs::create_dir_all(folder).map_err(cannot)?;
+        files::make_folder(folder).map_err(cannot)?;
         let path = folder.join(FILE);
-        let (sessions, given) = channel::<Session>();
+        let (sessions, waiting) = channel::<Session>();
         let (says, refusals) = channel();
-        let write = move || {
-            while let Ok(mut session) = given.recv() {
-                let first = Stopwatch::start();
-                // The last one counts; when no more can come, it is written at once.
-                while let Ok(later) = given.recv_timeout(DELAY.saturating_sub(first.elapsed())) {
-                    session = later;
+        let writer = if worker::THREADS {
+            let write = move || {
+                while let Ok(mut session) = waiting.recv() {
+                    let first = Stopwatch::start();
+                    // The last one counts; when no more can come, it is written at once.
+                    while let Ok(later) = worker::receive(&waiting, DELAY.saturating_sub(first.elapsed())) {
+                        session = later;
+                    }
+                    write(&session, &path, &says);
                 }
-                if let Err(sentence) = session.write(&path) {
-                    // A window that has closed hears nothing.
-                    let _ = says.send(sentence);
-                }
-            }
+            };
+            Writer::Thread(Some(worker::spawn("session", write).map_err(cannot)?))
+        } else {
+            Writer::Window { waiting, path, says, last: None }
         };
-        let writer = worker::spawn("session", write).map_err(cannot)?;
-        Ok(Self { given: None, sessions: Some(sessions), refusals, writer: Some(writer) })
+        Ok(Self { given: None, sessions: Some(sessions), refusals, writer })
     }
 
     /// Hands over what has changed since the last call, and tells why former changes could not be written.
@@ -60,7 +73,28 @@ impl Keeper {
             }
             self.given = Some(session);
         }
+        self.writer.write_due(DELAY);
         self.refusals.try_iter().last()
+    }
+}
+
+impl Writer {
+    /// Writes what waits where the window does so, unless the last time was less than `delay` ago.
+    fn write_due(&mut self, delay: Duration) {
+        let Self::Window { waiting, path, says, last } = self else { return };
+        if last.is_none_or(|last| last.elapsed() >= delay)
+            && let Some(session) = waiting.try_iter().last()
+        {
+            *last = Some(Stopwatch::start());
+            write(&session, path, says);
+        }
+    }
+}
+
+fn write(session: &Session, path: &Path, says: &Sender<Refusal>) {
+    if let Err(sentence) = session.write(path) {
+        // A window that has closed hears nothing.
+        let _ = says.send(sentence);
     }
 }
 
@@ -68,7 +102,10 @@ impl Drop for Keeper {
     /// Waits until the last change is written.
     fn drop(&mut self) {
         drop(self.sessions.take());
-        if let Some(writer) = self.writer.take() {
+        self.writer.write_due(Duration::ZERO);
+        if let Writer::Thread(writer) = &mut self.writer
+            && let Some(writer) = writer.take()
+        {
             let _ = writer.join();
         }
     }

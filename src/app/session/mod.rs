@@ -7,5 +7,6 @@ mod shown;
 mod state;
 
 pub use keeper::Keeper;
+pub use layout::checked;
 pub use place::Place;
 pub use state::restore;

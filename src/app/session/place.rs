@@ -59,6 +59,7 @@ impl Place {
         });
     }
 
+    #[cfg(feature = "desktop")]
     pub fn window(&self) -> egui::ViewportBuilder {
         let window = egui::ViewportBuilder::default()
             .with_inner_size([self.size.0, self.size.1])

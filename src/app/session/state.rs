@@ -10,12 +10,12 @@ use crate::app::layouts::Layout;
 use crate::app::notice::Notice;
 use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
+use crate::host::files;
 use crate::scene::atomic_file::{self, WriteError};
 
 use egui_tiles::Tree;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
-use std::io::{self, Read as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Name of the file in the session's folder.
@@ -169,11 +169,8 @@ impl Session {
 
 /// The text of the last session in a folder, if there was one.
 fn text_in(folder: &Path) -> io::Result<Option<String>> {
-    match File::open(folder.join(FILE)) {
-        Ok(file) => {
-            let mut text = String::new();
-            file.take(MAX_BYTES).read_to_string(&mut text).map(|_| Some(text))
-        }
+    match files::read_at_most(&folder.join(FILE), MAX_BYTES) {
+        Ok(bytes) => String::from_utf8(bytes).map(Some).map_err(io::Error::other),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error),
     }
@@ -181,7 +178,7 @@ fn text_in(folder: &Path) -> io::Result<Option<String>> {
 
 /// Keeps unsaved changes of the last session as a file of their own where another scene takes their place.
 fn set_aside(explorer: &mut Explorer, folder: &Path, document: &Document) -> Result<String, Refusal> {
-    let free = (1..).map(|n| folder.join(format!("unsaved-{n}.ron"))).find(|path| !path.exists());
+    let free = (1..).map(|n| folder.join(format!("unsaved-{n}.ron"))).find(|path| !files::exists(path));
     let path = free.unwrap_or_else(|| folder.join("unsaved.ron"));
     let text = document.to_ron()?;
     atomic_file::replace(&path, text.as_bytes()).map_err(|WriteError { path, reason }| {
@@ -209,7 +206,7 @@ pub fn restore(explorer: &mut Explorer, folder: &Path, with_document: bool) {
         return;
     }
     let bad = folder.join(format!("{FILE}.bad"));
-    let kept = match std::fs::rename(&path, &bad) {
+    let kept = match files::rename(&path, &bad) {
         Ok(()) => format!("the file is kept as {}", bad.display()),
         Err(error) => format!("the file cannot be kept as {} ({error})", bad.display()),
     };

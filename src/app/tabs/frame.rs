@@ -40,18 +40,25 @@ pub struct Frame<'a> {
     pub narrow: bool,
 }
 
-impl Behavior<Tab> for Frame<'_> {
-    fn pane_ui(&mut self, ui: &mut Ui, _tile_id: TileId, tab: &mut Tab) -> UiResponse {
+impl Frame<'_> {
+    /// Draws one tab with the margin around it.
+    pub fn tab_ui(&mut self, ui: &mut Ui, tab: Tab) {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
-            let about = self.desk.tabs.of(*tab).about();
+            let about = self.desk.tabs.of(tab).about();
             why(ui, self.desk.display.why && self.desk.presentation.is_none(), about.why);
-            figure::enter(ui.ctx(), Some(*tab));
+            figure::enter(ui.ctx(), Some(tab));
             let units = self.desk.figures.units().unwrap_or(self.desk.display.units);
-            Manner { units, locked: self.desk.locked.contains(tab) }.set(ui.ctx());
-            tab_ui(ui, *tab, self.desk, self.commands);
+            Manner { units, locked: self.desk.locked.contains(&tab) }.set(ui.ctx());
+            tab_ui(ui, tab, self.desk, self.commands);
             figure::enter(ui.ctx(), None);
         });
+    }
+}
+
+impl Behavior<Tab> for Frame<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile_id: TileId, tab: &mut Tab) -> UiResponse {
+        self.tab_ui(ui, *tab);
         UiResponse::None
     }
 

@@ -38,15 +38,14 @@ pub fn own_hash() -> Result<&'static str, CampaignError> {
 
 /// What sums may depend on in their last bits: the processor's way of adding several numbers at once.
 pub fn processor() -> String {
-    let mut words = vec![std::env::consts::ARCH];
     #[cfg(target_arch = "x86_64")]
-    {
-        let found = [
-            ("avx2", is_x86_feature_detected!("avx2")),
-            ("fma", is_x86_feature_detected!("fma")),
-            ("avx512f", is_x86_feature_detected!("avx512f")),
-        ];
-        words.extend(found.into_iter().filter(|(_, there)| *there).map(|(name, _)| name));
-    }
-    words.join(" ")
+    let features = [
+        ("avx2", is_x86_feature_detected!("avx2")),
+        ("fma", is_x86_feature_detected!("fma")),
+        ("avx512f", is_x86_feature_detected!("avx512f")),
+    ];
+    #[cfg(not(target_arch = "x86_64"))]
+    let features: [(&str, bool); 0] = [];
+    let there = features.into_iter().filter(|(_, there)| *there).map(|(name, _)| name);
+    std::iter::once(std::env::consts::ARCH).chain(there).collect::<Vec<_>>().join(" ")
 }

@@ -464,7 +464,7 @@ mod tests {
 
     #[test]
     fn a_description_names_every_variable_and_its_identity() {
-        let bytes = bytes_of("point").unwrap();
+        let bytes = &*bytes_of("point").unwrap();
         let model = SavedModel::from_bytes(bytes).unwrap();
         for pressed in [Pressed::Load, Pressed::Approach] {
             let text = description(&model, bytes, pressed).unwrap();
@@ -473,8 +473,8 @@ mod tests {
             assert_eq!(pressed_of(&identity(bytes, pressed), bytes), Some(pressed));
         }
         assert_eq!(pressed_of("load-0000000000000000", bytes), None);
-        let line = SavedModel::from_bytes(bytes_of("line").unwrap()).unwrap();
-        assert!(description(&line, bytes_of("line").unwrap(), Pressed::Approach).is_err());
+        let line = SavedModel::from_bytes(&bytes_of("line").unwrap()).unwrap();
+        assert!(description(&line, &bytes_of("line").unwrap(), Pressed::Approach).is_err());
     }
 
     #[test]

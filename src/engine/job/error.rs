@@ -11,6 +11,9 @@ pub enum JobError {
     /// The system has no thread left.
     #[error("no thread could be had for this work")]
     NoThread,
+    /// Another instance of the program did the work, and has ended.
+    #[error("what did this work has ended; try again")]
+    Lost,
     /// The work panicked.
     #[error(transparent)]
     Panicked(#[from] Panicked),

@@ -7,12 +7,15 @@
 mod error;
 mod queue;
 mod study;
+mod task;
 
 pub use error::{JobError, Panicked, guarded};
 pub use queue::Queue;
+pub use study::Asked;
+pub use task::{Performer, Task, perform};
 
 use crate::host::clock::Stopwatch;
-use crate::host::worker;
+use crate::host::{remote, worker};
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::training::TrainingObserver;
 use serde::{Deserialize, Serialize};
@@ -79,12 +82,27 @@ struct Wish {
     begun: OnceLock<Stopwatch>,
     /// How long it may work, once something newer waits.
     patience: OnceLock<Duration>,
+    /// The work, where another instance of the program does it.
+    posted: OnceLock<remote::Posted>,
+    /// In that other instance: what its owner wants.
+    owner: Option<task::Owner>,
 }
 
 impl Wish {
     fn stopped(&self) -> bool {
         let overdue = || Some(self.begun.get()?.elapsed() > *self.patience.get()?);
-        self.stops.load(Ordering::Relaxed) > 0 || overdue().unwrap_or(false)
+        self.stops() > 0 || overdue().unwrap_or(false)
+    }
+
+    fn stops(&self) -> u8 {
+        self.owner.as_ref().map_or_else(|| self.stops.load(Ordering::Relaxed), task::Owner::stops)
+    }
+
+    /// Passes a wish on to another instance.
+    fn pass_on(&self, times: u8) {
+        if let Some(posted) = self.posted.get() {
+            posted.stop(times);
+        }
     }
 }
 
@@ -101,8 +119,24 @@ impl<M: Send + 'static> Job<M> {
     /// Starts `work`; `name` is the thread's and the first stage's.
     pub fn start(name: &str, wake: Wake, work: impl FnOnce(&Reporter<M>) -> Ending + Send + 'static) -> Self {
         let (job, reporter) = Self::waiting(name, wake);
-        // Where no thread can be had, the reporter is gone and the next poll says so.
-        let _handle = worker::spawn(name, move || reporter.run(work));
+        if worker::THREADS {
+            // Where no thread can be had, the reporter is gone and the next poll says so.
+            let _handle = worker::spawn(name, move || reporter.run(work));
+        } else {
+            reporter.run(work);
+        }
+        job
+    }
+
+    /// A job whose `work` begins when `when` calls what it is given: on the thread that calls.
+    pub fn once(
+        name: &str,
+        wake: Wake,
+        when: impl FnOnce(Box<dyn FnOnce() + Send>),
+        work: impl FnOnce(&Reporter<M>) -> Ending + Send + 'static,
+    ) -> Self {
+        let (job, reporter) = Self::waiting(name, wake);
+        when(Box::new(move || reporter.run(work)));
         job
     }
 
@@ -111,7 +145,7 @@ impl<M: Send + 'static> Job<M> {
         let (sender, events) = channel();
         let (wish, since) = (Arc::new(Wish::default()), Stopwatch::start());
         let stage = Progress { stage: name.to_owned(), done: 0, total: 0 };
-        let reporter = Reporter { events: sender, wish: Arc::clone(&wish), wake, woken: Mutex::new(since) };
+        let reporter = Reporter { line: Line::Here(sender), wish: Arc::clone(&wish), wake, woken: Mutex::new(since) };
         (Self { events, wish, since, stage, stage_since: since }, reporter)
     }
 
@@ -123,8 +157,12 @@ impl<M: Send + 'static> Job<M> {
     /// The same, waiting for the end for at most a while.
     pub fn poll_within(&mut self, patience: Duration, mut receive: impl FnMut(M)) -> Option<Ending> {
         let begin = Stopwatch::start();
+        if self.wish.posted.get().is_some() && self.wish.stops() == 0 && self.wish.stopped() {
+            // Nobody else watches how long it takes.
+            self.stop();
+        }
         loop {
-            match self.events.recv_timeout(patience.saturating_sub(begin.elapsed())) {
+            match worker::receive(&self.events, patience.saturating_sub(begin.elapsed())) {
                 Ok(Event::Message(message)) => receive(message),
                 Ok(Event::Stage(progress)) => {
                     if progress.stage != self.stage.stage {
@@ -152,6 +190,7 @@ impl<M> Job<M> {
     /// Asks the work to stop; what it has sent stays. Asked again, it is not even to make something of what there is.
     pub fn stop(&self) {
         let _ = self.wish.stops.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |stops| stops.checked_add(1));
+        self.wish.pass_on(self.wish.stops());
     }
 
     /// Whether it was asked to stop.
@@ -179,12 +218,30 @@ impl<M> Job<M> {
 impl<M> Drop for Job<M> {
     fn drop(&mut self) {
         self.wish.stops.store(u8::MAX, Ordering::Relaxed);
+        self.wish.pass_on(u8::MAX);
+    }
+}
+
+/// Where events go.
+enum Line<M> {
+    /// To a job of this program.
+    Here(Sender<Event<M>>),
+    /// To one of another instance; returns whether somebody listens.
+    Away(Box<dyn Fn(Event<M>) -> bool + Send + Sync>),
+}
+
+impl<M> Line<M> {
+    fn send(&self, event: Event<M>) -> bool {
+        match self {
+            Self::Here(events) => events.send(event).is_ok(),
+            Self::Away(send) => send(event),
+        }
     }
 }
 
 /// The work's line to its job; may be used from all of its threads.
 pub struct Reporter<M> {
-    events: Sender<Event<M>>,
+    line: Line<M>,
     wish: Arc<Wish>,
     wake: Wake,
     woken: Mutex<Stopwatch>,
@@ -213,7 +270,7 @@ impl<M: Send> Reporter<M> {
     }
 
     fn tell(&self, event: Event<M>) {
-        if self.events.send(event).is_ok() {
+        if self.line.send(event) {
             let mut woken = self.woken.lock().unwrap_or_else(PoisonError::into_inner);
             if woken.elapsed() > WAKE_EVERY {
                 *woken = Stopwatch::start();
@@ -228,11 +285,15 @@ impl<M: Send> Reporter<M> {
     }
 
     /// Does the work and says how it ended.
-    fn run(self, work: impl FnOnce(&Self) -> Ending) {
+    fn run(&self, work: impl FnOnce(&Self) -> Ending) {
         self.begin();
-        let ending = guarded(|| work(&self)).unwrap_or_else(|panicked| Err(panicked.into()));
+        let ending = guarded(|| work(self)).unwrap_or_else(|panicked| Err(panicked.into()));
+        self.end(ending);
+    }
+
+    fn end(&self, ending: Ending) {
         // Nobody listens any more where the job was dropped.
-        let _gone = self.events.send(Event::Ended(ending));
+        let _gone = self.line.send(Event::Ended(ending));
         (self.wake.0)();
     }
 }
@@ -254,7 +315,7 @@ pub struct Abandoned<'a>(&'a Wish);
 
 impl Observer for Abandoned<'_> {
     fn cancelled(&self) -> bool {
-        self.0.stops.load(Ordering::Relaxed) > 1
+        self.0.stops() > 1
     }
 }
 

@@ -1,12 +1,17 @@
 //! One thread for requests of which only the newest counts.
 
-use super::{Ending, Job, Reporter, Wake};
+use super::{Ending, Job, Reporter, Task, Wake};
+use crate::engine::Store;
 use crate::host::worker;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// A thread that answers requests, the most urgent first. Of each urgency one waits at most: a newer one replaces it.
 pub struct Queue<R, M> {
     shared: Arc<Shared<R, M>>,
+    /// What answers where there is no thread.
+    answer: Option<Box<dyn Fn(&Arc<Shared<R, M>>)>>,
 }
 
 struct Shared<R, M> {
@@ -17,6 +22,8 @@ struct Shared<R, M> {
 struct Mail<R, M> {
     /// By urgency.
     waiting: Vec<Option<(R, Reporter<M>)>>,
+    /// Whether another instance of the program is at one.
+    away: bool,
     closed: bool,
 }
 
@@ -28,28 +35,63 @@ impl<R, M> Shared<R, M> {
 }
 
 impl<R, M: Send> Shared<R, M> {
-    /// The next request; none when the queue was closed.
+    /// The next request that waits; none when the queue was closed.
+    fn waiting(mail: &mut Mail<R, M>) -> Option<(R, Reporter<M>)> {
+        let (request, reporter) = mail.waiting.iter_mut().find_map(Option::take)?;
+        // From here on it is not replaced.
+        reporter.begin();
+        Some((request, reporter))
+    }
+
+    /// Waits for the next request; none when the queue was closed.
     fn next(&self) -> Option<(R, Reporter<M>)> {
         let mut mail = self.lock();
         loop {
             if mail.closed {
                 return None;
             }
-            if let Some((request, reporter)) = mail.waiting.iter_mut().find_map(Option::take) {
-                // From here on it is not replaced.
-                reporter.begin();
-                return Some((request, reporter));
+            if let Some(next) = Self::waiting(&mut mail) {
+                return Some(next);
             }
             mail = self.bell.wait(mail).unwrap_or_else(PoisonError::into_inner);
         }
     }
 }
 
+impl<M: Serialize + DeserializeOwned + Send + 'static, R: Task<Message = M>> Shared<R, M> {
+    /// Has the next request answered by another instance, if that is not at one.
+    fn send_next(shared: &Arc<Self>, store: &Store) {
+        let mut mail = shared.lock();
+        if mail.away || mail.closed {
+            return;
+        }
+        let Some((request, reporter)) = Self::waiting(&mut mail) else { return };
+        mail.away = true;
+        drop(mail);
+        let (theirs, own) = (Arc::clone(shared), store.clone());
+        let ended = move || {
+            theirs.lock().away = false;
+            Self::send_next(&theirs, &own);
+        };
+        if !reporter.post(store, request, ended) {
+            shared.lock().away = false;
+        }
+    }
+}
+
 impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
-    /// A thread for requests of so many urgencies.
+    /// A thread for requests of so many urgencies. Without threads each request is answered as it is handed over.
     pub fn new(name: &str, urgencies: usize, work: impl Fn(R, &Reporter<M>) -> Ending + Send + 'static) -> Self {
-        let mail = Mail { waiting: (0..urgencies).map(|_| None).collect(), closed: false };
-        let shared = Arc::new(Shared { mail: Mutex::new(mail), bell: Condvar::new() });
+        let shared = Self::shared(urgencies);
+        if !worker::THREADS {
+            let answer = move |shared: &Arc<Shared<R, M>>| {
+                let next = Shared::waiting(&mut shared.lock());
+                if let Some((request, reporter)) = next {
+                    reporter.run(|reporter| work(request, reporter));
+                }
+            };
+            return Self { shared, answer: Some(Box::new(answer)) };
+        }
         let theirs = Arc::clone(&shared);
         let answer = move || {
             while let Some((request, reporter)) = theirs.next() {
@@ -58,7 +100,12 @@ impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
         };
         // Where no thread can be had, requests stay and the window says that they wait.
         let _handle = worker::spawn(name, answer);
-        Self { shared }
+        Self { shared, answer: None }
+    }
+
+    fn shared(urgencies: usize) -> Arc<Shared<R, M>> {
+        let mail = Mail { waiting: (0..urgencies).map(|_| None).collect(), away: false, closed: false };
+        Arc::new(Shared { mail: Mutex::new(mail), bell: Condvar::new() })
     }
 
     /// Hands a request over; urgency 0 comes first. A request that it replaces is never begun ([`Job::begun`]).
@@ -67,8 +114,23 @@ impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
         if let Some(place) = self.shared.lock().waiting.get_mut(urgency) {
             *place = Some((request, reporter));
         }
-        self.shared.bell.notify_one();
+        match &self.answer {
+            Some(answer) => answer(&self.shared),
+            None => self.shared.bell.notify_one(),
+        }
         job
+    }
+}
+
+impl<M: Serialize + DeserializeOwned + Send + 'static, R: Task<Message = M>> Queue<R, M> {
+    /// A thread for tasks of so many urgencies, or another instance of the program where there are no threads.
+    pub fn of_tasks(name: &str, urgencies: usize, store: &Store) -> Self {
+        let store = store.clone();
+        if worker::THREADS {
+            return Self::new(name, urgencies, move |task, reporter| task.run(&store, reporter));
+        }
+        let answer = move |shared: &Arc<Shared<R, M>>| Shared::send_next(shared, &store);
+        Self { shared: Self::shared(urgencies), answer: Some(Box::new(answer)) }
     }
 }
 

@@ -1,10 +1,14 @@
 //! The question of a scene as a job, whose messages are the rows of its study.
 
-use super::{Job, JobError, Reporter, Wake};
-use crate::engine::{EngineError, Workbench};
+use super::{Ending, Job, JobError, Reporter, Task, Wake};
+use crate::engine::{EngineError, SavedModel, Store, Workbench, model_file, name_of};
 use crate::host::pool::on_spare_cores;
+use crate::host::worker;
 use crate::scene::study::transient::Model;
 use crate::scene::{Scene, Study, StudyObserver, StudyRow};
+use crate::solver::reduced::ReducedModel;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 impl StudyObserver for Reporter<StudyRow> {
     fn row(&self, row: StudyRow) {
@@ -16,11 +20,66 @@ impl StudyObserver for Reporter<StudyRow> {
     }
 }
 
+/// The question of a scene for another instance of the program.
+#[derive(Serialize, Deserialize)]
+pub struct Asked {
+    scene: Scene,
+    /// What stands in place of the embedded model of its kind of contact, or of all of them.
+    model: Option<(Given, bool)>,
+}
+
+/// A reduced model for another instance of the program.
+#[derive(Serialize, Deserialize)]
+enum Given {
+    /// Name of one of the program.
+    Program(String),
+    /// Content of a file; empty where the model cannot be written.
+    File(Vec<u8>),
+}
+
+impl Given {
+    fn of(model: &Arc<ReducedModel>) -> Self {
+        match name_of(model) {
+            Some(name) => Self::Program(name),
+            None => Self::File(model_file::to_bytes(model).unwrap_or_default()),
+        }
+    }
+
+    fn model(&self, store: &Store) -> Result<Arc<ReducedModel>, JobError> {
+        let model = match self {
+            Self::Program(name) => store.embedded(name),
+            Self::File(bytes) => SavedModel::from_bytes(bytes).and_then(SavedModel::stationary),
+        };
+        model.map_err(JobError::failed)
+    }
+}
+
+impl Task for Asked {
+    const KIND: &'static str = "study";
+    const LANE: usize = 1;
+    type Message = StudyRow;
+
+    fn run(self, store: &Store, reporter: &Reporter<StudyRow>) -> Ending {
+        let mut bench = Workbench::on(store, "");
+        if let Some((given, for_all)) = &self.model {
+            let model = given.model(store)?;
+            bench = if *for_all { bench.with_model(&model) } else { bench.using(&model) };
+        }
+        self.scene.answer(reporter, |scene| scene.study.run(&scene.experiment(), &mut bench, reporter))
+    }
+}
+
 impl Scene {
     /// Begins to answer the scene's question on a bench. What the rows say is read off them by [`Scene::outcome`] and
     /// its study. A job that was stopped ends with the rows that there are.
     pub fn ask(self, mut bench: Workbench, wake: Wake) -> Job<StudyRow> {
-        self.answering(wake, move |scene, reporter| scene.study.run(&scene.experiment(), &mut bench, reporter))
+        if worker::THREADS {
+            return self
+                .answering(wake, move |scene, reporter| scene.study.run(&scene.experiment(), &mut bench, reporter));
+        }
+        let name = self.title.clone();
+        let model = bench.in_use().map(|(model, for_all)| (Given::of(model), for_all));
+        Job::of(&name, wake, bench.store(), Asked { scene: self, model })
     }
 
     /// Begins to take models that were made before along the inputs of the scene's contact in time, without the full
@@ -38,13 +97,19 @@ impl Scene {
         answer: impl FnOnce(&Self, &Reporter<StudyRow>) -> Result<(), EngineError> + Send + 'static,
     ) -> Job<StudyRow> {
         let name = self.title.clone();
-        Job::start(&name, wake, move |reporter| {
-            let answer = || self.check().map_err(EngineError::from).and_then(|()| answer(&self, reporter));
-            match on_spare_cores(answer) {
-                Err(error) if !error.cancelled() && !reporter.cancelled() => Err(JobError::failed(error)),
-                _ => Ok(()),
-            }
-        })
+        Job::start(&name, wake, move |reporter| self.answer(reporter, |scene| answer(scene, reporter)))
+    }
+
+    fn answer(
+        &self,
+        reporter: &Reporter<StudyRow>,
+        answer: impl FnOnce(&Self) -> Result<(), EngineError> + Send,
+    ) -> Ending {
+        let answer = || self.check().map_err(EngineError::from).and_then(|()| answer(self));
+        match on_spare_cores(answer) {
+            Err(error) if !error.cancelled() && !reporter.cancelled() => Err(JobError::failed(error)),
+            _ => Ok(()),
+        }
     }
 }
 

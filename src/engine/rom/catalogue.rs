@@ -3,7 +3,7 @@
 use super::container::{Contents, ModelKind};
 use super::error::ModelFileError;
 use super::sound::domain;
-use crate::engine::checked_file::hash_of;
+use crate::engine::checked_file::{HEADER, hash_of};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::Domain;
 
@@ -30,9 +30,20 @@ impl Catalogue {
     /// # Errors
     /// When it is foreign, of another version, cut off, or its directory is damaged.
     pub fn of(bytes: &[u8]) -> Result<Self, ModelFileError> {
-        let contents = Contents::unchecked(bytes)?;
+        Self::from(&Contents::unchecked(bytes)?, bytes)
+    }
+
+    /// The same where nothing but header and directory need be there.
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub fn of_head(bytes: &[u8]) -> Result<Self, ModelFileError> {
+        Self::from(&Contents::of_head(bytes)?, bytes)
+    }
+
+    fn from(contents: &Contents<'_>, head: &[u8]) -> Result<Self, ModelFileError> {
         let (title, ..) = contents.texts();
-        let (kind, contact, domain) = (contents.kind(), contents.contact(), domain(&contents)?);
-        Ok(Self { kind, contact, title, domain, bytes: bytes.len(), hash: hash_of(bytes) })
+        let (kind, contact, domain) = (contents.kind(), contents.contact(), domain(contents)?);
+        Ok(Self { kind, contact, title, domain, bytes: HEADER + contents.bytes, hash: hash_of(head) })
     }
 }

@@ -3,7 +3,7 @@
 
 use super::error::{ModelFileError, damaged};
 use super::multiples;
-use crate::engine::checked_file::{Flaw, Format};
+use crate::engine::checked_file::{Flaw, Format, HEADER};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::Multiples;
 use faer::Mat;
@@ -211,6 +211,36 @@ fn json<T: Serialize + ?Sized>(value: &T) -> Option<String> {
     serde_json::to_string(value).ok()
 }
 
+/// Bytes of a file before its arrays.
+#[cfg(any(test, not(feature = "models")))]
+pub(in crate::engine) const fn head_length(file: &[u8]) -> usize {
+    let (mut length, mut digit) = (0usize, LENGTH);
+    while digit > 0 {
+        digit -= 1;
+        length = length << 8 | file[HEADER + digit] as usize;
+    }
+    HEADER + LENGTH + length
+}
+
+/// The bytes of a file before its arrays.
+#[cfg(not(feature = "models"))]
+pub(in crate::engine) const fn head<const N: usize>(file: &[u8]) -> [u8; N] {
+    let (mut head, mut k) = ([0; N], 0);
+    while k < N {
+        head[k] = file[k];
+        k += 1;
+    }
+    head
+}
+
+/// The directory at the beginning of a payload, and what follows it.
+fn directory(payload: &[u8]) -> Result<(Directory<'_>, &[u8]), ModelFileError> {
+    let (length, rest) = payload.split_first_chunk::<LENGTH>().ok_or(damaged("its directory"))?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).ok().filter(|length| *length <= rest.len());
+    let (directory, arrays) = rest.split_at(length.ok_or(damaged("its directory"))?);
+    Ok((serde_json::from_slice(directory).map_err(|_| damaged("its directory"))?, arrays))
+}
+
 /// Directory of a file, and its arrays as bytes.
 pub(super) struct Contents<'a> {
     directory: Directory<'a>,
@@ -233,11 +263,19 @@ impl<'a> Contents<'a> {
         Self::of_payload(FORMAT.payload(bytes)?)
     }
 
+    /// Opens the directory alone, of a file of which the arrays need not be there.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn of_head(bytes: &'a [u8]) -> Result<Self, ModelFileError> {
+        let (directory, arrays) = directory(bytes.get(HEADER..).unwrap_or_default())?;
+        let announced = FORMAT.announced(bytes)?;
+        let bytes = usize::try_from(announced).map_err(|_| Flaw::TooLarge { bytes: announced })?;
+        Ok(Self { directory, arrays, bytes })
+    }
+
     fn of_payload(payload: &'a [u8]) -> Result<Self, ModelFileError> {
-        let (length, rest) = payload.split_first_chunk::<LENGTH>().ok_or(damaged("its directory"))?;
-        let length = usize::try_from(u64::from_le_bytes(*length)).ok().filter(|length| *length <= rest.len());
-        let (directory, arrays) = rest.split_at(length.ok_or(damaged("its directory"))?);
-        let directory: Directory<'a> = serde_json::from_slice(directory).map_err(|_| damaged("its directory"))?;
+        let (directory, arrays) = directory(payload)?;
         let mut decoded = 0usize;
         for entry in directory.arrays.values() {
             let end = entry.offset.checked_add(entry.bytes).filter(|end| *end <= arrays.len());

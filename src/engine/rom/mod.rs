@@ -14,6 +14,8 @@ mod window;
 
 pub use catalogue::Catalogue;
 pub use container::ModelKind;
+#[cfg(not(feature = "models"))]
+pub(super) use container::{head, head_length};
 pub use error::ModelFileError;
 pub use saved::SavedModel;
 pub(super) use saved::{from_own_bytes, read_watched, to_bytes, write_proven};

@@ -1,4 +1,4 @@
-use super::container::VERSION;
+use super::container::{VERSION, head_length};
 use super::{Catalogue, ModelFileError, ModelKind};
 use crate::engine::checked_file::HEADER;
 use crate::engine::model_file::{from_bytes, to_bytes, write};
@@ -18,7 +18,7 @@ use std::path::Path;
 #[test]
 fn the_embedded_models_are_intact_and_survive_a_round_trip() {
     for entry in catalogue() {
-        let bytes = bytes_of(entry.name).unwrap();
+        let bytes = &*bytes_of(entry.name).unwrap();
         assert!(to_bytes(&from_bytes(bytes).unwrap()).unwrap() == bytes);
     }
 }
@@ -309,7 +309,7 @@ fn windows_of_points_keep_one_basis_and_what_their_grid_costs() {
 #[test]
 fn the_catalogue_is_read_without_the_arrays() {
     for name in ["line", "point_heat", "ellipse"] {
-        let (bytes, model) = (bytes_of(name).unwrap(), embedded(name).unwrap());
+        let (bytes, model) = (&*bytes_of(name).unwrap(), embedded(name).unwrap());
         let catalogue = Catalogue::of(bytes).unwrap();
         assert_eq!((catalogue.kind, catalogue.contact), (ModelKind::Steady, model.contact()));
         assert_eq!((&catalogue.title, &catalogue.domain), (&model.title, &model.domain));
@@ -317,7 +317,10 @@ fn the_catalogue_is_read_without_the_arrays() {
             (catalogue.bytes, catalogue.hash.to_le_bytes()),
             (bytes.len(), bytes[20..HEADER].try_into().unwrap())
         );
-        // Nothing behind the directory is looked at.
+        // Nothing behind the directory is looked at, nor need it be there.
+        let head = head_length(bytes);
+        assert_eq!(Catalogue::of_head(&bytes[..head]).unwrap(), catalogue);
+        assert!(Catalogue::of_head(&bytes[..head - 1]).is_err() && Catalogue::of(&bytes[..head]).is_err());
         let mut other = bytes.to_vec();
         let end = other.len() - 1000;
         other[end..].fill(0x55);

@@ -108,10 +108,10 @@ fn damage_and_other_kinds_are_named() {
     let mut other = whole.clone();
     other[8] = VERSION as u8 + 1;
     assert!(matches!(from_bytes(&other), Err(ModelFileError::OtherVersion { found }) if found == VERSION + 1));
-    assert!(matches!(from_bytes(bytes_of("line").unwrap()), Err(ModelFileError::Stationary)));
+    assert!(matches!(from_bytes(&bytes_of("line").unwrap()), Err(ModelFileError::Stationary)));
     assert!(matches!(model_file::from_bytes(&whole), Err(ModelFileError::InTime)));
     assert!(matches!(SavedModel::from_bytes(&whole), Ok(SavedModel::InTime(_))));
-    assert!(matches!(SavedModel::from_bytes(bytes_of("line").unwrap()), Ok(SavedModel::Stationary(_))));
+    assert!(matches!(SavedModel::from_bytes(&bytes_of("line").unwrap()), Ok(SavedModel::Stationary(_))));
     let catalogue = Catalogue::of(&whole).unwrap();
     assert_eq!((catalogue.kind, catalogue.title.as_str()), (ModelKind::Transient, "A load that breathes"));
     let folder = tempfile::tempdir().unwrap();

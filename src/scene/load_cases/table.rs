@@ -3,13 +3,13 @@
 use super::columns::{Column, accepted, titles};
 use super::error::CasesError;
 use super::line::request;
+use crate::host::files;
 use crate::scene::answer::Request;
 use crate::scene::check::MAX_POINTS;
 use crate::scene::examples;
 use crate::scene::experiment::Experiment;
 use csv_core::ReadFieldResult;
 use serde::{Deserialize, Serialize};
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// Largest table that is read \[bytes\].
@@ -70,9 +70,7 @@ fn text_of(path: &Path) -> Result<String, CasesError> {
         return Ok(text.to_owned());
     }
     let unreadable = |reason: String| CasesError::Read { path: path.to_owned(), reason };
-    let file = std::fs::File::open(path).map_err(|error| unreadable(error.to_string()))?;
-    let mut bytes = Vec::new();
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(error.to_string()))?;
+    let bytes = files::read_at_most(path, MAX_BYTES + 1).map_err(|error| unreadable(error.to_string()))?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(unreadable(format!("it is larger than {} MiB", MAX_BYTES >> 20)));
     }

@@ -7,10 +7,11 @@ use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec, PointGridS
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::ReducedModel;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What a full solve is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum JobKind {
     /// The live picture where no reduced model serves.
     Live,
@@ -38,11 +39,33 @@ impl JobKind {
 }
 
 /// The grid of a solve: one that exists, or one to build.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(from = "Stated", into = "Stated")]
 pub enum GridChoice {
     /// A reduced model's own grid.
     Existing(ContactGrid),
+    /// The same, to build.
+    OfModel(GridSpec),
     Spec(GridSpec),
+}
+
+/// The same as another instance of the program gets it, which has grids of its own.
+#[derive(Serialize, Deserialize)]
+struct Stated {
+    of_model: bool,
+    spec: GridSpec,
+}
+
+impl From<GridChoice> for Stated {
+    fn from(choice: GridChoice) -> Self {
+        Self { of_model: !matches!(choice, GridChoice::Spec(_)), spec: choice.spec() }
+    }
+}
+
+impl From<Stated> for GridChoice {
+    fn from(Stated { of_model, spec }: Stated) -> Self {
+        if of_model { Self::OfModel(spec) } else { Self::Spec(spec) }
+    }
 }
 
 impl GridChoice {
@@ -60,14 +83,14 @@ impl GridChoice {
     pub fn spec(&self) -> GridSpec {
         match self {
             Self::Existing(grid) => grid.spec(),
-            Self::Spec(spec) => *spec,
+            Self::OfModel(spec) | Self::Spec(spec) => *spec,
         }
     }
 
     /// The grid as a request states it.
     pub fn stated(&self) -> Grid {
         match self {
-            Self::Existing(_) => Grid::Model,
+            Self::Existing(_) | Self::OfModel(_) => Grid::Model,
             Self::Spec(spec) => Grid::from(*spec),
         }
     }
@@ -79,13 +102,13 @@ impl GridChoice {
     pub fn with(&self, store: &Store) -> Result<ContactGrid, GridError> {
         match self {
             Self::Existing(grid) => Ok(grid.clone()),
-            Self::Spec(spec) => store.grid(*spec),
+            Self::OfModel(spec) | Self::Spec(spec) => store.grid(*spec),
         }
     }
 }
 
 /// A full solve that is wanted.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub struct FullSolve {
     pub kind: JobKind,
     /// What to solve.

@@ -3,17 +3,19 @@
 use super::request::{FullSolve, JobKind, Outcome};
 use crate::app::document::Key;
 use crate::app::wake::wake;
-use crate::engine::job::{Ending, Job, Queue, Reporter};
+use crate::engine::job::{Ending, Job, Queue, Reporter, Task};
 use crate::engine::{Answer, Solver, Store, answer};
 use crate::host::clock::Stopwatch;
 use crate::scene::Method;
-use crate::solver::full::Start;
+use crate::solver::full::{ContactSolver, Start};
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::contact::ContactKind;
+use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// News of a solve.
-enum News {
+#[derive(Serialize, Deserialize)]
+pub enum News {
     Step(NewtonStep),
     Krylov(usize),
     Solved(Box<Answer>),
@@ -73,9 +75,7 @@ fn live_patience(kind: ContactKind) -> Duration {
 impl Jobs {
     /// Solves with what is in a store.
     pub fn new(store: &Store) -> Self {
-        let store = store.clone();
-        let queue = Queue::new("solver", JobKind::COUNT, move |request, reporter| solve(&store, &request, reporter));
-        Self { queue, running: Vec::new() }
+        Self { queue: Queue::of_tasks("solver", JobKind::COUNT, store), running: Vec::new() }
     }
 
     /// Hands a solve over. It replaces one of the same kind that has not started; all but live solves of other
@@ -127,13 +127,20 @@ impl Jobs {
     }
 }
 
-fn solve(store: &Store, request: &FullSolve, reporter: &Reporter<News>) -> Ending {
-    let grid = request.grid.with(store).map_err(|refused| refused.to_string())?;
-    let start = request.start.as_deref().map_or(Start::Cold, Start::From);
-    let asked = request.key.request(request.grid.stated(), Method::Full);
-    let answer = store.with_full_solver(&grid, |solver| answer(&asked, Solver::Full(solver, start), &Steps(reporter)));
-    reporter.send(News::Solved(Box::new(answer.map_err(|refused| refused.to_string())?)));
-    Ok(())
+impl Task for FullSolve {
+    const KIND: &'static str = "full solve";
+    const LANE: usize = 0;
+    type Message = News;
+
+    fn run(self, store: &Store, reporter: &Reporter<News>) -> Ending {
+        let grid = self.grid.with(store).map_err(|refused| refused.to_string())?;
+        let start = self.start.as_deref().map_or(Start::Cold, Start::From);
+        let asked = self.key.request(self.grid.stated(), Method::Full);
+        let solved = |solver: &mut ContactSolver| answer(&asked, Solver::Full(solver, start), &Steps(reporter));
+        let answer = store.with_full_solver(&grid, solved).map_err(|refused| refused.to_string())?;
+        reporter.send(News::Solved(Box::new(answer)));
+        Ok(())
+    }
 }
 
 /// Passes Newton steps and Krylov iterations on.

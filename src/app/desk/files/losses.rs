@@ -9,7 +9,7 @@ impl Pending {
     /// What the answer is called that lets it happen.
     fn consent(&self) -> &'static str {
         match self {
-            Self::New | Self::OpenDialog | Self::Open(_) | Self::OpenScene(_) => "Discard changes",
+            Self::New | Self::OpenDialog | Self::Open(_) | Self::OpenScene(_) | Self::OpenLink(_) => "Discard changes",
             Self::Quit => "Quit all the same",
             Self::Train => "Start all the same",
             Self::DiscardTraining | Self::ThrowModelAway => "Throw it away",
@@ -34,7 +34,7 @@ impl Desk {
         };
         match pending {
             Pending::Open(path) if is_model(path) => Vec::new(),
-            Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::OpenScene(_) => {
+            Pending::New | Pending::OpenDialog | Pending::Open(_) | Pending::OpenScene(_) | Pending::OpenLink(_) => {
                 edits().into_iter().chain(study()).chain(march()).collect()
             }
             Pending::Quit => edits().into_iter().chain(study()).chain(self.tabs.training.work.unkept()).collect(),

@@ -4,6 +4,7 @@
 use super::state::Pending;
 use crate::app::desk::{Desk, Opened};
 use crate::app::document::Document;
+use crate::app::links::Fragment;
 use crate::app::notice::Notice;
 use crate::app::panels::headline::Headline;
 use crate::app::purpose::Purpose;
@@ -11,6 +12,7 @@ use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::app::tabs::training::TrainingCommand;
 use crate::engine::campaign::Folder;
+use crate::host::browser;
 use crate::scene::{Scene, Study};
 use egui::{Context, Ui, ViewportCommand};
 use std::path::{Path, PathBuf};
@@ -63,6 +65,11 @@ impl Desk {
             }
             Pending::OpenScene(scene) => {
                 if let Err(why) = self.open_untitled(&scene) {
+                    self.files.notice = Some(Notice::wrong(why));
+                }
+            }
+            Pending::OpenLink(text) => {
+                if let Err(why) = self.open_link(&text) {
                     self.files.notice = Some(Notice::wrong(why));
                 }
             }
@@ -124,6 +131,22 @@ impl Desk {
         Ok(())
     }
 
+    /// Opens what a link holds.
+    ///
+    /// # Errors
+    /// A sentence; what is on the screen stays.
+    pub fn open_link(&mut self, text: &str) -> Result<(), Refusal> {
+        let Fragment { document, tree, embed, lesson } = Fragment::read(text)?;
+        if let Some(document) = document {
+            self.replace_document(document);
+            self.files.saved = self.document.clone();
+            self.files.path = None;
+            self.files.notice = None;
+        }
+        self.opened = Some(Opened::Link { tree, embed, lesson });
+        Ok(())
+    }
+
     /// Saves to the known path or asks for one.
     pub fn save(&mut self, ctx: &Context) {
         match self.files.path.clone() {
@@ -156,7 +179,7 @@ impl Desk {
     pub fn files_ui(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         let dropped: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());
-        if let Some(path) = dropped.into_iter().next() {
+        if let Some(path) = dropped.into_iter().next().or_else(browser::dropped) {
             self.request(&ctx, Pending::Open(path));
         }
         let closes = ctx.input(|i| i.viewport().close_requested()) && !self.files.quit;

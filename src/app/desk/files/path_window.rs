@@ -7,11 +7,12 @@ use crate::app::notice::Notice;
 use crate::app::purpose::{Purpose, Words, Written};
 use crate::app::refusal::Refusal;
 use crate::host::clock::Stopwatch;
-use crate::host::worker;
+use crate::host::dialogs::{self, Wanted};
+use crate::host::files;
 use crate::scene::atomic_file;
 use egui::{Context, Id, Modal, RichText, TextEdit};
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, TryRecvError};
 use std::time::Duration;
 
 /// A system dialog that is gone sooner than this was never there.
@@ -63,7 +64,7 @@ impl Desk {
                 window.path = path.display().to_string();
                 self.act_on_path(ctx);
             }
-            None if at_once => window.no_dialog = true,
+            None if at_once && dialogs::TYPED => window.no_dialog = true,
             None => self.files.window = None,
         }
     }
@@ -125,9 +126,9 @@ impl Desk {
         let (mut typed, mut close) = (false, false);
         let response = Modal::new(Id::unique("system dialog")).show(ctx, |ui| {
             ui.set_width(300.0);
-            ui.label("The system’s file dialog is open.");
+            ui.label("The file dialog is open.");
             ui.horizontal(|ui| {
-                typed = ui.button("Type a path instead").clicked();
+                typed = dialogs::TYPED && ui.button("Type a path instead").clicked();
                 close = ui.button("Cancel").clicked();
             });
         });
@@ -147,8 +148,8 @@ impl Desk {
             return;
         }
         let known = self.files.path.as_deref() == Some(path.as_path()) && window.purpose == Purpose::Save;
-        let there = || window.purpose.beside(&path).into_iter().find(|path| path.exists());
-        let there = if path.exists() { Some(path.clone()) } else { there() };
+        let there = || window.purpose.beside(&path).into_iter().find(|path| files::exists(path));
+        let there = if files::exists(&path) { Some(path.clone()) } else { there() };
         if let Some(there) = there.filter(|_| !window.purpose.reads() && !known)
             && window.overwrite.as_deref() != Some(&path)
         {
@@ -196,24 +197,10 @@ impl Desk {
     }
 }
 
-/// The system's dialog in its own thread.
+/// Opens the system's dialog.
 fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option<PathBuf>> {
-    let (sender, receiver) = channel();
-    let (ctx, purpose, suggestion) = (ctx.clone(), purpose.clone(), PathBuf::from(suggestion));
-    let run = move || {
-        let name = suggestion.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        let Words { files, endings, .. } = purpose.words();
-        let mut dialog = rfd::FileDialog::new().add_filter(files, endings);
-        if let Some(folder) = suggestion.parent().filter(|p| p.is_dir()) {
-            dialog = dialog.set_directory(folder);
-        }
-        let answer = if purpose.reads() { dialog.pick_file() } else { dialog.set_file_name(name).save_file() };
-        // The window may be closed by now: then nobody waits for the answer.
-        if sender.send(answer).is_ok() {
-            ctx.request_repaint();
-        }
-    };
-    // Without a thread there is no system dialog: the receiver is disconnected at once and the text field remains.
-    let _handle = worker::spawn("file dialog", run);
-    receiver
+    let Words { files, endings, .. } = purpose.words();
+    let wanted = Wanted { reads: purpose.reads(), files, endings, suggestion: PathBuf::from(suggestion) };
+    let ctx = ctx.clone();
+    dialogs::ask(wanted, move || ctx.request_repaint())
 }

@@ -18,6 +18,8 @@ pub enum Pending {
     Open(PathBuf),
     /// A scene that lies nowhere yet.
     OpenScene(Arc<Scene>),
+    /// What a link holds.
+    OpenLink(String),
     /// The end.
     Quit,
     /// Another training.

@@ -1,8 +1,12 @@
 //! Threads for work beside the caller.
 
 use std::io;
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
+
+/// Whether work can run beside the caller in this process.
+pub const THREADS: bool = true;
 
 /// Starts a thread of this name.
 ///
@@ -15,4 +19,12 @@ pub fn spawn<T: Send + 'static>(name: &str, work: impl FnOnce() -> T + Send + 's
 /// Lets the calling thread sleep.
 pub fn pause(duration: Duration) {
     std::thread::sleep(duration);
+}
+
+/// Waits for the next value for at most a while.
+///
+/// # Errors
+/// When none came, or none can come any more.
+pub fn receive<T>(values: &Receiver<T>, patience: Duration) -> Result<T, RecvTimeoutError> {
+    values.recv_timeout(patience)
 }

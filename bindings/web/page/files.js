@@ -1,0 +1,3 @@
+// Addresses of the files with a hash in their name, and their sizes; the build writes them.
+export const MODULE = { file: "ehl_web_bg.wasm", bytes: 0 };
+export const MODELS = {};

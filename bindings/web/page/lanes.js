@@ -1,0 +1,64 @@
+// Workers for long work, one for each lane, started when they are first needed and anew when one has ended.
+
+// From a wish to stop until a worker that does not hear it is ended, in milliseconds; trainings make something of what
+// there is after the first wish.
+const PATIENCE = [Infinity, 1500, 300];
+
+export class Lanes {
+  constructor(deliver) {
+    this.deliver = deliver;
+    this.module = null;
+    this.workers = new Map();
+    this.tasks = new Map();
+  }
+
+  post(lane, ticket, kind, task) {
+    if (!this.module) return false;
+    // The worker asks whether these addresses still exist: that is how it hears a wish without returning.
+    const wishes = [1, 2].map(() => URL.createObjectURL(new Blob(["go on"])));
+    this.tasks.set(ticket, { lane, wishes, revoked: 0 });
+    const bytes = task.slice();
+    this.worker(lane).postMessage({ ticket, kind, bytes, wishes }, [bytes.buffer]);
+    return true;
+  }
+
+  worker(lane) {
+    let worker = this.workers.get(lane);
+    if (!worker) {
+      worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: `solver ${lane}` });
+      worker.postMessage({ module: this.module });
+      worker.onmessage = ({ data: { ticket, bytes, ended, broken } }) => {
+        if (bytes && this.tasks.has(ticket)) this.deliver(ticket, bytes);
+        if (ended) this.forget(ticket);
+        if (broken) this.end(lane);
+      };
+      worker.onerror = () => this.end(lane);
+      this.workers.set(lane, worker);
+    }
+    return worker;
+  }
+
+  stop(ticket, times) {
+    const task = this.tasks.get(ticket);
+    if (!task) return;
+    const wanted = Math.min(times, 2);
+    for (; task.revoked < wanted; task.revoked += 1) URL.revokeObjectURL(task.wishes[task.revoked]);
+    if (PATIENCE[wanted] < Infinity) {
+      setTimeout(() => this.tasks.has(ticket) && this.end(task.lane), PATIENCE[wanted]);
+    }
+  }
+
+  forget(ticket) {
+    this.tasks.get(ticket)?.wishes.forEach((wish) => URL.revokeObjectURL(wish));
+    this.tasks.delete(ticket);
+  }
+
+  // Ends a worker: what it was asked for is lost, and said to be.
+  end(lane) {
+    this.workers.get(lane)?.terminate();
+    this.workers.delete(lane);
+    const lost = [...this.tasks].filter(([, task]) => task.lane === lane).map(([ticket]) => ticket);
+    lost.forEach((ticket) => this.forget(ticket));
+    lost.forEach((ticket) => this.deliver(ticket, undefined));
+  }
+}

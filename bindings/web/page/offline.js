@@ -1,0 +1,45 @@
+// Keeps the files of the page, so that it opens without a network after the first visit.
+import { MODULE, MODELS } from "./files.js";
+
+const CACHE = "ehl-explorer";
+const HASHED = /-[0-9a-f]{16}\.\w+$/;
+const PAGE = ["./", "./start.js", "./lanes.js", "./worker.js", "./files.js", "./ehl_web.js", "./style.css", "./icon.svg"];
+
+self.addEventListener("install", (event) => {
+  const first = [...PAGE, MODULE.file, MODELS.line.file];
+  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(first)).then(() => self.skipWaiting()));
+});
+
+self.addEventListener("activate", (event) => {
+  // Files of a former version go.
+  const known = new Set([MODULE, ...Object.values(MODELS)].map(({ file }) => new URL(file, self.location).href));
+  const clean = async () => {
+    const cache = await caches.open(CACHE);
+    for (const request of await cache.keys()) {
+      if (HASHED.test(request.url) && !known.has(request.url)) await cache.delete(request);
+    }
+    await self.clients.claim();
+  };
+  event.waitUntil(clean());
+});
+
+self.addEventListener("fetch", (event) => {
+  const { request } = event;
+  if (request.method !== "GET" || new URL(request.url).origin !== self.location.origin) return;
+  event.respondWith(answer(request));
+});
+
+// A name with a hash always has the same content; everything else is asked for anew where there is a network.
+async function answer(request) {
+  const cache = await caches.open(CACHE);
+  const kept = await cache.match(request, { ignoreSearch: true });
+  if (kept && HASHED.test(new URL(request.url).pathname)) return kept;
+  try {
+    const fresh = await fetch(request);
+    if (fresh.ok) await cache.put(request, fresh.clone());
+    return fresh;
+  } catch (why) {
+    if (kept) return kept;
+    throw why;
+  }
+}

@@ -1,0 +1,58 @@
+// An instance of the program that does tasks of the page, one after the other.
+import { initSync, work } from "./ehl_web.js";
+import { MODELS } from "./files.js";
+
+let wishes = [];
+
+// Whether an address of the page still exists. Waits for the answer: the worker is in the midst of its work.
+function exists(address) {
+  try {
+    const request = new XMLHttpRequest();
+    request.open("GET", address, false);
+    request.send();
+    return request.status === 200;
+  } catch {
+    return false;
+  }
+}
+
+globalThis.ehl = {
+  model(name) {
+    const request = new XMLHttpRequest();
+    request.open("GET", MODELS[name].file, false);
+    request.responseType = "arraybuffer";
+    request.send();
+    return request.status === 200 ? new Uint8Array(request.response) : undefined;
+  },
+  send(ticket, event) {
+    const bytes = event.slice();
+    postMessage({ ticket, bytes }, [bytes.buffer]);
+  },
+  stops: () => (exists(wishes[0]) ? 0 : exists(wishes[1]) ? 1 : 2),
+  post: () => false,
+  stop() {},
+  fetch_model() {},
+  download() {},
+  pick() {},
+  keep: () => "a worker keeps nothing",
+  kept() {},
+  link() {},
+  news() {},
+  fragment: () => "",
+};
+
+onmessage = ({ data: { module, ticket, kind, bytes, wishes: given } }) => {
+  if (module) {
+    initSync({ module });
+    return;
+  }
+  wishes = given;
+  try {
+    work(ticket, kind, bytes);
+    postMessage({ ticket, ended: true });
+  } catch (why) {
+    // A panic: this instance can do no more.
+    console.error(why);
+    postMessage({ ticket, broken: true });
+  }
+};

@@ -1,0 +1,75 @@
+//! The explorer as a web page: one instance of this module draws it, further ones in workers of the page solve.
+//!
+//! The files in `page` start both. They provide an object `ehl` with what the program needs of a browser
+//! (`ehl_explorer::host::page`).
+
+#![cfg(target_arch = "wasm32")]
+
+use eframe::egui::Context;
+use eframe::{App, CreationContext, WebOptions, WebRunner};
+use ehl_explorer::app::{Explorer, perform};
+use ehl_explorer::engine::Store;
+use ehl_explorer::engine::job::Performer;
+use ehl_explorer::host::{browser, files, page};
+use std::cell::RefCell;
+use std::path::Path;
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+use web_sys::HtmlCanvasElement;
+
+/// Draws the explorer on a canvas.
+///
+/// # Errors
+/// When the browser has no WebGL.
+#[wasm_bindgen]
+pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
+    let fragment = page::fragment();
+    let linked = fragment.len() > 1;
+    browser::ask(fragment);
+    let explorer = move |creation: &CreationContext<'_>| -> Result<Box<dyn App>, _> {
+        SCREEN.set(Some(creation.egui_ctx.clone()));
+        Ok(Box::new(Explorer::with_embedded_models().keeping_session_in(Path::new(files::SESSION), !linked)))
+    };
+    WebRunner::new().start(canvas, WebOptions::default(), Box::new(explorer)).await
+}
+
+/// Called by the page with what a ticket brings, or without anything when it brings no more.
+#[wasm_bindgen]
+pub fn deliver(ticket: u32, bytes: Option<Vec<u8>>) {
+    page::deliver(ticket, bytes);
+}
+
+/// Called by the page with a file that was dropped on it: its name, a zero, its content.
+#[wasm_bindgen]
+pub fn dropped(file: &[u8]) {
+    browser::take_dropped(file);
+    repaint();
+}
+
+/// Called by the page with the fragment of an address that the user has opened.
+#[wasm_bindgen]
+pub fn opened(fragment: String) {
+    browser::ask(fragment);
+    repaint();
+}
+
+thread_local! {
+    static SCREEN: RefCell<Option<Context>> = const { RefCell::new(None) };
+}
+
+fn repaint() {
+    SCREEN.with_borrow(|screen| screen.iter().for_each(Context::request_repaint));
+}
+
+/// Does a task in a worker.
+#[wasm_bindgen]
+pub fn work(ticket: u32, kind: &str, task: &[u8]) {
+    thread_local! {
+        static STORE: Store = Store::default();
+    }
+    let performer = Performer {
+        send: Box::new(move |event| page::send(ticket, &event)),
+        stops: Box::new(move || page::stops(ticket)),
+    };
+    STORE.with(|store| perform(kind, task, store, performer));
+}

@@ -1,0 +1,175 @@
+// Drives the page in a browser as a user would: `PAGE=folder BROWSER=program node browser.mjs`.
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { serve } from "./server.mjs";
+
+const { chromium } = createRequire(import.meta.url)("playwright-core");
+const { PAGE, BROWSER, PICTURES } = process.env;
+const FLAGS = [
+  "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic",
+  "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+];
+const SIZE = { width: 1280, height: 800 };
+// Places on the canvas at this size.
+const BALL = [112, 93];
+const ROLLER = [51, 93];
+const M = { from: [150, 121], to: [230, 121] };
+
+const profile = mkdtempSync(join(tmpdir(), "ehl-web-"));
+const server = await serve(PAGE, "/course/explorer/");
+const context = await chromium.launchPersistentContext(profile, {
+  executablePath: BROWSER, args: FLAGS, viewport: SIZE, acceptDownloads: true, colorScheme: "dark",
+});
+const foreign = [];
+const broken = [];
+context.on("request", (request) => {
+  const url = request.url();
+  if (!url.startsWith(server.address) && !url.startsWith("blob:") && !url.startsWith("data:")) foreign.push(url);
+});
+
+// A page at an address, once the explorer has its first picture.
+async function opened(fragment = "") {
+  const page = await context.newPage();
+  page.on("pageerror", (error) => broken.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && broken.push(message.text()));
+  await page.goto(server.address + fragment);
+  await page.waitForFunction(() => performance.getEntriesByName("started").length > 0, null, { timeout: 60_000 });
+  return page;
+}
+
+const news = (page) => page.locator("#news").textContent();
+const fragment = (page) => page.evaluate(() => location.hash);
+const said = (page, words, patience = 60_000) =>
+  page.waitForFunction((words) => new RegExp(words).test(document.getElementById("news").textContent), words, { timeout: patience });
+async function changed(page, before) {
+  await page.waitForFunction((before) => location.hash !== before, before, { timeout: 20_000 });
+  return fragment(page);
+}
+async function picture(page, name) {
+  const image = await page.screenshot();
+  if (PICTURES) writeFileSync(join(PICTURES, `${name}.png`), image);
+  return image;
+}
+async function drag(page, { from, to }, steps = 20) {
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  for (let step = 1; step <= steps; step += 1) {
+    const share = step / steps;
+    await page.mouse.move(from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1]));
+    await page.waitForTimeout(16);
+  }
+  await page.mouse.up();
+}
+
+const tests = {
+  async "the first picture comes with little data"() {
+    const page = await opened();
+    await said(page, "Central film");
+    const seconds = await page.evaluate(() => performance.getEntriesByName("started")[0].startTime / 1000);
+    const { bytes } = server.counted;
+    console.log(`  first picture after ${seconds.toFixed(2)} s, ${(bytes / 1e6).toFixed(2)} MB`);
+    assert(bytes < 6.5e6 + 1e5, `${bytes} bytes: ${server.counted.files}`);
+    await picture(page, "first");
+    return page;
+  },
+  async "dragging M changes the picture and the address"(page) {
+    const before = [await news(page), await changed(page, "")];
+    await drag(page, M);
+    const after = await changed(page, before[1]);
+    await said(page, "Central film");
+    assert.notEqual(await news(page), before[0]);
+    assert.match(after, /^#1\./);
+    await picture(page, "dragged");
+  },
+  async "a link opens the same contact in another page"(page) {
+    const [address, words] = [await fragment(page), await news(page)];
+    const other = await opened(address);
+    await said(other, "Central film");
+    const film = (text) => text.match(/Central film [^,]*/)[0];
+    assert.equal(film(await news(other)), film(words));
+    await other.close();
+  },
+  async "a damaged link is refused with a sentence"(page) {
+    const other = await opened("#1.abcdef");
+    await said(other, "damaged");
+    await other.close();
+  },
+  async "a ball is solved in a worker while the page stays responsive"(page) {
+    await page.evaluate(() => {
+      window.longest = 0;
+      new PerformanceObserver((list) => list.getEntries().forEach(({ duration }) => (window.longest = Math.max(window.longest, duration)))).observe({ type: "longtask" });
+    });
+    await page.mouse.click(...BALL);
+    await said(page, "Verified|full solution", 240_000);
+    await picture(page, "ball");
+    const workers = page.workers().length;
+    console.log(`  longest task of the page ${(await page.evaluate(() => window.longest)).toFixed(0)} ms, ${workers} workers`);
+    assert(workers >= 1);
+  },
+  async "Escape cancels a solve and the next one works"(page) {
+    await page.keyboard.press("F5");
+    await page.waitForTimeout(700);
+    await page.keyboard.press("Escape");
+    await page.mouse.click(...ROLLER);
+    await said(page, "Central film");
+    await said(page, "Verified", 60_000);
+  },
+  async "profiles are exported as a file"(page) {
+    await page.keyboard.press("Control+p");
+    await page.waitForTimeout(300);
+    await page.keyboard.type("profiles as csv");
+    await page.waitForTimeout(300);
+    const [download] = await Promise.all([page.waitForEvent("download", { timeout: 20_000 }), page.keyboard.press("Enter")]);
+    const text = readFileSync(await download.path(), "utf8");
+    assert(download.suggestedFilename().endsWith(".csv") && text.split("\n").length > 100, text.slice(0, 200));
+  },
+  async "a reload restores the session"(page) {
+    await page.waitForTimeout(3000);
+    const words = await news(page);
+    await page.evaluate(() => history.replaceState(null, "", location.pathname));
+    await page.reload();
+    await page.waitForFunction(() => performance.getEntriesByName("started").length > 0, null, { timeout: 60_000 });
+    await said(page, "Central film");
+    const film = (text) => text.match(/Central film [^,]*/)[0];
+    assert.equal(film(await news(page)), film(words));
+  },
+  async "an embed shows one tab with chosen sliders"(page) {
+    const other = await opened("#embed=profiles&sliders=M,L&lock=L");
+    await said(other, "Central film");
+    await picture(other, "embed");
+    await other.close();
+  },
+  async "it opens without a network after the first visit"(page) {
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    await context.setOffline(true);
+    const other = await opened();
+    await said(other, "Central film");
+    await other.close();
+    await context.setOffline(false);
+  },
+};
+
+let failures = 0;
+let page;
+for (const [name, test] of Object.entries(tests)) {
+  try {
+    page = (await test(page)) ?? page;
+    console.log(`ok   ${name}`);
+  } catch (why) {
+    failures += 1;
+    console.log(`FAIL ${name}\n     ${why.stack ?? why}`);
+    if (page) await picture(page, "failed").catch(() => {});
+  }
+}
+await context.close();
+server.close();
+rmSync(profile, { recursive: true, force: true });
+for (const [what, list] of Object.entries({ "requests elsewhere": foreign, "errors in the page": broken })) {
+  if (list.length > 0) console.log(`FAIL ${what}: ${[...new Set(list)].slice(0, 5).join("\n     ")}`);
+  failures += list.length > 0 ? 1 : 0;
+}
+console.log(`${Object.keys(tests).length + 2 - failures} passed, ${failures} failed`);
+process.exit(failures > 0 ? 1 : 0);

@@ -1,0 +1,31 @@
+// A plain static server, as any host has: no special headers, under a path of its own.
+import { createServer } from "node:http";
+import { readFileSync } from "node:fs";
+import { extname, join, normalize } from "node:path";
+
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".wasm": "application/wasm" };
+
+// Serves a folder below a path; counts what is transferred, packed by brotli where the client takes it.
+export function serve(folder, path) {
+  const counted = { bytes: 0, files: [] };
+  const server = createServer((request, response) => {
+    const { pathname } = new URL(request.url, "http://host");
+    const name = pathname === path ? "index.html" : normalize(pathname.slice(path.length));
+    try {
+      if (!pathname.startsWith(path) || name.startsWith("..")) throw new Error("elsewhere");
+      const packed = (request.headers["accept-encoding"] ?? "").includes("br");
+      const content = readFileSync(join(folder, packed ? `${name}.br` : name));
+      counted.bytes += content.length;
+      counted.files.push(name);
+      const headers = { "content-type": TYPES[extname(name)] ?? "application/octet-stream", "cache-control": "no-cache" };
+      response.writeHead(200, packed ? { ...headers, "content-encoding": "br" } : headers).end(content);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  return new Promise((resolve) => {
+    server.listen(0, "127.0.0.1", () => {
+      resolve({ address: `http://127.0.0.1:${server.address().port}${path}`, counted, close: () => server.close() });
+    });
+  });
+}

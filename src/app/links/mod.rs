@@ -1,0 +1,10 @@
+//! A document as the fragment of an address: a link opens exactly this contact, its tabs and their arrangement.
+
+mod address;
+mod arrangement;
+mod fragment;
+mod window;
+
+pub use address::Address;
+pub use fragment::{Embed, Fragment};
+pub use window::LinkWindow;

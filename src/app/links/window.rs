@@ -1,0 +1,66 @@
+//! The window into which a link is pasted.
+
+use super::fragment::Fragment;
+use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::controls::message_ui;
+use egui::{Context, Id, Modal, TextEdit};
+
+/// What the window knows.
+#[derive(Default)]
+pub struct LinkWindow {
+    text: Option<String>,
+    message: Option<String>,
+    fresh: bool,
+}
+
+impl LinkWindow {
+    /// Opens it.
+    pub fn open(&mut self) {
+        *self = Self { text: Some(String::new()), message: None, fresh: true };
+    }
+
+    /// Whether it is open.
+    pub fn is_open(&self) -> bool {
+        self.text.is_some()
+    }
+
+    /// Draws it.
+    pub fn ui(&mut self, ctx: &Context, commands: &mut Commands) {
+        let Some(text) = &mut self.text else { return };
+        let (mut open, mut close) = (false, false);
+        let response = Modal::new(Id::unique("link")).show(ctx, |ui| {
+            ui.set_width(440.0);
+            ui.heading("Open a link");
+            let label = ui.label("An address with a # in it, or what begins with the #");
+            let edit = ui.add(TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
+            if std::mem::take(&mut self.fresh) {
+                edit.request_focus();
+            }
+            if edit.changed() {
+                self.message = None;
+            }
+            open = edit.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+            if let Some(message) = &self.message {
+                message_ui(ui, message);
+            }
+            ui.add_space(4.0);
+            ui.horizontal(|ui| {
+                open |= ui.button("Open").clicked();
+                close = ui.button("Cancel").clicked();
+            });
+        });
+        if open {
+            match Fragment::read(text) {
+                Ok(_) => {
+                    commands.push(Command::OpenFragment(text.clone()));
+                    close = true;
+                }
+                Err(why) => self.message = Some(why.to_string()),
+            }
+        }
+        if close || response.should_close() {
+            *self = Self::default();
+        }
+    }
+}
