@@ -28,8 +28,8 @@ for (const file of readdirSync(models).filter((file) => file.endsWith(".rom")).s
 
 for (const file of readdirSync(page)) cpSync(join(page, file), join(out, file));
 cpSync(join(pkg, "ehl_web.js"), join(out, "ehl_web.js"));
-const constants_ = `const MODULE = ${JSON.stringify(MODULE)};\nconst MODELS = ${JSON.stringify(MODELS, null, 2)};\n`;
-writeFileSync(join(out, "files.js"), `${constants_}export { MODULE, MODELS };\n`);
+const constants_ = `const CACHE = "ehl-explorer";\nconst MODULE = ${JSON.stringify(MODULE)};\nconst MODELS = ${JSON.stringify(MODELS, null, 2)};\n`;
+writeFileSync(join(out, "files.js"), `${constants_}export { CACHE, MODULE, MODELS };\n`);
 // Not every browser lets a service worker import.
 const offline = readFileSync(join(page, "offline.js"), "utf8").replace(/^import .* from "\.\/files\.js";\n/m, constants_);
 writeFileSync(join(out, "offline.js"), offline);
@@ -53,5 +53,5 @@ const mb = (bytes) => (bytes / 1e6).toFixed(2);
 console.error(`first picture: ${mb(all.br)} MB by brotli, ${mb(all.gz)} MB by gzip`);
 if (all.br > 6.5e6 || all.gz > 8.5e6) {
   console.error("the first picture is to take at most 6.5 MB by brotli and 8.5 MB by gzip");
-  process.exit(1);
+  process.exitCode = 1;
 }

@@ -1,13 +1,12 @@
 // Keeps the files of the page, so that it opens without a network after the first visit.
-import { MODULE, MODELS } from "./files.js";
+import { CACHE, MODULE, MODELS } from "./files.js";
 
-const CACHE = "ehl-explorer";
 const HASHED = /-[0-9a-f]{16}\.\w+$/;
 const PAGE = ["./", "./start.js", "./lanes.js", "./worker.js", "./files.js", "./ehl_web.js", "./style.css", "./icon.svg"];
 
 self.addEventListener("install", (event) => {
-  const first = [...PAGE, MODULE.file, MODELS.line.file];
-  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(first)).then(() => self.skipWaiting()));
+  // The page itself has kept the large files.
+  event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(PAGE)).then(() => self.skipWaiting()));
 });
 
 self.addEventListener("activate", (event) => {

@@ -1,6 +1,6 @@
 // Starts the explorer on the canvas, and does for it what needs a browser.
 import init, { start, deliver, dropped, opened } from "./ehl_web.js";
-import { MODULE, MODELS } from "./files.js";
+import { CACHE, MODULE, MODELS } from "./files.js";
 import { Lanes } from "./lanes.js";
 
 const element = (id) => document.getElementById(id);
@@ -17,9 +17,13 @@ function failed(text) {
   say(text);
 }
 
-// Fetches a file with progress in bytes; the browser's own cache keeps it, as its name says what is in it.
+// Fetches a file whose name says what is in it, once for all visits, with progress in bytes.
 async function fetched(file, progress) {
-  const response = await fetch(file);
+  // There is no such cache where the page is not delivered safely.
+  const cache = await globalThis.caches?.open(CACHE).catch(() => undefined);
+  const kept = await cache?.match(file);
+  const response = kept ?? (await fetch(file));
+  if (response.ok && !kept) cache?.put(file, response.clone()).catch(() => {});
   if (!response.ok) throw new Error(`${file}: ${response.status} ${response.statusText}`);
   if (!response.body) return new Uint8Array(await response.arrayBuffer());
   const reader = response.body.getReader();

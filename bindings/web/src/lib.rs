@@ -8,9 +8,10 @@
 use eframe::egui::Context;
 use eframe::{App, CreationContext, WebOptions, WebRunner};
 use ehl_explorer::app::{Explorer, perform};
-use ehl_explorer::engine::Store;
+use ehl_explorer::engine::{Store, Workbench};
 use ehl_explorer::engine::job::Performer;
 use ehl_explorer::host::{browser, files, page};
+use ehl_explorer::scene::{Scene, run_scene};
 use std::cell::RefCell;
 use std::path::Path;
 use wasm_bindgen::JsValue;
@@ -59,6 +60,18 @@ thread_local! {
 
 fn repaint() {
     SCREEN.with_borrow(|screen| screen.iter().for_each(Context::request_repaint));
+}
+
+/// Runs a scene, given as text, without the screen; returns what `ehl-explorer run --json` prints.
+///
+/// # Errors
+/// A sentence when it makes no sense.
+#[wasm_bindgen]
+pub fn run(scene: &str) -> Result<String, JsValue> {
+    let refused = |why: &dyn std::fmt::Display| JsValue::from_str(&why.to_string());
+    let scene = Scene::from_ron(scene).map_err(|why| refused(&why))?;
+    let outcome = run_scene(&scene, &mut Workbench::new(""), &()).map_err(|why| refused(&why))?;
+    Ok(outcome.to_json().to_string())
 }
 
 /// Does a task in a worker.

@@ -83,6 +83,7 @@ impl Lessons {
     }
 
     /// Takes in lessons of one's own: files ending in `.md` in a folder, in the order of their names.
+    #[cfg(feature = "desktop")]
     pub fn look_in(&mut self, folder: &Path) {
         let Ok(entries) = std::fs::read_dir(folder) else { return };
         let mut files: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
