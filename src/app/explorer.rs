@@ -341,6 +341,13 @@ impl Explorer {
         self.desk.open_path(path)
     }
 
+    /// Opens what a link holds. Where it is refused, a sentence on the screen says why.
+    pub fn open_link(&mut self, link: &str) {
+        if let Err(why) = self.desk.open_link(link) {
+            self.desk.files.notice = Some(Notice::wrong(why));
+        }
+    }
+
     /// The tabs that can be seen.
     pub(super) fn tabs_in_front(&self) -> impl Iterator<Item = Tab> {
         layouts::seen(&self.tree).into_iter()

@@ -8,8 +8,8 @@
 use eframe::egui::Context;
 use eframe::{App, CreationContext, WebOptions, WebRunner};
 use ehl_explorer::app::{Explorer, perform};
-use ehl_explorer::engine::{Store, Workbench};
 use ehl_explorer::engine::job::Performer;
+use ehl_explorer::engine::{Store, Workbench};
 use ehl_explorer::host::{browser, files, page};
 use ehl_explorer::scene::{Scene, run_scene};
 use std::cell::RefCell;
@@ -26,10 +26,13 @@ use web_sys::HtmlCanvasElement;
 pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
     let fragment = page::fragment();
     let linked = fragment.len() > 1;
-    browser::ask(fragment);
     let explorer = move |creation: &CreationContext<'_>| -> Result<Box<dyn App>, _> {
         SCREEN.set(Some(creation.egui_ctx.clone()));
-        Ok(Box::new(Explorer::with_embedded_models().keeping_session_in(Path::new(files::SESSION), !linked)))
+        let mut explorer = Explorer::with_embedded_models().keeping_session_in(Path::new(files::SESSION), !linked);
+        if linked {
+            explorer.open_link(&fragment);
+        }
+        Ok(Box::new(explorer))
     };
     WebRunner::new().start(canvas, WebOptions::default(), Box::new(explorer)).await
 }

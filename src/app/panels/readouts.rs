@@ -112,7 +112,8 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
 pub fn spoken(context: &Context<'_>) -> Option<String> {
     let answers = context.answers;
     let verdict = verdict(answers, context.thresholds);
-    let badge = format!("{} {}.", verdict.title, verdict.detail);
+    // Symbols are marked for the screen.
+    let badge = format!("{} {}.", verdict.title, verdict.detail).replace(['{', '}'], "");
     let Some(picture) = answers.current_picture() else { return answers.failure().map(|_| badge) };
     Some(format!(
         "{badge} Central film {}, minimum film {}, largest pressure {}, traction coefficient {}.",
