@@ -91,13 +91,13 @@ fn six_contacts_are_answered_alike_by_commands_and_studies() {
         let value = |name: &&str| {
             point.found.values.iter().find(|value| value.name == *name).map_or(f64::NAN, |value| value.value)
         };
-        let said =
-            point.found.warnings.iter().map(|warning| warning.trim_start_matches("reduced: ")).collect::<Vec<_>>();
+        let said = point.found.warnings.iter().filter_map(|notice| Some(notice.warning()?.to_string()));
+        let said = said.collect::<Vec<_>>();
         same(&(NAMES.iter().map(value).collect(), said.join("; ")), &wanted, &format!("{name}, Point"));
         same(&of_table(&sweep.tables[0].to_csv(), "reduced."), &wanted, &format!("{name}, Sweep"));
         for warning in texts {
             assert!(
-                sweep.found.warnings.iter().any(|said| said.ends_with(warning)),
+                sweep.found.warnings.iter().any(|said| said.to_string().ends_with(warning)),
                 "{name}: {:?}",
                 sweep.found.warnings
             );
@@ -155,6 +155,10 @@ fn every_row_of_every_table_says_that_a_contact_is_far_outside() {
         let text = outcome.tables[0].to_csv();
         let cell = row(&text, "reduced.");
         told(&study, cell("reduced.trained"), cell("warning").replace("M = 2999", "M = 3000").as_str());
-        assert!(outcome.found.warnings.iter().any(|said| said.contains("4.6 GPa")), "{:?}", outcome.found.warnings);
+        assert!(
+            outcome.found.warnings.iter().any(|said| said.to_string().contains("4.6 GPa")),
+            "{:?}",
+            outcome.found.warnings
+        );
     }
 }

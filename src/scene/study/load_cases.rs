@@ -2,7 +2,7 @@
 
 use super::path::tag;
 use super::question::{
-    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
 };
 use crate::scene::answer::Request;
 use crate::scene::bench::answer_or_full;
@@ -11,7 +11,9 @@ use crate::scene::contact_result::{ContactResult, contact_columns, result_column
 use crate::scene::load_cases::{CaseTable, LoadCase};
 use crate::scene::method::Method;
 use crate::scene::names;
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 
 /// Refused lines that are named one by one; the table names all of them.
 const NAMED: usize = 20;
@@ -26,6 +28,17 @@ pub struct LoadCases {
     pub methods: Vec<Method>,
 }
 
+/// Why a line is refused: a sentence, which travels between machines.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[error("{0}")]
+pub struct RefusedLine(String);
+
+impl RefusedLine {
+    fn of(why: &impl Display) -> Self {
+        Self(why.to_string())
+    }
+}
+
 /// One line of the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
@@ -34,7 +47,7 @@ pub struct Row {
     /// Its name; empty where it has none.
     pub name: String,
     /// Its result by each method, or why it is refused.
-    pub results: Result<Vec<ContactResult>, String>,
+    pub results: Result<Vec<ContactResult>, RefusedLine>,
 }
 
 impl Row {
@@ -64,7 +77,7 @@ impl LoadCases {
             setting.bench.forget();
             let results = match request {
                 Ok(request) => self.solve(setting, &request)?,
-                Err(why) => Err(why),
+                Err(why) => Err(RefusedLine::of(&why)),
             };
             tell(Row { line, name, results });
         }
@@ -76,14 +89,14 @@ impl LoadCases {
         &self,
         setting: &mut Setting<'_>,
         request: &Request,
-    ) -> Result<Result<Vec<ContactResult>, String>, RunError> {
+    ) -> Result<Result<Vec<ContactResult>, RefusedLine>, RunError> {
         let mut results = Vec::with_capacity(self.methods.len());
         for method in &self.methods {
             let request = Request { method: method.clone(), ..request.clone() };
             match answer_or_full(setting.bench, &request, setting.observer) {
                 Ok(answer) => results.push(answer.result),
                 Err(stopped) if stopped.cancelled() => return Err(stopped),
-                Err(refused) => return Ok(Err(refused.to_string())),
+                Err(refused) => return Ok(Err(RefusedLine::of(&refused))),
             }
         }
         Ok(Ok(results))
@@ -150,14 +163,18 @@ impl Question for LoadCases {
         found.converged &= refused().count() == 0;
         found.warnings.extend(refused().take(NAMED).map(|row| {
             let name = if row.name.is_empty() { String::new() } else { format!(" ({})", row.name) };
-            format!("line {}{name}: {}", row.line, row.results.as_ref().err().map_or("", String::as_str))
+            let why = row.results.as_ref().err().map_or_else(String::new, ToString::to_string);
+            Notice::Sentence(format!("line {}{name}: {why}", row.line))
         }));
         if refused().count() > NAMED {
-            found.warnings.push(format!("{} more lines are refused; the table names them", refused().count() - NAMED));
+            let more = format!("{} more lines are refused; the table names them", refused().count() - NAMED);
+            found.warnings.push(more.into());
         }
         let full = self.methods.iter().position(|method| *method == Method::Full);
         for (k, method) in self.methods.iter().enumerate() {
             let of = Some(method);
+            let warnings = Warning::summary(rows.iter().filter_map(|row| Some(&row.results().get(k)?.warnings[..])));
+            found.warn_repeated(&tag(&self.methods, k), warnings);
             let failures = rows.iter().filter_map(|row| row.results().get(k)).filter(|r| !r.converged).count();
             found.converged &= failures == 0;
             found.push("failures", of, failures as f64);
@@ -196,8 +213,7 @@ impl Question for LoadCases {
             name: "load_cases".to_owned(),
             rows: rows.iter().map(numbers).collect(),
             labels: rows.iter().filter(|_| named).map(|row| row.name.clone()).collect(),
-            remarks: rows.iter().map(|row| row.warning()).collect(),
-            remarks_title: names::WARNING,
+            remarks: vec![(names::WARNING, rows.iter().map(|row| row.warning()).collect())],
             columns,
         }]
     }

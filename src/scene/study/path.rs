@@ -139,7 +139,7 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
     for (k, method) in methods.iter().enumerate() {
         let of = Some(method);
         let warnings = Warning::summary(rows.iter().filter_map(|row| Some(&row.results.get(k)?.warnings[..])));
-        found.warnings.extend(warnings.into_iter().map(|warning| format!("{}: {warning}", tag(methods, k))));
+        found.warn_repeated(&tag(methods, k), warnings);
         let results = || rows.iter().filter_map(|row| row.results.get(k));
         let plausible = |result: &&ContactResult| result.point.hertz().pressure_pa <= PLAUSIBLE_HERTZ_PRESSURE_PA;
         let failed = || results().filter(|result| !result.converged);
@@ -189,8 +189,7 @@ pub(super) fn table(name: &str, varied: &[String], methods: &[Method], rows: &[&
         name: name.to_owned(),
         columns,
         rows: rows.iter().map(row).collect(),
-        remarks: rows.iter().map(|row| ContactResult::warning_of_all(&row.results)).collect(),
-        remarks_title: names::WARNING,
+        remarks: vec![(names::WARNING, rows.iter().map(|row| ContactResult::warning_of_all(&row.results)).collect())],
         ..Table::default()
     }
 }
