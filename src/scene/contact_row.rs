@@ -1,8 +1,11 @@
 //! One contact of a table of many: a contact that makes no sense refuses its own row only.
 
 use super::answer::{Answer, Request};
+use super::contact_result::ContactResult;
 use super::error::RunError;
 use super::names;
+use serde::{Deserialize, Serialize};
+use std::fmt::Display;
 
 /// How the solve of a row went.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,6 +28,51 @@ impl RowStatus {
             Self::Refused => "refused",
         }
     }
+}
+
+/// Why one contact of many is refused: a sentence, which travels between machines.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[error("{0}")]
+pub struct RefusedContact(String);
+
+impl RefusedContact {
+    /// The sentence of a reason.
+    pub fn of(why: &impl Display) -> Self {
+        Self(why.to_string())
+    }
+}
+
+impl From<RefusedContact> for RunError {
+    fn from(refused: RefusedContact) -> Self {
+        Self::Study(refused.0)
+    }
+}
+
+/// A contact by several methods, or why it is refused.
+pub type ByMethods = Result<Vec<ContactResult>, RefusedContact>;
+
+/// Returns the columns of words of contacts by several methods: status, the reason for it, warnings.
+pub fn remarks<'a>(rows: impl Iterator<Item = &'a ByMethods> + Clone) -> Vec<(&'static str, Vec<String>)> {
+    let converged = |results: &[ContactResult]| results.iter().all(|result| result.converged);
+    let status = |row: &ByMethods| match row {
+        Ok(results) if converged(results) => RowStatus::Converged,
+        Ok(_) => RowStatus::NotConverged,
+        Err(_) => RowStatus::Refused,
+    };
+    let reason = |row: &ByMethods| match row {
+        Ok(results) if converged(results) => String::new(),
+        Ok(results) => ContactResult::warning_of_all(results),
+        Err(why) => why.to_string(),
+    };
+    let warning = |row: &ByMethods| match row {
+        Ok(results) => ContactResult::warning_of_all(results),
+        Err(why) => why.to_string(),
+    };
+    vec![
+        (names::STATUS, rows.clone().map(|row| status(row).name().to_owned()).collect()),
+        (names::REASON, rows.clone().map(reason).collect()),
+        (names::WARNING, rows.map(warning).collect()),
+    ]
 }
 
 /// A row of a table: what came of one contact.

@@ -8,12 +8,12 @@ use crate::scene::answer::Request;
 use crate::scene::bench::answer_or_full;
 use crate::scene::check;
 use crate::scene::contact_result::{ContactResult, contact_columns, result_columns};
+use crate::scene::contact_row::{ByMethods, RefusedContact, remarks};
 use crate::scene::load_cases::{CaseTable, LoadCase};
 use crate::scene::method::Method;
 use crate::scene::names;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
-use std::fmt::Display;
 
 /// Refused lines that are named one by one; the table names all of them.
 const NAMED: usize = 20;
@@ -28,17 +28,6 @@ pub struct LoadCases {
     pub methods: Vec<Method>,
 }
 
-/// Why a line is refused: a sentence, which travels between machines.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
-#[error("{0}")]
-pub struct RefusedLine(String);
-
-impl RefusedLine {
-    fn of(why: &impl Display) -> Self {
-        Self(why.to_string())
-    }
-}
-
 /// One line of the table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
@@ -47,18 +36,10 @@ pub struct Row {
     /// Its name; empty where it has none.
     pub name: String,
     /// Its result by each method, or why it is refused.
-    pub results: Result<Vec<ContactResult>, RefusedLine>,
+    pub results: ByMethods,
 }
 
 impl Row {
-    /// Why it is refused, or the warnings of its results.
-    fn warning(&self) -> String {
-        match &self.results {
-            Err(why) => format!("refused: {why}"),
-            Ok(results) => ContactResult::warning_of_all(results),
-        }
-    }
-
     fn results(&self) -> &[ContactResult] {
         self.results.as_ref().map_or(&[], Vec::as_slice)
     }
@@ -77,7 +58,7 @@ impl LoadCases {
             setting.bench.forget();
             let results = match request {
                 Ok(request) => self.solve(setting, &request)?,
-                Err(why) => Err(RefusedLine::of(&why)),
+                Err(why) => Err(RefusedContact::of(&why)),
             };
             tell(Row { line, name, results });
         }
@@ -85,18 +66,14 @@ impl LoadCases {
     }
 
     /// One contact by each method, or why it is refused.
-    fn solve(
-        &self,
-        setting: &mut Setting<'_>,
-        request: &Request,
-    ) -> Result<Result<Vec<ContactResult>, RefusedLine>, RunError> {
+    fn solve(&self, setting: &mut Setting<'_>, request: &Request) -> Result<ByMethods, RunError> {
         let mut results = Vec::with_capacity(self.methods.len());
         for method in &self.methods {
             let request = Request { method: method.clone(), ..request.clone() };
             match answer_or_full(setting.bench, &request, setting.observer) {
                 Ok(answer) => results.push(answer.result),
                 Err(stopped) if stopped.cancelled() => return Err(stopped),
-                Err(refused) => return Ok(Err(RefusedLine::of(&refused))),
+                Err(refused) => return Ok(Err(RefusedContact::of(&refused))),
             }
         }
         Ok(Ok(results))
@@ -213,7 +190,7 @@ impl Question for LoadCases {
             name: "load_cases".to_owned(),
             rows: rows.iter().map(numbers).collect(),
             labels: rows.iter().filter(|_| named).map(|row| row.name.clone()).collect(),
-            remarks: vec![(names::WARNING, rows.iter().map(|row| row.warning()).collect())],
+            remarks: remarks(rows.iter().map(|row| &row.results)),
             columns,
         }]
     }
