@@ -5,7 +5,7 @@ use super::axis::{GradingError, Steps};
 use super::bench::Bench;
 use super::check::MAX_POINTS;
 use super::contact_result::{ContactResult, contact_columns_after, result_columns};
-use super::contact_row::{ContactRow, RowStatus};
+use super::contact_row::{ContactRow, RefusedContact, RowStatus};
 use super::contact_spec::{ContactSpec, Field, NotVaried, Refusal, Words};
 use super::error::RunError;
 use super::names;
@@ -164,7 +164,7 @@ impl ContactSweep {
     /// Solves them, each from its neighbour; `tell` is shown each of them.
     ///
     /// # Errors
-    /// When a model cannot be had, the observer cancels, or `tell` refuses to hear more.
+    /// When all of them are refused, a model cannot be had, the observer cancels, or `tell` refuses to hear more.
     pub fn solve<E: From<RunError>>(
         self,
         bench: &mut dyn Bench,
@@ -198,6 +198,9 @@ impl ContactSweep {
         let failures = count(RowStatus::NotConverged);
         let first = statuses.iter().position(|status| *status == RowStatus::Refused);
         let refused = first.and_then(|first| Some((count(RowStatus::Refused), reasons.get(first)?.clone())));
+        if let Some((_, first)) = refused.as_ref().filter(|(count, _)| *count == total) {
+            return Err(RunError::from(RefusedContact::of(first)).into());
+        }
         let statuses = statuses.iter().map(|status| status.name().to_owned()).collect();
         table.remarks = vec![(names::STATUS, statuses), (names::REASON, reasons), (names::WARNING, warnings)];
         let warnings = Warning::summary(results.iter().map(|result| &result.warnings[..]));
