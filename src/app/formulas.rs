@@ -15,6 +15,7 @@ use egui::{Grid, RichText, Ui};
 pub fn csv(context: &Context<'_>) -> String {
     let picture = context.answers.current_picture();
     let point = &context.document.point;
+    let mut sources = Vec::new();
     let mut table = Table::new("formulas", &["film_m", "own_film_m", "deviation", "in_range"]);
     for &formula in FilmFormula::of(point.kind) {
         let prediction = formula.predict(point);
@@ -28,14 +29,15 @@ pub fn csv(context: &Context<'_>) -> String {
             prediction.film_m / own - 1.0,
             f64::from(u8::from(prediction.in_range)),
         ]);
-        table.remarks.push(formula.source().to_owned());
+        sources.push(formula.source().to_owned());
     }
     for (by, _, film, in_range) in reduced(point, &context.document.lubricant) {
         let own = picture.map_or(f64::NAN, |p| p.central_film_m());
         table.labels.push(format!("h_c by Moes, thinned by {}", by.name()));
         table.rows.push(vec![film, own, film / own - 1.0, f64::from(u8::from(in_range))]);
-        table.remarks.push(by.source().to_owned());
+        sources.push(by.source().to_owned());
     }
+    table.remarks = vec![("remark", sources)];
     format!("# {}\n{}", describe_contact(point, &context.document.lubricant), table.to_csv())
 }
 

@@ -71,7 +71,7 @@ pub fn run(args: &CasesArgs) -> Result<Verdict, Failure> {
         None if !args.json => output::print(&text)?,
         None => {}
     }
-    outcome.found.warnings.iter().for_each(|warning| output::complain(warning));
+    outcome.found.warnings.iter().for_each(|warning| output::complain(&warning.to_string()));
     let failed = rows.iter().flat_map(|row| row.results.iter().flatten()).filter(|result| !result.converged).count();
     if failed > 0 {
         output::complain(&format!("{failed} solves did not converge; their results are left empty"));
@@ -86,19 +86,17 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "str::is_empty")]
     name: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    refused: Option<&'a str>,
+    refused: Option<String>,
     #[serde(flatten)]
     result: Option<ResultJson<'a>>,
 }
 
 fn print(row: &Row) -> Result<(), Failure> {
     let Row { line, name, results } = row;
-    let line = Line { line: *line, name, refused: None, result: None };
+    let print = |refused, result| output::print_json(&Line { line: *line, name, refused, result });
     match results {
-        Err(why) => output::print_json(&Line { refused: Some(why), ..line }),
-        Ok(results) => {
-            results.iter().try_for_each(|result| output::print_json(&Line { result: Some(result.json()), ..line }))
-        }
+        Err(why) => print(Some(why.to_string()), None),
+        Ok(results) => results.iter().try_for_each(|result| print(None, Some(result.json()))),
     }
 }
 

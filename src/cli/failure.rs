@@ -1,5 +1,6 @@
 //! Why a command gives no result, each as one sentence.
 
+use super::program::NoWindow;
 use crate::engine::EngineError;
 use crate::scene::atomic_file::WriteError;
 use crate::scene::{Refusal, SceneFileError, Words};
@@ -10,6 +11,9 @@ pub enum Failure {
     /// The request is wrong.
     #[error("{0}")]
     Request(String),
+    /// The window cannot be opened.
+    #[error(transparent)]
+    Window(#[from] NoWindow),
     /// The engine refuses it.
     #[error(transparent)]
     Harness(EngineError),

@@ -21,4 +21,4 @@ mod sweep;
 mod train;
 mod verdict;
 
-pub use program::main;
+pub use program::{NoWindow, main};

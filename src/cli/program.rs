@@ -44,9 +44,13 @@ enum Command {
     Export(export::ExportCommand),
 }
 
-/// Opens the explorer on a scene, where there is one; it returns when its window is closed, with a sentence where none
-/// can be had.
-pub type Explorer = fn(Option<PathBuf>) -> Result<(), String>;
+/// No window can be had: a sentence.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct NoWindow(pub String);
+
+/// Opens the explorer on a scene, where there is one; it returns when its window is closed.
+pub type Explorer = fn(Option<PathBuf>) -> Result<(), NoWindow>;
 
 /// The program: parses the command line, runs the command, returns its exit code.
 pub fn main(explorer: Explorer) -> ExitCode {
@@ -100,7 +104,7 @@ fn explore(scene: Option<PathBuf>, explorer: Explorer) -> Result<Verdict, Failur
             Failure::Request(format!("{error}{hint}"))
         })?;
     }
-    explorer(scene).map(|()| Verdict::Done).map_err(Failure::Request)
+    Ok(explorer(scene).map(|()| Verdict::Done)?)
 }
 
 /// A number that looks like an option: it is refused by its own name.

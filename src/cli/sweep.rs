@@ -4,9 +4,10 @@ use super::failure::Failure;
 use super::options::PointOptions;
 use super::output::{self, ProgressLine};
 use super::verdict::Verdict;
-use crate::engine::{ContactResult, Workbench};
-use crate::scene::{ContactSweep, Swept, Varied, atomic_file};
+use crate::engine::Workbench;
+use crate::scene::{ContactSweep, Swept, SweptContact, Varied, Words, atomic_file};
 use clap::Args;
+use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
 /// Options of `sweep`.
@@ -26,22 +27,38 @@ pub struct SweepArgs {
     json: bool,
 }
 
-/// Runs the command: all requests are checked before the first is solved.
+/// Runs the command: contacts that make no sense are named, all others solved.
 pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
-    let sweep = ContactSweep::new(&args.varied, &args.point.0)?;
-    let (progress, total) = (ProgressLine::new(false), sweep.points.len());
-    let tell = |result: &ContactResult| if args.json { output::print_json(&result.json()) } else { Ok(()) };
-    let Swept { table, failures, warnings } = sweep.solve(&mut Workbench::new(""), &progress, tell)?;
+    let sweep = ContactSweep::new(&args.varied, &args.point.0, Words::Flags)?;
+    let progress = ProgressLine::new(false);
+    let tell = |contact: SweptContact<'_>| if args.json { print(&contact) } else { Ok(()) };
+    let Swept { table, failures, refused, warnings } = sweep.solve(&mut Workbench::new(""), &progress, tell)?;
     progress.finish();
     match &args.csv {
         Some(path) => atomic_file::replace(path, table.to_csv().as_bytes())?,
         None if !args.json => output::print(&table.to_csv())?,
         None => {}
     }
-    warnings.iter().for_each(|warning| output::complain(warning));
+    warnings.iter().for_each(|warning| output::complain(&warning.to_string()));
+    let total = table.rows.len();
     if failures > 0 {
         output::complain(&format!("{failures} of {total} points did not converge; their scalars are left empty"));
-        return Ok(Verdict::FellShort);
     }
-    Ok(Verdict::Done)
+    if let Some((count, first)) = &refused {
+        output::complain(&format!("{count} of {total} points are refused, the first of them: {first}"));
+    }
+    Ok(if failures == 0 && refused.is_none() { Verdict::Done } else { Verdict::FellShort })
+}
+
+/// Prints a contact as JSON: its result, or its varied options and why it is refused.
+fn print(contact: &SweptContact<'_>) -> Result<(), Failure> {
+    let SweptContact { names, values, row } = contact;
+    match &row.answer {
+        Some(answer) => output::print_json(&answer.result.json()),
+        None => {
+            let varied = names.iter().zip(*values).map(|(name, value)| (name.clone(), json!(value)));
+            let refused = [("refused".to_owned(), json!(row.reason))];
+            output::print_json(&varied.chain(refused).collect::<Map<String, Value>>())
+        }
+    }
 }

@@ -9,7 +9,6 @@ use crate::engine::model_file::ModelFileError;
 use crate::engine::training_file::{self, TrainingKeeper};
 use crate::engine::{EngineError, SavedModel, Workbench, model_file, model_text};
 use crate::scene::{ContactSpec, Field, Scene};
-use crate::solver::full::transient::Ended;
 use crate::solver::training::{Observer, Progress, TrainingObserver, TrainingState, train_resumable};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -114,11 +113,11 @@ fn in_time(scene: &Scene, args: &TrainArgs) -> Result<Verdict, Failure> {
     let progress = ProgressLine::new(true);
     let trained = scene.train_in_time(&mut Workbench::new(folder), &progress);
     progress.finish();
-    let model = Arc::new(trained?);
+    let (model, stopped) = trained?;
+    let model = Arc::new(model);
     let saved = SavedModel::InTime(Arc::clone(&model));
     let written = write(&args.out, |path| saved.write(path))?;
-    let ended_early = model.log.iter().filter(|line| !line.ends_with(&Ended::Finished.describe()));
-    ended_early.for_each(|line| output::complain(line));
+    stopped.iter().for_each(|notice| output::complain(&notice.to_string()));
     output::print(&model_text::describe_in_time(&model))?;
     Ok(written)
 }

@@ -36,7 +36,6 @@ pub use rom::{Catalogue, ModelKind, SavedModel};
 pub use store::{Held, Store};
 pub use workbench::Workbench;
 
-pub use crate::scene::study::transient::TOO_STEEP;
 pub use crate::scene::{
     Answer, ContactResult, NamedValue, ReducedFacts, Request, RunError as EngineError, SceneOutcome, Table, Verdict,
     contact_columns, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns, run_scene,

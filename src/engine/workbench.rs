@@ -132,7 +132,7 @@ impl Bench for Workbench {
                     return Err(EngineError::NoTraining { path });
                 }
                 let mut bench = Self::on(&self.store, folder);
-                self.store.trained_in_time(&scene, || scene.train_in_time(&mut bench, observer))
+                self.store.trained_in_time(&scene, || Ok(scene.train_in_time(&mut bench, observer)?.0))
             }
         }
     }

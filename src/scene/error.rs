@@ -147,4 +147,9 @@ impl RunError {
     pub fn cancelled(&self) -> bool {
         matches!(self, Self::Cancelled | Self::Training(TrainingError::Cancelled))
     }
+
+    /// Whether it would end the solve of any contact, and not only of the one that was asked for.
+    pub fn concerns_all_contacts(&self) -> bool {
+        self.cancelled() || matches!(self, Self::Model { .. } | Self::Embedded(_))
+    }
 }

@@ -80,6 +80,11 @@ names! {
     WALL_S "wall_s"
 }
 
+/// Column of the word that says how the solve of a row went.
+pub const STATUS: &str = "status";
+/// Column of why a row has no result.
+pub const REASON: &str = "reason";
+
 /// Bounds on the errors of H_c, H_min, traction and the rise at mid-film.
 pub const BOUNDS: [&str; 4] = [H_C_BOUND, H_MIN_BOUND, TRACTION_BOUND, RISE_BOUND];
 

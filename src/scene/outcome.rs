@@ -3,8 +3,10 @@
 use super::atomic_file::{self, WriteError};
 use super::expectation::Expectation;
 use super::method::Method;
+use super::notice::Notice;
 use super::statistics::{median, percentile};
 use super::table::Table;
+use crate::solver::warning::{Repeated, Warning};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -37,8 +39,8 @@ pub struct Findings {
     pub values: Vec<NamedValue>,
     /// Whether every solve converged.
     pub converged: bool,
-    /// Warnings, one sentence each.
-    pub warnings: Vec<String>,
+    /// What a reader must know.
+    pub warnings: Vec<Notice>,
 }
 
 /// A scene's answer.
@@ -69,6 +71,18 @@ impl Default for Findings {
 impl Findings {
     pub(super) fn push(&mut self, name: impl Into<String>, method: Option<&Method>, value: f64) {
         self.values.push(NamedValue { name: name.into(), method: method.cloned(), value });
+    }
+
+    /// Adds warnings of a part of the study, or of all of it if the part is empty.
+    pub(super) fn warn(&mut self, part: &str, warnings: impl IntoIterator<Item = Warning>) {
+        let of_part = |warning| Notice::Warning { part: part.to_owned(), warning };
+        self.warnings.extend(warnings.into_iter().map(of_part));
+    }
+
+    /// Adds kinds of warnings that several answers of a part carry.
+    pub(super) fn warn_repeated(&mut self, part: &str, kinds: impl IntoIterator<Item = Repeated>) {
+        let of_part = |repeated| Notice::Repeated { part: part.to_owned(), repeated };
+        self.warnings.extend(kinds.into_iter().map(of_part));
     }
 
     /// Median, 95 % value and maximum of a quantity, as `name_median`, `name_p95` and `name_max`.
@@ -162,7 +176,9 @@ impl SceneOutcome {
             "passed": self.passed(), "expectations": expectations, "values": values,
         });
         if let (Some(fields), false) = (object.as_object_mut(), self.found.warnings.is_empty()) {
-            fields.insert("warning".to_owned(), json!(self.found.warnings.join("; ")));
+            let texts: Vec<String> = self.found.warnings.iter().map(ToString::to_string).collect();
+            fields.insert("warning".to_owned(), json!(texts.join("; ")));
+            fields.insert("warnings".to_owned(), self.found.warnings.iter().map(Notice::to_json).collect());
         }
         object
     }

@@ -3,6 +3,7 @@
 use super::bench::Bench;
 use super::error::RunError;
 use super::expectation::Expectation;
+use super::notice::Notice;
 use super::outcome::SceneOutcome;
 use super::{Scene, StudyObserver, StudyRow};
 use crate::host::clock::Stopwatch;
@@ -28,7 +29,7 @@ impl Scene {
     /// What rows of its study say so far, held against its expectations.
     pub fn outcome(&self, rows: &[StudyRow], wall_s: f64) -> SceneOutcome {
         let mut found = self.study.findings(&self.experiment(), rows);
-        found.warnings.splice(0..0, self.unused_alpha());
+        found.warnings.splice(0..0, self.unused_alpha().map(Notice::from));
         SceneOutcome {
             title: self.title.clone(),
             source: self.source.clone(),

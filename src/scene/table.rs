@@ -16,10 +16,8 @@ pub struct Table {
     pub rows: Vec<Vec<f64>>,
     /// What each row is called, where rows have names; `run` prints such a table.
     pub labels: Vec<String>,
-    /// Words on each row, if there are any: the last column.
-    pub remarks: Vec<String>,
-    /// Title of that column; `remark` if it is empty.
-    pub remarks_title: &'static str,
+    /// Columns of words after the numbers: title, and a text for each row.
+    pub remarks: Vec<(&'static str, Vec<String>)>,
 }
 
 /// A number of a row, by its name.
@@ -44,30 +42,26 @@ impl Table {
 
     /// With the warnings of each row as its last column.
     pub fn with_warnings<'a>(self, rows: impl IntoIterator<Item = &'a [Warning]>) -> Self {
-        Self { remarks_title: names::WARNING, remarks: rows.into_iter().map(Warning::joined).collect(), ..self }
+        Self { remarks: vec![(names::WARNING, rows.into_iter().map(Warning::joined).collect())], ..self }
     }
 
     /// As CSV with a title line; numbers in the shortest form that reads back exactly. Names of rows make up the first
-    /// column, remarks the last.
+    /// column, remarks the last ones.
     pub fn to_csv(&self) -> String {
         let named = (!self.labels.is_empty()).then_some("name");
-        let titles = named.into_iter().chain(self.columns.iter().map(String::as_str)).chain(self.remarks_title());
+        let titles = named.into_iter().chain(self.columns.iter().map(String::as_str));
+        let titles = titles.chain(self.remarks.iter().map(|(title, _)| *title));
         let mut text = titles.map(quoted).collect::<Vec<_>>().join(",");
         text.push('\n');
         for (k, row) in self.rows.iter().enumerate() {
             let exact = |value: &f64| if value.is_finite() { Number(*value).to_string() } else { String::new() };
             let words = |words: &[String]| words.get(k).map(|word| quoted(word));
-            let cells = words(&self.labels).into_iter().chain(row.iter().map(exact)).chain(words(&self.remarks));
+            let remarks = self.remarks.iter().filter_map(|(_, texts)| words(texts));
+            let cells = words(&self.labels).into_iter().chain(row.iter().map(exact)).chain(remarks);
             text.push_str(&cells.collect::<Vec<_>>().join(","));
             text.push('\n');
         }
         text
-    }
-
-    /// Title of the remarks, if there are any.
-    pub fn remarks_title(&self) -> Option<&'static str> {
-        let title = if self.remarks_title.is_empty() { "remark" } else { self.remarks_title };
-        (!self.remarks.is_empty()).then_some(title)
     }
 
     /// As columns for people, numbers with three digits, each line behind `indent`.
@@ -129,7 +123,7 @@ mod tests {
         assert_eq!(table.to_csv(), "a,\"b,c\"\n0.1,\n2.2e-8,3\n");
         table.labels = vec!["first".to_owned(), "x, y".to_owned()];
         assert_eq!(table.to_csv(), "name,a,\"b,c\"\nfirst,0.1,\n\"x, y\",2.2e-8,3\n");
-        table.remarks = vec!["no film".to_owned(), String::new()];
+        table.remarks = vec![("remark", vec!["no film".to_owned(), String::new()])];
         assert_eq!(table.to_csv(), "name,a,\"b,c\",remark\nfirst,0.1,,no film\n\"x, y\",2.2e-8,3,\n");
     }
 

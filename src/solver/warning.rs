@@ -1,5 +1,6 @@
 //! What a reader of an answer must know besides its numbers: each kind of warning once, with its values and its sentence.
 
+use crate::solver::full::transient::Ended;
 use crate::solver::parameters::Outside;
 use crate::solver::physics::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
 use serde::{Deserialize, Serialize};
@@ -62,6 +63,28 @@ pub enum Warning {
         relative: f64,
         /// The share of H_c that the steps were to be controlled by.
         tolerance: Option<f64>,
+    },
+    /// A march in time did not reach the end of its duration.
+    #[error("the march {}", ended.describe())]
+    MarchStopped {
+        /// The last T reached.
+        reached: f64,
+        /// How it ended.
+        ended: Ended,
+    },
+    /// The grid does not do for some moment of a march in time.
+    #[error("at T = {time:.4} {warning}; the grid does not do for this march")]
+    DiscretisationErrorInTime {
+        /// T of the moment.
+        time: f64,
+        /// The warning of the steady contact of that moment.
+        warning: Box<Self>,
+    },
+    /// The inputs of a march change faster than its linearised model can follow.
+    #[error("the inputs are too steep for linearised models; {advice}")]
+    TooSteep {
+        /// What to do instead.
+        advice: String,
     },
     /// The grid is too wide across to resolve the side lobes.
     #[error(
@@ -237,8 +260,8 @@ impl Warning {
         warnings.into_iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     }
 
-    /// How many of some answers carry each kind, with the last warning of the kind as an example.
-    pub fn summary<'a>(answers: impl IntoIterator<Item = &'a [Self]>) -> Vec<String> {
+    /// Returns how many of some answers carry each kind, with the last warning of the kind as an example.
+    pub fn summary<'a>(answers: impl IntoIterator<Item = &'a [Self]>) -> Vec<Repeated> {
         let mut kinds: Vec<(usize, &Self)> = Vec::new();
         let mut all = 0;
         for warnings in answers {
@@ -253,8 +276,20 @@ impl Warning {
                 }
             }
         }
-        kinds.into_iter().map(|(count, last)| format!("{count} of {all} contacts, the last of them: {last}")).collect()
+        kinds.into_iter().map(|(count, last)| Repeated { count, all, last: last.clone() }).collect()
     }
+}
+
+/// A kind of warning that several answers carry. Its sentence is what it displays.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{count} of {all} contacts, the last of them: {last}")]
+pub struct Repeated {
+    /// How many carry it.
+    pub count: usize,
+    /// Of how many.
+    pub all: usize,
+    /// The last of them.
+    pub last: Warning,
 }
 
 /// The sentence of a discretisation error, with a grid that would do.
@@ -337,7 +372,7 @@ mod tests {
     fn a_summary_counts_each_kind() {
         let [a, b] = [3.3e9, 5e9].map(|pressure_pa| vec![Warning::HertzPressure { pressure_pa }]);
         let c = vec![Warning::FullSolverTookOver, Warning::HertzPressure { pressure_pa: 4e9 }];
-        let summary = Warning::summary([&a[..], &[], &b, &c]);
+        let summary: Vec<String> = Warning::summary([&a[..], &[], &b, &c]).iter().map(ToString::to_string).collect();
         assert!(summary[0].starts_with("3 of 4 contacts, the last of them: p_H = 4.000 GPa"), "{summary:?}");
         assert!(summary[1].starts_with("1 of 4") && summary.len() == 2);
     }

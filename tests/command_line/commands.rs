@@ -300,10 +300,39 @@ fn sweep_writes_a_table() {
         ("m=1:2:3:graded:1.5", "half of the values up to 1.5 do not fit between 1 and 2"),
         ("m=1:2:99999999", "100000"),
         ("mass=1:2:3", "moes-m"),
-        ("m=-5:2:3", "Moes number M"),
+        ("m=-5:-2:3", "Moes number M"),
     ] {
         assert_refused(&["sweep", range, "--moes-l", "5"], words);
     }
+}
+
+#[test]
+fn a_contact_that_makes_no_sense_refuses_its_own_row_of_a_sweep() {
+    let contact = ["--moes-l", "10", "--method", "reduced"];
+    let sweep = [&["sweep", "m=-5:45:3"][..], &contact].concat();
+    let output = program(&sweep);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("1 of 3 points are refused, the first of them: ") && said.contains("Moes number M"),
+        "{said}"
+    );
+    let text = String::from_utf8(output.stdout).unwrap();
+    let rows: Vec<&str> = text.lines().collect();
+    assert!(rows[0].ends_with(",status,reason,warning"), "{}", rows[0]);
+    assert!(rows[1].starts_with("-5,") && rows[1].contains(",refused,") && rows[1].contains("Moes number M"), "{text}");
+    assert!(rows[2..].iter().all(|row| row.ends_with(",converged,,")) && rows.len() == 4, "{text}");
+    let place = rows[0].split(',').position(|title| title == "H_c").unwrap();
+    for (row, m) in rows[2..].iter().zip(["20", "45"]) {
+        let solved = json(&program(&[&["solve", "--json", "--moes-m", m][..], &contact].concat()));
+        let film: f64 = row.split(',').nth(place).unwrap().parse().unwrap();
+        assert!((film / solved["H_c"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{row}");
+    }
+    let output = program(&[&sweep[..], &["--json"]].concat());
+    let first = String::from_utf8(output.stdout).unwrap().lines().next().unwrap().to_owned();
+    let object: Value = serde_json::from_str(&first).unwrap();
+    assert_eq!(object["moes.M"], -5.0);
+    assert!(object["refused"].as_str().unwrap().contains("Moes number M"), "{object}");
 }
 
 #[test]

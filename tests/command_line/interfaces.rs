@@ -91,18 +91,44 @@ fn six_contacts_are_answered_alike_by_commands_and_studies() {
         let value = |name: &&str| {
             point.found.values.iter().find(|value| value.name == *name).map_or(f64::NAN, |value| value.value)
         };
-        let said =
-            point.found.warnings.iter().map(|warning| warning.trim_start_matches("reduced: ")).collect::<Vec<_>>();
+        let said = point.found.warnings.iter().filter_map(|notice| Some(notice.warning()?.to_string()));
+        let said = said.collect::<Vec<_>>();
         same(&(NAMES.iter().map(value).collect(), said.join("; ")), &wanted, &format!("{name}, Point"));
         same(&of_table(&sweep.tables[0].to_csv(), "reduced."), &wanted, &format!("{name}, Sweep"));
         for warning in texts {
             assert!(
-                sweep.found.warnings.iter().any(|said| said.ends_with(warning)),
+                sweep.found.warnings.iter().any(|said| said.to_string().ends_with(warning)),
                 "{name}: {:?}",
                 sweep.found.warnings
             );
         }
     }
+}
+
+#[test]
+fn a_contact_that_makes_no_sense_refuses_its_own_row_of_a_study() {
+    // At M = 1000 the pressure is beyond the end of Doolittle's law.
+    let study = "Sweep(over: [(vary: M, values: List([1000.0, 20.0]))], methods: [Reduced(model: Embedded)])";
+    let lubricant = "viscosity: Doolittle(b: 4.2, r_0: 0.658, volume: (k_0: 1007837000.0, k_0_prime: 11.29)), \
+                     density: Tait(k_0: 1007837000.0, k_0_prime: 11.29)";
+    let at = "Moes(m: 20.0, l: 10.0, viscosity: 0.0705, modulus: 123.878213951e9)";
+    let scene =
+        |study: &str| format!("Scene(version: 1, title: \"far\", at: {at}, lubricant: ({lubricant}), study: {study})");
+    let run = |text: &str| run_scene(&Scene::from_ron(text).unwrap(), &mut Workbench::new(""), &());
+    let outcome = run(&scene(study)).unwrap();
+    let text = outcome.tables[0].to_csv();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(
+        lines[1].starts_with("1000,") && lines[1].contains(",refused,") && lines[1].contains("Doolittle"),
+        "{text}"
+    );
+    assert!(lines[2].starts_with("20,") && lines[2].contains(",converged,"), "{text}");
+    assert!(!outcome.found.converged && outcome.found.value("refused", None) == Some(1.0));
+    let said = outcome.found.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+    assert!(said.contains("1 of 2 contacts are refused, the first of them: ") && said.contains("Doolittle"), "{said}");
+    // None of the contacts makes sense: the study is refused.
+    let refused = run(&scene(&study.replace(", 20.0", ""))).unwrap_err().to_string();
+    assert!(refused.contains("Doolittle"), "{refused}");
 }
 
 /// Named columns of a table with one method, by the first row.
@@ -155,6 +181,10 @@ fn every_row_of_every_table_says_that_a_contact_is_far_outside() {
         let text = outcome.tables[0].to_csv();
         let cell = row(&text, "reduced.");
         told(&study, cell("reduced.trained"), cell("warning").replace("M = 2999", "M = 3000").as_str());
-        assert!(outcome.found.warnings.iter().any(|said| said.contains("4.6 GPa")), "{:?}", outcome.found.warnings);
+        assert!(
+            outcome.found.warnings.iter().any(|said| said.to_string().contains("4.6 GPa")),
+            "{:?}",
+            outcome.found.warnings
+        );
     }
 }

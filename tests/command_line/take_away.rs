@@ -78,7 +78,7 @@ fn good_load_cases_are_those_of_solve_and_bad_ones_are_named_with_line_and_reaso
     }
     let text = std::fs::read_to_string(&out).unwrap();
     assert_eq!(text.lines().count(), 201, "each line has its own in the results");
-    assert!(text.lines().nth(50).unwrap().contains("refused: load is -"));
+    assert!(text.lines().nth(50).unwrap().contains(",refused,\"load is -"), "{text}");
 }
 
 #[test]

@@ -156,7 +156,9 @@ fn a_coarse_time_step_is_warned_of_and_a_controlled_one_is_not() {
         assert_eq!(Scene::from_ron(&read.to_ron().unwrap()).unwrap(), read);
         run_scene(&read, &mut Workbench::new(""), &()).unwrap()
     };
-    let warned = |outcome: &SceneOutcome| outcome.found.warnings.iter().any(|w| w.contains("time steps leave H_c off"));
+    let warned = |outcome: &SceneOutcome| {
+        outcome.found.warnings.iter().any(|w| w.to_string().contains("time steps leave H_c off"))
+    };
     let coarse = with("Fixed(0.05)");
     let full = value(&coarse, "fixed.step_error");
     assert!(warned(&coarse) && full > 0.03, "{full:e}: {:?}", coarse.found.warnings);

@@ -122,7 +122,7 @@ fn timeless(csv: &str) -> Vec<Vec<String>> {
     let mut lines = csv.lines().map(|line| numbers(line).split(',').map(str::to_owned).collect::<Vec<_>>());
     let titles = lines.next().unwrap();
     let of_clock = titles.iter().position(|title| title.ends_with("wall_s"));
-    let kept = titles.len() - usize::from(titles.last().is_some_and(|title| title == "warning"));
+    let kept = titles.iter().position(|title| title == "status" || title == "warning").unwrap_or(titles.len());
     let numbers = |line: Vec<String>| {
         let cells = line.into_iter().take(kept).enumerate();
         cells.filter(|(k, _)| Some(*k) != of_clock).map(|(_, cell)| cell).collect()

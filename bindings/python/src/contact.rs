@@ -5,6 +5,7 @@ use crate::model::Model;
 use crate::work::{refused, stated};
 use ehl_explorer::engine::Workbench;
 use ehl_explorer::scene::{ContactSpec, Field, MethodName, Request, Words};
+use ehl_explorer::solver::full::Problem;
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::ReducedModel;
 use pyo3::exceptions::PyTypeError;
@@ -108,6 +109,7 @@ impl Contact {
             }
         }
         let request = spec.request().map_err(|refusal| refused(stated(refusal)))?;
+        Problem::new(&request.point, request.lubricant).map_err(refused)?;
         let given = given.into_iter().map(|(field, value)| (field, value.unbind())).collect();
         Ok(Self { spec, request, given })
     }

@@ -6,7 +6,7 @@ use crate::work::{Watch, long, refused, stated};
 use ehl_explorer::engine::{EngineError, Workbench, contact_columns, result_columns};
 use ehl_explorer::host::clock::Stopwatch;
 use ehl_explorer::host::pool::on_all_cores;
-use ehl_explorer::scene::{Bench, ContactSpec, Field, Words};
+use ehl_explorer::scene::{Bench, ContactRow, ContactSpec, Field, RowStatus, Words, names};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -29,7 +29,7 @@ fn varied(contact: &ContactSpec, columns: &[(Field, &[f64])], k: usize) -> Conta
 /// What is said of a row in words.
 #[derive(Clone, Default)]
 struct Said {
-    status: &'static str,
+    status: RowStatus,
     reason: String,
     warning: String,
 }
@@ -41,31 +41,15 @@ struct Said {
 fn solve_row(
     bench: &mut Workbench,
     contact: &ContactSpec,
-    (names, row): (&[&str], &mut [f64]),
+    (columns, row): (&[&str], &mut [f64]),
     watch: &Watch,
 ) -> Result<Said, EngineError> {
     bench.forget();
-    let answered = contact.request().map_err(stated).and_then(|request| bench.answer(&request, None, watch));
-    match answered {
-        Ok(answer) => {
-            let result = answer.result;
-            row.iter_mut().zip(result.row(names)).for_each(|(place, value)| *place = value);
-            let warning = result.warning();
-            let (status, reason) =
-                if result.converged { ("converged", String::new()) } else { ("not converged", warning.clone()) };
-            Ok(Said { status, reason, warning })
-        }
-        Err(error) if error.cancelled() || matches!(error, EngineError::Model { .. } | EngineError::Embedded(_)) => {
-            Err(error)
-        }
-        Err(error) => {
-            if let Some(place) = names.iter().position(|name| *name == "converged").and_then(|k| row.get_mut(k)) {
-                *place = 0.0;
-            }
-            let reason = error.to_string();
-            Ok(Said { status: "refused", warning: reason.clone(), reason })
-        }
-    }
+    let request = contact.request().map_err(|refusal| refusal.in_words(Words::Keywords));
+    let solved =
+        ContactRow::solve(request.as_ref().map_err(Clone::clone), |request| bench.answer(request, None, watch))?;
+    solved.fill(columns, row);
+    Ok(Said { status: solved.status, warning: solved.warning(), reason: solved.reason })
 }
 
 /// Solves a contact with some of its options varied, a contact for each element of the arrays (float64, shape (n,)),
@@ -93,9 +77,9 @@ pub fn solve_many<'py>(
         return Err(refused(format!("{name} has {} values, but another option has {total}", values.len())));
     }
     let heat = asked.spec.heat == Some(true);
-    let names = [contact_columns(), result_columns(heat)].concat();
+    let columns_of_rows = [contact_columns(), result_columns(heat)].concat();
     let Asked { spec, model } = asked;
-    let width = names.len();
+    let width = columns_of_rows.len();
     let (numbers, said) = long(py, progress, |watch| {
         let (mut numbers, mut said) = (vec![f64::NAN; width * total], vec![Said::default(); total]);
         let done = AtomicUsize::new(0);
@@ -104,7 +88,7 @@ pub fn solve_many<'py>(
             let mut bench = bench_with(model.as_ref());
             for (i, (row, said)) in rows.chunks_exact_mut(width).zip(&mut *said).enumerate() {
                 let contact = varied(&spec, &columns, chunk * CHUNK + i);
-                *said = solve_row(&mut bench, &contact, (&names, row), watch)?;
+                *said = solve_row(&mut bench, &contact, (&columns_of_rows, row), watch)?;
             }
             let done = done.fetch_add(said.len(), Ordering::Relaxed) + said.len();
             watch.progress(Progress { stage: "contacts".to_owned(), done, total });
@@ -114,9 +98,13 @@ pub fn solve_many<'py>(
         Ok((numbers, said))
     })?;
     let texts = |of: fn(&Said) -> String| said.iter().map(of).collect::<Vec<String>>();
-    let [statuses, reasons, warnings] =
-        [texts(|said| said.status.to_owned()), texts(|said| said.reason.clone()), texts(|said| said.warning.clone())];
-    structured(py, &names, numbers, &[("warning", &warnings), ("status", &statuses), ("reason", &reasons)])
+    let [statuses, reasons, warnings] = [
+        texts(|said| said.status.name().to_owned()),
+        texts(|said| said.reason.clone()),
+        texts(|said| said.warning.clone()),
+    ];
+    let texts = [(names::STATUS, &statuses[..]), (names::REASON, &reasons[..]), (names::WARNING, &warnings[..])];
+    structured(py, &columns_of_rows, numbers, &texts)
 }
 
 /// Seconds of `runs` solves of a contact without Python between them, each afresh, on the caller's thread; where more

@@ -6,22 +6,27 @@ use crate::tables::array_of;
 use crate::work::{long, march_stopped, refused, stated, warn};
 use ehl_explorer::engine::{EngineError, SceneOutcome, Table, Workbench, run_scene};
 use ehl_explorer::scene::study::random_test::RandomTest;
-use ehl_explorer::scene::study::transient::series;
-use ehl_explorer::scene::{At, ContactSweep, Grid, Method, Scene, Steps, Study, TransientStudy, Varied};
+use ehl_explorer::scene::study::transient::{check_request, series};
+use ehl_explorer::scene::{
+    At, Bench, ContactSweep, Grid, Method, ModelSource, Notice, Request, Scene, Steps, Study, TransientStudy, Varied,
+    VariedError, Words,
+};
 use ehl_explorer::solver::full::transient::{Frame, Inputs, MarchProgress, Signal, TimeStep, Transient, march};
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::reduced::transient::ReducedMarch;
+use ehl_explorer::solver::warning::Warning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A contact with one or two options varied, each solved from its neighbour, as ``ehl-explorer sweep`` does.
 ///
 /// ``varied`` is a list of texts as on the command line (``"moes-m=10:160:5:log"``) or of pairs of a name and its
-/// values; the last one changes fastest. A structured array of the table that the command writes.
+/// values; the last one changes fastest. A structured array of the table that the command writes; a contact that makes no
+/// sense refuses its own row only.
 #[pyfunction]
 #[pyo3(signature = (contact, varied, method=None, model=None, progress=None))]
 pub fn sweep<'py>(
@@ -35,7 +40,7 @@ pub fn sweep<'py>(
     let asked = contact.asked(method, model)?;
     let varied = varied.iter().map(axis).collect::<PyResult<Vec<Varied>>>()?;
     let swept = long(py, progress, |watch| {
-        let sweep = ContactSweep::new(&varied, &asked.spec).map_err(stated)?;
+        let sweep = ContactSweep::new(&varied, &asked.spec, Words::Keywords).map_err(stated)?;
         sweep.solve(&mut asked.bench(), watch, |_| Ok(()))
     })?;
     array_of(py, swept.table)
@@ -43,7 +48,7 @@ pub fn sweep<'py>(
 
 fn axis(given: &Bound<'_, PyAny>) -> PyResult<Varied> {
     if let Ok(text) = given.extract::<String>() {
-        return text.parse().map_err(|sentence: String| refused(sentence));
+        return text.parse().map_err(|why: VariedError| refused(why));
     }
     let (name, values): (String, Vec<f64>) = given.extract()?;
     Varied::new(&name.replace('_', "-"), Steps::List(values)).map_err(refused)
@@ -84,19 +89,19 @@ pub fn random_test<'py>(
     let study = Study::RandomTest(RandomTest { range, tests, seed, method, compare, worst: 0 });
     let scene = Scene { contact: kind, study, grid: Grid::Usual, ..Scene::at_moes(40.0, 10.0) };
     let outcome = outcome(py, &scene, bench_of(model, PathBuf::new())?, progress)?;
-    warn(py, outcome.found.warnings)?;
+    warn(py, outcome.found.warnings.iter().map(ToString::to_string))?;
     array_of(py, first_table(outcome.tables)?)
 }
 
 /// A contact in time, in full: the study ``Transient`` of scenes with inputs R, u_m and load that vary around those of
-/// the contact. With ``model``, the ``.rom`` file of a reduced model in time, by that model alone; what it was not trained
-/// for is a warning.
+/// the contact. With ``model``, the ``.rom`` file of a reduced model in time, by that model alone, as a contact with
+/// ``method="reduced"`` is by the program's own; what it was not trained for is a warning.
 ///
 /// Times are in units of a/u_m. ``radius``, ``speed`` and ``load`` are pairs (T, values) of times and multiples of the
 /// contact's own; what is not given stays. Steps are all of the length ``step``, or so short that their estimated error of
 /// H_c is at most ``tolerance``. A structured array of the march: T, inputs, films, pressures, and ``step_error``, the
 /// estimated greatest relative error that the steps leave in H_c. What a reader must know of it is a warning. A march
-/// that cannot take a step raises :class:`MarchStopped`.
+/// that cannot take a step raises :class:`MarchStopped`; so does one that reaches a contact that makes no sense.
 #[pyfunction]
 #[pyo3(signature = (
     contact, duration, step=None, radius=None, speed=None, load=None, model=None, progress=None, tolerance=None,
@@ -123,10 +128,17 @@ pub fn transient<'py>(
         given.map_or(Signal::Constant, |(times, values)| Signal::Sampled { times, values })
     };
     let inputs = Inputs { radius: signal(radius), speed: signal(speed), load: signal(load) };
-    if let Some(path) = model {
-        let (point, lubricant) = (contact.request.point, contact.request.lubricant);
-        let own = Transient { lubricant, time_step, ..Transient::new(point, inputs, duration, duration) };
-        return by_model(py, &path, own, progress);
+    let request = &contact.request;
+    let source = model.map(ModelSource::File).or_else(|| request.method.model().cloned());
+    let asked = source
+        .iter()
+        .fold(request.clone(), |asked, source| Request { method: Method::reduced(source.clone()), ..asked });
+    check_request(&asked).map_err(|refusal| refused(stated(refusal)))?;
+    let own = Transient { time_step, ..Transient::new(request.point, inputs.clone(), duration, duration) };
+    let own = Transient { lubricant: request.lubricant, ..own };
+    own.check().map_err(refused)?;
+    if let Some(source) = source {
+        return by_model(py, &source, own, progress);
     }
     let study = TransientStudy {
         inputs,
@@ -144,7 +156,6 @@ pub fn transient<'py>(
         mass_between: None,
         published: Vec::new(),
     };
-    let request = &contact.request;
     let mut scene = Scene {
         contact: request.point.kind,
         at: At::from(request.point),
@@ -156,23 +167,37 @@ pub fn transient<'py>(
     };
     scene.set_laws(request.lubricant);
     let SceneOutcome { found, tables, .. } = outcome(py, &scene, bench_of(None, PathBuf::new())?, progress)?;
-    let sentences = found.warnings.iter().map(|said| said.strip_prefix("fixed: ").unwrap_or(said).to_owned());
-    let (ended, warnings): (Vec<_>, Vec<_>) =
-        sentences.partition(|said| !found.converged && said.starts_with("the march "));
-    warn(py, warnings)?;
-    let reached = array_of(py, first_table(tables)?)?;
-    if found.converged { Ok(reached) } else { Err(march_stopped(py, ended.join("; "), reached)) }
+    // There is one march, whose name a warning need not say.
+    let sentences = found.warnings.iter().filter(|notice| notice.warning().is_none()).map(ToString::to_string);
+    warn(py, sentences)?;
+    marched(py, found.warnings.iter().filter_map(Notice::warning), first_table(tables)?)
 }
 
-/// The march by the reduced model in time of a file.
+/// The rows of a march with its warnings, or the exception of one that stopped.
+fn marched<'py, 'a>(
+    py: Python<'py>,
+    warnings: impl IntoIterator<Item = &'a Warning>,
+    rows: Table,
+) -> PyResult<Bound<'py, PyAny>> {
+    let is_stopped = |warning: &&Warning| matches!(warning, Warning::MarchStopped { .. });
+    let (stopped, others): (Vec<&Warning>, Vec<&Warning>) = warnings.into_iter().partition(is_stopped);
+    warn(py, others.into_iter().map(ToString::to_string))?;
+    let rows = array_of(py, rows)?;
+    match stopped.first() {
+        Some(stopped) => Err(march_stopped(py, stopped, rows)),
+        None => Ok(rows),
+    }
+}
+
+/// The march by a reduced model in time.
 fn by_model<'py>(
     py: Python<'py>,
-    path: &Path,
+    source: &ModelSource,
     asked: Transient,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (trajectory, warnings) = long(py, progress, |watch| {
-        let model = crate::STORE.trajectory_model_of_file(path)?;
+        let model = Workbench::on(&crate::STORE, PathBuf::new()).trajectory_model(source, watch)?;
         let asked = Transient { frame: model.frame, ..asked };
         let observer = MarchProgress { observer: watch, stage: "reduced model".to_owned(), duration: asked.duration };
         let mut reduced = ReducedMarch::new(&model, &asked).map_err(EngineError::from)?;
@@ -181,16 +206,10 @@ fn by_model<'py>(
         if watch.cancelled() {
             return Err(EngineError::Cancelled);
         }
-        let mut warnings = model.domain.left_by(&trajectory);
-        warnings.extend(trajectory.step_warning().map(|warning| warning.to_string()));
+        let warnings: Vec<Warning> = trajectory.warnings().chain(model.domain.left_by(&trajectory)).collect();
         Ok((trajectory, warnings))
     })?;
-    warn(py, warnings)?;
-    let reached = array_of(py, series("reduced", &trajectory))?;
-    if !trajectory.finished() {
-        return Err(march_stopped(py, format!("the march {}", trajectory.ended.describe()), reached));
-    }
-    Ok(reached)
+    marched(py, &warnings, series("reduced", &trajectory))
 }
 
 /// Runs a scene, given by its text or its file, and holds it against its expectations: an :class:`Outcome`.

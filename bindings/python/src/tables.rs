@@ -35,7 +35,7 @@ pub fn structured<'py>(
 
 /// A table as such an array.
 pub fn array_of<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'py, PyAny>> {
-    let texts: Vec<_> = table.remarks_title().map(|title| (title, &table.remarks[..])).into_iter().collect();
+    let texts: Vec<(&str, &[String])> = table.remarks.iter().map(|(title, texts)| (*title, &texts[..])).collect();
     structured(py, &table.columns, table.rows.concat(), &texts)
 }
 

@@ -5,6 +5,7 @@ use ehl_explorer::engine::job::guarded;
 use ehl_explorer::scene::{Refusal, StudyObserver, Words};
 use ehl_explorer::solver::observer::{Observer, Progress};
 use ehl_explorer::solver::training::TrainingObserver;
+use ehl_explorer::solver::warning::Warning;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +18,8 @@ pyo3::create_exception!(
     ehl_explorer,
     MarchStopped,
     EhlError,
-    "A march that could not take a step. ``reached`` is the structured array of the march up to there."
+    "A march that did not reach its end. ``reached`` is the structured array of the march up to there, ``warning`` how it \
+     ended in numbers and words: ``kind``, ``ended``, ``reached``, ``text``."
 );
 
 /// How often Python is asked for signals, and told how far work is.
@@ -34,9 +36,14 @@ pub fn refused(sentence: impl ToString) -> PyErr {
 }
 
 /// The exception of a march that stopped, with the array that it reached.
-pub fn march_stopped(py: Python<'_>, sentence: impl ToString, reached: Bound<'_, PyAny>) -> PyErr {
-    let stopped = MarchStopped::new_err(sentence.to_string());
-    match stopped.value(py).setattr("reached", reached) {
+pub fn march_stopped(py: Python<'_>, warning: &Warning, reached: Bound<'_, PyAny>) -> PyErr {
+    let stopped = MarchStopped::new_err(warning.to_string());
+    let told = || {
+        let ended = py.import("json")?.call_method1("loads", (warning.to_json().to_string(),))?;
+        stopped.value(py).setattr("reached", reached)?;
+        stopped.value(py).setattr("warning", ended)
+    };
+    match told() {
         Ok(()) => stopped,
         Err(error) => error,
     }

@@ -44,10 +44,13 @@ def number(cell):
         return np.nan
 
 
+TEXTS = ["status", "reason", "warning"]
+
+
 def table(text):
     titles, *rows = csv.reader(io.StringIO(text))
     columns = dict(zip(titles, zip(*rows)))
-    return {name: list(cells) if name == "warning" else np.array([*map(number, cells)]) for name, cells in columns.items()}
+    return {name: list(cells) if name in TEXTS else np.array([*map(number, cells)]) for name, cells in columns.items()}
 
 
 def same_table(array, text):

@@ -37,8 +37,11 @@ def test_a_march_that_stops_is_an_exception_with_what_it_reached():
     # Up to there it is the march that ends before the jump.
     before = ehl.transient(CONTACT, duration=0.5, step=0.05, load=JUMP)
     np.testing.assert_array_equal(before["H_c"], reached["H_c"][: len(before)])
+    ended = error.warning["ended"]["step_refused"]
+    assert error.warning["kind"] == "march_stopped" and error.warning["reached"] == reached["T"][-1]
+    assert 1.0 < ended["time"] < 1.06 and 0 < ended["step"] < 0.05 and error.warning["text"] == str(error)
     again = pickle.loads(pickle.dumps(error))
-    assert str(again) == str(error)
+    assert str(again) == str(error) and again.warning == error.warning
     np.testing.assert_array_equal(again.reached["H_c"], reached["H_c"])
 
 
@@ -58,6 +61,8 @@ def test_scenes_and_the_command_line_say_that_a_march_stopped(program, tmp_path)
     program("run", tmp_path / "jump.ron", "--out", tmp_path / "out", code=1)
     told = json.loads(next((tmp_path / "out").glob("*.json")).read_text())
     assert (told["converged"], told["passed"]) == (False, False) and str(error) in told["warning"]
+    (stopped,) = [warning for warning in told["warnings"] if warning["kind"] == "march_stopped"]
+    assert stopped | {"text": str(error)} == error.warning | {"part": "fixed"}
 
 
 def test_a_model_trained_from_a_march_that_stopped_says_so(program, tmp_path):

@@ -77,7 +77,10 @@ def test_refusals_are_value_errors_with_words():
         (lambda: ehl.Contact.engineering(contact="cube"), "cube"),
         (lambda: ehl.random_test((10, 20), (5, 6), tests=0), "study.tests"),
         (lambda: ehl.random_test((10, 20), (5, 6), tests=5, contact="cube"), "accepted are line, point"),
-        (lambda: ehl.transient(contact, duration=1, step=-1), "time step"),
+        (lambda: ehl.transient(contact, duration=1, step=-1), "the time step is -1, but must be"),
+        (lambda: ehl.transient(contact, duration=-1, step=1), "the duration is -1, but must be"),
+        (lambda: ehl.transient(contact.replace(grid="model"), duration=1, step=0.1), "grid= must be uniform or graded"),
+        (lambda: contact.replace(limiting_stress=(1, 2)), "the slope of the limiting stress is 2"),
         (lambda: ehl.transient(contact, duration=1, step=0.1, load=([0, 1], [1])), "load"),
     ]:
         with pytest.raises(ValueError, match="(?s).*") as refused:

@@ -3,7 +3,8 @@
 use super::*;
 use crate::app::document::{History, Shape};
 use crate::scene::named_lubricant::by_name;
-use crate::solver::full::transient::Frame;
+use crate::solver::full::transient::{Frame, Unsupported};
+use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::training::Windows;
 
 #[test]
@@ -241,4 +242,23 @@ fn history_goes_back_and_forth() {
     history.redo(&mut document);
     assert_eq!(document, second);
     assert!(!history.can_redo() && history.can_undo(&document));
+}
+
+#[test]
+fn contacts_that_transient_runs_do_not_cover_are_refused_for_the_reason_that_all_interfaces_give() {
+    let reason = |document: &Document| {
+        let why = Unsupported::check(document.point.kind, &document.lubricant).unwrap_err().to_string();
+        let said = document.no_transient().unwrap();
+        assert!(said.to_lowercase().starts_with(&why.to_lowercase()) && said.contains("; "), "{said}");
+        why
+    };
+    let mut document = Document::default();
+    assert_eq!(document.no_transient(), None);
+    document.lubricant.shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
+    assert!(reason(&document).contains("shear-thinning"));
+    document = Document::default();
+    document.switch_heat(true).unwrap();
+    assert!(reason(&document).contains("isothermal"));
+    document.point.kind = ContactKind::Point;
+    assert!(reason(&document).contains("line contacts"));
 }

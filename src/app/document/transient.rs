@@ -4,9 +4,7 @@ use crate::app::document::Document;
 use crate::app::in_use::question;
 use crate::app::refusal::Refusal;
 use crate::scene::{Grid, LinearisedTransient, ReducedTransient, Study, TransientStudy};
-use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep};
-use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::ShearLaw;
+use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupported};
 
 /// The grid to begin with: fine enough to be believed, coarse enough to be there at once.
 const GRID: Grid = Grid::Uniform { dx: 0.0075, domain: (-4.0, 2.0) };
@@ -31,14 +29,14 @@ impl Document {
 
     /// Why there are no contacts in time of this kind; `None` where there are.
     pub fn no_transient(&self) -> Option<&'static str> {
-        if self.lubricant.heat.is_some() {
-            return Some("This version follows contacts in time without heat only; switch heat off");
-        }
-        match (self.point.kind, self.lubricant.shear) {
-            (ContactKind::Point, _) => Some("This version follows only line contacts in time; choose a line contact"),
-            (ContactKind::Line, ShearLaw::Newtonian) => None,
-            _ => Some("This version follows only Newtonian lubricants in time; choose one without shear constants"),
-        }
+        Unsupported::check(self.point.kind, &self.lubricant).err().and_then(|why| match why {
+            Unsupported::PointContact => Some("Transient runs cover line contacts only; choose a line contact"),
+            Unsupported::ShearThinning => Some(
+                "Transient runs cover Newtonian lubricants only, not shear-thinning ones; choose one without shear constants",
+            ),
+            Unsupported::Heat => Some("Transient runs cover isothermal contacts only; switch heat off"),
+            Unsupported::MassConservingModel => None,
+        })
     }
 
     /// Whether its file holds the contact in time: a scene that asks another question keeps that; a point contact and a lubricant that thins

@@ -1,7 +1,7 @@
 //! The fields of a contact, each defined once: its type, its word, what it is, its unit, and what interfaces have it.
 
 use super::facts::{Facts, Measure};
-use super::given::{Choices, Domain, Given, MethodName, OilGrade, ShearName};
+use super::given::{Choices, Domain, Given, MethodName, OilGrade, ShearName, ValueError};
 use super::words::Words;
 use crate::scene::grid::Grid;
 use crate::scene::named_lubricant::NamedLubricant;
@@ -94,7 +94,7 @@ macro_rules! contact_fields {
                 }
             }
 
-            pub(super) fn read_plain(&mut self, field: Field, text: &str) -> Result<(), String> {
+            pub(super) fn read_plain(&mut self, field: Field, text: &str) -> Result<(), ValueError> {
                 match field {
                     $(Field::$field => self.$member = Some(Given::read(text)?),)*
                 }
@@ -197,6 +197,20 @@ contact_fields! {
     body2: BodyHeat, Body2, "body2", "The same of body 2, which moves with u_m (1 + SRR/2)", { placeholder: Some("K,C,RHO|MATERIAL") };
 }
 
+/// No numeric field has this word.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("`{word}` cannot be varied; accepted are {}", varied_words())]
+pub struct NotVaried {
+    /// The word.
+    word: String,
+}
+
+/// The words that can be varied.
+fn varied_words() -> String {
+    let numbers = Field::of(Words::Flags).filter(|field| field.is_number());
+    numbers.map(|field| field.facts().name).collect::<Vec<_>>().join(", ")
+}
+
 impl Field {
     /// The fields of an interface.
     pub fn of(words: Words) -> impl Iterator<Item = Self> {
@@ -232,25 +246,21 @@ impl Field {
     /// The numeric field that a word varies; `m` and `l` are short for `moes-m` and `moes-l`.
     ///
     /// # Errors
-    /// A sentence with the accepted words.
-    pub fn varied(word: &str) -> Result<Self, String> {
+    /// With the accepted words.
+    pub fn varied(word: &str) -> Result<Self, NotVaried> {
         let found = match word {
             "m" | "M" => Some(Self::MoesM),
             "l" | "L" => Some(Self::MoesL),
             word => Self::named(word).or_else(|| Self::in_results(word)).filter(|field| field.is_number()),
         };
-        found.ok_or_else(|| {
-            let numbers = Self::of(Words::Flags).filter(|field| field.is_number());
-            let accepted: Vec<&str> = numbers.map(|field| field.facts().name).collect();
-            format!("`{word}` cannot be varied; accepted are {}", accepted.join(", "))
-        })
+        found.ok_or_else(|| NotVaried { word: word.to_owned() })
     }
 
     /// Refuses a text that is no value of it.
     ///
     /// # Errors
-    /// A sentence that says what is accepted.
-    pub fn check(self, text: &str) -> Result<(), String> {
+    /// With what is accepted.
+    pub fn check(self, text: &str) -> Result<(), ValueError> {
         ContactSpec::default().read_plain(self, text)
     }
 

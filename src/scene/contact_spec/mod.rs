@@ -20,7 +20,7 @@ mod tests;
 mod words;
 
 pub use facts::{Facts, Measure};
-pub use fields::{ContactSpec, Field};
-pub use given::{Domain, MethodName, OilGrade, ShearName};
+pub use fields::{ContactSpec, Field, NotVaried};
+pub use given::{Domain, MethodName, OilGrade, ShearName, ValueError};
 pub use refusal::Refusal;
 pub use words::Words;

@@ -37,7 +37,7 @@ fn every_word_leads_back_to_its_field() {
         (None, Some(Field::Modulus), None)
     );
     assert_eq!((Field::varied("L"), Field::varied("moes.L")), (Ok(Field::MoesL), Ok(Field::MoesL)));
-    assert!(Field::varied("lubricant").unwrap_err().contains("accepted are radius, radius-y"));
+    assert!(Field::varied("lubricant").unwrap_err().to_string().contains("accepted are radius, radius-y"));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::error::CasesError;
 use crate::scene::contact_spec::{Field, Words};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::parse;
+use crate::solver::physics::engineering::{UnitError, parse};
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,11 +52,11 @@ fn split_title(cell: &str) -> (&str, &str) {
 }
 
 /// The unit of a title must be one of its field, for one of both kinds of contact.
-fn check_unit(column: Column, unit: &str) -> Result<(), String> {
+fn check_unit(column: Column, unit: &str) -> Result<(), UnitError> {
     let Column::Of(field) = column else { return Ok(()) };
     if unit.is_empty() || !field.is_number() {
         return Ok(());
     }
     let read = |kind| parse("1", field.facts().dimension_in(kind), unit).map(drop);
-    read(ContactKind::Line).or(read(ContactKind::Point)).map_err(|error| error.to_string())
+    read(ContactKind::Line).or(read(ContactKind::Point))
 }

@@ -1,7 +1,11 @@
-//! Why a table of load cases is refused.
+//! Why a table of load cases, or a line of it, is refused.
 
 use super::columns::accepted;
 use crate::scene::check::MAX_POINTS;
+use crate::scene::contact_spec::{Refusal, Words};
+use crate::solver::full::SolveError;
+use crate::solver::limits::Refused;
+use crate::solver::physics::engineering::UnitError;
 use std::path::PathBuf;
 
 /// Why a whole table is refused.
@@ -50,6 +54,45 @@ pub enum CasesError {
         /// The title.
         title: String,
         /// What is wrong, and what would be accepted.
-        problem: String,
+        problem: UnitError,
     },
+}
+
+/// Why a line of a table is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LineError {
+    /// It has more cells than there are titles.
+    #[error("{cells} cells are there, but {titles} titles")]
+    Cells {
+        /// How many cells.
+        cells: usize,
+        /// How many titles.
+        titles: usize,
+    },
+    /// The contact is refused.
+    #[error("{}", .0.in_words(Words::Columns))]
+    Contact(Refusal),
+    /// The grid of the table's scene is none of its contact.
+    #[error(transparent)]
+    GridOfScene(Refused),
+    /// Its own grid is refused.
+    #[error("{}", grid_of_line(.0))]
+    Grid(Refused),
+    /// Its problem is refused.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+impl From<Refusal> for LineError {
+    fn from(refusal: Refusal) -> Self {
+        Self::Contact(refusal)
+    }
+}
+
+/// The sentence of a refused grid, whose fields are columns.
+fn grid_of_line(refused: &Refused) -> String {
+    match refused.field.strip_prefix("grid.") {
+        Some(name) => format!("{} {}", name.split('.').next().unwrap_or(name), refused.problem),
+        None => refused.to_string(),
+    }
 }

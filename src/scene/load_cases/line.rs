@@ -1,8 +1,9 @@
 //! What one line of a table asks for.
 
 use super::columns::Column;
+use super::error::LineError;
 use crate::scene::answer::Request;
-use crate::scene::contact_spec::{ContactSpec, Field, Words};
+use crate::scene::contact_spec::{ContactSpec, Field};
 use crate::scene::experiment::Experiment;
 use crate::scene::grid;
 use crate::solver::full::Problem;
@@ -12,9 +13,9 @@ pub(super) fn request(
     columns: &[(Column, String)],
     cells: &[&str],
     experiment: &Experiment,
-) -> Result<Request, String> {
+) -> Result<Request, LineError> {
     if cells.iter().skip(columns.len()).any(|cell| !cell.is_empty()) {
-        return Err(format!("{} cells are there, but {} titles", cells.len(), columns.len()));
+        return Err(LineError::Cells { cells: cells.len(), titles: columns.len() });
     }
     let stated = columns.iter().zip(cells).filter_map(|((column, unit), cell)| match (column, *cell) {
         (_, "") | (Column::Name | Column::Skipped, _) => None,
@@ -22,13 +23,10 @@ pub(super) fn request(
         (Column::Of(field @ Field::Contact), "ball") => Some((*field, "point", "")),
         (Column::Of(field), cell) => Some((*field, cell, unit.as_str())),
     });
-    let stated = ContactSpec::read_over(&experiment.into(), stated).map_err(|why| why.in_words(Words::Columns))?;
-    grid::check(&experiment.grid, stated.kind()).map_err(|error| error.to_string())?;
-    let request = stated.request().map_err(|why| why.in_words(Words::Columns))?;
-    Problem::new(&request.point, request.lubricant).map_err(|error| error.to_string())?;
-    grid::check(&request.grid, request.point.kind).map_err(|error| match error.field.strip_prefix("grid.") {
-        Some(name) => format!("{} {}", name.split('.').next().unwrap_or(name), error.problem),
-        None => error.to_string(),
-    })?;
+    let stated = ContactSpec::read_over(&experiment.into(), stated)?;
+    grid::check(&experiment.grid, stated.kind()).map_err(LineError::GridOfScene)?;
+    let request = stated.request()?;
+    Problem::new(&request.point, request.lubricant)?;
+    grid::check(&request.grid, request.point.kind).map_err(LineError::Grid)?;
     Ok(Request { grid_model: experiment.grid_model.clone(), ..request })
 }

@@ -11,5 +11,5 @@ mod error;
 mod line;
 mod table;
 
-pub use error::CasesError;
+pub use error::{CasesError, LineError};
 pub use table::{CaseTable, LoadCase};

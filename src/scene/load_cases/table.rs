@@ -1,7 +1,7 @@
 //! A table of load cases: where it is, how it is read, and its lines.
 
 use super::columns::{Column, accepted, titles};
-use super::error::CasesError;
+use super::error::{CasesError, LineError};
 use super::line::request;
 use crate::host::files;
 use crate::scene::answer::Request;
@@ -32,7 +32,7 @@ pub struct LoadCase {
     /// What it is called; empty where it has no name.
     pub name: String,
     /// What is to be solved, or why that makes no sense.
-    pub request: Result<Request, String>,
+    pub request: Result<Request, LineError>,
 }
 
 impl CaseTable {
@@ -195,7 +195,7 @@ mod tests {
         let cases = cases("load\n1e5\n2e5\n", &here.experiment()).unwrap();
         assert_eq!(point(&cases[1]), OperatingPoint { load: 2e5, ..OperatingPoint::TABLE_2_1 });
         let ball = super::cases("contact\npoint\n", &here.experiment()).unwrap();
-        assert!(ball[0].request.as_ref().unwrap_err().contains("give load too"));
+        assert!(ball[0].request.as_ref().unwrap_err().to_string().contains("give load too"));
     }
 
     #[test]
@@ -218,7 +218,7 @@ mod tests {
             ("0.012,3,3e5,2e11,0.02,2e-8,,,point,40,10", "M and L leave"),
         ] {
             let cases = read(&format!("{head}\n{line}\n0.012,3,3e5,2e11,0.02,2e-8\n")).unwrap();
-            let why = cases[0].request.as_ref().expect_err(line);
+            let why = cases[0].request.as_ref().expect_err(line).to_string();
             assert!(why.contains(part), "{line}: {why}");
             assert!(cases[1].request.is_ok() && cases[1].line == 3, "the line after it stands");
         }

@@ -66,7 +66,7 @@ impl Question for Dimensions {
         let Setting { experiment, observer, .. } = *setting;
         let grid = setting.bench.grid(&experiment.request()?, observer)?;
         let contacts = contacts_of(experiment, &self.over)?;
-        let points: Vec<OperatingPoint> = contacts.into_iter().map(|(_, point)| point).collect();
+        let points = contacts.into_iter().map(|(_, point)| point).collect::<Result<Vec<OperatingPoint>, _>>()?;
         let solutions = full_solutions(|_| grid.clone(), &points, experiment.lubricant, observer)?;
         let solutions: Vec<Solution> = solutions.into_iter().flatten().collect();
         let snapshots = solutions.len();

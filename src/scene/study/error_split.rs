@@ -138,7 +138,7 @@ impl Question for ErrorSplitStudy {
         for row in rows {
             if let Err(error) = &row.split {
                 let moes = row.point.moes();
-                found.warnings.push(format!("M = {:.4}, L = {:.4}: {error}", moes.m, moes.l));
+                found.warnings.push(format!("M = {:.4}, L = {:.4}: {error}", moes.m, moes.l).into());
             }
         }
         let of = Some(&self.method);

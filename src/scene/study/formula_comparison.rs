@@ -93,7 +93,7 @@ impl Question for FormulaComparison {
         let deviations: Vec<f64> = rows.iter().map(|row| row.deviation().abs()).filter(|d| d.is_finite()).collect();
         found.converged &= failures == 0;
         found.push("failures", of, failures as f64);
-        found.warnings.extend(Warning::summary(rows.iter().map(|row| &row.warnings[..])));
+        found.warn_repeated("", Warning::summary(rows.iter().map(|row| &row.warnings[..])));
         found.push("deviation_median", of, median(&deviations));
         found.push("deviation_max", of, deviations.iter().copied().fold(f64::NAN, f64::max));
     }

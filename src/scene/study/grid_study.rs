@@ -94,7 +94,7 @@ impl Question for GridStudy {
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let of = Some(&Method::Full);
         for row in rows {
-            found.warnings.extend(row.result.warnings.iter().map(|warning| format!("dx {}: {warning}", row.dx)));
+            found.warn(&format!("dx {}", row.dx), row.result.warnings.iter().cloned());
             found.converged &= row.result.converged;
         }
         for (i, row) in rows.iter().enumerate() {

@@ -3,10 +3,10 @@
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
+use super::transient::coverage;
 use crate::scene::check::{count, number, refuse};
 use crate::scene::method::Method;
 use crate::solver::full::transient::{Frame, Inputs, Keep, MarchProgress, Transient, solve};
-use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::PodBasis;
 use faer::Mat;
 use serde::{Deserialize, Serialize};
@@ -55,9 +55,7 @@ impl Question for InformationLoss {
     type Row = Row;
 
     fn check(&self, experiment: &Experiment) -> Checked {
-        if experiment.contact == ContactKind::Point {
-            return Err(refuse("contact", "is Point, but in time only line contacts are solved"));
-        }
+        coverage::check(experiment)?;
         count("study.frames (how many)", self.frames.len(), 1, 4)?;
         number("study.duration", self.duration, 1e-3, 1e4)?;
         number("study.time_step", self.time_step, 1e-6, self.duration)?;

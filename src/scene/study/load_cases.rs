@@ -2,15 +2,17 @@
 
 use super::path::tag;
 use super::question::{
-    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
 };
 use crate::scene::answer::Request;
 use crate::scene::bench::answer_or_full;
 use crate::scene::check;
 use crate::scene::contact_result::{ContactResult, contact_columns, result_columns};
+use crate::scene::contact_row::{ByMethods, RefusedContact, remarks};
 use crate::scene::load_cases::{CaseTable, LoadCase};
 use crate::scene::method::Method;
 use crate::scene::names;
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// Refused lines that are named one by one; the table names all of them.
@@ -34,18 +36,10 @@ pub struct Row {
     /// Its name; empty where it has none.
     pub name: String,
     /// Its result by each method, or why it is refused.
-    pub results: Result<Vec<ContactResult>, String>,
+    pub results: ByMethods,
 }
 
 impl Row {
-    /// Why it is refused, or the warnings of its results.
-    fn warning(&self) -> String {
-        match &self.results {
-            Err(why) => format!("refused: {why}"),
-            Ok(results) => ContactResult::warning_of_all(results),
-        }
-    }
-
     fn results(&self) -> &[ContactResult] {
         self.results.as_ref().map_or(&[], Vec::as_slice)
     }
@@ -64,7 +58,7 @@ impl LoadCases {
             setting.bench.forget();
             let results = match request {
                 Ok(request) => self.solve(setting, &request)?,
-                Err(why) => Err(why),
+                Err(why) => Err(RefusedContact::of(&why)),
             };
             tell(Row { line, name, results });
         }
@@ -72,18 +66,14 @@ impl LoadCases {
     }
 
     /// One contact by each method, or why it is refused.
-    fn solve(
-        &self,
-        setting: &mut Setting<'_>,
-        request: &Request,
-    ) -> Result<Result<Vec<ContactResult>, String>, RunError> {
+    fn solve(&self, setting: &mut Setting<'_>, request: &Request) -> Result<ByMethods, RunError> {
         let mut results = Vec::with_capacity(self.methods.len());
         for method in &self.methods {
             let request = Request { method: method.clone(), ..request.clone() };
             match answer_or_full(setting.bench, &request, setting.observer) {
                 Ok(answer) => results.push(answer.result),
                 Err(stopped) if stopped.cancelled() => return Err(stopped),
-                Err(refused) => return Ok(Err(refused.to_string())),
+                Err(refused) => return Ok(Err(RefusedContact::of(&refused))),
             }
         }
         Ok(Ok(results))
@@ -150,14 +140,18 @@ impl Question for LoadCases {
         found.converged &= refused().count() == 0;
         found.warnings.extend(refused().take(NAMED).map(|row| {
             let name = if row.name.is_empty() { String::new() } else { format!(" ({})", row.name) };
-            format!("line {}{name}: {}", row.line, row.results.as_ref().err().map_or("", String::as_str))
+            let why = row.results.as_ref().err().map_or_else(String::new, ToString::to_string);
+            Notice::Sentence(format!("line {}{name}: {why}", row.line))
         }));
         if refused().count() > NAMED {
-            found.warnings.push(format!("{} more lines are refused; the table names them", refused().count() - NAMED));
+            let more = format!("{} more lines are refused; the table names them", refused().count() - NAMED);
+            found.warnings.push(more.into());
         }
         let full = self.methods.iter().position(|method| *method == Method::Full);
         for (k, method) in self.methods.iter().enumerate() {
             let of = Some(method);
+            let warnings = Warning::summary(rows.iter().filter_map(|row| Some(&row.results().get(k)?.warnings[..])));
+            found.warn_repeated(&tag(&self.methods, k), warnings);
             let failures = rows.iter().filter_map(|row| row.results().get(k)).filter(|r| !r.converged).count();
             found.converged &= failures == 0;
             found.push("failures", of, failures as f64);
@@ -196,8 +190,7 @@ impl Question for LoadCases {
             name: "load_cases".to_owned(),
             rows: rows.iter().map(numbers).collect(),
             labels: rows.iter().filter(|_| named).map(|row| row.name.clone()).collect(),
-            remarks: rows.iter().map(|row| row.warning()).collect(),
-            remarks_title: names::WARNING,
+            remarks: remarks(rows.iter().map(|row| &row.results)),
             columns,
         }]
     }

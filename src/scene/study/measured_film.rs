@@ -112,7 +112,7 @@ impl Question for MeasuredFilm {
     /// least film, all relative to it.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         found.converged &= !rows.is_empty() && rows.iter().all(|row| !row.film.is_empty());
-        found.warnings.extend(rows.iter().flat_map(|row| row.warnings.iter().map(ToString::to_string)));
+        found.warn("", rows.iter().flat_map(|row| row.warnings.iter().cloned()));
         let computed = || rows.iter().map(|row| &row.film).filter(|film| !film.is_empty());
         for (film, computed) in self.films.iter().flat_map(|film| computed().map(move |row| (film, row))) {
             let values = self.deviations(film, computed);

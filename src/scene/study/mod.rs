@@ -214,6 +214,8 @@ impl Study {
     pub fn check_heat(&self) -> Checked {
         match self {
             Self::Point(_) | Self::Sweep(_) | Self::RandomTest(_) | Self::LoadCases(_) | Self::Training(_) => Ok(()),
+            // Its own check refuses it with what it does not cover besides.
+            Self::Transient(_) => Ok(()),
             _ => Err(refuse(
                 "heat",
                 "is computed by the studies Point, Sweep, RandomTest, LoadCases and Training only; leave it out, or ask \

@@ -1,8 +1,9 @@
 //! Contacts along a path, each solved from its neighbour: what a sweep and the test trajectory (3.21) share.
 
-use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, RunError, Setting, Table, Tell};
+use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, Notice, RunError, Setting, Table, Tell};
 use crate::scene::answer::Request;
 use crate::scene::contact_result::{ContactResult, contact_columns_after, result_columns};
+use crate::scene::contact_row::{ByMethods, RefusedContact, remarks};
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
 use crate::scene::names;
@@ -23,10 +24,8 @@ const LEAST_TRACTION: f64 = 0.005;
 pub struct PathRow {
     /// The varied values.
     pub values: Vec<f64>,
-    /// The contact.
-    pub point: OperatingPoint,
-    /// Its result by each method.
-    pub results: Vec<ContactResult>,
+    /// Its result by each method, or why it is refused.
+    pub results: ByMethods,
     /// The full solution on the model's grid, where one was asked for.
     pub on_model_grid: OnModelGrid,
 }
@@ -44,7 +43,7 @@ pub enum OnModelGrid {
 /// and whether full solutions on the model's grid are wanted.
 pub(super) struct Path<'a> {
     pub name: &'static str,
-    pub contacts: Vec<(Vec<f64>, OperatingPoint)>,
+    pub contacts: Vec<(Vec<f64>, Result<OperatingPoint, RefusedContact>)>,
     pub line: usize,
     pub methods: &'a [Method],
     pub cold: bool,
@@ -66,13 +65,18 @@ pub(super) fn places(count: usize) -> impl Iterator<Item = f64> {
 }
 
 impl PathRow {
+    /// Its results; none if it is refused.
+    pub fn results(&self) -> &[ContactResult] {
+        self.results.as_ref().map_or(&[], Vec::as_slice)
+    }
+
     /// The seconds of its solves.
     pub(super) fn seconds(&mut self) -> Vec<&mut f64> {
         let on_model_grid = match &mut self.on_model_grid {
             OnModelGrid::Solved(result) => Some(&mut result.wall_s),
             OnModelGrid::NotAsked => None,
         };
-        self.results.iter_mut().map(|result| &mut result.wall_s).chain(on_model_grid).collect()
+        self.results.iter_mut().flatten().map(|result| &mut result.wall_s).chain(on_model_grid).collect()
     }
 }
 
@@ -81,6 +85,7 @@ impl Path<'_> {
     pub fn solve(&self, setting: &mut Setting<'_>, tell: &Tell<'_, PathRow>) -> Result<(), RunError> {
         let mut former: Vec<Option<Solution>> = vec![None; self.methods.len()];
         let mut former_on_model_grid: Option<Solution> = None;
+        let (mut first_refused, mut some_solved) = (None, false);
         for (i, (values, point)) in self.contacts.iter().enumerate() {
             setting.step(self.name, i, self.contacts.len())?;
             if i.is_multiple_of(self.line) {
@@ -89,26 +94,57 @@ impl Path<'_> {
                 former_on_model_grid = None;
                 setting.bench.forget();
             }
-            let request = setting.experiment.request_at(*point);
-            let mut results = Vec::new();
-            for (method, former) in self.methods.iter().zip(&mut former) {
-                let start = former.as_ref().filter(|_| !self.cold);
-                let request = Request { method: method.clone(), ..request.clone() };
-                let answer = setting.bench.answer(&request, start, setting.observer)?;
-                results.push(answer.result.clone());
-                *former = answer.into_fields().or(former.take());
-            }
             let mut on_model_grid = OnModelGrid::NotAsked;
-            if self.on_model_grid {
-                let request = Request { grid: Grid::Model, ..request };
-                let start = former_on_model_grid.as_ref().filter(|_| !self.cold);
-                let answer = setting.bench.answer(&request, start, setting.observer)?;
-                on_model_grid = OnModelGrid::Solved(Box::new(answer.result.clone()));
-                former_on_model_grid = answer.into_fields().or(former_on_model_grid);
+            let results = match point {
+                Ok(point) => match self.at(point, setting, (&mut former, &mut former_on_model_grid)) {
+                    Ok((results, own)) => {
+                        on_model_grid = own;
+                        Ok(results)
+                    }
+                    Err(error) if error.concerns_all_contacts() => return Err(error),
+                    Err(error) => Err(RefusedContact::of(&error)),
+                },
+                Err(why) => Err(why.clone()),
+            };
+            match &results {
+                Err(why) if first_refused.is_none() => first_refused = Some(why.clone()),
+                Err(_) => {}
+                Ok(_) => some_solved = true,
             }
-            tell(PathRow { values: values.clone(), point: *point, results, on_model_grid });
+            tell(PathRow { values: values.clone(), results, on_model_grid });
         }
-        Ok(())
+        match first_refused {
+            // What none of them can have is a mistake of the study.
+            Some(first) if !some_solved => Err(first.into()),
+            _ => Ok(()),
+        }
+    }
+
+    /// One contact by all methods, from the former solutions of each.
+    fn at(
+        &self,
+        point: &OperatingPoint,
+        setting: &mut Setting<'_>,
+        (former, former_on_model_grid): (&mut [Option<Solution>], &mut Option<Solution>),
+    ) -> Result<(Vec<ContactResult>, OnModelGrid), RunError> {
+        let request = setting.experiment.request_at(*point);
+        let mut results = Vec::new();
+        for (method, former) in self.methods.iter().zip(former) {
+            let start = former.as_ref().filter(|_| !self.cold);
+            let request = Request { method: method.clone(), ..request.clone() };
+            let answer = setting.bench.answer(&request, start, setting.observer)?;
+            results.push(answer.result.clone());
+            *former = answer.into_fields().or(former.take());
+        }
+        if !self.on_model_grid {
+            return Ok((results, OnModelGrid::NotAsked));
+        }
+        let request = Request { grid: Grid::Model, ..request };
+        let start = former_on_model_grid.as_ref().filter(|_| !self.cold);
+        let answer = setting.bench.answer(&request, start, setting.observer)?;
+        let on_model_grid = OnModelGrid::Solved(Box::new(answer.result.clone()));
+        *former_on_model_grid = answer.into_fields().or(former_on_model_grid.take());
+        Ok((results, on_model_grid))
     }
 }
 
@@ -117,7 +153,7 @@ impl Path<'_> {
 /// one, or against one on the model's grid.
 pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&PathRow], found: &mut Findings) {
     for (i, row) in rows.iter().enumerate() {
-        for (method, result) in methods.iter().zip(&row.results) {
+        for (method, result) in methods.iter().zip(row.results()) {
             for wanted in experiment.expected.iter().filter_map(|name| name.strip_suffix(&format!("[{i}]"))) {
                 let value = result.value(wanted).unwrap_or(f64::NAN);
                 found.push(format!("{wanted}[{i}]"), Some(method), value);
@@ -125,6 +161,15 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
         }
     }
     found.push("points", None, rows.len() as f64);
+    let refused: Vec<&RefusedContact> = rows.iter().filter_map(|row| row.results.as_ref().err()).collect();
+    if let Some(first) = refused.first() {
+        found.converged = false;
+        found.push("refused", None, refused.len() as f64);
+        let (count, all) = (refused.len(), rows.len());
+        found
+            .warnings
+            .push(Notice::Sentence(format!("{count} of {all} contacts are refused, the first of them: {first}")));
+    }
     let solved = rows.iter().filter_map(|row| match &row.on_model_grid {
         OnModelGrid::Solved(result) => Some(result.converged),
         OnModelGrid::NotAsked => None,
@@ -138,9 +183,9 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
     let full = methods.iter().position(|method| *method == Method::Full);
     for (k, method) in methods.iter().enumerate() {
         let of = Some(method);
-        let warnings = Warning::summary(rows.iter().filter_map(|row| Some(&row.results.get(k)?.warnings[..])));
-        found.warnings.extend(warnings.into_iter().map(|warning| format!("{}: {warning}", tag(methods, k))));
-        let results = || rows.iter().filter_map(|row| row.results.get(k));
+        let warnings = Warning::summary(rows.iter().filter_map(|row| Some(&row.results().get(k)?.warnings[..])));
+        found.warn_repeated(&tag(methods, k), warnings);
+        let results = || rows.iter().filter_map(|row| row.results().get(k));
         let plausible = |result: &&ContactResult| result.point.hertz().pressure_pa <= PLAUSIBLE_HERTZ_PRESSURE_PA;
         let failed = || results().filter(|result| !result.converged);
         let failures = failed().filter(plausible).count();
@@ -164,9 +209,9 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
 fn error_of(name: &str, row: &PathRow, method: usize, full: Option<usize>) -> Option<f64> {
     let truth = match &row.on_model_grid {
         OnModelGrid::Solved(result) => result.value(name)?,
-        OnModelGrid::NotAsked => row.results.get(full?)?.value(name)?,
+        OnModelGrid::NotAsked => row.results().get(full?)?.value(name)?,
     };
-    let value = row.results.get(method)?.value(name)?;
+    let value = row.results().get(method)?.value(name)?;
     // Next to nothing has no relative error.
     let size = if name == names::TRACTION { truth.abs().max(LEAST_TRACTION) } else { truth };
     Some(((value - truth) / size).abs()).filter(|error| error.is_finite())
@@ -180,17 +225,19 @@ pub(super) fn table(name: &str, varied: &[String], methods: &[Method], rows: &[&
     let of_result = result_columns(has_heat(rows));
     let tags = (0..methods.len()).map(|k| tag(methods, k));
     columns.extend(tags.flat_map(|tag| of_result.iter().map(move |column| names::by(&tag, column))));
-    let row = |row: &&PathRow| {
-        let contact = row.results.iter().take(1).flat_map(|result| result.row(&of_contact));
-        let results = row.results.iter().flat_map(|result| result.row(&of_result));
-        row.values.iter().copied().chain(contact).chain(results).collect()
+    let width = columns.len();
+    let row = |row: &&PathRow| -> Vec<f64> {
+        let contact = row.results().iter().take(1).flat_map(|result| result.row(&of_contact));
+        let results = row.results().iter().flat_map(|result| result.row(&of_result));
+        let numbers = row.values.iter().copied().chain(contact).chain(results);
+        // A refused contact has none.
+        numbers.chain(std::iter::repeat(f64::NAN)).take(width).collect()
     };
     Table {
         name: name.to_owned(),
         columns,
         rows: rows.iter().map(row).collect(),
-        remarks: rows.iter().map(|row| ContactResult::warning_of_all(&row.results)).collect(),
-        remarks_title: names::WARNING,
+        remarks: remarks(rows.iter().map(|row| &row.results)),
         ..Table::default()
     }
 }
@@ -212,7 +259,7 @@ pub(super) fn charts(x: &ChartAxis, varied: &[String], methods: &[Method], rows:
         for k in 0..methods.len() {
             for rows in rows.chunk_by(|a, b| others(a) == others(b)) {
                 let point = |row: &&PathRow| {
-                    let value = row.results.get(k)?.value(name)?;
+                    let value = row.results().get(k)?.value(name)?;
                     Some([*row.values.last()?, value])
                 };
                 let fixed = varied.iter().zip(others(rows[0])).map(|(name, value)| format!(", {name} {value}"));
@@ -222,7 +269,8 @@ pub(super) fn charts(x: &ChartAxis, varied: &[String], methods: &[Method], rows:
         }
         chart
     };
-    let slides = rows.iter().any(|row| row.point.sliding.slide_to_roll_ratio != 0.0);
+    let results = rows.iter().flat_map(|row| row.results());
+    let slides = results.into_iter().any(|result| result.point.sliding.slide_to_roll_ratio != 0.0);
     let quantities = [
         (names::H_C, "Central film H_c"),
         (names::H_MIN, "Smallest film H_min"),
@@ -241,7 +289,7 @@ pub(super) fn charts(x: &ChartAxis, varied: &[String], methods: &[Method], rows:
 }
 
 fn has_heat(rows: &[&PathRow]) -> bool {
-    rows.iter().flat_map(|row| &row.results).any(|result| result.heat.is_some())
+    rows.iter().flat_map(|row| row.results()).any(|result| result.heat.is_some())
 }
 
 /// The values of all varied quantities but the last.

@@ -33,7 +33,7 @@ impl StudyRow {
             result.point.check().is_ok() && result.converged == film
         };
         match self {
-            Self::Sweep(row) => row.point.check().is_ok() && row.results.iter().all(sound),
+            Self::Sweep(row) => row.results().iter().all(sound),
             Self::RandomTest(random_test::Row::Test(test)) => test.point.check().is_ok(),
             Self::RandomTest(random_test::Row::Truth(..)) => true,
             Self::LoadCases(row) => row.results.iter().flatten().all(sound),

@@ -12,7 +12,7 @@
 use super::error_measures::OnlineScheme;
 use super::path::trajectory_points;
 use super::question::{
-    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
 };
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count, number};
 use crate::scene::method::ModelSource;
@@ -262,7 +262,8 @@ impl Question for PlanComparison {
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (plans, tested) = (only!(rows, Row::Trained), only!(rows, Row::Tested));
         for Trained { plan, model } in &plans {
-            found.warnings.extend(model.log.iter().map(|line| format!("{}: {line}", plan.name)));
+            let sentence = |line: &String| Notice::Sentence(format!("{}: {line}", plan.name));
+            found.warnings.extend(model.log.iter().map(sentence));
         }
         plans.iter().for_each(|plan| snapshots(plan, found));
         plans.iter().for_each(|plan| information(plan, found));

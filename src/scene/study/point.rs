@@ -48,7 +48,7 @@ impl Question for Point {
         for row in rows {
             let (method, result) = (&row.request.method, &row.result);
             result.values().into_iter().for_each(|(name, value)| found.push(name, Some(method), value));
-            found.warnings.extend(result.warnings.iter().map(|warning| format!("{}: {warning}", method.name())));
+            found.warn(method.name(), result.warnings.iter().cloned());
             found.converged &= result.converged;
         }
         let h_c = |row: &Row| row.result.scalars.map(|scalars| scalars.h_c);

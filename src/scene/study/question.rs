@@ -4,6 +4,7 @@ pub use crate::scene::chart::{Chart, ChartAxis, Marks};
 pub(super) use crate::scene::check::Checked;
 pub use crate::scene::error::RunError;
 pub use crate::scene::experiment::Experiment;
+pub use crate::scene::notice::Notice;
 pub use crate::scene::outcome::Findings;
 pub use crate::scene::table::{Column, Table};
 

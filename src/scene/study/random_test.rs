@@ -5,7 +5,7 @@ mod rows;
 pub use rows::{Film, Row, Test, Tested, add, errors, tests};
 
 use super::question::{
-    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
 };
 use crate::scene::answer::Request;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
@@ -236,10 +236,10 @@ impl Question for RandomTest {
             let errors: Vec<f64> = judged.iter().map(|(_, cost)| cost.total()).collect();
             found.push("grid_error_max", None, percentile(&errors, 1.0));
         }
-        found.warnings.extend(grid_doubts(judged));
+        found.warnings.extend(grid_doubts(judged).into_iter().map(Notice::from));
         let said = tests.iter().map(|(test, _)| test.warnings.iter().filter(|warning| !warning.is_of_grid()).cloned());
         let said: Vec<Vec<Warning>> = said.map(Iterator::collect).collect();
-        found.warnings.extend(Warning::summary(said.iter().map(Vec::as_slice)));
+        found.warn_repeated("", Warning::summary(said.iter().map(Vec::as_slice)));
         if self.method == Method::Full {
             return;
         }
@@ -267,9 +267,8 @@ impl Question for RandomTest {
         let too_hot = tests.iter().take(self.compare).filter(|(_, truth)| too_hot(truth)).count();
         if too_hot > 0 {
             found.push("too_hot", of, too_hot as f64);
-            found.warnings.push(format!(
-                "{too_hot} films are hotter than lubricants endure, where no law was measured: they are not compared"
-            ));
+            let sentence = "films are hotter than lubricants endure, where no law was measured: they are not compared";
+            found.warnings.push(Notice::Sentence(format!("{too_hot} {sentence}")));
         }
         for (k, (errors, bounds)) in errors.iter().zip(&bounds).enumerate() {
             let name = COMPARED[k];

@@ -3,13 +3,12 @@
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
 };
-use super::transient::{Drive, Timed, timed_march};
+use super::transient::{Drive, Timed, coverage, timed_march};
 use crate::scene::check::{self, count, number, refuse};
 use crate::scene::statistics::median;
 use crate::solver::discrete::grid::ReferenceGrid;
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Quantity, Trajectory, Transient};
-use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::ReducedMarch;
 use crate::solver::reduced::{Sampling, Scheme};
 use crate::solver::training::{TrajectoryTraining, train_trajectories};
@@ -148,12 +147,7 @@ impl Question for SchemesInTime {
     type Row = Row;
 
     fn check(&self, experiment: &Experiment) -> Checked {
-        if experiment.contact == ContactKind::Point {
-            return Err(refuse("contact", "is Point, but in time only line contacts are solved"));
-        }
-        if experiment.lubricant.shear != ShearLaw::Newtonian {
-            return Err(refuse("lubricant.shear", "must be left out: contacts in time are Newtonian in this version"));
-        }
+        coverage::check(experiment)?;
         count("study.trainings (how many)", self.trainings.len(), 1, 16)?;
         count("study.tests (how many)", self.tests.len(), 1, 16)?;
         count("study.schemes (how many)", self.schemes.len(), 1, 32)?;

@@ -108,7 +108,7 @@ impl Question for Starvation {
         let (gamma, miss) = fitted(&films(rows));
         found.push("gamma", of, gamma);
         found.push("law_error_max", of, miss);
-        found.warnings.extend(Warning::summary(rows.iter().map(|row| &row.warnings[..])));
+        found.warn_repeated("", Warning::summary(rows.iter().map(|row| &row.warnings[..])));
         for (k, row) in rows.iter().enumerate() {
             found.push(format!("film_{k}"), of, row.film.unwrap_or(f64::NAN));
         }

@@ -6,7 +6,8 @@ use super::question::{
 };
 use crate::scene::axis::{Axis, Steps};
 use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
-use crate::scene::contact_spec::{ContactSpec, Field, Refusal, Words};
+use crate::scene::contact_row::RefusedContact;
+use crate::scene::contact_spec::{ContactSpec, Field, Words};
 use crate::scene::method::Method;
 use crate::scene::names;
 use crate::solver::parameters::Quantity;
@@ -44,7 +45,7 @@ impl Sweep {
 
     fn solve(
         &self,
-        contacts: Vec<(Vec<f64>, OperatingPoint)>,
+        contacts: Vec<Stated>,
         setting: &mut Setting<'_>,
         tell: &Tell<'_, PathRow>,
     ) -> Result<(), RunError> {
@@ -122,8 +123,11 @@ impl Divisible for Sweep {
     }
 }
 
+/// Values of the axes, and their contact or why it is refused.
+pub(super) type Stated = (Vec<f64>, Result<OperatingPoint, RefusedContact>);
+
 /// All combinations of the values of the axes with their contacts, the last one fastest.
-pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<(Vec<f64>, OperatingPoint)>, RunError> {
+pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<Stated>, RunError> {
     let mut contacts = Vec::new();
     for values in Steps::combinations(over.iter().map(|axis| &axis.values)) {
         let mut stated = ContactSpec::from(experiment);
@@ -143,12 +147,14 @@ pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<
         if experiment.lubricant.own_coefficient().is_some() {
             stated.alpha = None;
         }
-        let refused = |refusal: Refusal| RunError::Study(refusal.in_words(Words::Scene));
-        let mut point = stated.operating_point(&experiment.lubricant).map_err(refused)?;
+        let point = stated.operating_point(&experiment.lubricant);
+        let mut point = point.map_err(|refusal| RefusedContact::of(&refusal.in_words(Words::Scene)));
         // Of a radius that may have followed from M and L.
         for (axis, &value) in over.iter().zip(&values).filter(|(axis, _)| axis.vary == Quantity::RadiusRatio) {
-            point = axis.vary.at(&point, value);
-            point.check()?;
+            point = point.and_then(|point| {
+                let point = axis.vary.at(&point, value);
+                point.check().map(|()| point).map_err(|why| RefusedContact::of(&why))
+            });
         }
         contacts.push((values, point));
     }

@@ -6,7 +6,7 @@
 use super::error_measures::OnlineScheme;
 use super::path::trajectory_points;
 use super::question::{
-    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
 };
 use crate::host::clock::Stopwatch;
 use crate::scene::check::{self, MAX_COMPARED, MAX_TESTS, count};
@@ -177,7 +177,7 @@ impl Question for ToleranceStudy {
         found.push("tests", None, self.tests as f64);
         for row in rows {
             if let Row::Trained { log, full_failures } = row {
-                found.warnings.extend(log.iter().cloned());
+                found.warnings.extend(log.iter().cloned().map(Notice::from));
                 found.push("full_failures", None, *full_failures as f64);
             }
         }

@@ -1,7 +1,7 @@
 //! Training a reduced model and saying what came of it.
 
 use super::question::{
-    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
 };
 use crate::host::clock::Stopwatch;
 use crate::scene::check::refuse;
@@ -73,7 +73,7 @@ impl Question for TrainingSpec {
                     if *name == "snapshots" { of_windows(*get).sum() } else { of_windows(*get).fold(0.0, f64::max) };
                 found.push(*name, None, value);
             }
-            found.warnings.extend(model.log.iter().cloned());
+            found.warnings.extend(model.log.iter().cloned().map(Notice::from));
         }
     }
 

@@ -37,7 +37,7 @@ impl Question for Trajectory {
         let sliding = (!self.range.slides()).then_some(setting.experiment.sliding);
         let own = |point: OperatingPoint| OperatingPoint { sliding: sliding.unwrap_or(point.sliding), ..point };
         let points = trajectory_points(&self.range, setting.experiment, self.points);
-        let contacts: Vec<_> = points.into_iter().map(|(c, point)| (vec![c], own(point))).collect();
+        let contacts: Vec<_> = points.into_iter().map(|(c, point)| (vec![c], Ok(own(point)))).collect();
         let (line, methods) = (contacts.len().max(1), &self.methods[..]);
         let path = Path { name: "trajectory", contacts, line, methods, cold: false, on_model_grid: false };
         path.solve(setting, tell)

@@ -69,7 +69,7 @@ impl Question for Transition {
         let failures = rows.iter().filter(|row| row.profile.is_empty()).count();
         found.converged &= failures == 0;
         found.push("failures", of, failures as f64);
-        found.warnings.extend(Warning::summary(rows.iter().map(|row| &row.warnings[..])));
+        found.warn_repeated("", Warning::summary(rows.iter().map(|row| &row.warnings[..])));
         for (k, row) in rows.iter().enumerate() {
             let largest = row.profile.iter().map(|(_, p, _)| *p).fold(f64::NAN, f64::max);
             found.push(format!("P_max_{k}"), of, largest);

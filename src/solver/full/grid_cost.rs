@@ -31,6 +31,11 @@ impl GridCost {
         }
         (relative > TOLERATED).then_some(Warning::DiscretisationError { relative, ends: None, spacing: None })
     }
+
+    /// The same of a moment of a march in time.
+    pub fn warning_in_time(self, time: f64) -> Option<Warning> {
+        self.warning().map(|warning| Warning::DiscretisationErrorInTime { time, warning: Box::new(warning) })
+    }
 }
 
 /// What the grids cost those of some solutions that they do not do for: how many these are, of how many, and the

@@ -52,7 +52,8 @@ def sweep(contact, *varied, method=None, model=None, progress=None):
 
     Each of ``varied`` is a text as on the command line (``"moes-m=10:160:5:log"``) or a pair of a name and its values
     (``("moes_m", np.geomspace(10, 160, 5))``); the last one changes fastest. Returns a structured array, a row for each
-    contact: varied options, the contact, its result (NaN where a solve did not converge), its ``warning``.
+    contact: varied options, the contact, its result (NaN where a solve did not converge or was refused), and the texts
+    ``status``, ``reason`` and ``warning`` as :func:`solve_many` has them. If all contacts are refused, so is the sweep.
     """
     axes = [axis if isinstance(axis, str) else (axis[0], [float(value) for value in axis[1]]) for axis in varied]
     if not axes:
@@ -90,7 +91,7 @@ class Outcome:
         self.passed = answer["passed"]
         self.converged = answer["converged"]
         self.expectations = answer["expectations"]
-        self.warnings = [answer["warning"]] if "warning" in answer else []
+        self.warnings = [warning["text"] for warning in answer.get("warnings", [])]
         self.tables = {name: array for name, (array, _) in tables.items()}
         self.labels = {name: labels for name, (_, labels) in tables.items() if labels}
 

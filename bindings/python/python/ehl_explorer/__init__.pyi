@@ -21,6 +21,7 @@ _Array = npt.NDArray[np.float64]
 class EhlError(ValueError): ...
 
 class MarchStopped(EhlError):
+    warning: dict[str, Any]
     reached: npt.NDArray[Any]
 
 class Contact:

@@ -58,7 +58,7 @@ impl Step {
     }
 
     fn by_model(&self) -> Option<&ContactResult> {
-        self.0.results.first()
+        self.0.results().first()
     }
 
     fn reduced(&self) -> Option<f64> {
@@ -66,7 +66,7 @@ impl Step {
     }
 
     fn full(&self) -> Option<f64> {
-        Some(self.0.results.get(1)?.scalars?.h_c)
+        Some(self.0.results().get(1)?.scalars?.h_c)
     }
 
     fn bound(&self) -> Option<f64> {
@@ -315,12 +315,13 @@ pub fn csv(results: &Followed) -> String {
     let full = names::by(Method::Full.name(), names::H_C);
     let own = [names::TRAINED, names::H_C, &full, names::H_C_BOUND, "H_c_error"];
     let header: Vec<&str> = ["c"].into_iter().chain(CONTACT_COLUMNS).chain(own).collect();
-    let rows = results.steps.iter().map(|step| {
+    // A refused contact has no numbers.
+    let rows = results.steps.iter().filter_map(|step| {
         let mut row = vec![Some(step.c())];
-        row.extend(contact_cells(&step.0.point).map(Some));
+        row.extend(contact_cells(&step.0.results().first()?.point).map(Some));
         let trained = Some(f64::from(u8::from(step.trained())));
         row.extend([trained, step.reduced(), step.full(), step.bound(), step.error()]);
-        row
+        Some(row)
     });
     export::csv(&comments, &header, rows)
 }

@@ -324,7 +324,7 @@ fn verdicts_ui(ui: &mut Ui, look: &Look) {
             }
         });
         for warning in &outcome.found.warnings {
-            warning_ui(ui, warning);
+            warning_ui(ui, &warning.to_string());
         }
         if outcome.verdicts.is_empty() {
             ui.add_space(4.0);

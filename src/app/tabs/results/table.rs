@@ -32,8 +32,8 @@ pub fn ui(ui: &mut Ui, table: &Table) {
                 for column in &table.columns {
                     ui.label(rich(column, 12.0, quiet));
                 }
-                if let Some(title) = table.remarks_title() {
-                    ui.label(rich(title, 12.0, quiet));
+                for (title, _) in &table.remarks {
+                    ui.label(rich(*title, 12.0, quiet));
                 }
                 ui.end_row();
                 for (k, row) in (first..).zip(seen) {
@@ -48,7 +48,7 @@ pub fn ui(ui: &mut Ui, table: &Table) {
                             false => String::new(),
                         });
                     }
-                    if let Some(remark) = table.remarks.get(k) {
+                    for remark in table.remarks.iter().filter_map(|(_, texts)| texts.get(k)) {
                         ui.label(remark);
                     }
                     ui.end_row();

@@ -371,12 +371,12 @@ impl Sample {
 
     /// What a contact of a sweep adds up to by its first method; none where that failed.
     pub(super) fn of(row: &PathRow, lubricant: &Lubricant) -> Option<Self> {
-        let result = row.results.first()?;
-        let (scalars, scale) = (result.scalars?, row.point.film_scale_m());
+        let result = row.results().first()?;
+        let (scalars, scale) = (result.scalars?, result.point.film_scale_m());
         let traction = result.traction?.abs();
-        let problem = Problem::new(&row.point, *lubricant).ok()?;
+        let problem = Problem::new(&result.point, *lubricant).ok()?;
         Some(Self {
-            point: row.point,
+            point: result.point,
             h_c_m: scalars.h_c * scale,
             h_min_m: scalars.h_min * scale,
             traction,

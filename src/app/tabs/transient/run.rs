@@ -8,6 +8,7 @@ use crate::solver::full::GridCost;
 use crate::solver::full::transient::{Frame, State, Trajectory};
 use crate::solver::reduced::tpwl::{TpwlModel, TpwlRecord};
 use crate::solver::reduced::transient::TrajectoryModel;
+use crate::solver::warning::Warning;
 use std::sync::Arc;
 
 /// Times are those of moments: rounding must not show the one before.
@@ -29,6 +30,8 @@ pub struct Run {
     pub difference: Option<f64>,
     /// Operating points used by each step of a linearised model; set when it has ended.
     pub record: Option<TpwlRecord>,
+    /// What a reader must know of it; set when it has ended.
+    pub warnings: Vec<Warning>,
     /// Time and value of the largest discretisation error of a full run among sampled moments; set when it has ended.
     pub grid_cost: Option<(f64, GridCost)>,
     /// Its linearised model, if it has one.
@@ -85,6 +88,7 @@ impl Run {
             model: model.map(ModelSize::from),
             difference: None,
             record: None,
+            warnings: Vec::new(),
             grid_cost: None,
             linearised,
             reduced,
@@ -112,6 +116,7 @@ impl Run {
         self.trajectory.rejected_steps = march.trajectory.rejected_steps;
         self.trajectory.step_error = march.trajectory.step_error;
         self.record.clone_from(&march.record);
+        self.warnings = march.warnings();
         self.grid_cost = march.grid_cost;
     }
 

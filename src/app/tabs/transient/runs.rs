@@ -157,7 +157,7 @@ impl TransientRuns {
             }
             Row::Trained { wall_s, moments, cut_short, .. } => {
                 self.trained = Some((wall_s, moments));
-                self.notes.extend(cut_short);
+                self.notes.extend(cut_short.iter().map(ToString::to_string));
             }
             Row::Model(model) => {
                 self.take_model(&model);

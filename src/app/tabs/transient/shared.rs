@@ -12,12 +12,12 @@ use crate::app::form::{Form, LastField};
 use crate::app::tabs::transient::{Run, Setup, model_in_use};
 use crate::app::theme::{Palette, rich};
 use crate::app::{caption, numbers};
-use crate::engine::TOO_STEEP;
 use crate::scene::TransientStudy;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::tpwl::{TpwlRecord, Weighting};
+use crate::solver::warning::Warning;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, FontId, Label, ScrollArea, Slider, TextStyle, Ui};
 use std::sync::Arc;
@@ -123,13 +123,9 @@ fn sentences<'a>(
     let wrong = refused.into_iter().chain(view.work.message.as_deref()).chain(view.notes.iter().map(String::as_str));
     let mut said: Vec<(String, Color32)> = wrong.map(|text| (text.to_owned(), palette.wrong)).collect();
     for run in view.runs.iter().filter(|run| run.ended) {
-        let ended = &run.trajectory.ended;
-        let color = match ended {
-            Ended::StepRefused { .. } | Ended::ContactRefused { .. } => palette.wrong,
-            Ended::Cancelled { .. } => palette.quiet,
-            Ended::Finished => continue,
-        };
-        said.push((format!("{} {}", run.name(), ended.describe()), color));
+        let cancelled = matches!(run.trajectory.ended, Ended::Cancelled { .. });
+        let color = if cancelled { palette.quiet } else { palette.wrong };
+        said.extend(run.trajectory.stopped().map(|warning| (format!("{}: {warning}", run.name()), color)));
     }
     let mut warn = |text: String| said.push((text, palette.warning));
     let wanted = Setup::of(context.document, context.file);
@@ -140,14 +136,19 @@ fn sentences<'a>(
     }
     let steep = |(_, run): (_, &Run)| !run.replayed && run.record.as_ref().is_some_and(TpwlRecord::too_steep);
     if view.linearised_runs().any(steep) {
-        warn(format!("{TOO_STEEP}: {}", advice(view)));
+        warn(Warning::TooSteep { advice: advice(view).to_owned() }.to_string());
     }
     let quiet = palette.quiet;
-    for run in &view.runs {
-        if let Some((time, warning)) = run.grid_cost.and_then(|(time, cost)| Some((time, cost.warning()?))) {
-            warn(format!("{}: at T = {} {warning}", run.name(), numbers::significant(time)));
+    // What several runs share is said once.
+    let of_runs = view.runs.iter().flat_map(|run| run.warnings.iter().map(move |warning| (run, warning)));
+    let mut shared: Vec<(&Warning, String)> = Vec::new();
+    for (run, warning) in of_runs.filter(|(_, warning)| !matches!(warning, Warning::MarchStopped { .. })) {
+        match shared.iter_mut().find(|(other, _)| *other == warning) {
+            Some((_, names)) => *names = format!("{names}, {}", run.name()),
+            None => shared.push((warning, run.name())),
         }
     }
+    shared.into_iter().for_each(|(warning, names)| warn(format!("{names}: {warning}")));
     said.extend(model_in_use(context.document).map(|text| (text, quiet)));
     said
 }

@@ -1,5 +1,6 @@
 //! A contact in time as part of a scene: what drives it, in which frames and by which models it is followed.
 
+use super::coverage;
 use super::marches::training_contact;
 use super::published::{self, PublishedMarch};
 use crate::scene::check::{Checked, count, interval, number, refuse};
@@ -8,8 +9,7 @@ use crate::scene::grid::Grid;
 use crate::scene::method::ModelSource;
 use crate::scene::written::is_default;
 use crate::solver::full::transient::{Frame, Inputs, TimeStep, Transient};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use crate::solver::training::{LocalBases, TrajectoryTraining};
 use serde::{Deserialize, Serialize};
@@ -266,7 +266,7 @@ impl TransientStudy {
     /// # Errors
     /// With the first such field.
     pub(super) fn check_with(&self, experiment: &Experiment) -> Checked {
-        newtonian_line(experiment)?;
+        coverage::check(experiment)?;
         count("study.frames (how many)", self.frames.len(), 1, 4)?;
         if (1..self.frames.len()).any(|i| self.frames[..i].contains(&self.frames[i])) {
             return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
@@ -294,9 +294,8 @@ impl TransientStudy {
         self.check_contacts(experiment)?;
         self.check_marches(experiment)?;
         let models = self.reduced.is_some() || self.linearised.is_some();
-        if models && matches!(experiment.lubricant.cavitation, Cavitation::MassConserving { .. }) {
-            let limit = "is mass-conserving, but models in time rupture by the penalty or by complementarity";
-            return Err(refuse("cavitation", limit));
+        if models {
+            coverage::check_models(experiment)?;
         }
         self.reduced.iter().try_for_each(|reduced| reduced.check(&experiment.grid))?;
         self.linearised.iter().try_for_each(|linearised| linearised.check(&self.frames))
@@ -370,21 +369,4 @@ impl TransientStudy {
         }
         Ok(())
     }
-}
-
-/// Contacts in time are line contacts with a Newtonian lubricant on a grid of their own.
-fn newtonian_line(experiment: &Experiment) -> Checked {
-    if experiment.contact == ContactKind::Point {
-        return Err(refuse(
-            "study",
-            "takes a line contact through time; this version does not do so with a point contact",
-        ));
-    }
-    if experiment.lubricant.shear != ShearLaw::Newtonian {
-        return Err(refuse("lubricant.shear", "must be left out: contacts in time are Newtonian in this version"));
-    }
-    if experiment.grid == Grid::Model {
-        return Err(refuse("grid", "cannot be Model for a contact in time; write Uniform, Graded or GradedNodes"));
-    }
-    Ok(())
 }

@@ -1,6 +1,5 @@
 //! What a march gives: statistics, differences from another one, costs, its time series.
 
-use super::TOO_STEEP;
 use super::data::TransientStudy;
 use super::timed_march::Timed;
 use crate::scene::names;
@@ -10,6 +9,7 @@ use crate::scene::table::{Column, Table};
 use crate::solver::full::GridCost;
 use crate::solver::full::transient::{Frame, Moment, Quantity, Trajectory};
 use crate::solver::reduced::tpwl::{TpwlRecord, TpwlStep, Weighting};
+use crate::solver::warning::Warning;
 
 /// A march that has ended.
 #[derive(Clone, Debug)]
@@ -28,8 +28,8 @@ pub struct March {
     pub grid_cost: Option<(f64, GridCost)>,
     /// What each step of a linearised model drew on.
     pub record: Option<TpwlRecord>,
-    /// Sentences on what a reduced model was not trained for.
-    pub outside: Vec<String>,
+    /// What a reduced model was not trained for.
+    pub outside: Vec<Warning>,
 }
 
 /// How the steps of a march are solved.
@@ -114,6 +114,12 @@ impl March {
         }
     }
 
+    /// Returns what a reader must know of it.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let grid = self.grid_cost.and_then(|(time, cost)| cost.warning_in_time(time));
+        self.trajectory.warnings().chain(grid).chain(self.outside.iter().cloned()).collect()
+    }
+
     /// The march it is held against, among all of them. One by a model that ended early agrees with nothing.
     pub fn reference<'a>(&self, marches: &[&'a Self]) -> Option<&'a Self> {
         let name = match &self.by {
@@ -163,28 +169,22 @@ impl March {
         if let Some(defect) = self.mass_defect {
             found.push(format!("{}.mass_defect", self.name), None, defect);
         }
-        if let Some((time, cost)) = self.grid_cost {
+        if let Some((_, cost)) = self.grid_cost {
             found.push(format!("{}.grid_error", self.name), None, cost.total());
-            let warning = cost.warning().map(|warning| format!("{}: at T = {time:.4} {warning}", self.name));
-            found.warnings.extend(warning.map(|warning| format!("{warning}; the grid does not do for this march")));
         }
         if let Some(error) = self.trajectory.step_error {
             found.push(format!("{}.step_error", self.name), None, error);
-            found.warnings.extend(self.trajectory.step_warning().map(|warning| format!("{}: {warning}", self.name)));
         }
+        found.converged &= self.trajectory.finished();
+        found.warn(&self.name, self.warnings());
         for (quantity_name, quantity) in QUANTITIES {
             if let Some((greatest, l2)) = self.difference(quantity, study, marches) {
                 found.push(format!("{}.{quantity_name}.difference", self.name), None, greatest);
                 found.push(format!("{}.{quantity_name}.difference_l2", self.name), None, l2);
             }
         }
-        if !self.trajectory.finished() {
-            found.converged = false;
-            found.warnings.push(format!("{}: the march {}", self.name, self.trajectory.ended.describe()));
-        }
         if matches!(self.by, By::Model { method: "rnsa", .. }) {
             found.push(format!("{}.trained", self.name), None, f64::from(u8::from(self.outside.is_empty())));
-            found.warnings.extend(self.outside.iter().map(|why| format!("{}: {why}", self.name)));
         }
         if let Some(record) = &self.record {
             let mut reach: Vec<f64> = record.steps().iter().map(TpwlStep::reach).collect();
@@ -192,7 +192,7 @@ impl March {
             found.push(format!("{}.reach_median", self.name), None, median(&reach));
             found.push(format!("{}.reach_max", self.name), None, percentile(&reach, 1.0));
             if record.too_steep() {
-                found.warnings.push(format!("{}: {TOO_STEEP}; {}", self.name, self.advice(study, marches)));
+                found.warn(&self.name, [Warning::TooSteep { advice: self.advice(study, marches) }]);
             }
         }
     }

@@ -2,6 +2,7 @@
 //! apart.
 
 mod costs;
+pub(super) mod coverage;
 mod data;
 mod march;
 mod marches;
@@ -10,6 +11,7 @@ mod published;
 mod timed_march;
 mod train;
 
+pub use coverage::check_request;
 pub use data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 pub use march::{By, March, MarchedBy, series};
 pub use models::{Kind, Model};
@@ -20,15 +22,12 @@ use super::{StudyObserver, StudyRow};
 use crate::scene::bench::Bench;
 use crate::scene::sampled;
 use crate::scene::study::question::{
-    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
+    Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
 };
 use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Trajectory, Transient};
 use crate::solver::reduced::transient::TrajectoryModel;
 use std::sync::Arc;
-
-/// Said of inputs that a linearised model cannot carry.
-pub const TOO_STEEP: &str = "the inputs are too steep for linearised models";
 
 /// What comes of a contact in time.
 #[derive(Clone, Debug)]
@@ -68,8 +67,8 @@ pub enum Row {
         wall_s: f64,
         /// Their moments.
         moments: Vec<Vec<Moment>>,
-        /// A sentence on each that ended early.
-        cut_short: Vec<String>,
+        /// Those that ended early.
+        cut_short: Vec<Notice>,
     },
     /// A model was made.
     Model(Model),

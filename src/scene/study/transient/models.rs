@@ -7,6 +7,7 @@ use super::{Row, Runner};
 use crate::host::clock::Stopwatch;
 use crate::scene::error::RunError;
 use crate::scene::names;
+use crate::scene::notice::Notice;
 use crate::scene::outcome::Findings;
 use crate::scene::table::Table;
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Trajectory, Transient};
@@ -185,9 +186,7 @@ impl Runner<'_, '_> {
             let mut model = FullMarch::new(Arc::clone(&self.grid), transient)?;
             let Timed { trajectory, .. } =
                 timed_march(&mut model, transient, stage.clone(), self.setting.observer, None)?;
-            if !trajectory.finished() {
-                cut_short.push(format!("{stage}: the march {}", trajectory.ended.describe()));
-            }
+            cut_short.extend(trajectory.stopped().map(|warning| Notice::Warning { part: stage, warning }));
             trained.push(trajectory);
         }
         if !trained.is_empty() {

@@ -5,6 +5,7 @@ use super::timed_march::timed_march;
 use super::{MarchedBy, Runner, TransientStudy};
 use crate::scene::bench::Bench;
 use crate::scene::error::RunError;
+use crate::scene::notice::Notice;
 use crate::scene::sampled;
 use crate::scene::study::Study;
 use crate::scene::study::question::Setting;
@@ -43,7 +44,7 @@ impl Scene {
     }
 
     /// The reduced model in time that it trains, of the first of its frames; its full marches are those that the model
-    /// is trained by.
+    /// is trained by. Besides, which of these stopped early.
     ///
     /// # Errors
     /// When the scene is refused, trains no such model, the training gives none, or the observer cancels.
@@ -51,7 +52,7 @@ impl Scene {
         &self,
         bench: &mut dyn Bench,
         observer: &dyn TrainingObserver,
-    ) -> Result<TrajectoryModel, RunError> {
+    ) -> Result<(TrajectoryModel, Vec<Notice>), RunError> {
         self.check()?;
         let none = || RunError::Study("the scene trains no reduced model in time".to_owned());
         let Study::Transient(study) = &self.study else { return Err(none()) };
@@ -74,6 +75,10 @@ impl Scene {
             trainings.push(timed_march(&mut model, &own, MarchedBy::Full.stage(frame), observer, None)?.trajectory);
         }
         let mut model = train_trajectories(&grid, &trainings, &training, observer)?;
+        let stopped = trainings.iter().enumerate().filter_map(|(k, trajectory)| {
+            Some(Notice::Warning { part: format!("training {}", k + 1), warning: trajectory.stopped()? })
+        });
+        let stopped = stopped.collect();
         let told = |(k, trajectory): (usize, &Trajectory)| {
             let (steps, states) = (trajectory.moments.len().saturating_sub(1), trajectory.states.len());
             let ended = trajectory.ended.describe();
@@ -82,6 +87,6 @@ impl Scene {
         model.log = trainings.iter().enumerate().map(told).collect();
         model.title.clone_from(&self.title);
         model.scene = self.to_ron().map_err(|refused: SceneError| RunError::Scene(refused))?;
-        Ok(model)
+        Ok((model, stopped))
     }
 }

@@ -2,16 +2,16 @@
 
 use super::difference::BackwardDifference;
 use super::frame::{Conditions, Frame, Scales};
-use super::pace::{Pace, TimeStep};
+use super::pace::{Pace, Rule, TimeStep};
 use super::signal::{InputError, Inputs};
 use super::step_error::controlled;
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
+use super::unsupported::Unsupported;
 use crate::solver::discrete::grid::LineGrid;
-use crate::solver::full::problem::expect_kind;
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::limits::Number;
 use crate::solver::observer::{Observer, Progress};
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 
 /// A contact to be taken through time.
@@ -55,9 +55,9 @@ pub enum TransientError {
     /// The duration or a step is no positive number, or there would be too many steps: a sentence.
     #[error("{0}")]
     Time(String),
-    /// Shear-thinning in time.
-    #[error("shear-thinning lubricants are not part of this version's contacts in time; use a Newtonian lubricant")]
-    Shear,
+    /// Transient runs do not cover such contacts.
+    #[error(transparent)]
+    Unsupported(#[from] Unsupported),
 }
 
 /// Watches a march.
@@ -197,12 +197,8 @@ impl Transient {
     /// When the contact, the inputs, the times or the lubricant is refused.
     pub fn problem(&self) -> Result<Problem, TransientError> {
         self.check()?;
-        expect_kind(ContactKind::Line, &self.point)?;
-        let problem = Problem::new(&self.point, self.lubricant)?;
-        if problem.shear.is_some() {
-            return Err(TransientError::Shear);
-        }
-        Ok(problem)
+        Unsupported::check(self.point.kind, &self.lubricant)?;
+        Ok(Problem::new(&self.point, self.lubricant)?)
     }
 }
 
@@ -245,17 +241,20 @@ pub fn march(
 ) -> Result<Trajectory, TransientError> {
     match transient.time_step {
         TimeStep::Controlled(tolerance) => controlled(model, transient, tolerance, observer),
-        TimeStep::Fixed(_) | TimeStep::Adaptive { .. } => march_once(model, transient, observer),
+        TimeStep::Fixed(_) | TimeStep::Adaptive { .. } => {
+            march_once(model, transient, transient.time_step.rule(transient.duration), observer)
+        }
     }
 }
 
-/// Takes a model through time with the steps that are asked for.
+/// Takes a model through time with steps by a rule.
 pub(super) fn march_once(
     model: &mut dyn Marching,
     transient: &Transient,
+    rule: Rule,
     observer: &dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
-    let mut trajectory = Trajectory::begun(transient, model.grid())?;
+    let mut trajectory = Trajectory { rule, ..Trajectory::begun(transient, model.grid())? };
     let problem = trajectory.problem;
     trajectory.ended = match walk(model, &problem, observer, &mut trajectory) {
         Ok(()) => Ended::Finished,
@@ -270,9 +269,10 @@ fn walk(
     observer: &dyn TransientObserver,
     trajectory: &mut Trajectory,
 ) -> Result<(), Ended> {
-    let Transient { inputs, frame, duration, time_step, .. } = trajectory.transient.clone();
+    let Transient { inputs, frame, duration, .. } = trajectory.transient.clone();
     let conditions = |time: f64| {
-        frame.conditions(problem, time, inputs.at(time)).map_err(|reason| Ended::ContactRefused { time, reason })
+        let refused = |reason: SolveError| Ended::ContactRefused { time, reason: reason.to_string() };
+        frame.conditions(problem, time, inputs.at(time)).map_err(refused)
     };
     let mut at = conditions(0.0)?;
     let effort = model.rest(&at, observer).map_err(|termination| match termination {
@@ -281,7 +281,7 @@ fn walk(
     })?;
     trajectory.record(model, &at, 0.0, effort, observer);
     let mut former = at.scales;
-    let mut pace = Pace::new(time_step, duration);
+    let mut pace = Pace::new(trajectory.rule, duration);
     let mut recorded = at.time;
     let mut effort = Effort::default();
     while at.time < duration {
@@ -330,6 +330,7 @@ impl Trajectory {
     pub fn begun(transient: &Transient, grid: &LineGrid) -> Result<Self, TransientError> {
         Ok(Self {
             transient: transient.clone(),
+            rule: transient.time_step.rule(transient.duration),
             problem: transient.problem()?,
             mesh: Mesh { spec: grid.reference.spec, scale: grid.scale },
             x: grid.x.clone(),

@@ -19,6 +19,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod trajectory;
+mod unsupported;
 
 pub use difference::{BackwardDifference, extrapolated};
 pub use frame::{Conditions, Frame, Scales, point_at};
@@ -31,3 +32,4 @@ pub use signal::{Input, InputError, Inputs, Signal};
 pub use spline::{Interpolated, Interpolation};
 pub use system::{FullMarch, solve};
 pub use trajectory::{Effort, Ended, Moment, Quantity, State, Trajectory};
+pub use unsupported::Unsupported;

@@ -38,18 +38,20 @@ const DOUBLED: f64 = 2.0;
 const LONGEST: f64 = 0.1;
 /// They have at least as many steps.
 const FEWEST_STEPS: f64 = 20.0;
+/// ‖P − extrapolation‖/‖P‖ of the first march of a controlled one, over its tolerance for H_c.
+const FIRST_DEVIATION: f64 = 40.0;
 /// What rounding leaves of a step is no step of its own.
 pub(crate) const ROUNDING: f64 = 1e-6;
 
 impl TimeStep {
-    /// Steps that are shorter by `factor` where they resolve the same.
-    pub(super) fn shorter(self, factor: f64) -> Self {
+    /// Returns the rule of a march over a duration; of controlled steps the rule of the first march.
+    pub(super) fn rule(self, duration: f64) -> Rule {
         match self {
-            Self::Fixed(step) => Self::Fixed(step / factor),
-            Self::Adaptive { tolerance, longest } => {
-                Self::Adaptive { tolerance: tolerance / (factor * factor), longest: longest / factor }
+            Self::Fixed(step) => Rule::Fixed(step),
+            Self::Adaptive { tolerance, longest } => Rule::Adaptive { tolerance, longest },
+            Self::Controlled(tolerance) => {
+                Rule::Adaptive { tolerance: FIRST_DEVIATION * tolerance, longest: self.longest(duration) }
             }
-            Self::Controlled(tolerance) => Self::Controlled(tolerance / (factor * factor)),
         }
     }
 
@@ -63,11 +65,30 @@ impl TimeStep {
     }
 }
 
-/// How the next length follows from the former one.
-#[derive(Clone, Copy)]
-enum Rule {
+/// How the length of the next step in one march follows from the previous one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Rule {
+    /// All steps have this length, up to an even division of the duration.
     Fixed(f64),
-    Adaptive { tolerance: f64, longest: f64 },
+    /// As in [`TimeStep::Adaptive`].
+    Adaptive {
+        /// ‖P − extrapolation‖/‖P‖ aimed at.
+        tolerance: f64,
+        /// The longest step, and the first.
+        longest: f64,
+    },
+}
+
+impl Rule {
+    /// Returns the rule of steps that are shorter by `factor` where they resolve the same.
+    pub(super) fn shorter(self, factor: f64) -> Self {
+        match self {
+            Self::Fixed(step) => Self::Fixed(step / factor),
+            Self::Adaptive { tolerance, longest } => {
+                Self::Adaptive { tolerance: tolerance / (factor * factor), longest: longest / factor }
+            }
+        }
+    }
 }
 
 /// Lengths of the next and of the former step.
@@ -86,16 +107,13 @@ pub struct Pace {
 
 impl Pace {
     /// At T = 0.
-    pub fn new(time_step: TimeStep, duration: f64) -> Self {
-        let longest = time_step.longest(duration);
-        let (rule, length) = match time_step {
-            TimeStep::Fixed(step) => {
+    pub(crate) fn new(rule: Rule, duration: f64) -> Self {
+        let (rule, length) = match rule {
+            Rule::Fixed(step) => {
                 let step = duration / (duration / step).round().max(1.0);
                 (Rule::Fixed(step), step)
             }
-            TimeStep::Adaptive { tolerance, .. } | TimeStep::Controlled(tolerance) => {
-                (Rule::Adaptive { tolerance, longest }, longest)
-            }
+            Rule::Adaptive { longest, .. } => (rule, longest),
         };
         let mut pace = Self { rule, duration, due: 0.0, steps: 0.0, length, before: length };
         pace.set_due();
@@ -174,8 +192,8 @@ mod tests {
     use super::*;
 
     /// Ends of the steps tried, and times recorded, where steps longer than `longest(T)` fail.
-    fn walked(time_step: TimeStep, duration: f64, longest: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>, bool) {
-        let mut pace = Pace::new(time_step, duration);
+    fn walked(rule: Rule, duration: f64, longest: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>, bool) {
+        let mut pace = Pace::new(rule, duration);
         let (mut time, mut ends, mut recorded) = (0.0, Vec::new(), Vec::new());
         while time < duration {
             let end = pace.aim(time);
@@ -199,14 +217,14 @@ mod tests {
 
     #[test]
     fn fixed_steps_divide_the_duration_evenly() {
-        let (ends, recorded, finished) = walked(TimeStep::Fixed(0.3), 1.0, |_| 1.0);
+        let (ends, recorded, finished) = walked(Rule::Fixed(0.3), 1.0, |_| 1.0);
         assert!(finished && ends == recorded && ends.len() == 3 && ends[2] == 1.0);
         assert!((ends[0] - 1.0 / 3.0).abs() < 1e-15);
     }
 
     #[test]
     fn ten_thousand_fixed_steps_end_where_they_should() {
-        let (ends, _, finished) = walked(TimeStep::Fixed(0.01), 100.0, |_| 1.0);
+        let (ends, _, finished) = walked(Rule::Fixed(0.01), 100.0, |_| 1.0);
         assert!(finished && ends.len() == 10_000);
         assert!(ends.iter().enumerate().all(|(k, end)| (end - 0.01 * (k + 1) as f64).abs() < 1e-13));
     }
@@ -214,7 +232,7 @@ mod tests {
     #[test]
     fn a_fixed_step_that_fails_is_taken_in_parts_and_recorded_once() {
         let steep = |time: f64| if (0.4..0.5).contains(&time) { 0.03 } else { 1.0 };
-        let (ends, recorded, finished) = walked(TimeStep::Fixed(0.1), 1.0, steep);
+        let (ends, recorded, finished) = walked(Rule::Fixed(0.1), 1.0, steep);
         assert!(finished && ends.len() > recorded.len());
         assert_eq!(recorded.len(), 10);
         for (k, time) in recorded.iter().enumerate() {
@@ -230,15 +248,15 @@ mod tests {
     #[test]
     fn a_fixed_step_is_not_divided_for_ever() {
         let wall = |time: f64| if time < 0.5 { 1.0 } else { 0.1 / 65.0 };
-        let (ends, recorded, finished) = walked(TimeStep::Fixed(0.1), 1.0, wall);
+        let (ends, recorded, finished) = walked(Rule::Fixed(0.1), 1.0, wall);
         assert!(!finished);
         assert_eq!((ends.len(), recorded.len()), (5, 5));
-        assert!(walked(TimeStep::Fixed(0.1), 1.0, |_| 0.1 / 64.0).2);
+        assert!(walked(Rule::Fixed(0.1), 1.0, |_| 0.1 / 64.0).2);
     }
 
     #[test]
     fn all_adaptive_steps_are_recorded() {
-        let adaptive = TimeStep::Adaptive { tolerance: 1e-3, longest: 0.2 };
+        let adaptive = Rule::Adaptive { tolerance: 1e-3, longest: 0.2 };
         let (ends, recorded, finished) = walked(adaptive, 1.0, |_| 0.07);
         assert!(finished && ends == recorded && ends.last() == Some(&1.0));
         let mut pace = Pace::new(adaptive, 1.0);

@@ -2,7 +2,7 @@
 //! tolerance by repeated ones.
 
 use super::march::{Keep, MarchProgress, Marching, Transient, TransientError, TransientObserver, march_once};
-use super::pace::TimeStep;
+use super::pace::{Rule, TimeStep};
 use super::signal::Input;
 use super::trajectory::{Ended, Quantity, Trajectory};
 use crate::solver::observer::Observer;
@@ -17,8 +17,6 @@ const BENT_TOO_FAR: f64 = 0.2;
 const OF_DOUBLED: f64 = 0.5;
 /// What a march errs by, over its difference from one with steps half as long, by second order.
 const OF_HALVED: f64 = 4.0 / 3.0;
-/// ‖P − extrapolation‖/‖P‖ of the first march of a controlled one, over its tolerance for H_c.
-const FIRST_DEVIATION: f64 = 40.0;
 /// Each march of a controlled one has steps shorter by this.
 const SHORTER: f64 = 2.0;
 /// Most marches that are compared with each other.
@@ -53,16 +51,15 @@ impl Trajectory {
     /// as far.
     fn marched_again(&self, factor: f64, model: &mut dyn Marching, observer: &dyn Observer) -> Option<f64> {
         let mut transient = Transient { keep: Keep::Scalars, ..self.transient.clone() };
-        transient.time_step = transient.time_step.shorter(factor);
         transient.duration = self.reached();
-        if let (TimeStep::Fixed(step), true) = (self.transient.time_step, factor < 1.0) {
+        if let (Rule::Fixed(step), true) = (self.rule, factor < 1.0) {
             // Both marches have their moments in common.
             let steps = (transient.duration / step).round();
             transient.duration = (2.0 * (0.5 * steps).floor() * step).min(transient.duration);
         }
         let stage = "error of the time step".to_owned();
         let told = MarchProgress { observer, stage, duration: transient.duration };
-        let other = march_once(model, &transient, &told).ok().filter(Self::finished)?;
+        let other = march_once(model, &transient, self.rule.shorter(factor), &told).ok().filter(Self::finished)?;
         let (coarse, fine) = if factor < 1.0 { (&other, self) } else { (self, &other) };
         Some(coarse.difference(fine, Quantity::CentralFilm, (0.0, transient.duration))?.0)
     }
@@ -97,16 +94,15 @@ pub(super) fn controlled(
     observer: &dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
     transient.check()?;
-    let longest = transient.time_step.longest(transient.duration);
-    let mut time_step = TimeStep::Adaptive { tolerance: FIRST_DEVIATION * tolerance, longest };
+    let mut rule = transient.time_step.rule(transient.duration);
     let mut former: Option<Trajectory> = None;
     let mut step_error = None;
     // Moments of these marches are nobody's: only how far they are is told.
     let stage = "lengths of the time steps".to_owned();
     let told = MarchProgress { observer, stage, duration: transient.duration };
     for count in 1..=MOST_MARCHES {
-        let asked = Transient { time_step, keep: Keep::Scalars, ..transient.clone() };
-        let marched = march_once(model, &asked, &told)?;
+        let asked = Transient { keep: Keep::Scalars, ..transient.clone() };
+        let marched = march_once(model, &asked, rule, &told)?;
         let both = former.as_ref().filter(|former| former.finished() && marched.finished());
         let difference = |former: &Trajectory| {
             former.difference(&marched, Quantity::CentralFilm, (0.0, transient.duration)).map(|(greatest, _)| greatest)
@@ -118,11 +114,8 @@ pub(super) fn controlled(
             break;
         }
         former = Some(marched);
-        time_step = time_step.shorter(SHORTER);
+        rule = rule.shorter(SHORTER);
     }
-    let asked = Transient { time_step, ..transient.clone() };
-    let mut trajectory = march_once(model, &asked, observer)?;
-    trajectory.transient.time_step = transient.time_step;
-    trajectory.step_error = step_error;
-    Ok(trajectory)
+    let trajectory = march_once(model, transient, rule, observer)?;
+    Ok(Trajectory { step_error, ..trajectory })
 }

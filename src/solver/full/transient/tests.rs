@@ -6,6 +6,7 @@ use crate::solver::full::{FullSolver, Start};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use crate::solver::warning::Warning;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 const COARSE: GridSpec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
@@ -188,6 +189,20 @@ fn a_step_that_no_part_of_can_be_taken_ends_the_march() {
     let sentence = trajectory.ended.describe();
     assert!(sentence.contains("could not take the step") && sentence.contains("kept"), "{sentence}");
     assert_eq!(trajectory.moments.len(), 11);
+}
+
+#[test]
+fn a_controlled_march_that_stops_early_has_the_error_of_the_part_that_it_reached() {
+    let fall = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-3] };
+    let time_step = TimeStep::Controlled(0.02);
+    let transient = Transient { inputs: Inputs::load(fall), time_step, ..case_1(0.5, 0.01) };
+    let mut model = FullMarch::new(COARSE.line().unwrap(), &transient).unwrap();
+    let mut trajectory = march(&mut model, &transient, &()).unwrap();
+    assert!(!trajectory.finished() && trajectory.step_error.is_none(), "{:?}", trajectory.ended);
+    let Some(Warning::MarchStopped { reached, ended }) = trajectory.stopped() else { panic!() };
+    assert_eq!((reached, &ended), (trajectory.reached(), &trajectory.ended));
+    trajectory.estimate_step_error(&mut model, &());
+    assert!(trajectory.step_error.is_some_and(|error| error < 0.02), "{:?}", trajectory.step_error);
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! What comes of a march: a value that knows its inputs, its frame and how it ended.
 
-use super::frame::{Conditions, Scales};
+use super::frame::{Conditions, Scales, point_at};
 use super::march::Transient;
+use super::pace::Rule;
 use super::signal::Input;
 use crate::solver::discrete::grid::LineGrid;
-use crate::solver::full::{Mesh, Problem, Scalars, SolveError, Termination, scalars_of};
+use crate::solver::full::{Mesh, Problem, Scalars, Termination, scalars_of};
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// Work of one step.
@@ -73,7 +75,8 @@ pub struct State {
 }
 
 /// How a march ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Ended {
     /// At the end of its duration.
     Finished,
@@ -95,8 +98,8 @@ pub enum Ended {
     ContactRefused {
         /// When.
         time: f64,
-        /// What is wrong with it.
-        reason: SolveError,
+        /// What is wrong with it, a sentence.
+        reason: String,
     },
 }
 
@@ -118,6 +121,8 @@ pub enum Quantity {
 pub struct Trajectory {
     /// What was asked.
     pub transient: Transient,
+    /// Rule by which its steps were taken.
+    pub(crate) rule: Rule,
     /// The reference problem.
     pub problem: Problem,
     /// Grid of the fields.
@@ -211,6 +216,23 @@ impl Trajectory {
     /// Whether it reached the end.
     pub fn finished(&self) -> bool {
         self.ended == Ended::Finished
+    }
+
+    /// Returns the warning of a march that did not reach its end.
+    pub fn stopped(&self) -> Option<Warning> {
+        (!self.finished()).then(|| Warning::MarchStopped { reached: self.reached(), ended: self.ended.clone() })
+    }
+
+    /// Returns the warning of its largest Hertzian pressure.
+    fn hertz_warning(&self) -> Option<Warning> {
+        let inputs = self.moments.iter().map(|moment| moment.input).chain([self.transient.inputs.at(0.0)]);
+        let pressures = inputs.map(|input| point_at(&self.problem.point, input).hertz().pressure_pa);
+        Warning::of_hertz_pressure(pressures.fold(0.0, f64::max))
+    }
+
+    /// Returns what a reader must know of it: that it stopped early, the error of its steps, its Hertzian pressure.
+    pub fn warnings(&self) -> impl Iterator<Item = Warning> {
+        self.stopped().into_iter().chain(self.step_warning()).chain(self.hertz_warning())
     }
 
     /// The last T reached; 0 where not even the start was found.

@@ -5,7 +5,7 @@ use super::steps::{Kept, ReducedMarch};
 use crate::solver::full::transient::{
     Conditions, Effort, Ended, Frame, GREATEST_RATIO, Input, MOST_PARTS, Marching, Moment, ROUNDING, State, Step,
 };
-use crate::solver::full::{Problem, Termination};
+use crate::solver::full::{Problem, SolveError, Termination};
 use crate::solver::reduced::ReducedError;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -241,6 +241,6 @@ impl MarchState {
 }
 
 fn conditions(frame: Frame, reference: &Problem, time: f64, input: Input) -> Result<Conditions, CoupledError> {
-    let refused = |reason| CoupledError::Ended(Ended::ContactRefused { time, reason });
+    let refused = |why: SolveError| CoupledError::Ended(Ended::ContactRefused { time, reason: why.to_string() });
     frame.conditions(reference, time, input).map_err(refused)
 }

@@ -3,8 +3,9 @@
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{Input, Inputs, Moment, Trajectory};
 use crate::solver::limits::digits;
-use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
+use crate::solver::parameters::{Axis, Outside, ParameterSpace, Quantity};
 use crate::solver::reduced::{Domain, Trust};
+use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 /// How far an input may leave its trained range, in widths of it, and how much faster than trained it may change: what
@@ -202,12 +203,12 @@ impl TrajectoryDomain {
         self.reaches().into_iter().flat_map(of).flatten().map(|excess| excess.sentence).collect()
     }
 
-    /// Sentences on what a march has left of what was trained: the reference contact, and the farthest value and the
-    /// fastest change of each input.
-    pub fn left_by(&self, trajectory: &Trajectory) -> Vec<String> {
-        let mut said = Vec::new();
-        if let Trust::Outside(why) = self.reference.trust(&trajectory.problem) {
-            said.push(why.to_string());
+    /// Returns what a march has left of what was trained: the reference contact, and the farthest value and the fastest
+    /// change of each input.
+    pub fn left_by(&self, trajectory: &Trajectory) -> Vec<Warning> {
+        let mut left = Vec::new();
+        if let Trust::Outside(outside) = self.reference.trust(&trajectory.problem) {
+            left.push(Warning::OutsideTrainedRange { outside });
         }
         let moments = &trajectory.moments;
         for (name, reach, get) in self.reaches() {
@@ -221,9 +222,10 @@ impl TrajectoryDomain {
                 .windows(2)
                 .map(|pair| at(pair[1].time, reach.rate_outside(name, get(&rate(&pair[0], &pair[1])))));
             let farthest = [values.fold(None, worse), rates.fold(None, worse)];
-            said.extend(farthest.into_iter().flatten().map(|excess| excess.sentence));
+            let warning = |Excess { sentence, .. }| Warning::OutsideTrainedRange { outside: Outside::Other(sentence) };
+            left.extend(farthest.into_iter().flatten().map(warning));
         }
-        said
+        left
     }
 
     /// In what a march of a contact along inputs will leave what was trained; none where it stays within it.
