@@ -11,7 +11,7 @@ use crate::app::drawn::{self, Drawn};
 use crate::app::examples::Examples;
 use crate::app::layouts::{self, Layout};
 use crate::app::lessons::{self, Lessons, OnScreen};
-use crate::app::links::{Address, Embed, LinkWindow};
+use crate::app::links::{Address, Embed, Fragment, LinkWindow};
 use crate::app::model_source::Models;
 use crate::app::notice::Notice;
 use crate::app::palette::Palette;
@@ -235,7 +235,8 @@ impl Explorer {
                     self.desk.run_study(wake(ctx));
                 }
             }
-            Some(Opened::Link { tree, embed, lesson }) => {
+            Some(Opened::Link(link)) => {
+                let Fragment { tree, embed, lesson, .. } = *link;
                 self.tree = tree.unwrap_or_else(|| self.tree.clone());
                 self.embed = embed;
                 if let Some(lesson) = lesson {

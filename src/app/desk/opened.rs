@@ -1,8 +1,7 @@
 //! What was just opened.
 
-use crate::app::links::Embed;
+use crate::app::links::Fragment;
 use crate::app::tab::Tab;
-use egui_tiles::Tree;
 use std::path::PathBuf;
 
 /// What was just opened.
@@ -10,14 +9,7 @@ pub enum Opened {
     /// A scene, and the tab that answers its question.
     Scene(Tab),
     /// What a link holds beside a document.
-    Link {
-        /// The arrangement of the tabs.
-        tree: Option<Tree<Tab>>,
-        /// One tab with chosen sliders.
-        embed: Option<Embed>,
-        /// Number of a lesson, from 1.
-        lesson: Option<usize>,
-    },
+    Link(Box<Fragment>),
     /// A campaign, by its folder.
     Campaign(PathBuf),
 }

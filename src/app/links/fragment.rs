@@ -202,10 +202,7 @@ mod tests {
                 6 => Edit::Heat(lubricant.heat.is_none()),
                 _ => match rng.bool() {
                     true => Edit::Laws(Box::new(Lubricant { cavitation: Cavitation::Complementarity, ..lubricant })),
-                    false => Edit::View(Box::new(View {
-                        pressure_loss: Some(log(rng, 1e-8, 1e-3)),
-                        ..document.view.clone()
-                    })),
+                    false => Edit::View(Box::new(View { pressure_loss: Some(log(rng, 1e-8, 1e-3)), ..document.view })),
                 },
             };
             // What is refused leaves the document as it was.

@@ -11,8 +11,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 pub struct Queue<R, M> {
     shared: Arc<Shared<R, M>>,
     /// What answers where there is no thread.
-    answer: Option<Box<dyn Fn(&Arc<Shared<R, M>>)>>,
+    answer: Option<Answer<R, M>>,
 }
+
+type Answer<R, M> = Box<dyn Fn(&Arc<Shared<R, M>>)>;
 
 struct Shared<R, M> {
     mail: Mutex<Mail<R, M>>,

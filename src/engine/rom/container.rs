@@ -213,6 +213,7 @@ fn json<T: Serialize + ?Sized>(value: &T) -> Option<String> {
 
 /// Bytes of a file before its arrays.
 #[cfg(any(test, not(feature = "models")))]
+#[allow(clippy::indexing_slicing, reason = "at compile time, and in tests")]
 pub(in crate::engine) const fn head_length(file: &[u8]) -> usize {
     let (mut length, mut digit) = (0usize, LENGTH);
     while digit > 0 {
@@ -224,6 +225,7 @@ pub(in crate::engine) const fn head_length(file: &[u8]) -> usize {
 
 /// The bytes of a file before its arrays.
 #[cfg(not(feature = "models"))]
+#[allow(clippy::indexing_slicing, reason = "at compile time")]
 pub(in crate::engine) const fn head<const N: usize>(file: &[u8]) -> [u8; N] {
     let (mut head, mut k) = ([0; N], 0);
     while k < N {

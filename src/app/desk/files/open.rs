@@ -136,14 +136,14 @@ impl Desk {
     /// # Errors
     /// A sentence; what is on the screen stays.
     pub fn open_link(&mut self, text: &str) -> Result<(), Refusal> {
-        let Fragment { document, tree, embed, lesson } = Fragment::read(text)?;
-        if let Some(document) = document {
+        let mut fragment = Fragment::read(text)?;
+        if let Some(document) = fragment.document.take() {
             self.replace_document(document);
             self.files.saved = self.document.clone();
             self.files.path = None;
             self.files.notice = None;
         }
-        self.opened = Some(Opened::Link { tree, embed, lesson });
+        self.opened = Some(Opened::Link(Box::new(fragment)));
         Ok(())
     }
 
