@@ -10,7 +10,6 @@ use crate::app::tab::Tab;
 use crate::app::theme::Palette;
 use egui::{Button, RichText, ScrollArea, Ui, vec2};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
-use std::path::Path;
 use std::sync::LazyLock;
 
 /// The lessons of the program, each as it is written.
@@ -84,7 +83,7 @@ impl Lessons {
 
     /// Takes in lessons of one's own: files ending in `.md` in a folder, in the order of their names.
     #[cfg(feature = "desktop")]
-    pub fn look_in(&mut self, folder: &Path) {
+    pub fn look_in(&mut self, folder: &std::path::Path) {
         let Ok(entries) = std::fs::read_dir(folder) else { return };
         let mut files: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
         files.retain(|path| path.extension().is_some_and(|ending| ending == "md"));
