@@ -33,7 +33,7 @@ pub fn ui(ui: &mut Ui, table: &Table) {
                     ui.label(rich(column, 12.0, quiet));
                 }
                 for (title, _) in &table.remarks {
-                    ui.label(rich(*title, 12.0, quiet));
+                    ui.label(rich(title, 12.0, quiet));
                 }
                 ui.end_row();
                 for (k, row) in (first..).zip(seen) {
