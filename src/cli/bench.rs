@@ -13,7 +13,7 @@ pub struct BenchArgs {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// Fewer points; done within 25 s
+    /// Fewer points; done within 20 s
     #[arg(long)]
     quick: bool,
 }

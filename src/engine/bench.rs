@@ -40,8 +40,8 @@ pub const TRANSIENT_BASELINE: &str = "line/transient/full-step";
 
 /// The dense baseline may take this long; at least three runs are made whatever they take.
 const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(4)];
-/// Each other row stops drawing further points after this.
-const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(3)];
+/// Each other row stops drawing further points after this, and after three of them.
+const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(1500)];
 /// Points of the full rows and of the reduced row.
 const FULL_POINTS: [usize; 2] = [400, 60];
 const REDUCED_POINTS: [usize; 2] = [10_000, 1_000];
@@ -52,7 +52,7 @@ const REDUCED_SHEAR_POINTS: [usize; 2] = [1000, 150];
 const CURVES: [usize; 2] = [50, 8];
 /// Point contacts: solves, and the time after which no further ones are begun.
 const POINT_POINTS: [usize; 2] = [50, 4];
-const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(2)];
+const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(700)];
 /// The trajectory-piecewise-linear model of the same march.
 const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
 /// Modes of local bases along that march, and how many bases.
@@ -95,7 +95,7 @@ pub struct Bench {
 /// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, and of
 /// Table 3.6's ranges for shear-thinning ones: the same points for every row of a kind.
 ///
-/// `quick` takes fewer points and ends within 25 s.
+/// `quick` takes fewer points and ends within 20 s.
 ///
 /// # Errors
 /// When a solver refuses a point of the box, which it never should.
@@ -314,7 +314,7 @@ fn reduced_row(
         // Operators belong to the model, not to its solves.
         online.prepare(first);
     }
-    timed(name, budget, 0, points, |point| {
+    timed(name, budget, 3, points, |point| {
         Ok(match online.solve(point, lubricant) {
             Ok(solution) if fields => online.scalars(&solution).is_ok(),
             solved => solved.is_ok(),
@@ -348,7 +348,7 @@ fn curve_row(
 ) -> Result<Timing, EngineError> {
     let values: Vec<f64> = (0..CURVE_POINTS).map(|k| k as f64 / (CURVE_POINTS - 1) as f64).collect();
     points.iter().for_each(|point| online.prepare(point));
-    timed(name, budget, 0, points, |point| {
+    timed(name, budget, 3, points, |point| {
         let curve = traction_curve(online, point, lubricant, Quantity::SlideToRollRatio, &values);
         let converged = curve.filter(|place| place.solution.as_ref().is_ok_and(|solved| solved.traction.is_some()));
         Ok(converged.count() == values.len())

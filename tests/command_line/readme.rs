@@ -269,3 +269,23 @@ fn every_direct_dependency_is_explained() {
         .collect();
     assert_eq!(rows, dependencies, "README (left) and Cargo.toml (right) name other dependencies");
 }
+
+/// With other versions the program and its bindings could not share what is compiled.
+#[test]
+fn bindings_are_locked_to_what_the_program_is() {
+    let versions = |path: &str| -> BTreeSet<(String, String)> {
+        let text = std::fs::read_to_string(root().join(path)).unwrap();
+        let value = |line: Option<&str>, name: &str| {
+            line?.strip_prefix(name)?.strip_prefix(" = \"")?.strip_suffix('"').map(str::to_owned)
+        };
+        let package = |text: &str| {
+            let mut lines = text.trim_start().lines();
+            Some((value(lines.next(), "name")?, value(lines.next(), "version")?))
+        };
+        text.split("[[package]]").skip(1).map(|text| package(text).unwrap()).collect()
+    };
+    let (program, bindings) = (versions("Cargo.lock"), versions("bindings/Cargo.lock"));
+    let both = |(name, _): &&(String, String)| program.iter().any(|(other, _)| other == name);
+    let other: Vec<_> = bindings.iter().filter(both).filter(|package| !program.contains(package)).collect();
+    assert!(bindings.len() > 100 && other.is_empty(), "bindings/Cargo.lock has others than Cargo.lock: {other:?}");
+}

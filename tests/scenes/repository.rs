@@ -1,17 +1,20 @@
 //! Every scene of the repository: it parses, survives writing, and the quick ones give what they expect.
 
 use crate::common::scene_files;
-use ehl_explorer::engine::{Workbench, run_scene};
+use crate::common::scratch::Scratch;
+use ehl_explorer::engine::{Workbench, model_file, run_scene};
+use ehl_explorer::scene::study::error_split::Contacts;
 use ehl_explorer::scene::study::point::Point;
 use ehl_explorer::scene::study::random_test::RandomTest;
 use ehl_explorer::scene::study::sweep::Sweep;
-use ehl_explorer::scene::{Grid, Method, ModelSource, Scene, SceneOutcome, Study, TransientStudy};
+use ehl_explorer::scene::{CaseTable, Grid, Method, ModelSource, Scene, SceneOutcome, Study, TransientStudy};
 use ehl_explorer::scene::{StudyObserver, StudyRow};
 use ehl_explorer::solver::full::transient::{Frame, Signal, TimeStep};
 use ehl_explorer::solver::observer::Observer;
-use ehl_explorer::solver::training::TrainingObserver;
+use ehl_explorer::solver::training::{TrainingObserver, TrainingSpec, train};
 use std::collections::BTreeSet;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn all() -> Vec<(String, Scene)> {
     scene_files::all().into_iter().map(|file| (scene_files::name(&file.path), file.scene)).collect()
@@ -45,13 +48,14 @@ fn every_expectation_says_where_its_bound_comes_from_and_none_judges_time() {
     assert!(count > 350, "{count} expectations");
 }
 
-/// One of two halves, so that two processors share the work.
-fn quick_scenes_give_what_they_expect(half: usize) {
+/// Runs those that no other test has begun, so that two processors share the work.
+fn quick_scenes_give_what_they_expect() {
+    static BEGUN: AtomicUsize = AtomicUsize::new(0);
     let quick: Vec<_> = all().into_iter().filter(|(_, scene)| scene.quick).collect();
     assert!(quick.len() >= 30, "{} scenes are marked quick", quick.len());
-    for (name, scene) in quick.into_iter().skip(half).step_by(2) {
+    while let Some((name, scene)) = quick.get(BEGUN.fetch_add(1, Ordering::Relaxed)) {
         let begin = std::time::Instant::now();
-        let outcome = scene_files::outcome(&name);
+        let outcome = scene_files::outcome(name);
         println!("{:6.1} s: {name}", begin.elapsed().as_secs_f64());
         let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
         assert!(short.is_empty() && outcome.verdicts.len() == scene.expect.len(), "{name}: {short:?}");
@@ -60,13 +64,74 @@ fn quick_scenes_give_what_they_expect(half: usize) {
 }
 
 #[test]
-fn quick_scenes_give_what_they_expect_first_half() {
-    quick_scenes_give_what_they_expect(0);
+fn quick_scenes_give_what_they_expect_on_one_processor() {
+    quick_scenes_give_what_they_expect();
 }
 
 #[test]
-fn quick_scenes_give_what_they_expect_second_half() {
-    quick_scenes_give_what_they_expect(1);
+fn quick_scenes_give_what_they_expect_on_another() {
+    quick_scenes_give_what_they_expect();
+}
+
+/// Asserts that a scene that takes longer than quick ones, made smaller, gives what it expects.
+fn gives_what_it_expects(name: &str, scene: &Scene) {
+    assert!(!scene.quick, "{name} is run as it is");
+    let outcome = scene_files::run(name, scene);
+    let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
+    assert!(short.is_empty() && outcome.verdicts.len() == scene.expect.len(), "{name}: {short:?}");
+    assert!(outcome.passed() && scene.expect.len() > 1, "{name}: {:?}", outcome.found.warnings);
+}
+
+/// The same over a share of its contacts, but for their number.
+fn a_share_gives_what_is_expected_of_all(name: &str, shrink: impl FnOnce(&mut Study)) {
+    let mut scene = scene_files::read(name);
+    shrink(&mut scene.study);
+    scene.expect.retain(|expectation| expectation.name != "cases");
+    gives_what_it_expects(name, &scene);
+}
+
+#[test]
+fn parts_of_the_error_along_the_trajectory_are_as_small_at_a_few_places() {
+    a_share_gives_what_is_expected_of_all("error_split_trajectory", |study| {
+        let Study::ErrorSplit(split) = study else { panic!("no parts of an error") };
+        let Contacts::Trajectory { points, .. } = &mut split.contacts else { panic!("no trajectory") };
+        *points = 9;
+    });
+}
+
+#[test]
+fn every_eighth_of_two_hundred_lines_is_solved_by_the_embedded_model() {
+    let name = "two_hundred_lines";
+    let table = std::fs::read_to_string(scene_files::path(name).with_extension("csv")).unwrap();
+    let lines = || table.lines();
+    let share: Vec<&str> = lines().take(1).chain(lines().skip(1).step_by(8)).collect();
+    assert_eq!(share.len(), 1 + 25);
+    a_share_gives_what_is_expected_of_all(name, |study| {
+        let Study::LoadCases(cases) = study else { panic!("no load cases") };
+        cases.cases = CaseTable::Text(share.join("\n"));
+    });
+}
+
+#[test]
+fn corners_of_a_comparison_lie_as_near_to_hamrock_and_dowson() {
+    a_share_gives_what_is_expected_of_all("formula_comparison_hamrock_dowson", |study| {
+        let Study::FormulaComparison(comparison) = study else { panic!("no comparison") };
+        (comparison.m, comparison.l) = (vec![20.0, 200.0], vec![2.5, 10.0]);
+    });
+}
+
+#[test]
+fn error_measures_are_as_correlated_as_in_figure_3_1() {
+    let (name, folder) = ("fig_3_1_error_measures", Scratch::new("measures"));
+    let Study::Training(spec) = scene_files::read("fig_3_1_model").study else { panic!("no training") };
+    // Error bounds take longest, and nothing here needs them.
+    let model = train(&TrainingSpec { evidence: 0, ..spec }, &()).unwrap();
+    let path = folder.join("model.rom");
+    model_file::write(&model, &path).unwrap();
+    let mut scene = scene_files::read(name);
+    let Study::ErrorMeasures(study) = &mut scene.study else { panic!("{name} measures no errors") };
+    study.model = ModelSource::File(path);
+    gives_what_it_expects(name, &scene);
 }
 
 #[test]

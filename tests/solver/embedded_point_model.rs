@@ -38,7 +38,7 @@ fn its_films_lie_near_full_solutions() {
     let mut solver = ContactSolver::on(&online.model.windows[0].grid);
     let (mut h_c, mut h_min) = (Vec::new(), Vec::new());
     // `random_test_point.ron` compares 300 contacts.
-    for point in points(cases(8, 16), 42) {
+    for point in points(cases(4, 16), 42) {
         let full = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         assert!(full.converged());
         let solved = online.solve(&point, Lubricant::default()).unwrap();
@@ -65,7 +65,8 @@ fn films_of_light_contacts_lie_near_full_solutions_and_meet_those_of_heavier_one
     let mut light = Online::new(embedded("point_light").unwrap(), ReducedOptions::default());
     let oil = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let mut solver = ContactSolver::on(&light.model.windows[0].grid);
-    for point in random_points(&light.model.domain.space, ContactKind::Point, 8, 43) {
+    // `random_test_point_light_oils.ron` compares more of them.
+    for point in random_points(&light.model.domain.space, ContactKind::Point, 4, 43) {
         let full = solver.solve(&point, oil, Start::Cold, &()).unwrap();
         let solved = light.solve(&point, oil).unwrap();
         assert!(full.converged() && solved.trust == Trust::Trained, "{:?}", point.moes());

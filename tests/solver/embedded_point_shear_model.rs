@@ -56,7 +56,8 @@ fn greatest_errors(online: &mut Online, points: &[OperatingPoint], compared: usi
 
 #[test]
 fn it_solves_its_range_and_agrees_with_full_solutions() {
-    let [h_c, h_min, traction] = greatest_errors(&mut online(), &points(&range(), 80, 78), 6);
+    // `random_test_embedded_point_shear.ron` compares more of them.
+    let [h_c, h_min, traction] = greatest_errors(&mut online(), &points(&range(), 80, 78), 3);
     assert!(h_c < 5e-3 && h_min < 2e-2 && traction < 5e-3, "{h_c:.1e} {h_min:.1e} {traction:.1e}");
 }
 

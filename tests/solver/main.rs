@@ -21,7 +21,6 @@ mod mass_conserving;
 mod point_reference;
 mod random_solves;
 mod rebuilt;
-mod saved_again;
 mod shear_models;
 mod shear_thinning;
 mod stored_answers;

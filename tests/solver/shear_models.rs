@@ -2,14 +2,14 @@
 
 use crate::common::scene_files;
 
-use ehl_explorer::engine::embedded;
-use ehl_explorer::engine::model_file::{from_bytes, to_bytes};
+use ehl_explorer::engine::model_file::from_bytes;
+use ehl_explorer::engine::{bytes_of, embedded};
 use ehl_explorer::scene::Study;
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::full::{Problem, Solution};
 use ehl_explorer::solver::parameters::{ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
-use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust, Window};
+use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust};
 use ehl_explorer::solver::training::{TrainingSpec, random_points};
 
 /// What the model of a kind of contact was trained for, as its scene says.
@@ -86,20 +86,14 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
     assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
 }
 
-/// Asserts that a file keeps all of the model.
+/// Asserts that the file of the model keeps what Newtonian contacts do not have. That files are written as they were read
+/// is a test of the library.
 pub fn assert_file_keeps_everything(kind: ContactKind) {
     let model = embedded(thinning(kind)).unwrap();
-    let bytes = to_bytes(&model).unwrap();
-    let again = from_bytes(&bytes).unwrap();
-    assert_eq!(again.domain, model.domain);
-    let (own, kept) = (&model.windows[0], &again.windows[0]);
-    assert!(kept.snapshots == own.snapshots && again.domain.space.varies(Quantity::NewtonianPlateauRatio));
-    assert!(kept.pressure.basis().modes == own.pressure.basis().modes);
-    assert!(kept.traction == own.traction && kept.traction.is_some());
-    // What was not measured is no number, and equals nothing: the bytes below tell more.
-    let evidence = |window: &Window| window.calibration.as_ref().map(Calibration::evidence);
-    assert!(evidence(kept) == evidence(own) && evidence(kept).is_some());
-    assert_eq!(to_bytes(&again).unwrap(), bytes);
+    assert!(model.domain.space.varies(Quantity::NewtonianPlateauRatio));
+    let window = &model.windows[0];
+    assert!(window.traction.is_some() && window.calibration.as_ref().map(Calibration::evidence).is_some());
+    let bytes = bytes_of(thinning(kind)).unwrap();
     assert!(from_bytes(&bytes[..bytes.len() - 8]).is_err());
 }
 

@@ -6,7 +6,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use ehl_explorer::app::Explorer;
 use ehl_explorer::engine::{Workbench, run_scene};
-use ehl_explorer::scene::Scene;
+use ehl_explorer::scene::{CaseTable, Scene, Study};
 use std::path::Path;
 use std::time::Duration;
 
@@ -73,12 +73,22 @@ fn a_table_of_load_cases_is_read_as_it_is_typed_and_solved_as_headless() {
     harness.run_steps(3);
     assert!(shows(&harness, "10 contacts can be solved, 1 lines are refused"));
     assert!(shows(&harness, "(too thin): "));
+    // Two of the three balls, whose solutions take longest, are left to the test above.
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/load_cases/rollers_and_balls.ron");
+    let all = std::fs::read_to_string(path.with_extension("csv")).unwrap();
+    let kept = all.lines().filter(|line| !line.starts_with("ball on ")).collect::<Vec<_>>().join("\n");
+    press(&mut harness, Modifiers::COMMAND, Key::A);
+    let field = harness.get_by_role_and_label(Role::MultilineTextInput, "Table of load cases");
+    field.type_text(&format!("{kept}\ntoo thin;line;0"));
+    harness.run_steps(3);
+    assert!(shows(&harness, "8 contacts can be solved, 1 lines are refused"));
     click(&mut harness, "Solve all");
     assert_eq!(harness.state().front(), Some("Results"));
     wait(&mut harness, "all lines", |app| app.verdict().is_some());
     let shown = harness.state().result_table("load_cases").unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/load_cases/rollers_and_balls.ron");
-    let scene = Scene { lubricant: harness.state().lubricant(), ..Scene::read(&path).unwrap() };
+    let mut scene = Scene { lubricant: harness.state().lubricant(), ..Scene::read(&path).unwrap() };
+    let Study::LoadCases(study) = &mut scene.study else { panic!("no load cases") };
+    study.cases = CaseTable::Text(kept);
     let headless = run_scene(&scene, &mut Workbench::new(path.parent().unwrap()), &()).unwrap();
     let (lines, wanted) = (timeless(&shown), timeless(&headless.tables[0].to_csv()));
     assert_eq!(lines[..wanted.len()], wanted[..], "{shown}");

@@ -17,7 +17,7 @@ fn scene(title: &str, plan: &str) -> String {
                 fixed: {{Modulus: 231e9, Viscosity: 0.01}}),
             plan: {plan},
             windows: Given([(m: (5.0, 100.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),
-            pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,
+            pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, evidence: 110, seed: 1,
         ))"
     )
 }

@@ -230,14 +230,14 @@ fn a_frame_of_a_dragged_amplitude_is_cheap() {
 #[test]
 fn what_has_not_come_to_a_moment_is_not_drawn_there() {
     let frames = "Fixed, ArbitraryLagrangianEulerian";
-    let (mut harness, folder) = open("moment", &scene(BREATHING, 100.0, frames));
+    let (mut harness, folder) = open("moment", &scene(BREATHING, 45.0, frames));
     assert!(!harness.state().marching(), "this takes more than a moment: it waits until it is asked for");
     assert!(shows(&harness, "Run it in time"));
     click(&mut harness, "Run in time");
-    wait(&mut harness, "the second frame", |app| !app.marching() || app.transient_moments() > 2040);
+    wait(&mut harness, "the second frame", |app| !app.marching() || app.transient_moments() > 940);
     click(&mut harness, "Stop");
     rest_in_time(&mut harness);
-    assert!((time(&harness) - 100.0).abs() < 1e-9 && shows(&harness, "Moving nodes (ALE) was cancelled"));
+    assert!((time(&harness) - 45.0).abs() < 1e-9 && shows(&harness, "Moving nodes (ALE) was cancelled"));
     let header = Table::of(&export(&mut harness, "Transient", "Profiles as CSV…", &folder.join("end.csv"))).header;
     assert!(header.iter().all(|name| name.starts_with("full.fixed.")), "{header:?}");
     set(&mut harness, Role::Slider, "Time T", 0.5);

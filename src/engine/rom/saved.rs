@@ -99,7 +99,7 @@ impl SavedModel {
     }
 
     /// Solves contacts that it was trained with, and compares.
-    fn prove(&self, observer: &dyn Observer) -> Result<(), ModelFileError> {
+    pub(super) fn prove(&self, observer: &dyn Observer) -> Result<(), ModelFileError> {
         match self {
             Self::Stationary(model) => on_all_cores(|| steady::prove(model, observer)),
             Self::InTime(model) => transient::prove(model),

@@ -60,7 +60,7 @@ fn models_of_oils_are_near_full_solutions_of_every_oil() {
 #[test]
 fn rows_that_are_too_few_are_made_more_until_they_tell_what_all_rows_tell() {
     let asked = TrainingSpec { rows_per_mode: 1.1, ..oils(Sampling::QDeim, 60) };
-    let model = train(&asked, &()).unwrap();
+    let (model, _) = small::trained_with_state(&asked);
     let points = random_points(&asked.range, asked.contact(), 200, 77);
     for window in &model.windows {
         let with = |rows: Option<SampledRows>| {
@@ -211,9 +211,8 @@ fn windows_miss_no_more_than([missing, missing_of_any]: [f64; 2], of: fn(&[f64])
     let spec = oils(Sampling::QDeim, 60);
     let Windows::Anchored { count, modes, grid, .. } = spec.windows else { panic!() };
     let windows = Windows::Anchored { count, modes, grid, shared: 0, missing, missing_of_any, divided_by: 0 };
-    let mut state = TrainingState::new(TrainingSpec { windows, ..spec });
     let limit = missing.max(missing_of_any);
-    let model = train_resumable(&mut state, &()).unwrap();
+    let (model, state) = small::trained_with_state(&TrainingSpec { windows, ..spec });
     let counts: Vec<usize> = model.windows.iter().map(|window| window.pressure.count()).collect();
     assert!(counts.iter().all(|count| *count < modes) && counts.iter().any(|count| *count != counts[0]), "{counts:?}");
     for (window, state) in model.windows.iter().zip(&state.windows) {

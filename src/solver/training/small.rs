@@ -1,7 +1,8 @@
 //! Small trainings, which tests make of many things.
 
 use super::spec::{Plan, TrainingSpec, WindowSpec, Windows};
-use super::train::train;
+use super::state::TrainingState;
+use super::train::train_resumable;
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::lubricant::{Cavitation, Heat, LimitingStress, Lubricant, ShearLaw};
@@ -28,7 +29,28 @@ impl<T> Made<T> {
 /// The model of a specification.
 pub(crate) fn trained(spec: &TrainingSpec) -> Arc<ReducedModel> {
     static MODELS: Made<ReducedModel> = Made::new();
-    MODELS.of(spec, || train(spec, &()).unwrap())
+    MODELS.of(spec, || trained_with_state(spec).0)
+}
+
+/// The same with the state at the end of the training. Trainings that differ only in what follows the full solutions share
+/// these.
+pub(crate) fn trained_with_state(spec: &TrainingSpec) -> (ReducedModel, TrainingState) {
+    static SOLVED: Made<TrainingState> = Made::new();
+    let mut alike = spec.clone();
+    if let Plan::FarthestPoint { .. } = spec.plan {
+        (alike.sampling, alike.rows_per_mode, alike.evidence) = (Sampling::All, 1.0, 0);
+        if let Windows::Anchored { missing, missing_of_any, .. } = &mut alike.windows {
+            (*missing, *missing_of_any) = (0.0, 0.0);
+        }
+    }
+    let mut model = None;
+    let solved = SOLVED.of(&alike, || {
+        let mut state = TrainingState::new(spec.clone());
+        model = Some(train_resumable(&mut state, &()).unwrap());
+        state
+    });
+    let mut state = TrainingState { spec: spec.clone(), ..TrainingState::clone(&solved) };
+    (model.unwrap_or_else(|| train_resumable(&mut state, &()).unwrap()), state)
 }
 
 /// A grid of point contacts on which a full solve takes milliseconds.
@@ -157,7 +179,10 @@ pub(crate) fn sliding_oils_of_points(snapshots: usize) -> TrainingSpec {
     }
 }
 
-const HEATED_GRID: GridSpec = GridSpec::Graded { nodes: 280, domain: (-10.0, 2.0), registered: true };
+const HEATED_GRID: GridSpec = GridSpec::Graded { nodes: 240, domain: (-10.0, 2.0), registered: true };
+
+/// A grid of circular contacts with heat, whose full solves take longest.
+const HEATED_BALLS_GRID: PointGridSpec = PointGridSpec::uniform(0.08, 0.13, (-2.7, 1.5, -1.5));
 
 /// Line contacts with heat of an oil whose stress is limited, between steel bodies.
 pub(crate) fn heated(sampling: Sampling, snapshots: usize) -> TrainingSpec {
@@ -227,7 +252,7 @@ pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec
     let m = (25.0, 40.0);
     TrainingSpec {
         range: one_heated(m, (6.0, 8.0), (0.0, 0.5)),
-        windows: Windows::Given(vec![WindowSpec::new(m, GridSpec::Plane(POINT_GRID))]),
+        windows: Windows::Given(vec![WindowSpec::new(m, GridSpec::Plane(HEATED_BALLS_GRID))]),
         pressure_loss: 1e-7,
         deformation_loss: 0.1,
         ..heated(sampling, snapshots)
@@ -249,7 +274,7 @@ pub(crate) fn heated_bounded() -> TrainingSpec {
 
 /// The same of many oils.
 pub(crate) fn heated_oils_bounded() -> TrainingSpec {
-    TrainingSpec { evidence: 120, ..heated_oils(Sampling::Cubature, 130) }
+    TrainingSpec { evidence: 60, ..heated_oils(Sampling::Cubature, 100) }
 }
 
 /// The same of elliptical contacts.
