@@ -237,7 +237,7 @@ fn what_has_not_come_to_a_moment_is_not_drawn_there() {
     wait(&mut harness, "the second frame", |app| !app.marching() || app.transient_moments() > 940);
     click(&mut harness, "Stop");
     rest_in_time(&mut harness);
-    assert!((time(&harness) - 45.0).abs() < 1e-9 && shows(&harness, "Moving nodes (ALE) was cancelled"));
+    assert!((time(&harness) - 45.0).abs() < 1e-9 && shows(&harness, "Moving nodes (ALE): the march was cancelled"));
     let header = Table::of(&export(&mut harness, "Transient", "Profiles as CSV…", &folder.join("end.csv"))).header;
     assert!(header.iter().all(|name| name.starts_with("full.fixed.")), "{header:?}");
     set(&mut harness, Role::Slider, "Time T", 0.5);

@@ -27,15 +27,23 @@ export class Lanes {
     if (!worker) {
       worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module", name: `solver ${lane}` });
       worker.postMessage({ module: this.module });
-      worker.onmessage = ({ data: { ticket, bytes, ended, broken } }) => {
+      worker.onmessage = ({ data: { ticket, bytes, ended, broken, memory } }) => {
         if (bytes && this.tasks.has(ticket)) this.deliver(ticket, bytes);
-        if (ended) this.forget(ticket);
+        if (ended) {
+          worker.memory = memory;
+          this.forget(ticket);
+        }
         if (broken) this.end(lane);
       };
       worker.onerror = () => this.end(lane);
       this.workers.set(lane, worker);
     }
     return worker;
+  }
+
+  // Bytes that the workers have.
+  memory() {
+    return [...this.workers.values()].reduce((sum, { memory }) => sum + (memory ?? 0), 0);
   }
 
   stop(ticket, times) {

@@ -133,7 +133,8 @@ async function run() {
   const bytes = await fetched(MODULE.file, progress("module"));
   const module = await WebAssembly.compile(bytes);
   lanes.module = module;
-  await init({ module_or_path: module });
+  const { memory } = await init({ module_or_path: module });
+  globalThis.ehl.memory = () => memory.buffer.byteLength + lanes.memory();
   await line;
   say("The program starts.");
   await start(element("explorer"));

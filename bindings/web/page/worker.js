@@ -3,6 +3,7 @@ import { initSync, work } from "./ehl_web.js";
 import { MODELS } from "./files.js";
 
 let wishes = [];
+let memory;
 
 // Whether an address of the page still exists. Waits for the answer: the worker is in the midst of its work.
 function exists(address) {
@@ -43,13 +44,13 @@ globalThis.ehl = {
 
 onmessage = ({ data: { module, ticket, kind, bytes, wishes: given } }) => {
   if (module) {
-    initSync({ module });
+    memory = initSync({ module }).memory;
     return;
   }
   wishes = given;
   try {
     work(ticket, kind, bytes);
-    postMessage({ ticket, ended: true });
+    postMessage({ ticket, ended: true, memory: memory.buffer.byteLength });
   } catch (why) {
     // A panic: this instance can do no more.
     console.error(why);

@@ -14,6 +14,9 @@ const FLAGS = [
 ];
 const SIZE = { width: 1280, height: 800 };
 // Places on the canvas at this size.
+// Beside other work on the machine frames take longer.
+const SLOW = Number(process.env.SLOW ?? 1);
+const TABS = [348, 421, 498, 560, 638, 720, 783, 847, 904, 956];
 const ROLLER = [34, 66];
 const BALL = [87, 66];
 const VERIFY = [749, 107];
@@ -111,6 +114,53 @@ const tests = {
     const workers = page.workers().length;
     console.log(`  longest task of the page ${(await page.evaluate(() => window.longest)).toFixed(0)} ms, ${workers} workers`);
     assert(workers >= 1);
+  },
+  async "every tab opens"(page) {
+    for (const [k, x] of TABS.entries()) {
+      await page.mouse.click(x, 42);
+      await page.waitForTimeout(700);
+      await picture(page, `tab-${k}`);
+    }
+    await page.mouse.click(TABS[0], 42);
+    assert.deepEqual(broken, []);
+  },
+  async "a drag of five seconds loses no frame"() {
+    const other = await context.newPage();
+    await other.addInitScript(() => {
+      window.costs = [];
+      const frame = window.requestAnimationFrame.bind(window);
+      window.requestAnimationFrame = (call) => frame((time) => {
+        const begun = performance.now();
+        call(time);
+        window.costs.push(performance.now() - begun);
+      });
+    });
+    await other.goto(server.address);
+    await said(other, "Verified");
+    await other.evaluate(() => (window.costs.length = 0));
+    await drag(other, { from: [130, 93], to: [185, 93] }, 300);
+    const costs = (await other.evaluate(() => window.costs)).sort((a, b) => a - b);
+    const [median, worst] = [costs[Math.floor(costs.length / 2)], costs.at(-1)];
+    console.log(`  ${costs.length} frames: median ${median.toFixed(1)} ms, worst ${worst.toFixed(1)} ms`);
+    await other.close();
+    assert(median < 8 * SLOW && worst < 50 * SLOW);
+  },
+  async "two hundred random actions stay within 400 MB"() {
+    const other = await opened();
+    let seed = 7;
+    const random = (most) => (seed = (seed * 48271) % 2147483647) % most;
+    const places = [ROLLER, BALL, ...TABS.map((x) => [x, 42])];
+    for (let k = 0; k < 200; k += 1) {
+      if (random(3) === 0) {
+        const y = [93, 121, 149][random(3)];
+        await drag(other, { from: [100 + random(90), y], to: [100 + random(90), y] }, 3);
+      } else await other.mouse.click(...places[random(places.length)]);
+      await other.waitForTimeout(60);
+    }
+    const bytes = await other.evaluate(() => globalThis.ehl.memory());
+    console.log(`  ${(bytes / 1e6).toFixed(0)} MB after 200 actions`);
+    await other.close();
+    assert(bytes < 400e6);
   },
   async "Escape cancels a solve and the next one works"(page) {
     await page.mouse.click(...VERIFY);

@@ -8,6 +8,7 @@ use crate::scene::study::point::Point;
 use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Problem;
+use crate::solver::full::transient::Unsupported;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use crate::solver::physics::lubricant::{Heat, Lubricant, ShearLaw};
@@ -305,11 +306,16 @@ impl Document {
     pub fn lost_question(&self) -> Option<&'static str> {
         let scene = self.scene.as_ref()?;
         let in_time = matches!(scene.study, Study::Transient(_));
+        let unsupported = self.unsupported_in_time().filter(|_| in_time);
         if scene.contact != self.point.kind {
             Some("it is about the other kind of contact")
-        } else if in_time && self.lubricant.shear != ShearLaw::Newtonian {
+        } else if unsupported == Some(Unsupported::ShearThinning) {
             Some("it is answered with Newtonian lubricants only")
-        } else if self.lubricant.heat.is_some() && scene.study.check_heat().is_err() {
+        } else if unsupported == Some(Unsupported::MassConservingModel) {
+            Some(
+                "its models are answered with the penalty or complementarity only, not with mass-conserving cavitation",
+            )
+        } else if unsupported.is_some() || self.lubricant.heat.is_some() && scene.study.check_heat().is_err() {
             Some("it is answered without heat only")
         } else {
             None

@@ -39,11 +39,21 @@ impl Document {
         })
     }
 
-    /// Whether its file holds the contact in time: a scene that asks another question keeps that; a point contact and a lubricant that thins
-    /// under shear have none.
+    /// Why its contact cannot be taken through time as its study asks; `None` if it can.
+    pub fn unsupported_in_time(&self) -> Option<Unsupported> {
+        let by_model = |study: &TransientStudy| study.reduced.is_some() || study.linearised.is_some();
+        let of_model = |()| match self.transient.as_ref().is_some_and(by_model) {
+            true => Unsupported::check_model(&self.lubricant),
+            false => Ok(()),
+        };
+        Unsupported::check(self.point.kind, &self.lubricant).and_then(of_model).err()
+    }
+
+    /// Whether its file holds the contact in time: a scene that asks another question keeps that; a contact that cannot be
+    /// taken through time has none.
     pub fn saves_transient(&self) -> bool {
         let asked = self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)));
-        asked && self.no_transient().is_none()
+        asked && self.unsupported_in_time().is_none()
     }
 
     /// The grid of contacts in time: that of a scene of one, else one that answers quickly.

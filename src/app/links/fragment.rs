@@ -200,9 +200,13 @@ mod tests {
                 4 => Edit::Typed(Quantity::Speed, log(rng, 0.1, 20.0)),
                 5 => Edit::Named(&NAMED[rng.usize(..NAMED.len())]),
                 6 => Edit::Heat(lubricant.heat.is_none()),
-                _ => match rng.bool() {
-                    true => Edit::Laws(Box::new(Lubricant { cavitation: Cavitation::Complementarity, ..lubricant })),
-                    false => Edit::View(Box::new(View { pressure_loss: Some(log(rng, 1e-8, 1e-3)), ..document.view })),
+                _ => match rng.u8(..3) {
+                    0 => Edit::Laws(Box::new(Lubricant { cavitation: Cavitation::Complementarity, ..lubricant })),
+                    1 => {
+                        let cavitation = Cavitation::MassConserving { supply_film_m: None };
+                        Edit::Laws(Box::new(Lubricant { cavitation, ..lubricant }))
+                    }
+                    _ => Edit::View(Box::new(View { pressure_loss: Some(log(rng, 1e-8, 1e-3)), ..document.view })),
                 },
             };
             // What is refused leaves the document as it was.

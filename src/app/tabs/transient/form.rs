@@ -14,7 +14,7 @@ use crate::app::tabs::transient::methods;
 use crate::app::tabs::transient::shared::edit;
 use crate::app::theme::Palette;
 use crate::scene::TransientStudy;
-use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep};
+use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupported};
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
 
@@ -83,7 +83,13 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
         methods::ui(ui, form, study);
     });
     if !context.document.saves_transient() && context.document.transient.is_some() {
-        ui.weak("The open scene asks another question: it is saved without this set-up.");
+        ui.weak(match context.document.unsupported_in_time() {
+            Some(Unsupported::MassConservingModel) => {
+                "Models cover cavitation by the penalty and by complementarity: with mass-conserving cavitation the scene \
+                 is saved without this set-up."
+            }
+            _ => "The open scene asks another question: it is saved without this set-up.",
+        });
     }
     if read_table {
         commands.push(Command::Ask(Purpose::Inputs));
