@@ -11,7 +11,7 @@ use ehl_explorer::app::{Explorer, perform};
 use ehl_explorer::engine::job::Performer;
 use ehl_explorer::engine::{Store, Workbench};
 use ehl_explorer::host::{browser, files, page};
-use ehl_explorer::scene::{Scene, run_scene};
+use ehl_explorer::scene::{Scene, Table, run_scene};
 use std::cell::RefCell;
 use std::path::Path;
 use wasm_bindgen::JsValue;
@@ -65,7 +65,7 @@ fn repaint() {
     SCREEN.with_borrow(|screen| screen.iter().for_each(Context::request_repaint));
 }
 
-/// Runs a scene, given as text, without the screen; returns what `ehl-explorer run --json` prints.
+/// Runs a scene, given as text, without the screen; returns its tables as `ehl-explorer run --out` writes them.
 ///
 /// # Errors
 /// A sentence when it makes no sense.
@@ -74,7 +74,7 @@ pub fn run(scene: &str) -> Result<String, JsValue> {
     let refused = |why: &dyn std::fmt::Display| JsValue::from_str(&why.to_string());
     let scene = Scene::from_ron(scene).map_err(|why| refused(&why))?;
     let outcome = run_scene(&scene, &mut Workbench::new(""), &()).map_err(|why| refused(&why))?;
-    Ok(outcome.to_json().to_string())
+    Ok(outcome.tables.iter().map(Table::to_csv).collect::<Vec<_>>().join("\n"))
 }
 
 /// Does a task in a worker.

@@ -315,11 +315,22 @@ impl Document {
             Some(
                 "its models are answered with the penalty or complementarity only, not with mass-conserving cavitation",
             )
-        } else if unsupported.is_some() || self.lubricant.heat.is_some() && scene.study.check_heat().is_err() {
+        } else if unsupported.is_some() || !self.keeps_with_heat(scene) {
             Some("it is answered without heat only")
         } else {
             None
         }
+    }
+
+    /// Whether the question of a scene without heat can be asked with that of the present contact, if it has any.
+    fn keeps_with_heat(&self, scene: &Scene) -> bool {
+        if self.lubricant.heat.is_none() || scene.heat.is_some() {
+            return true;
+        }
+        let Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr } = self.point.sliding;
+        let mut warm = Scene { at: At::from(self.point), srr, npr, ..scene.clone() };
+        warm.set_laws(self.lubricant);
+        warm.check().is_ok()
     }
 
     /// The document as a scene. What was opened and not changed is written as it was. A question that the present contact
@@ -331,16 +342,8 @@ impl Document {
         scene.set_laws(self.lubricant);
         let Sliding { slide_to_roll_ratio, newtonian_plateau_ratio } = self.point.sliding;
         (scene.srr, scene.npr) = (slide_to_roll_ratio, newtonian_plateau_ratio);
-        let lost = self.lost_question().is_some();
-        if lost {
-            // Neither the title nor the source is that of the contact itself.
-            default_title(self.point.kind).clone_into(&mut scene.title);
-        }
-        if lost || scene.contact != self.point.kind {
-            scene.contact = self.point.kind;
-            scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
-            scene.expect.clear();
-            scene.source.clear();
+        if self.lost_question().is_some() || scene.contact != self.point.kind {
+            self.drop_question(&mut scene);
         }
         scene.grid = self.grid;
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
@@ -356,7 +359,22 @@ impl Document {
         if scene.view.unwrap_or_default() != self.view {
             scene.view = Some(self.view);
         }
+        if scene.check().is_err() {
+            // Whatever the reason is: what is saved can be opened.
+            self.drop_question(&mut scene);
+        }
         scene
+    }
+
+    /// Leaves the contact alone in a scene, with neither title nor source of another question.
+    fn drop_question(&self, scene: &mut Scene) {
+        if self.scene.is_some() {
+            default_title(self.point.kind).clone_into(&mut scene.title);
+        }
+        scene.contact = self.point.kind;
+        scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
+        scene.expect.clear();
+        scene.source.clear();
     }
 
     /// Reads a document from the text of a scene.
