@@ -61,8 +61,8 @@ def test_scenes_and_the_command_line_say_that_a_march_stopped(program, tmp_path)
     program("run", tmp_path / "jump.ron", "--out", tmp_path / "out", code=1)
     told = json.loads(next((tmp_path / "out").glob("*.json")).read_text())
     assert (told["converged"], told["passed"]) == (False, False) and str(error) in told["warning"]
-    (stopped,) = [warning for warning in told["warnings"] if warning["kind"] == "march_stopped"]
-    assert stopped | {"text": str(error)} == error.warning | {"part": "fixed"}
+    (said,) = [warning for warning in told["warnings"] if warning["kind"] == "march_stopped"]
+    assert said | {"text": str(error)} == error.warning | {"part": "fixed"}
 
 
 def test_a_model_trained_from_a_march_that_stopped_says_so(program, tmp_path):

@@ -5,7 +5,9 @@ use super::key::Key;
 use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::{MINERAL_OIL, NamedLubricant};
 use crate::scene::study::point::Point;
-use crate::scene::{At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TransientStudy, View};
+use crate::scene::{
+    At, Grid, LoadFollower, LubricantFollower, Method, Scene, Study, TrainedModel, TransientStudy, View,
+};
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::transient::Unsupported;
@@ -373,6 +375,8 @@ impl Document {
         }
         scene.contact = self.point.kind;
         scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
+        scene.training = TrainedModel::default();
+        (scene.quick, scene.failures_expected) = (false, false);
         scene.expect.clear();
         scene.source.clear();
     }
