@@ -7,6 +7,7 @@
 
 pub mod clock;
 pub mod pool;
+pub mod wanted;
 
 #[cfg(not(target_arch = "wasm32"))]
 #[path = "native/mod.rs"]

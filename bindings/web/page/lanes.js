@@ -52,8 +52,14 @@ export class Lanes {
     const wanted = Math.min(times, 2);
     for (; task.revoked < wanted; task.revoked += 1) URL.revokeObjectURL(task.wishes[task.revoked]);
     if (PATIENCE[wanted] < Infinity) {
-      setTimeout(() => this.tasks.has(ticket) && this.end(task.lane), PATIENCE[wanted]);
+      setTimeout(() => this.running(task.lane) === ticket && this.end(task.lane), PATIENCE[wanted]);
     }
+  }
+
+  // The task that the worker of a lane is at: the first of those that have not ended. One that waits hears its wish when
+  // its turn comes, and does not take the others along.
+  running(lane) {
+    return [...this.tasks].find(([, task]) => task.lane === lane)?.[0];
   }
 
   forget(ticket) {

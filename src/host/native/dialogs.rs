@@ -1,21 +1,9 @@
 //! File dialogs of the system.
 
 use super::worker;
+use crate::host::wanted::Wanted;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, channel};
-
-/// What a dialog asks for.
-#[derive(Clone, Debug)]
-pub struct Wanted {
-    /// Whether a file is to be read.
-    pub reads: bool,
-    /// What such files are called.
-    pub files: &'static str,
-    /// How their names end.
-    pub endings: &'static [&'static str],
-    /// Path to begin with.
-    pub suggestion: PathBuf,
-}
 
 /// Whether a path can also be typed.
 pub const TYPED: bool = true;

@@ -1,0 +1,27 @@
+// The lanes of a page with workers that never end: `node lanes.mjs`.
+import assert from "node:assert/strict";
+import { Lanes } from "../page/lanes.js";
+
+const ended = [];
+globalThis.Worker = class {
+  postMessage() {}
+  terminate() {
+    ended.push(this);
+  }
+};
+const delivered = [];
+const lanes = new Lanes((ticket, bytes) => delivered.push([ticket, bytes]));
+lanes.module = {};
+const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+for (const [lane, ticket] of [[1, 1], [1, 2], [0, 3]]) assert(lanes.post(lane, ticket, "study", new Uint8Array(4)));
+
+// A task that waits is stopped without the one that runs before it.
+lanes.stop(2, 255);
+await pause(500);
+assert.deepEqual([ended.length, delivered.length, lanes.running(1)], [0, 0, 1]);
+// One that runs and hears nothing takes its worker along; those of other lanes go on.
+lanes.stop(1, 255);
+await pause(500);
+assert.deepEqual([ended.length, delivered], [1, [[1, undefined], [2, undefined]]]);
+assert.equal(lanes.running(0), 3);
+console.log("1 passed, 0 failed");
