@@ -1,11 +1,12 @@
 //! Why something that was asked for is not done.
 
+use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::fmt::{Display, Formatter, Result};
 use std::ops::Deref;
 
 /// One sentence: what is wrong, where, and what is accepted.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refusal(String);
 
 impl Refusal {

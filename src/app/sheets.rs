@@ -6,11 +6,13 @@ use super::document::Document;
 use super::purpose::{Purpose, Written};
 use super::wake::wake;
 use crate::app::refusal::Refusal;
-use crate::engine::job::{Background, Job, Standing};
-use crate::engine::{EngineError, Workbench};
-use crate::scene::{Method, Sheet, answer_or_full};
+use crate::engine::job::{Background, Ending, Given, Job, Reporter, Standing, Task};
+use crate::engine::{EngineError, Store, Workbench};
+use crate::scene::{Answer, Method, Request, Sheet, answer_or_full};
+use crate::solver::physics::bodies::Bodies;
 use crate::solver::reduced::Trust;
 use egui::Context;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// How a sheet is written.
@@ -27,7 +29,53 @@ pub enum Form {
 /// The sheet that is being made.
 #[derive(Default)]
 pub struct Sheets {
-    work: Background<Purpose>,
+    of: Option<Of>,
+    work: Background<Told>,
+}
+
+/// What a sheet is made of, but for the answers that are still being solved.
+struct Of {
+    form: Form,
+    title: String,
+    bodies: Option<Bodies>,
+    answers: Vec<Answer>,
+}
+
+/// The solves of a sheet.
+#[derive(Serialize, Deserialize)]
+pub struct Solves {
+    requests: Vec<Request>,
+    model: Option<Given>,
+}
+
+/// What the solves of a sheet tell.
+#[derive(Serialize, Deserialize)]
+pub enum Told {
+    Answer(Box<Answer>),
+    Complete,
+}
+
+impl Task for Solves {
+    const KIND: &'static str = "sheet";
+    const LANE: usize = 1;
+    type Message = Told;
+
+    fn run(self, store: &Store, reporter: &Reporter<Told>) -> Ending {
+        let mut bench = Workbench::on(store, "");
+        if let Some(model) = &self.model {
+            bench = bench.using(&model.model(store)?);
+        }
+        for (k, request) in self.requests.iter().enumerate() {
+            reporter.stage(&format!("solving, {}", request.method.name()), k, self.requests.len());
+            match answer_or_full(&mut bench, request, reporter).map_err(EngineError::from) {
+                Ok(answer) => reporter.send(Told::Answer(Box::new(answer))),
+                Err(error) if error.cancelled() || reporter.cancelled() => return Ok(()),
+                Err(error) => return Err(error.to_string().into()),
+            }
+        }
+        reporter.send(Told::Complete);
+        Ok(())
+    }
 }
 
 impl Form {
@@ -57,36 +105,30 @@ impl Sheets {
     /// Begins the sheet of the contact of a document.
     pub fn begin(&mut self, ctx: &Context, (document, answers): (&Document, &Answers), form: Form) {
         let (key, grid) = (document.key(), document.grid);
-        let mut bench = Workbench::on(answers.store(), "");
-        let mut methods = vec![Method::Full];
+        let (mut methods, mut model) = (vec![Method::Full], None);
         if let Some(in_use) = answers.in_use(document).filter(|_| answers.trust(document) == Some(Trust::Trained)) {
             methods.push(in_use.method());
-            bench = bench.using(&in_use.model);
+            model = Some(Given::of(&in_use.model));
         }
-        let (title, bodies) = (document.title.clone(), document.bodies_in_force());
-        self.work.run(Job::start("Results sheet", wake(ctx), move |reporter| {
-            let mut solve = || -> Result<Purpose, EngineError> {
-                let mut answers = Vec::new();
-                for (k, method) in methods.iter().enumerate() {
-                    reporter.stage(&format!("solving, {}", method.name()), k, methods.len());
-                    answers.push(answer_or_full(&mut bench, &key.request(grid, method.clone()), reporter)?);
-                }
-                Ok(form.write(Sheet::new(&title, &answers, bodies.as_ref())))
-            };
-            match solve() {
-                Ok(purpose) => reporter.send(purpose),
-                Err(error) if error.cancelled() || reporter.cancelled() => {}
-                Err(error) => return Err(error.to_string().into()),
-            }
-            Ok(())
-        }));
+        let requests = methods.into_iter().map(|method| key.request(grid, method)).collect();
+        self.of =
+            Some(Of { form, title: document.title.clone(), bodies: document.bodies_in_force(), answers: Vec::new() });
+        self.work.run(Job::of("Results sheet", wake(ctx), answers.store(), Solves { requests, model }));
     }
 
     /// The sheet once it is made, or why there is none.
     pub fn receive(&mut self) -> Option<Result<Purpose, Refusal>> {
-        let mut made = None;
-        self.work.receive(|purpose| made = Some(Ok(purpose)));
-        made.or_else(|| self.work.message.take().map(|why| Err(Refusal::new(why))))
+        let (mut complete, answers) = (false, self.of.as_mut().map(|of| &mut of.answers));
+        let mut unread = Vec::new();
+        let answers = answers.unwrap_or(&mut unread);
+        self.work.receive(|told| match told {
+            Told::Answer(answer) => answers.push(*answer),
+            Told::Complete => complete = true,
+        });
+        if let Some(Of { form, title, bodies, answers }) = self.of.take_if(|_| complete) {
+            return Some(Ok(form.write(Sheet::new(&title, &answers, bodies.as_ref()))));
+        }
+        self.work.message.take().map(|why| Err(Refusal::new(why)))
     }
 
     /// How far it is.

@@ -1,14 +1,22 @@
 //! Tasks that another instance of the program may send.
 
 use crate::app::answers::jobs::FullSolve;
+use crate::app::figure::ToImage;
+use crate::app::sheets::Solves;
+use crate::app::tabs::training::TrainingTask;
+use crate::app::tabs::transient::{NumberTask, OtherRuleTask};
 use crate::engine::Store;
-use crate::engine::job::{Asked, Performer, Task, perform as done};
+use crate::engine::job::{Asked, Performer, Replayed, Task, perform as done};
 
 /// Does a task of a kind; nothing where there is no such kind.
 pub fn perform(kind: &str, task: &[u8], store: &Store, performer: Performer) {
-    match kind {
-        FullSolve::KIND => done::<FullSolve>(task, store, performer),
-        Asked::KIND => done::<Asked>(task, store, performer),
-        _ => {}
+    macro_rules! of {
+        ($($task:ty),*) => {
+            match kind {
+                $(<$task>::KIND => done::<$task>(task, store, performer),)*
+                _ => {}
+            }
+        };
     }
+    of!(FullSolve, Asked, Replayed, TrainingTask, NumberTask, OtherRuleTask, ToImage, Solves);
 }

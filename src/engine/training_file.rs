@@ -12,6 +12,8 @@ use crate::host::worker;
 use crate::scene::atomic_file::{self, WriteError};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant};
 use crate::solver::training::{TrainingSpec, TrainingState, Windows};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::ffi::OsString;
 use std::fs::{File, TryLockError};
@@ -91,6 +93,51 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     name.into()
 }
 
+/// A state with what the laws of a lubricant are written without: its cavitation and heat. Heat leaves fields out, so it
+/// is text.
+#[derive(Serialize, Deserialize)]
+struct Whole<'a>(Cow<'a, TrainingState>, Cavitation, String);
+
+impl<'a> Whole<'a> {
+    fn of(state: &'a TrainingState) -> Self {
+        let Lubricant { cavitation, heat, .. } = state.spec.lubricant;
+        Self(Cow::Borrowed(state), cavitation, serde_json::to_string(&heat).unwrap_or_default())
+    }
+}
+
+impl TryFrom<Whole<'_>> for TrainingState {
+    type Error = serde_json::Error;
+
+    fn try_from(Whole(state, cavitation, heat): Whole<'_>) -> Result<Self, Self::Error> {
+        let (mut state, heat): (Self, Option<Heat>) = (state.into_owned(), serde_json::from_str(&heat)?);
+        state.spec = state.spec.under(cavitation).heated(heat);
+        Ok(state)
+    }
+}
+
+/// `#[serde(with = "training_file::whole")]` serialises a state with the cavitation and the heat of its lubricant.
+pub mod whole {
+    use super::{TrainingState, Whole};
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    /// Serialises a state.
+    ///
+    /// # Errors
+    /// Those of the serialiser.
+    pub fn serialize<S: Serializer>(state: &TrainingState, serializer: S) -> Result<S::Ok, S::Error> {
+        Whole::of(state).serialize(serializer)
+    }
+
+    /// Reads a state.
+    ///
+    /// # Errors
+    /// Those of the deserialiser.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<TrainingState, D::Error> {
+        Whole::deserialize(deserializer)?.try_into().map_err(D::Error::custom)
+    }
+}
+
 /// Reads an unfinished training.
 ///
 /// # Errors
@@ -121,11 +168,8 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
             "it was begun by version {program} of the program, and this is version {PROGRAM}, whose solutions and choices may differ"
         )));
     }
-    let (mut state, cavitation, heat): (TrainingState, Cavitation, String) =
-        postcard::from_bytes(payload).map_err(undecoded)?;
-    let heat: Option<Heat> =
-        serde_json::from_str(&heat).map_err(|_| refused("its content cannot be decoded".to_owned()))?;
-    state.spec = state.spec.under(cavitation).heated(heat);
+    let whole: Whole = postcard::from_bytes(payload).map_err(undecoded)?;
+    let state = TrainingState::try_from(whole).map_err(|_| refused("its content cannot be decoded".to_owned()))?;
     if is_sound(&state) { Ok(state) } else { Err(refused("its content contradicts itself".to_owned())) }
 }
 
@@ -174,11 +218,8 @@ pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError
 }
 
 fn write_as(program: &str, state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
-    // The laws of a lubricant are written without its cavitation and without heat. Heat leaves fields out, so it is text.
-    let Lubricant { cavitation, heat, .. } = state.spec.lubricant;
     let refused = || TrainingFileError::Refused { path: path.to_owned(), what: "it cannot be encoded".to_owned() };
-    let heat = serde_json::to_string(&heat).map_err(|_| refused())?;
-    let encoded = postcard::to_allocvec(&(program, state, cavitation, heat)).map_err(|_| refused())?;
+    let encoded = postcard::to_allocvec(&(program, Whole::of(state))).map_err(|_| refused())?;
     Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
 }
 

@@ -1,11 +1,12 @@
 //! What a reader of an outcome must know, as data.
 
 use crate::solver::warning::{Repeated, Warning};
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::fmt;
 
 /// What a reader of an outcome must know. Its sentence is what it displays.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Notice {
     /// A warning of a part of the study, such as a method or a march; of all of it if the part is empty.
     Warning {

@@ -281,7 +281,7 @@ impl Warning {
 }
 
 /// A kind of warning that several answers carry. Its sentence is what it displays.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 #[error("{count} of {all} contacts, the last of them: {last}")]
 pub struct Repeated {
     /// How many carry it.

@@ -8,13 +8,15 @@ use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::app::units::Units;
 use crate::app::wake::wake;
-use crate::engine::job::{Background, Job, Standing};
+use crate::engine::Store;
+use crate::engine::job::{Background, Ending, Job, Reporter, Standing, Task};
 use crate::scene::drawing::{DPI, Drawing, Pixels};
 use crate::scene::{Chart, Page, drawn};
 use egui::{
     Color32, ColorImage, ComboBox, Context, DragValue, Id, Modal, TextEdit, TextureHandle, TextureOptions, Theme,
     ThemePreference, Ui, vec2,
 };
+use serde::{Deserialize, Serialize};
 
 /// Widths of a column and of a page of journals \[mm\].
 const WIDTHS: [f64; 2] = [85.0, 170.0];
@@ -55,13 +57,22 @@ pub struct Figures {
 }
 
 /// An image of a figure.
-enum Image {
+#[derive(Serialize, Deserialize)]
+pub enum Image {
     File(Vec<u8>),
-    Clipboard(ColorImage),
+    Clipboard(Pixels),
+}
+
+/// A drawing that is to become an image: a large one takes seconds.
+#[derive(Serialize, Deserialize)]
+pub struct ToImage {
+    drawing: Drawing,
+    dpi: f64,
+    leaves: Leaves,
 }
 
 /// What became of a figure.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 enum Leaves {
     Svg,
     Png,
@@ -160,7 +171,8 @@ impl Figures {
         let purpose = leaves.and_then(|leaves| match leaves {
             Leaves::Svg | Leaves::Data => dialog.text(&self.settings, leaves),
             Leaves::Png | Leaves::Copy => {
-                self.work.run(image(ctx, dialog.drawing(&self.settings), self.settings.dpi, leaves));
+                let task = ToImage { drawing: dialog.drawing(&self.settings), dpi: self.settings.dpi, leaves };
+                self.work.run(Job::of(ToImage::STAGE, wake(ctx), &Store::default(), task));
                 None
             }
         });
@@ -184,7 +196,7 @@ impl Figures {
         match made? {
             Image::File(file) => Some(Purpose::Write(Written::Png, file.into())),
             Image::Clipboard(image) => {
-                ctx.copy_image(image);
+                ctx.copy_image(color_image(&image));
                 None
             }
         }
@@ -373,19 +385,26 @@ impl Dialog {
     }
 }
 
-/// Begins to make the image of a drawing, beside the window: a large one takes seconds.
-fn image(ctx: &Context, drawing: Drawing, dpi: f64, leaves: Leaves) -> Job<Image> {
+impl ToImage {
     const STAGE: &str = "Drawing the figure";
-    Job::start(STAGE, wake(ctx), move |reporter| {
-        reporter.stage(STAGE, 0, 2);
-        let drawn = || reporter.stage(STAGE, 1, 2);
+}
+
+impl Task for ToImage {
+    const KIND: &'static str = "figure";
+    const LANE: usize = 1;
+    type Message = Image;
+
+    fn run(self, _store: &Store, reporter: &Reporter<Image>) -> Ending {
+        let Self { drawing, dpi, leaves } = self;
+        reporter.stage(Self::STAGE, 0, 2);
+        let drawn = || reporter.stage(Self::STAGE, 1, 2);
         let image = match leaves {
-            Leaves::Copy => drawing.to_pixels(dpi).map(|pixels| Image::Clipboard(color_image(&pixels))),
+            Leaves::Copy => drawing.to_pixels(dpi).map(Image::Clipboard),
             _ => drawing.to_png(dpi, drawn).map(Image::File),
         };
         reporter.send(image.map_err(|why| why.to_string())?);
         Ok(())
-    })
+    }
 }
 
 fn size(ui: &mut Ui, mm: &mut f64, name: &str) {

@@ -11,7 +11,7 @@ mod task;
 
 pub use error::{JobError, Panicked, guarded};
 pub use queue::Queue;
-pub use study::Asked;
+pub use study::{Asked, Given, Replayed};
 pub use task::{Performer, Task, perform};
 
 use crate::host::clock::Stopwatch;

@@ -1,7 +1,7 @@
 //! The question of a scene as a job, whose messages are the rows of its study.
 
 use super::{Ending, Job, JobError, Reporter, Task, Wake};
-use crate::engine::{EngineError, SavedModel, Store, Workbench, model_file, name_of};
+use crate::engine::{EngineError, Store, Workbench, name_of};
 use crate::host::pool::on_spare_cores;
 use crate::host::worker;
 use crate::scene::study::transient::Model;
@@ -30,27 +30,31 @@ pub struct Asked {
 
 /// A reduced model for another instance of the program.
 #[derive(Serialize, Deserialize)]
-enum Given {
+pub enum Given {
     /// Name of one of the program.
     Program(String),
-    /// Content of a file; empty where the model cannot be written.
-    File(Vec<u8>),
+    /// Another one.
+    Own(Arc<ReducedModel>),
 }
 
 impl Given {
-    fn of(model: &Arc<ReducedModel>) -> Self {
+    /// What to send of a model.
+    pub fn of(model: &Arc<ReducedModel>) -> Self {
         match name_of(model) {
             Some(name) => Self::Program(name),
-            None => Self::File(model_file::to_bytes(model).unwrap_or_default()),
+            None => Self::Own(Arc::clone(model)),
         }
     }
 
-    fn model(&self, store: &Store) -> Result<Arc<ReducedModel>, JobError> {
-        let model = match self {
-            Self::Program(name) => store.embedded(name),
-            Self::File(bytes) => SavedModel::from_bytes(bytes).and_then(SavedModel::stationary),
-        };
-        model.map_err(JobError::failed)
+    /// The model.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn model(&self, store: &Store) -> Result<Arc<ReducedModel>, JobError> {
+        match self {
+            Self::Program(name) => store.embedded(name).map_err(JobError::failed),
+            Self::Own(model) => Ok(Arc::clone(model)),
+        }
     }
 }
 
@@ -69,35 +73,48 @@ impl Task for Asked {
     }
 }
 
+/// Models that march along the inputs of a scene's contact in time.
+#[derive(Serialize, Deserialize)]
+pub struct Replayed {
+    scene: Scene,
+    models: Vec<Model>,
+}
+
+impl Task for Replayed {
+    const KIND: &'static str = "replay";
+    const LANE: usize = 1;
+    type Message = StudyRow;
+
+    fn run(self, store: &Store, reporter: &Reporter<StudyRow>) -> Ending {
+        let Self { scene, models } = self;
+        scene.answer(reporter, |scene| match &scene.study {
+            Study::Transient(study) => {
+                study.replay(&models, &scene.experiment(), &mut Workbench::on(store, ""), reporter)
+            }
+            _ => Ok(()),
+        })
+    }
+}
+
 impl Scene {
     /// Begins to answer the scene's question on a bench. What the rows say is read off them by [`Scene::outcome`] and
     /// its study. A job that was stopped ends with the rows that there are.
     pub fn ask(self, mut bench: Workbench, wake: Wake) -> Job<StudyRow> {
-        if worker::THREADS {
-            return self
-                .answering(wake, move |scene, reporter| scene.study.run(&scene.experiment(), &mut bench, reporter));
-        }
         let name = self.title.clone();
+        if worker::THREADS {
+            return Job::start(&name, wake, move |reporter| {
+                self.answer(reporter, |scene| scene.study.run(&scene.experiment(), &mut bench, reporter))
+            });
+        }
         let model = bench.in_use().map(|(model, for_all)| (Given::of(model), for_all));
         Job::of(&name, wake, bench.store(), Asked { scene: self, model })
     }
 
     /// Begins to take models that were made before along the inputs of the scene's contact in time, without the full
     /// system; nothing where it asks another question.
-    pub fn replay(self, models: Vec<Model>, mut bench: Workbench, wake: Wake) -> Job<StudyRow> {
-        self.answering(wake, move |scene, reporter| match &scene.study {
-            Study::Transient(study) => study.replay(&models, &scene.experiment(), &mut bench, reporter),
-            _ => Ok(()),
-        })
-    }
-
-    fn answering(
-        self,
-        wake: Wake,
-        answer: impl FnOnce(&Self, &Reporter<StudyRow>) -> Result<(), EngineError> + Send + 'static,
-    ) -> Job<StudyRow> {
+    pub fn replay(self, models: Vec<Model>, store: &Store, wake: Wake) -> Job<StudyRow> {
         let name = self.title.clone();
-        Job::start(&name, wake, move |reporter| self.answer(reporter, |scene| answer(scene, reporter)))
+        Job::of(&name, wake, store, Replayed { scene: self, models })
     }
 
     fn answer(
@@ -117,9 +134,11 @@ impl Scene {
 mod tests {
     use super::*;
     use crate::engine::Store;
+    use crate::engine::job::{Event, Performer, perform};
     use crate::host::clock::Stopwatch;
     use crate::host::worker::pause;
     use crate::scene::{SceneOutcome, run_scene};
+    use std::sync::mpsc::channel;
     use std::time::Duration;
 
     /// One scene of each kind whose numbers the explorer also draws on tabs of their own.
@@ -128,8 +147,27 @@ mod tests {
         "study: Sweep(over: [(vary: M, values: Log(from: 10.0, to: 30.0, n: 4))], methods: [Full, Reduced()])",
         "study: ErrorSplit(contacts: Here, method: Reduced())",
         "grid: Uniform(dx: 0.01, domain: (-4.0, 2.0)), study: Transient(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), \
-         duration: 0.2, time_step: Fixed(0.02), frames: [Fixed], reduced: (loss: 1e-5))",
+         duration: 0.2, time_step: Fixed(0.02), frames: [Fixed], reduced: (loss: 1e-5), linearised: (modes: 12, \
+         selection: Distance(tolerance: 0.1), weightings: [DualTaylor]))",
     ];
+
+    /// The rows of a scene whose question another instance of the program answers.
+    fn elsewhere(scene: Scene, store: &Store) -> Vec<StudyRow> {
+        let task = rmp_serde::to_vec_named(&Asked { scene, model: None }).unwrap();
+        let (sender, events) = channel();
+        let send = Box::new(move |event| sender.send(event).unwrap());
+        perform::<Asked>(&task, store, Performer { send, stops: Box::new(|| 0) });
+        let (mut rows, mut ended) = (Vec::new(), false);
+        for event in events {
+            match rmp_serde::from_slice(&event).unwrap() {
+                Event::Message(row) => rows.push(row),
+                Event::Stage(_) => {}
+                Event::Ended(ending) => ended = ending.is_ok(),
+            }
+        }
+        assert!(ended);
+        rows
+    }
 
     /// Everything but what depends on the clock.
     fn values(outcome: SceneOutcome) -> Vec<(String, u64)> {
@@ -166,6 +204,8 @@ mod tests {
                 assert!(ending.is_ok(), "{study}: {ending:?}");
                 assert_eq!(values(scene.outcome(&rows, 0.0)), headless, "{study}");
             }
+            let rows = elsewhere(scene.clone(), &store);
+            assert_eq!(values(scene.outcome(&rows, 0.0)), headless, "{study}, by another instance");
         }
     }
 }

@@ -6,6 +6,7 @@ mod container;
 mod error;
 mod multiples;
 mod saved;
+mod serialised;
 mod snapshots;
 mod sound;
 mod steady;

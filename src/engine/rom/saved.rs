@@ -56,7 +56,7 @@ impl SavedModel {
     pub fn to_bytes(&self) -> Result<Vec<u8>, ModelFileError> {
         match self {
             Self::Stationary(model) => to_bytes(model),
-            Self::InTime(model) => on_all_cores(|| transient::encode(model)).ok_or(damaged("encoding")),
+            Self::InTime(model) => in_time_to_bytes(model),
         }
     }
 
@@ -153,4 +153,12 @@ pub(in crate::engine) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -
 /// When it cannot be encoded.
 pub(in crate::engine) fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
     on_all_cores(|| steady::encode(model)).ok_or(damaged("encoding"))
+}
+
+/// The content of the file of a transient model.
+///
+/// # Errors
+/// When it cannot be encoded.
+pub(super) fn in_time_to_bytes(model: &TrajectoryModel) -> Result<Vec<u8>, ModelFileError> {
+    on_all_cores(|| transient::encode(model)).ok_or(damaged("encoding"))
 }

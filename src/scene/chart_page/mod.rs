@@ -75,7 +75,7 @@ pub fn drawn(charts: &[Chart], page: &Page) -> Drawing {
             size: SMALL,
             bold: false,
             color: page.ink(),
-            class: "caption",
+            class: "caption".into(),
         }));
     }
     drawing

@@ -157,7 +157,7 @@ impl Panel<'_> {
     fn lettering(&mut self, words: Words, at: [f64; 2], beside: Beside, change: impl FnOnce(&mut Lettering)) {
         let color = self.page.ink();
         let mut lettering =
-            Lettering { words, at, beside, upwards: false, size: LETTERS, bold: false, color, class: "" };
+            Lettering { words, at, beside, upwards: false, size: LETTERS, bold: false, color, class: "".into() };
         change(&mut lettering);
         self.marks.push(Mark::Words(lettering));
     }
@@ -183,7 +183,7 @@ impl Panel<'_> {
             self.marks.push(Mark::Line(vec![[at, axes.bottom], [at, axes.bottom - 2.5]], pen.clone()));
             if at - half > free {
                 let place = [at, axes.bottom + LETTERS * LINE];
-                self.lettering(Words::plain(text), place, Beside::Middle, |words| words.class = "x");
+                self.lettering(Words::plain(text), place, Beside::Middle, |words| words.class = "x".into());
                 free = at + half + 2.0;
             }
         }
@@ -191,15 +191,15 @@ impl Panel<'_> {
             let at = axes.y(*value);
             self.marks.push(Mark::Line(vec![[axes.left, at], [axes.left + 2.5, at]], pen.clone()));
             let place = [axes.left - 3.0, at + 0.35 * LETTERS];
-            self.lettering(Words::plain(text), place, Beside::Left, |words| words.class = "y");
+            self.lettering(Words::plain(text), place, Beside::Left, |words| words.class = "y".into());
         }
         self.marks.push(Mark::Frame(axes.rect(), pen));
         let [x, y] = [&self.chart.x, &self.chart.y].map(|axis| self.chart.words(&axis.label));
         let across = [0.5 * (axes.left + axes.right), axes.bottom + 2.0 * LETTERS * LINE];
-        self.lettering(x, across, Beside::Middle, |words| words.class = "x title");
+        self.lettering(x, across, Beside::Middle, |words| words.class = "x title".into());
         let up = [LETTERS + 2.0, 0.5 * (axes.top + axes.bottom)];
         self.lettering(y, up, Beside::Middle, |words| {
-            (words.upwards, words.class) = (true, "y title");
+            (words.upwards, words.class) = (true, "y title".into());
         });
     }
 
@@ -229,7 +229,7 @@ impl Panel<'_> {
         let Some(series) = self.chart.series.get(k) else { return };
         self.mark([x + 8.0, y], series.marks, &series.pen.clone().unwrap_or_else(|| pen(k)));
         let name = self.chart.words(&series.name);
-        self.lettering(name, [x + 19.0, y + 0.35 * LETTERS], Beside::Right, |words| words.class = "legend");
+        self.lettering(name, [x + 19.0, y + 0.35 * LETTERS], Beside::Right, |words| words.class = "legend".into());
     }
 
     fn note(&mut self, axes: &Axes, note: &Note) {
@@ -245,7 +245,7 @@ impl Panel<'_> {
             _ => SMALL + 1.0,
         };
         self.lettering(note.words.clone(), [x + aside, y + down], note.beside, |words| {
-            (words.size, words.class) = (SMALL, "note");
+            (words.size, words.class) = (SMALL, "note".into());
             words.color = note.color.unwrap_or(words.color);
         });
     }
@@ -261,13 +261,13 @@ impl Panel<'_> {
         for (value, text) in scale_ticks(scale) {
             let y = axes.bottom - (value - low) / (end - low) * high;
             let place = [left + BAR + 2.0, y + 0.35 * LETTERS];
-            self.lettering(Words::plain(text), place, Beside::Right, |words| words.class = "scale");
+            self.lettering(Words::plain(text), place, Beside::Right, |words| words.class = "scale".into());
         }
         let numbers = scale_ticks(scale).iter().map(|(_, text)| width_of(text)).fold(0.0, f64::max);
         let title = self.chart.words(&scale.label);
         let place = [left + BAR + 4.0 + numbers + LETTERS, top + 0.5 * high];
         self.lettering(title, place, Beside::Middle, |words| {
-            (words.upwards, words.class) = (true, "scale title");
+            (words.upwards, words.class) = (true, "scale title".into());
         });
     }
 }

@@ -1,6 +1,9 @@
 //! Drawings for print: lines, areas, words and images at places in points of a printer, written as SVG or, by the same
 //! list, as PNG with any resolution. Letters are those that the program ships, so that nothing depends on a system.
 
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
 mod png;
 mod svg;
 mod words;
@@ -16,7 +19,7 @@ pub const PT_PER_MM: f64 = 72.0 / 25.4;
 pub type Rgb = [u8; 3];
 
 /// How a line is drawn.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pen {
     /// Its colour.
     pub color: Rgb,
@@ -29,7 +32,7 @@ pub struct Pen {
 }
 
 /// Where words stand beside their place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Beside {
     /// They begin there.
     Right,
@@ -40,7 +43,7 @@ pub enum Beside {
 }
 
 /// Words on a drawing, on one line.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lettering {
     /// The words.
     pub words: Words,
@@ -57,11 +60,11 @@ pub struct Lettering {
     /// Their colour.
     pub color: Rgb,
     /// What they are, for programs that read the drawing; empty where nobody asks.
-    pub class: &'static str,
+    pub class: Cow<'static, str>,
 }
 
 /// Pixels over a rectangle.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pixels {
     /// How many across.
     pub width: usize,
@@ -70,7 +73,7 @@ pub struct Pixels {
 }
 
 /// What is drawn. Rectangles are left, top, width and height \[pt\].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Mark {
     /// A line through points.
     Line(Vec<[f64; 2]>, Pen),
@@ -91,7 +94,7 @@ pub enum Mark {
 }
 
 /// A drawing.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drawing {
     /// Width and height \[mm\].
     pub size_mm: [f64; 2],

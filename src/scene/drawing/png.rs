@@ -280,7 +280,7 @@ mod tests {
             size: 20.0,
             bold: false,
             color: [0, 0, 255],
-            class: "",
+            class: "".into(),
         };
         let drawing = Drawing {
             size_mm: [25.4, 25.4],

@@ -1,5 +1,6 @@
 //! Words with symbols, and how much room they take.
 
+use serde::{Deserialize, Serialize};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider as _};
 
@@ -11,7 +12,7 @@ pub(super) const LOWERED: f64 = 0.22;
 const LETTER_WIDTH: f64 = 0.56;
 
 /// A piece of words in one look.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Piece {
     pub text: String,
     pub italic: bool,
@@ -19,7 +20,7 @@ pub(super) struct Piece {
 }
 
 /// A line of words in which symbols are slanted and subscripts stand below.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Words(Vec<Piece>);
 
 impl Words {

@@ -40,14 +40,14 @@ pub enum Contacts {
 }
 
 /// One contact's error.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Where on the trajectory; not a number at the scene's own contact.
     pub c: f64,
     /// The contact.
     pub point: OperatingPoint,
     /// The parts of its error, or why there are none.
-    pub split: Result<Arc<ErrorSplit>, SplitError>,
+    pub split: Result<Arc<ErrorSplit>, String>,
 }
 
 /// The parts of one film's error, relative to the full film.
@@ -124,7 +124,7 @@ impl Question for ErrorSplitStudy {
                 Ok(split) => Ok(Arc::new(split)),
                 Err(SplitError::Cancelled) => return Err(RunError::Cancelled),
                 Err(SplitError::Problem(refused)) => return Err(refused.into()),
-                Err(error) => Err(error),
+                Err(error) => Err(error.to_string()),
             };
             tell(Row { c: *c, point: *point, split });
         }

@@ -74,7 +74,7 @@ use std::sync::atomic::AtomicBool;
 
 /// What is asked of a scene's contact, what comes of it, and how each is handed to the file of its study.
 macro_rules! studies {
-    ($($(#[$about:meta])* $name:ident($question:ty)$([$rows:meta])?,)*) => {
+    ($($(#[$about:meta])* $name:ident($question:ty),)*) => {
         /// What is asked of a scene's contact.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
@@ -82,14 +82,12 @@ macro_rules! studies {
             $($(#[$about])* $name($question),)*
         }
 
-        /// A row of any study. Rows that hold models are not serialised: a model travels as its file. They come last, so
-        /// that formats that number the kinds give every other one the same number when it is read.
+        /// A row of any study. A model in it is serialised as its file.
         #[derive(Clone, Debug, Serialize, Deserialize)]
         #[expect(clippy::large_enum_variant, reason = "a study has rows of one kind")]
         pub enum StudyRow {
             $(
                 #[doc = concat!("What comes of [`Study::", stringify!($name), "`].")]
-                $(#[$rows])?
                 $name(<$question as Question>::Row),
             )*
         }
@@ -195,15 +193,15 @@ studies! {
     /// Galerkin's scheme, residual minimisation and ways of sampling rows for a contact in time.
     SchemesInTime(schemes_in_time::SchemesInTime),
     /// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
-    ErrorSplit(error_split::ErrorSplitStudy)[serde(skip)],
+    ErrorSplit(error_split::ErrorSplitStudy),
     /// Error and time of a reduced model against its numbers of modes and of sampled rows.
-    ModelSizes(model_sizes::ModelSizes)[serde(skip)],
+    ModelSizes(model_sizes::ModelSizes),
     /// Training of a reduced model.
-    Training(TrainingSpec)[serde(skip)],
+    Training(TrainingSpec),
     /// Plans of snapshot selection side by side: Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7.
-    PlanComparison(plan_comparison::PlanComparison)[serde(skip)],
+    PlanComparison(plan_comparison::PlanComparison),
     /// The contact in time, under inputs that vary, in full and by models: Figs. 2.6 (right), 4.4, 4.10 to 4.18.
-    Transient(transient::TransientStudy)[serde(skip)],
+    Transient(transient::TransientStudy),
 }
 
 impl Study {

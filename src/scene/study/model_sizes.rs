@@ -41,7 +41,7 @@ const FEWEST_MODES: usize = 6;
 const REPEATED: usize = 3;
 
 /// What was varied.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Varied {
     /// The pressure modes, with the model's own rows.
     Modes,
@@ -59,7 +59,7 @@ impl Varied {
 }
 
 /// One size.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row {
     /// What was varied.
     pub varied: Varied,

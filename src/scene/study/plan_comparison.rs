@@ -64,7 +64,7 @@ pub struct ComparedPlan {
 }
 
 /// What comes of the plans, in their order: first all models, then all tests.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Row {
     /// The model of a plan.
     Trained(Trained),
@@ -73,7 +73,7 @@ pub enum Row {
 }
 
 /// The model of a plan.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trained {
     /// The plan.
     pub plan: ComparedPlan,
@@ -82,7 +82,7 @@ pub struct Trained {
 }
 
 /// How a plan's model stood its tests.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tested {
     /// The plan.
     pub plan: ComparedPlan,
@@ -99,7 +99,7 @@ pub struct Tested {
 }
 
 /// One contact of the trajectory: full and reduced, each where it is known.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
     /// Where on the trajectory.
     pub c: f64,

@@ -8,10 +8,11 @@ use crate::scene::check::refuse;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{ReducedModel, Window};
 use crate::solver::training::TrainingSpec;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The model.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row {
     /// What was trained.
     pub model: Arc<ReducedModel>,

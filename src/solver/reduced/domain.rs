@@ -19,7 +19,7 @@ pub struct Domain {
 }
 
 /// Whether a model covers a problem.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Trust {
     /// Inside the trained range.
     Trained,

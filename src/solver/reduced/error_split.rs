@@ -41,6 +41,7 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use faer::Mat;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// 2² − 1: an error of second order on a grid and on the one with half its spacing.
@@ -70,7 +71,7 @@ pub enum SplitError {
 }
 
 /// Signed parts of one scalar's error, each relative to the full solution on the model's grid.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Parts {
     /// Best approximation minus full.
     pub basis: f64,
@@ -105,7 +106,7 @@ impl Parts {
 }
 
 /// Distances of pressures e_P = ‖ΔP‖/‖P‖ in the weighted norm. They are lengths: they do not add up.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct PressureParts {
     /// Best approximation from full: the least any solution in this basis can have.
     pub basis: f64,
@@ -118,7 +119,7 @@ pub struct PressureParts {
 }
 
 /// The error of one reduced solution, by cause.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorSplit {
     /// The reduced solution whose error it is.
     pub reduced: ReducedSolution,

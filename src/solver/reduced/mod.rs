@@ -16,6 +16,7 @@ mod error_measures;
 mod error_split;
 mod kept;
 mod kriging;
+pub(crate) mod matrix_values;
 mod minimisation;
 mod model;
 mod multiples;

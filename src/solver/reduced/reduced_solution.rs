@@ -4,14 +4,16 @@ use super::domain::Trust;
 use super::error_estimate::ErrorEstimate;
 use super::warmth::Warmth;
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
+use serde::{Deserialize, Serialize};
 
 /// What the online phase returns: small numbers only; fields are reconstructed on request.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReducedSolution {
     /// The operating point it belongs to.
     pub point: OperatingPoint,
     /// The laws it belongs to.
+    #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
     /// The window that served it.
     pub window: usize,

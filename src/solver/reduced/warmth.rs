@@ -2,9 +2,10 @@
 
 use crate::solver::discrete::heat::Profile;
 use crate::solver::full::heat::Rises;
+use serde::{Deserialize, Serialize};
 
 /// The temperatures of a reduced solution.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Warmth {
     /// θ = (T − T₀)/T₀ at the stations of the march, line after line, from body 1 to body 2.
     pub theta: Vec<Profile>,

@@ -2,10 +2,10 @@
 
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::training::{Plan, TrainingState};
-use egui_plot::PlotPoint;
+use serde::{Deserialize, Serialize};
 
 /// Full solutions and bad approximations, all windows, in the order in which they were decided on.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Chart {
     /// Full solutions.
     pub solved: Vec<Dot>,
@@ -14,19 +14,19 @@ pub struct Chart {
 }
 
 /// A full solution in the M–L plane.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Dot {
     /// log10 M and L.
-    pub at: PlotPoint,
+    pub at: [f64; 2],
     /// Whether the search decided on it; else it was planned from the start.
     pub searched: bool,
 }
 
 /// A bad approximation.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Found {
     /// log10 M and L.
-    pub at: PlotPoint,
+    pub at: [f64; 2],
     /// What the indicator said; none where the reduced solve failed.
     pub indicator: Option<f64>,
     /// Full solutions when it was found, all windows.
@@ -55,7 +55,7 @@ impl Chart {
     }
 }
 
-fn place(point: &OperatingPoint) -> PlotPoint {
+fn place(point: &OperatingPoint) -> [f64; 2] {
     let moes = point.moes();
-    PlotPoint::new(moes.m.log10(), moes.l)
+    [moes.m.log10(), moes.l]
 }

@@ -63,10 +63,10 @@ pub fn plane(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f3
     let spec = runs.or_else(|| context.document.training_spec());
     let range = spec.map(|spec| spec.domain()).map(|domain| (domain.m(), domain.l()));
     let group = |searched: bool| -> Vec<PlotPoint> {
-        chart.solved.iter().filter(|dot| dot.searched == searched).map(|dot| dot.at).collect()
+        chart.solved.iter().filter(|dot| dot.searched == searched).map(|dot| dot.at.into()).collect()
     };
     let bad = |failed: bool| -> Vec<PlotPoint> {
-        chart.bad.iter().filter(|bad| bad.indicator.is_none() == failed).map(|bad| bad.at).collect()
+        chart.bad.iter().filter(|bad| bad.indicator.is_none() == failed).map(|bad| bad.at.into()).collect()
     };
     axes::show(
         axes::plot(ui, "training plane", height, "Load number {M}", "Lubricant number {L}")
@@ -104,7 +104,7 @@ pub fn plane(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f3
                 plot.points(crosses.allow_hover(false));
             }
             if let Some(last) = chart.solved.last().filter(|_| training.job().is_some()) {
-                let ring = dots("", vec![last.at], palette.accent, 8.0).filled(false).id("newest");
+                let ring = dots("", vec![last.at.into()], palette.accent, 8.0).filled(false).id("newest");
                 plot.points(ring.shape(MarkerShape::Circle).allow_hover(false));
             }
         },

@@ -12,4 +12,4 @@ mod worker;
 
 pub use tab::TrainingTab;
 pub use trainings::TrainingCommand;
-pub use worker::{Made, Running};
+pub use worker::{Made, Running, TrainingTask};

@@ -224,7 +224,7 @@ fn standing_ui(ui: &mut Ui, standing: Standing, running: Option<&Running>) {
     let bar = ui.add(ProgressBar::new(fraction).text(count).desired_width(width));
     named(ui, bar, "Progress of the training");
     let Some(running) = running else { return };
-    let solved = running.chart().solved.len();
+    let solved = running.chart.solved.len();
     let left = match running.time_left() {
         Some(seconds) if seconds >= 1.0 && !stopping => {
             let word = if running.fewer { "at most" } else { "about" };

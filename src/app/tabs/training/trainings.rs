@@ -321,9 +321,10 @@ impl Training {
         let wrong = self.comparison.as_mut().and_then(Comparison::receive);
         self.notices.extend(wrong.map(Notice::Wrong));
         let Some(running) = &mut self.job else { return };
-        self.chart = running.chart();
-        self.notices.extend(running.unkept().map(Notice::Wrong));
-        let Some((ending, trained)) = running.receive() else { return };
+        let ended = running.receive();
+        self.chart = Arc::clone(&running.chart);
+        self.notices.extend(running.unkept.take().map(Notice::Wrong));
+        let Some((ending, trained)) = ended else { return };
         let seconds = running.job.since().elapsed().as_secs_f64();
         self.job = None;
         self.notices.extend(ending.err().map(|why| Notice::Wrong(why.to_string())));

@@ -3,9 +3,9 @@
 use crate::app::refusal::Refusal;
 use crate::app::tabs::training::chart::Chart;
 use crate::app::wake::wake;
-use crate::engine::job::{Ending, Job, Reporter, guarded};
-use crate::engine::model_file;
+use crate::engine::job::{Ending, Job, Reporter, Task, guarded};
 use crate::engine::training_file::{self, TrainingKeeper};
+use crate::engine::{Store, model_file};
 use crate::host::clock::Stopwatch;
 use crate::host::pool::on_spare_cores;
 use crate::scene::atomic_file;
@@ -13,15 +13,16 @@ use crate::solver::reduced::ReducedModel;
 use crate::solver::training::{
     Observer, Plan, Progress, TrainingError, TrainingObserver, TrainingSpec, TrainingState, Windows, train_resumable,
 };
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 /// Checkpoints by which the pace is judged.
 const PACE: usize = 12;
 
 /// How a training ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Ended {
     /// By its plan.
     Complete,
@@ -32,8 +33,10 @@ pub enum Ended {
 }
 
 /// What a training leaves.
+#[derive(Serialize, Deserialize)]
 pub struct Trained {
     /// Everything that was solved.
+    #[serde(with = "training_file::whole")]
     pub state: TrainingState,
     /// How it ended.
     pub ended: Ended,
@@ -44,7 +47,7 @@ pub struct Trained {
 }
 
 /// A model with the content of its file.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub struct Made {
     pub model: Arc<ReducedModel>,
     /// What is written when it is saved.
@@ -56,7 +59,7 @@ pub struct Made {
 }
 
 /// Where a session keeps what trainings leave.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Files {
     /// A training that is not at its end.
     pub training: PathBuf,
@@ -72,15 +75,15 @@ pub enum Found {
     Model(Made),
 }
 
-/// What a training has found so far; only the last state of it is of interest.
-#[derive(Default)]
-struct Live {
-    /// Full solutions so far.
-    chart: Arc<Chart>,
-    /// The last checkpoints with their numbers of full solutions, of the slowest part: the search, where there is one.
-    pace: VecDeque<(Stopwatch, usize)>,
-    /// Why it is not kept on disk, until that is told.
-    unkept: Option<String>,
+/// News of a training.
+#[derive(Serialize, Deserialize)]
+pub enum News {
+    /// Full solutions so far, and the seconds from its beginning until then.
+    Chart(Arc<Chart>, f64),
+    /// Why it is not kept on disk.
+    Unkept(String),
+    /// It has ended.
+    Trained(Box<Trained>),
 }
 
 /// Most full solutions a plan takes.
@@ -98,70 +101,91 @@ fn most_solutions(spec: &TrainingSpec) -> usize {
     }
 }
 
+/// A training that begins or goes on, for a thread or another instance of the program.
+#[derive(Serialize, Deserialize)]
+pub struct TrainingTask {
+    #[serde(with = "training_file::whole")]
+    state: TrainingState,
+    files: Option<Files>,
+}
+
+impl Task for TrainingTask {
+    const KIND: &'static str = "training";
+    const LANE: usize = 1;
+    type Message = News;
+
+    fn run(self, _store: &Store, reporter: &Reporter<News>) -> Ending {
+        let watched = Watched { reporter, begun: Stopwatch::start(), keeper: None };
+        let trained = on_spare_cores(|| train(self.state, self.files, watched));
+        reporter.send(News::Trained(Box::new(trained)));
+        Ok(())
+    }
+}
+
 /// A training that runs.
 pub struct Running {
     /// Most full solutions there will be.
     pub most: usize,
     /// Whether there may be fewer.
     pub fewer: bool,
-    live: Arc<Mutex<Live>>,
+    /// Full solutions so far.
+    pub chart: Arc<Chart>,
+    /// Why it is not kept on disk, until that is told.
+    pub unkept: Option<String>,
+    /// Seconds and numbers of full solutions at the last checkpoints of the slowest part: the search, where there is one.
+    pace: VecDeque<(f64, usize)>,
+    /// When the last of them came.
+    last: Stopwatch,
     trained: Option<Trained>,
     /// How far it is.
-    pub job: Job<Trained>,
+    pub job: Job<News>,
 }
 
 impl Running {
     /// Trains on from a state; it is kept in the file meanwhile.
     pub fn start(ctx: &egui::Context, state: TrainingState, files: Option<Files>) -> Self {
         let (most, fewer) = (most_solutions(&state.spec), state.spec.plan.searches());
-        let live = Arc::new(Mutex::new(Live { chart: Arc::new(Chart::of(&state)), ..Live::default() }));
-        let theirs = Arc::clone(&live);
-        let job = Job::start("Training", wake(ctx), move |reporter| {
-            let watched = Watched { reporter, live: theirs, searches: fewer, keeper: None };
-            reporter.send(on_spare_cores(|| train(state, files, watched)));
-            Ok(())
-        });
-        Self { most, fewer, live, trained: None, job }
+        let chart = Arc::new(Chart::of(&state));
+        let job = Job::of("Training", wake(ctx), &Store::default(), TrainingTask { state, files });
+        let (pace, last) = (VecDeque::new(), job.since());
+        Self { most, fewer, chart, unkept: None, pace, last, trained: None, job }
     }
 
-    /// How it ended and what came of it, once it has ended.
+    /// Takes in the news; how it ended and what came of it, once it has ended.
     pub fn receive(&mut self) -> Option<(Ending, Option<Trained>)> {
-        let trained = &mut self.trained;
-        let ending = self.job.poll(|came| *trained = Some(came))?;
+        let Self { fewer, chart, unkept, pace, last, trained, job, .. } = self;
+        let ending = job.poll(|news| match news {
+            News::Chart(latest, seconds) => {
+                // A search retrains for every solution: how fast the first ones came says nothing about it.
+                if *fewer == latest.solved.last().is_some_and(|dot| dot.searched) {
+                    if pace.len() == PACE {
+                        pace.pop_front();
+                    }
+                    pace.push_back((seconds, latest.solved.len()));
+                    *last = Stopwatch::start();
+                }
+                *chart = latest;
+            }
+            News::Unkept(why) => *unkept = Some(why),
+            News::Trained(came) => *trained = Some(*came),
+        })?;
         Some((ending, self.trained.take()))
-    }
-
-    /// Why the training is not kept on disk, once.
-    pub fn unkept(&self) -> Option<String> {
-        lock(&self.live).unkept.take()
-    }
-
-    /// Full solutions so far.
-    pub fn chart(&self) -> Arc<Chart> {
-        Arc::clone(&lock(&self.live).chart)
     }
 
     /// Seconds left at the present pace, when all full solutions are taken that the plan allows.
     pub fn time_left(&self) -> Option<f64> {
-        let live = lock(&self.live);
-        let ((begin, from), (end, to)) = (live.pace.front()?, live.pace.back()?);
+        let ((begin, from), (end, to)) = (self.pace.front()?, self.pace.back()?);
         let done = to.checked_sub(*from).filter(|done| *done > 0)?;
-        let per_solution = (begin.seconds() - end.seconds()) / done as f64;
-        let left = per_solution * self.most.saturating_sub(*to) as f64 - end.seconds();
+        let per_solution = (end - begin) / done as f64;
+        let left = per_solution * self.most.saturating_sub(*to) as f64 - self.last.seconds();
         Some(left.max(0.0))
     }
 }
 
-fn lock(live: &Mutex<Live>) -> MutexGuard<'_, Live> {
-    // Whoever panicked while writing left a picture that is only to look at.
-    live.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
 /// Shows the work in the window and keeps it on disk.
 struct Watched<'a> {
-    reporter: &'a Reporter<Trained>,
-    live: Arc<Mutex<Live>>,
-    searches: bool,
+    reporter: &'a Reporter<News>,
+    begun: Stopwatch,
     keeper: Option<TrainingKeeper>,
 }
 
@@ -178,18 +202,9 @@ impl Observer for Watched<'_> {
 impl TrainingObserver for Watched<'_> {
     fn checkpoint(&self, state: &TrainingState) {
         if let Some(Err(reason)) = self.keeper.as_ref().map(|keeper| keeper.checkpoint(state)) {
-            lock(&self.live).unkept = Some(reason.to_string());
+            self.reporter.send(News::Unkept(reason.to_string()));
         }
-        let chart = Arc::new(Chart::of(state));
-        let mut live = lock(&self.live);
-        // A search retrains for every solution: how fast the first ones came says nothing about it.
-        if self.searches == chart.solved.last().is_some_and(|dot| dot.searched) {
-            if live.pace.len() == PACE {
-                live.pace.pop_front();
-            }
-            live.pace.push_back((Stopwatch::start(), chart.solved.len()));
-        }
-        live.chart = chart;
+        self.reporter.send(News::Chart(Arc::new(Chart::of(state)), self.begun.seconds()));
     }
 }
 
@@ -219,7 +234,9 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
     let model_path = files.as_ref().map(|files| files.model.clone());
     match files.map(|files| TrainingKeeper::new(files.training)).transpose() {
         Ok(keeper) => watch.keeper = keeper,
-        Err(reason) => lock(&watch.live).unkept = Some(format!("{reason}. This training is not kept on disk")),
+        Err(reason) => {
+            watch.reporter.send(News::Unkept(format!("{reason}. This training is not kept on disk")));
+        }
     }
     let result = guarded(|| train_resumable(&mut state, &watch));
     let keeper = watch.keeper.take();
@@ -248,7 +265,7 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
 }
 
 /// The model of what there is, unless that is not wanted either.
-fn rest(state: &TrainingState, reporter: &Reporter<Trained>) -> Result<Made, Refusal> {
+fn rest(state: &TrainingState, reporter: &Reporter<News>) -> Result<Made, Refusal> {
     match guarded(|| state.model(&reporter.abandoned()))? {
         Ok(model) => file_of(model),
         Err(TrainingError::Cancelled) => Err(Refusal::new("no model was made of them")),
@@ -259,4 +276,41 @@ fn rest(state: &TrainingState, reporter: &Reporter<Trained>) -> Result<Made, Ref
 fn file_of(model: ReducedModel) -> Result<Made, Refusal> {
     let bytes = model_file::to_bytes(&model)?;
     Ok(Made { model: Arc::new(model), bytes: Arc::new(bytes), kept: false, saved: false })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::job::{Event, Performer, perform};
+    use crate::solver::discrete::grid::GridSpec;
+    use crate::solver::training::small::moes;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn another_instance_of_the_program_trains_the_same_model() {
+        let grid = GridSpec::Uniform { dx: 0.05, domain: (-4.0, 2.0) };
+        let plan = Plan::FarthestPoint { snapshots: 8 };
+        let spec = TrainingSpec::new(moes((10.0, 14.0), (2.0, 3.0), 3e9), (10.0, 14.0), grid, plan);
+        let task = TrainingTask { state: TrainingState::new(spec), files: None };
+        let bytes = rmp_serde::to_vec_named(&task).unwrap();
+        let (sender, events) = channel();
+        let send = Box::new(move |event| sender.send(event).unwrap());
+        perform::<TrainingTask>(&bytes, &Store::default(), Performer { send, stops: Box::new(|| 0) });
+        let (mut solutions, mut trained) = (0, None);
+        for event in events {
+            match rmp_serde::from_slice::<Event<News>>(&event).unwrap() {
+                Event::Message(News::Chart(chart, _)) => solutions = chart.solved.len(),
+                Event::Message(News::Unkept(why)) => panic!("{why}"),
+                Event::Message(News::Trained(came)) => trained = Some(*came),
+                Event::Stage(_) => {}
+                Event::Ended(ending) => assert_eq!(ending, Ok(())),
+            }
+        }
+        let Trained { state, ended, made, unkept } = trained.unwrap();
+        assert_eq!((ended, unkept, solutions), (Ended::Complete, None, 8));
+        let mut own = TrainingState::new(task.state.spec);
+        let model = train_resumable(&mut own, &()).unwrap();
+        assert_eq!(state, own);
+        assert_eq!(*made.unwrap().bytes, model_file::to_bytes(&model).unwrap());
+    }
 }

@@ -5,8 +5,8 @@ use super::linearised::NumberStudy;
 use super::runs::{TransientRuns, insert};
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::wake::wake;
+use crate::engine::Store;
 use crate::engine::job::Background;
-use crate::engine::{Store, Workbench};
 use crate::scene::study::transient::{Kind, MarchedBy, Model, Row};
 use crate::scene::{Drive, ReducedTransient, Scene, StudyRow, TransientStudy};
 use crate::solver::full::transient::{Ended, Frame, Inputs};
@@ -165,7 +165,7 @@ impl TransientRuns {
         let following = &mut self.following;
         let Some(wanted) = following.asked.clone().filter(|_| following.replaying.is_none()) else { return };
         if let Some(models) = following.serving(&wanted).map(<[Model]>::to_vec) {
-            let job = wanted.question().replay(models, Workbench::on(store, ""), wake(ctx));
+            let job = wanted.question().replay(models, store, wake(ctx));
             following.runs.clear();
             following.replay.run(job);
             following.replaying = Some(wanted);

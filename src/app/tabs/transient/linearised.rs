@@ -5,13 +5,14 @@ use crate::app::refusal::Refusal;
 use crate::app::tabs::transient::Run;
 use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name};
 use crate::app::wake::wake;
-use crate::engine::job::{Background, Ending, Job, Reporter};
-use crate::engine::median;
+use crate::engine::job::{Background, Ending, Job, Reporter, Task};
+use crate::engine::{Store, median};
 use crate::scene::study::transient::{Timed, timed_march};
 use crate::solver::full::transient::{Keep, Moment, Quantity, Trajectory, Transient};
 use crate::solver::reduced::tpwl::{Selection, TpwlMarch, TpwlModel, Weight, Weighting};
 use crate::solver::training::on_one_thread;
 use egui::Context;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// A linearised model with what is shown of it.
@@ -26,7 +27,7 @@ pub struct Linearised {
 }
 
 /// A rule, and the moments it chooses of each training trajectory.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub struct OtherRule {
     /// The rule.
     pub selection: Selection,
@@ -99,7 +100,7 @@ impl Linearised {
 }
 
 /// A model of one number of points on the run's inputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NumberRow {
     /// Rule and tolerance.
     pub selection: Selection,
@@ -121,6 +122,38 @@ pub struct NumberStudy {
     of: Option<Arc<TpwlModel>>,
 }
 
+/// The study of the numbers of operating points on the inputs of a full run.
+#[derive(Serialize, Deserialize)]
+pub struct NumberTask {
+    model: Arc<TpwlModel>,
+    full: Trajectory,
+}
+
+impl Task for NumberTask {
+    const KIND: &'static str = "operating points";
+    const LANE: usize = 1;
+    type Message = NumberRow;
+
+    fn run(self, _store: &Store, reporter: &Reporter<NumberRow>) -> Ending {
+        work(&self.model, &self.full, reporter)
+    }
+}
+
+/// The rule that a model was not made by: what it would choose takes longer than a frame.
+#[derive(Serialize, Deserialize)]
+pub struct OtherRuleTask(pub Arc<TpwlModel>);
+
+impl Task for OtherRuleTask {
+    const KIND: &'static str = "other rule";
+    const LANE: usize = 1;
+    type Message = OtherRule;
+
+    fn run(self, _store: &Store, reporter: &Reporter<OtherRule>) -> Ending {
+        reporter.send(OtherRule::of(&self.0));
+        Ok(())
+    }
+}
+
 const STAGE: &str = "Number of operating points";
 /// Most operating points that are tried.
 const MOST_POINTS: usize = 160;
@@ -136,7 +169,7 @@ impl NumberStudy {
     pub fn start(&mut self, ctx: &Context, model: Arc<TpwlModel>, full: Trajectory) {
         self.rows.clear();
         self.of = Some(Arc::clone(&model));
-        self.work.run(Job::start(STAGE, wake(ctx), move |reporter| work(&model, &full, reporter)));
+        self.work.run(Job::of(STAGE, wake(ctx), &Store::default(), NumberTask { model, full }));
     }
 
     /// Whether it was begun for a model.

@@ -23,6 +23,7 @@ pub mod space_time;
 mod tab;
 mod tpwl;
 
+pub use linearised::{NumberTask, OtherRuleTask};
 pub use run::Run;
 pub use runs::{TransientCommand, TransientRuns};
 pub use setup::{Setup, model_in_use};

@@ -5,7 +5,7 @@ use super::run::Run;
 use super::setup::Setup;
 
 use super::follow::Following;
-use super::linearised::{Linearised, NumberStudy, OtherRule};
+use super::linearised::{Linearised, NumberStudy, OtherRule, OtherRuleTask};
 use super::projection::FieldErrors;
 use crate::app::wake::wake;
 use crate::engine::job::{Background, Job, Standing};
@@ -201,11 +201,8 @@ impl TransientRuns {
         };
         self.linearised = Some(Linearised { model: Arc::clone(model), trainings, own, other: None });
         let model = Arc::clone(model);
-        // What the other rule would choose takes longer than a frame.
-        self.looking.run(Job::start("Looking into the linearised model", wake(ctx), move |reporter| {
-            reporter.send(OtherRule::of(&model));
-            Ok(())
-        }));
+        let name = "Looking into the linearised model";
+        self.looking.run(Job::of(name, wake(ctx), &Store::default(), OtherRuleTask(model)));
     }
 
     /// Returns the progress of the runs.

@@ -33,7 +33,7 @@ pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model
     for march in marches {
         let (model, full_name, method) = match &march.by {
             By::Full { .. } => (None, &march.name, "full"),
-            By::Model { model, method, full } => (models.iter().find(|own| own.name == *model), full, *method),
+            By::Model { model, method, full } => (models.iter().find(|own| own.name == *model), full, &**method),
         };
         let (own, full) = (published(&format!("{full_name}.{method}")), published(&format!("{full_name}.full")));
         let quotient = |of: fn(&PublishedMarch) -> Option<f64>| Some(full.and_then(of)? / own.and_then(of)?);
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn a_march_stands_beside_what_was_published_of_it() {
         let Study::Transient(study) = Scene::from_ron(SCENE).unwrap().study else { panic!() };
-        let by = By::Model { model: "fixed.rnsa".to_owned(), method: "rnsa", full: "fixed".to_owned() };
+        let by = By::Model { model: "fixed.rnsa".to_owned(), method: "rnsa".into(), full: "fixed".to_owned() };
         let full = march("fixed", By::Full { first: None }, 400, 5e-3);
         let reduced = march("fixed.rnsa", by, 400, 2.5e-4);
         let table = table(&study, &[&full, &reduced], &[]);

@@ -10,9 +10,11 @@ use crate::solver::full::GridCost;
 use crate::solver::full::transient::{Frame, Moment, Quantity, Trajectory};
 use crate::solver::reduced::tpwl::{TpwlRecord, TpwlStep, Weighting};
 use crate::solver::warning::Warning;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// A march that has ended.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct March {
     /// What its values begin with.
     pub name: String,
@@ -33,7 +35,7 @@ pub struct March {
 }
 
 /// How the steps of a march are solved.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MarchedBy {
     /// The full system.
     #[default]
@@ -57,7 +59,7 @@ impl MarchedBy {
 }
 
 /// By what a march was made, and which one it is held against.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum By {
     /// The full system, held against the full march of the same inputs in the first frame, where it is not that.
     Full {
@@ -69,7 +71,7 @@ pub enum By {
         /// The model's name.
         model: String,
         /// `rnsa` or `tpwl`.
-        method: &'static str,
+        method: Cow<'static, str>,
         /// The full march's name.
         full: String,
     },
@@ -183,7 +185,7 @@ impl March {
                 found.push(format!("{}.{quantity_name}.difference_l2", self.name), None, l2);
             }
         }
-        if matches!(self.by, By::Model { method: "rnsa", .. }) {
+        if matches!(&self.by, By::Model { method, .. } if method == "rnsa") {
             found.push(format!("{}.trained", self.name), None, f64::from(u8::from(self.outside.is_empty())));
         }
         if let Some(record) = &self.record {
@@ -202,7 +204,7 @@ impl March {
         let error = |march: &Self| Some(march.difference(Quantity::CentralFilm, study, marches)?.0);
         let full = self.reference(marches).map(|full| full.name.as_str());
         let same_inputs = |march: &&&Self| march.reference(marches).map(|full| full.name.as_str()) == full;
-        let reduced = marches.iter().filter(|march| matches!(march.by, By::Model { method: "rnsa", .. }));
+        let reduced = marches.iter().filter(|march| matches!(&march.by, By::Model { method, .. } if method == "rnsa"));
         let reduced = reduced.filter(same_inputs).filter_map(|march| Some((&march.name, error(march)?)));
         match (reduced.min_by(|a, b| a.1.total_cmp(&b.1)), error(self)) {
             (Some((name, reduced)), Some(own)) if reduced < own => {

@@ -27,10 +27,11 @@ use crate::scene::study::question::{
 use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Trajectory, Transient};
 use crate::solver::reduced::transient::TrajectoryModel;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What comes of a contact in time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Row {
     /// A march begins.
     Begun {

@@ -14,13 +14,14 @@ use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Trajector
 use crate::solver::reduced::tpwl::{TpwlError, TpwlMarch, TpwlModel, TpwlTraining, Weighting};
 use crate::solver::reduced::transient::{ReducedMarch, TrajectoryModel};
 use crate::solver::training::{TrajectoryTraining, on_one_thread, train_trajectories};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Most modes in a table of losses.
 const MOST_LOSSES: usize = 300;
 
 /// A trained model.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Model {
     /// What its values begin with.
     pub name: String,
@@ -33,7 +34,7 @@ pub struct Model {
 }
 
 /// Which kind of model it is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Kind {
     /// With sampled rows.
     Reduced(Arc<TrajectoryModel>),
@@ -252,7 +253,11 @@ impl Runner<'_, '_> {
         (full, transient): (&str, &Transient),
     ) -> Result<(), RunError> {
         let transient = Transient { keep: Keep::Scalars, ..transient.clone() };
-        let by = |method| By::Model { model: model.name.clone(), method, full: full.to_owned() };
+        let by = |method: &'static str| By::Model {
+            model: model.name.clone(),
+            method: method.into(),
+            full: full.to_owned(),
+        };
         let march = |name: &str, method: MarchedBy, marching: &mut dyn Marching| {
             let stage = method.stage(transient.frame);
             timed_march(marching, &transient, stage, self.setting.observer, self.told(name, method))

@@ -15,6 +15,7 @@ use crate::solver::discrete::elasticity::{Flexibility, Scratch};
 use crate::solver::discrete::reynolds::RowGeometry;
 use crate::solver::limits::Number;
 use crate::solver::physics::contact::Moes;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Index of the inlet node in node arrays.
@@ -129,7 +130,8 @@ pub struct ReferenceGrid {
 }
 
 /// A grid for one contact: a reference grid under the map X = −1 + (ξ + 1) s.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(into = "Placed", try_from = "Placed")]
 pub struct LineGrid {
     /// The reference grid.
     pub reference: Arc<ReferenceGrid>,
@@ -141,6 +143,27 @@ pub struct LineGrid {
     pub weights: Vec<f64>,
     /// Difference coefficients of the rows at the unknowns; entry k belongs to node k + [`FIRST_UNKNOWN`].
     pub rows: Vec<RowGeometry>,
+}
+
+/// What a grid for one contact is built from.
+#[derive(Serialize, Deserialize)]
+struct Placed {
+    spec: GridSpec,
+    scale: f64,
+}
+
+impl From<LineGrid> for Placed {
+    fn from(grid: LineGrid) -> Self {
+        Self { spec: grid.reference.spec, scale: grid.scale }
+    }
+}
+
+impl TryFrom<Placed> for LineGrid {
+    type Error = GridError;
+
+    fn try_from(Placed { spec, scale }: Placed) -> Result<Self, GridError> {
+        Ok(spec.line()?.scaled(scale))
+    }
 }
 
 impl ReferenceGrid {

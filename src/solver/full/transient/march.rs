@@ -12,14 +12,16 @@ use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::limits::Number;
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
+use serde::{Deserialize, Serialize};
 
 /// A contact to be taken through time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Transient {
     /// The reference contact.
     pub point: OperatingPoint,
     /// Its lubricant.
+    #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
     /// What varies.
     pub inputs: Inputs,
@@ -34,7 +36,7 @@ pub struct Transient {
 }
 
 /// Which fields a trajectory keeps; scalars are always kept.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Keep {
     /// None.
     #[default]

@@ -66,7 +66,7 @@ impl TimeStep {
 }
 
 /// How the length of the next step in one march follows from the previous one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Rule {
     /// All steps have this length, up to an even division of the duration.
     Fixed(f64),

@@ -56,7 +56,7 @@ pub struct Moment {
 }
 
 /// Fields at one time in the frame's own scales; node arrays as everywhere, the first entry lies outside the inlet.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// T.
     pub time: f64,
@@ -117,7 +117,7 @@ pub enum Quantity {
 }
 
 /// A contact taken through time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trajectory {
     /// What was asked.
     pub transient: Transient,

@@ -10,11 +10,13 @@ use crate::solver::discrete::reynolds::{CENTER, PENALTY};
 use crate::solver::discrete::space::{LineSpace, Space};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::Input;
+use crate::solver::reduced::matrix_values;
 use faer::{Mat, MatRef};
+use serde::{Deserialize, Serialize};
 
 /// g and f at (ỹ, u), tested with weighted rows of Vᵀ, with their derivatives. The last equation is the load's, w̄ π/2
 /// − ∫P, which has no g.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Linearisation {
     /// g: ρ̄H.
     pub storage: LinearFunction,
@@ -24,18 +26,20 @@ pub struct Linearisation {
 
 /// A system function with its derivatives. Those of g are the dissertation's B and C, those of f its E and F; A and D
 /// follow from the values, see [`Linearisation::intercepts`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct LinearFunction {
     /// Its value.
     pub value: Vec<f64>,
     /// Its derivative by ỹ, (4.22) and (4.25).
+    #[serde(with = "matrix_values")]
     pub by_state: Mat<f64>,
     /// Its derivative by u, one column per input, (4.23) and (4.26).
+    #[serde(with = "matrix_values")]
     pub by_input: Mat<f64>,
 }
 
 /// g and f alone.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SystemFunctions {
     /// g.
     pub storage: Vec<f64>,

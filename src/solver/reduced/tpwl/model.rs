@@ -63,7 +63,7 @@ impl TpwlError {
 }
 
 /// An operating point: a moment of a training trajectory with its linearised system, which is never changed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TrainedPoint {
     /// Which parameter set it belongs to.
     pub set: usize,
@@ -84,7 +84,7 @@ pub struct TrainedPoint {
 }
 
 /// What was trained for one reference contact.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ParameterSet {
     /// The reference contact.
     pub problem: Problem,
@@ -95,7 +95,7 @@ pub struct ParameterSet {
 }
 
 /// A trajectory-piecewise-linear model, (4.27), in the fixed frame.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TpwlModel {
     /// Basis and grid.
     pub space: ReducedSpace,

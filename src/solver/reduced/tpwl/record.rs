@@ -1,9 +1,10 @@
 //! What a march drew on, step by step: which operating points, how much of each, and how far from them it went.
 
 use super::weights::Weight;
+use serde::{Deserialize, Serialize};
 
 /// A step of a trajectory-piecewise-linear model.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TpwlStep {
     /// T at its end.
     pub time: f64,
@@ -14,7 +15,7 @@ pub struct TpwlStep {
 }
 
 /// All steps of a march with their weights and reduced states; entry 0 is the stationary start.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TpwlRecord {
     steps: Vec<TpwlStep>,
     weights: Vec<Weight>,

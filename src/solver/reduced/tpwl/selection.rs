@@ -53,7 +53,7 @@ impl Selection {
 }
 
 /// A moment of a training trajectory in the reduced space.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainedMoment {
     /// T.
     pub time: f64,

@@ -4,8 +4,9 @@ use crate::solver::discrete::elasticity::Scratch;
 use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::transient::{Input, State};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::reduced::{PodBasis, dense};
+use crate::solver::reduced::{PodBasis, dense, matrix_values};
 use faer::Mat;
+use serde::{Deserialize, Serialize};
 
 /// Entries of the input vector.
 pub const INPUTS: usize = 3;
@@ -18,13 +19,15 @@ pub fn input_vector(input: Input) -> [f64; INPUTS] {
 
 /// A pressure basis on a grid with everything linear condensed: the reduced state is ỹ = (p̃, H₀), the film H₀ +
 /// X²/(2R̄) + K V p̃.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ReducedSpace {
     /// The grid of the fields.
     pub grid: LineGrid,
     /// V: one mode per column over the node array, Vᵀ W V = I.
+    #[serde(with = "matrix_values")]
     pub pressure: Mat<f64>,
     /// K V.
+    #[serde(with = "matrix_values")]
     pub deformation: Mat<f64>,
     /// wᵀ V: what each mode carries.
     pub load: Vec<f64>,

@@ -38,7 +38,7 @@ const SHARPNESS: f64 = 25.0;
 const SPREAD: f64 = 1e-3;
 
 /// A point and its weight.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weight {
     /// Which operating point.
     pub point: usize,
