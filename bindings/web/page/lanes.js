@@ -3,6 +3,10 @@
 // From a wish to stop until a worker that does not hear it is ended, in milliseconds; trainings make something of what
 // there is after the first wish.
 const PATIENCE = [Infinity, 1500, 300];
+// The memory of an instance only grows. A worker that has more than so many bytes is ended once it has had nothing to do
+// for so many milliseconds; the next task starts another one.
+const LARGE = 64 << 20;
+const REST = 2000;
 
 export class Lanes {
   constructor(deliver) {
@@ -18,7 +22,9 @@ export class Lanes {
     const wishes = [1, 2].map(() => URL.createObjectURL(new Blob(["go on"])));
     this.tasks.set(ticket, { lane, wishes, revoked: 0 });
     const bytes = task.slice();
-    this.worker(lane).postMessage({ ticket, kind, bytes, wishes }, [bytes.buffer]);
+    const worker = this.worker(lane);
+    worker.asked = performance.now();
+    worker.postMessage({ ticket, kind, bytes, wishes }, [bytes.buffer]);
     return true;
   }
 
@@ -32,6 +38,8 @@ export class Lanes {
         if (ended) {
           worker.memory = memory;
           this.forget(ticket);
+          const rests = () => this.workers.get(lane) === worker && this.running(lane) === undefined;
+          if (memory > LARGE) setTimeout(() => rests() && performance.now() - worker.asked >= REST && this.end(lane), REST);
         }
         if (broken) this.end(lane);
       };

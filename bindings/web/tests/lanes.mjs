@@ -4,7 +4,9 @@ import { Lanes } from "../page/lanes.js";
 
 const ended = [];
 globalThis.Worker = class {
-  postMessage() {}
+  postMessage({ ticket }) {
+    if (ticket > 9) setTimeout(() => this.onmessage({ data: { ticket, ended: true, memory: ticket << 20 } }), 10);
+  }
   terminate() {
     ended.push(this);
   }
@@ -24,4 +26,18 @@ lanes.stop(1, 255);
 await pause(500);
 assert.deepEqual([ended.length, delivered], [1, [[1, undefined], [2, undefined]]]);
 assert.equal(lanes.running(0), 3);
+
+// A worker that rests is ended if it has much memory, and another one does the next task.
+const before = ended.length;
+lanes.post(2, 40, "study", new Uint8Array(4));
+lanes.post(3, 100, "study", new Uint8Array(4));
+await pause(1500);
+lanes.post(3, 100, "study", new Uint8Array(4));
+await pause(1000);
+assert.deepEqual([ended.length, [...lanes.workers.keys()]], [before, [0, 2, 3]]);
+await pause(1500);
+assert.deepEqual([ended.length, [...lanes.workers.keys()]], [before + 1, [0, 2]]);
+assert.equal(lanes.memory(), 40 << 20);
+lanes.post(3, 41, "study", new Uint8Array(4));
+assert.equal(lanes.running(3), 41);
 console.log("1 passed, 0 failed");
