@@ -360,3 +360,15 @@ fn small_model() -> ReducedModel {
     let Study::Training(spec) = Scene::from_ron(SMALL_MODEL).unwrap().study else { panic!("no training") };
     train(&spec, &()).unwrap()
 }
+
+#[test]
+fn a_deep_zoom_draws_dashed_lines_that_leave_the_screen_by_far() {
+    let mut harness = crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0]);
+    wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
+    harness.hover_at(egui::pos2(800.0, 300.0));
+    for _ in 0..60 {
+        harness.event(egui::Event::Zoom(2.0));
+        harness.step();
+    }
+    assert!(harness.output().shapes.len() < 100_000, "{} shapes", harness.output().shapes.len());
+}

@@ -162,6 +162,88 @@ const tests = {
     await other.close();
     assert(bytes < 400e6);
   },
+  async "a worker that breaks costs one solve, and the next one works"() {
+    const other = await opened();
+    await other.mouse.click(...BALL);
+    await said(other, "Verified|Roughly right", 240_000);
+    await Promise.all(other.workers().map((worker) => worker.evaluate(() => {
+      globalThis.ehl.send = () => {
+        throw new Error("a message that cannot be sent");
+      };
+    })));
+    await other.mouse.click(...VERIFY);
+    await other.waitForTimeout(2000);
+    await picture(other, "broken worker");
+    await other.mouse.click(...ROLLER);
+    await said(other, "Verified");
+    await other.mouse.click(...VERIFY);
+    await said(other, "Verified");
+    broken.splice(0, broken.length, ...broken.filter((text) => !text.includes("a message that cannot be sent")));
+    await other.close();
+  },
+  async "a full local storage is said, and nothing is lost"() {
+    const other = await context.newPage();
+    await other.addInitScript(() => {
+      Storage.prototype.setItem = () => {
+        throw new DOMException("full", "QuotaExceededError");
+      };
+    });
+    await other.goto(server.address);
+    await said(other, "Central film");
+    const before = await fragment(other);
+    await drag(other, M);
+    await changed(other, before);
+    await said(other, "QuotaExceededError");
+    await picture(other, "quota");
+    await other.close();
+  },
+  async "a tablet's fingers drag, tap and pinch"() {
+    const browser = await chromium.launch({ executablePath: BROWSER, args: FLAGS });
+    const tablet = await browser.newPage({ viewport: SIZE, hasTouch: true, deviceScaleFactor: 2, colorScheme: "light" });
+    tablet.on("pageerror", (error) => broken.push(String(error)));
+    await tablet.goto(server.address);
+    await said(tablet, "Central film");
+    const address = await fragment(tablet);
+    const touch = await tablet.context().newCDPSession(tablet);
+    const fingers = (type, ...points) =>
+      touch.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    await fingers("touchStart", M.from);
+    for (let x = M.from[0]; x <= M.to[0]; x += 3) {
+      await fingers("touchMove", [x, M.from[1]]);
+      await tablet.waitForTimeout(30);
+    }
+    await fingers("touchEnd");
+    const dragged = await changed(tablet, address);
+    await picture(tablet, "tablet");
+    const before = await tablet.screenshot();
+    await fingers("touchStart", [700, 300], [760, 300]);
+    for (let k = 1; k <= 10; k += 1) {
+      await fingers("touchMove", [700 - 8 * k, 300], [760 + 8 * k, 300]);
+      await tablet.waitForTimeout(30);
+    }
+    await fingers("touchEnd");
+    await tablet.waitForTimeout(500);
+    const after = await picture(tablet, "pinched");
+    assert(!before.equals(after), "a pinch changes nothing");
+    assert.equal(await tablet.evaluate(() => window.visualViewport.scale), 1, "the page itself must not zoom");
+    await tablet.touchscreen.tap(...BALL);
+    await changed(tablet, dragged);
+    await browser.close();
+  },
+  async "the back button returns to the contact before a link"() {
+    const other = await opened();
+    await said(other, "Central film");
+    await drag(other, M);
+    await other.waitForTimeout(1000);
+    const [own, words] = [await fragment(other), await news(other)];
+    await other.evaluate(() => (location.hash = "#embed=profiles&sliders=M,L"));
+    await other.waitForTimeout(1000);
+    await other.goBack();
+    await other.waitForTimeout(1500);
+    const film = (text) => text.match(/Central film [^,]*/)[0];
+    assert.deepEqual([await fragment(other), film(await news(other))], [own, film(words)]);
+    await other.close();
+  },
   async "Escape cancels a solve and the next one works"(page) {
     await page.mouse.click(...VERIFY);
     await page.waitForTimeout(500);

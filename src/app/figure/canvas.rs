@@ -8,12 +8,16 @@ use crate::scene::{Band, Chart, ChartAxis, Map, Marks, Note, Series};
 use egui::epaint::{ColorMode, TextShape};
 use egui::{Align, Color32, Context, Id, Shape, TextureId, Ui, UiBuilder, pos2};
 use egui_plot::{
-    BarChart, HLine, Line, PlotBounds, PlotGeometry, PlotImage, PlotItem, PlotPoint, PlotUi, Points, Span, Text, VLine,
+    BarChart, HLine, Line, LineStyle, PlotBounds, PlotGeometry, PlotImage, PlotItem, PlotPoint, PlotUi, Points, Span,
+    Text, VLine,
 };
 use std::ops::{Deref, DerefMut};
 
 /// Width on paper of what is as wide as a point of the screen \[pt\].
 const PAPER: f32 = 0.5;
+
+/// Distance from the screen from which on lines are solid \[points\].
+const FAR: f32 = 3e4;
 
 /// An axis of a plot.
 #[derive(Clone, Debug, PartialEq)]
@@ -252,7 +256,11 @@ impl<'p, 'a> Canvas<'p, 'a> {
         self.recording
     }
 
+    /// A line. It is solid where it leaves the screen by far: the toolkit would make a shape of each dash.
     pub fn line(&mut self, mut line: Line<'a>) {
+        if self.leaves_by_far(&line) {
+            line = line.style(LineStyle::Solid);
+        }
         if let Some(recording) = &mut self.recording {
             line.initialize(self.plot.plot_bounds().range_x());
             if let Some(pen) = pen(&recording.shapes(self.plot, &line)) {
@@ -260,6 +268,12 @@ impl<'p, 'a> Canvas<'p, 'a> {
             }
         }
         self.plot.line(line);
+    }
+
+    fn leaves_by_far(&self, line: &Line<'_>) -> bool {
+        let PlotGeometry::Points(points) = line.geometry() else { return false };
+        let place = |point| self.plot.transform().position_from_point(point);
+        points.iter().map(place).any(|place| place.x.abs() > FAR || place.y.abs() > FAR)
     }
 
     /// Marks.
