@@ -5,8 +5,8 @@ use super::job::{Job, Wake};
 use super::rom::{ModelFileError, SavedModel};
 use super::{EngineError, embedded, model_file};
 use crate::host::clock::FileTime;
-use crate::host::models;
 use crate::host::pool::on_spare_cores;
+use crate::host::{models, worker};
 use crate::scene::Scene;
 use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
 use crate::solver::full::ContactSolver;
@@ -21,8 +21,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Grids and idle full solvers of line contacts kept at a time; the least recently used goes first.
 const KEPT_LINES: usize = 6;
 /// The same of point contacts: a quick grid, the chosen one and a second one. Each solver may hold some hundred
-/// megabytes.
-const KEPT_POINTS: usize = 3;
+/// megabytes, and the memory of a web page never shrinks.
+const KEPT_POINTS: usize = if worker::THREADS { 3 } else { 1 };
 /// Reduced models kept in addition to those in the program: a model of some windows has some ten megabytes.
 const KEPT_MODELS: usize = 12;
 /// Idle reduced solvers kept at a time.
@@ -70,7 +70,10 @@ impl Store {
     pub fn grid(&self, spec: GridSpec) -> Result<ContactGrid, GridError> {
         let grid = match take(&self.0.grids, |grid| grid.spec() == spec) {
             Some(grid) => grid,
-            None => spec.build()?,
+            None => {
+                make_room(&self.0.grids, |grid| grid.kind() == spec.kind(), kept_of(spec.kind()));
+                spec.build()?
+            }
         };
         keep(&self.0.grids, grid.clone(), |other| other.kind() == spec.kind(), kept_of(spec.kind()));
         Ok(grid)
@@ -78,12 +81,16 @@ impl Store {
 
     /// Works with a full solver on a grid. What it solved before leaves no trace in what it solves next.
     pub fn with_full_solver<T>(&self, grid: &ContactGrid, work: impl FnOnce(&mut ContactSolver) -> T) -> T {
+        let kind = grid.kind();
+        let of_the_kind = |other: &ContactSolver| other.grid_spec().kind() == kind;
         let idle = take(&self.0.full, |solver| solver.grid_spec() == grid.spec());
-        let mut solver = idle.unwrap_or_else(|| ContactSolver::on(grid));
+        let mut solver = idle.unwrap_or_else(|| {
+            make_room(&self.0.full, of_the_kind, kept_of(kind));
+            ContactSolver::on(grid)
+        });
         // One that panics may hold half a state: it does not come back.
         let done = work(&mut solver);
-        let kind = grid.kind();
-        keep(&self.0.full, solver, |other| other.grid_spec().kind() == kind, kept_of(kind));
+        keep(&self.0.full, solver, of_the_kind, kept_of(kind));
         done
     }
 
@@ -261,10 +268,15 @@ fn take<T>(shelf: &Mutex<Vec<T>>, wanted: impl Fn(&T) -> bool) -> Option<T> {
 
 /// Puts a thing on its shelf, where the oldest of the same sort gives way.
 fn keep<T>(shelf: &Mutex<Vec<T>>, thing: T, same_sort: impl Fn(&T) -> bool, most: usize) {
+    make_room(shelf, same_sort, most);
+    lock(shelf).push(thing);
+}
+
+/// Frees the oldest thing of a sort if the shelf holds as many of them as it may.
+fn make_room<T>(shelf: &Mutex<Vec<T>>, same_sort: impl Fn(&T) -> bool, most: usize) {
     let mut shelf = lock(shelf);
     let full = shelf.iter().filter(|other| same_sort(other)).count() >= most;
     let oldest = shelf.iter().position(same_sort).filter(|_| full).map(|place| shelf.remove(place));
-    shelf.push(thing);
     // To free it takes long: others may use the shelf meanwhile, and a forked process finds it open.
     drop((shelf, oldest));
 }

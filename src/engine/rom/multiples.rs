@@ -22,6 +22,8 @@ const MOST_CLASS: i16 = 127;
 /// Numbers that are stored together at least, and at most.
 const FEWEST_TOGETHER: usize = 2048;
 const MOST_TOGETHER: usize = 1 << 18;
+/// Columns that are decoded before they are moved to their matrix.
+const TOGETHER: usize = 32;
 /// A prediction of more multiples than this counts as zero.
 const LARGEST: f64 = (1u64 << 62) as f64;
 
@@ -87,8 +89,7 @@ pub(super) fn decode(bytes: &[u8], parts: &[usize; 3], across: usize, shape: (us
     let classes = Classes { rows: of_rows, columns: of_columns.to_vec() };
     let sorted: Vec<i64> = unpacked(sorted, lattice.steps.len().checked_mul(shape.1)?)?;
     let places = classes.places();
-    let columns = exponents.par_iter().zip(along).zip(aside).zip(places);
-    let values = columns.map(|(((exponent, along), aside), mut places)| {
+    let decoded = |exponent: &i16, along: &i16, aside: &i16, mut places: Vec<usize>| {
         let mut values = vec![0.0; shape.0];
         let mut of_rows = classes.rows.iter();
         lattice.walk(&mut values, *exponent, [*along, *aside], |_, expected| {
@@ -101,11 +102,17 @@ pub(super) fn decode(bytes: &[u8], parts: &[usize; 3], across: usize, shape: (us
             difference.map_or(0, |difference| expected.saturating_add(*difference))
         });
         values
-    });
-    let values: Vec<Vec<f64>> = on_all_cores(|| values.collect());
-    let mut matrix = Mat::zeros(shape.0, shape.1);
-    for (k, values) in values.iter().enumerate() {
-        matrix.col_as_slice_mut(k).copy_from_slice(values);
+    };
+    let columns: Vec<_> = exponents.iter().zip(along).zip(aside).zip(places).collect();
+    let (mut matrix, mut column) = (Mat::zeros(shape.0, shape.1), 0);
+    // The whole matrix a second time would take as much memory as everything else here.
+    for some in columns.chunks(TOGETHER) {
+        let some = some.par_iter();
+        let some = some.map(|(((exponent, along), aside), places)| decoded(exponent, along, aside, places.clone()));
+        for values in on_all_cores(|| some.collect::<Vec<Vec<f64>>>()) {
+            matrix.col_as_slice_mut(column).copy_from_slice(&values);
+            column += 1;
+        }
     }
     Some(matrix)
 }

@@ -13,6 +13,7 @@ use crate::app::document::Document;
 use crate::engine::job::{Background, Standing};
 use crate::engine::registry::{alike, loads_in_common};
 use crate::engine::{Store, catalogue, training_file};
+use crate::host::browser;
 use crate::solver::reduced::{Domain, ReducedModel};
 use crate::solver::training::{Plan, TrainingSpec, TrainingState, WindowState};
 use egui::Context;
@@ -70,9 +71,10 @@ pub struct Training {
 }
 
 impl Training {
-    /// Keeps trainings in a folder from now on.
+    /// Keeps trainings in a folder from now on. A web page has no folders.
     pub fn keep_in(&mut self, folder: &Path) {
-        self.files = Some(Files { training: folder.join(FILE), model: folder.join(MODEL_FILE) });
+        let files = || Files { training: folder.join(FILE), model: folder.join(MODEL_FILE) };
+        self.files = (!browser::PAGE).then(files);
     }
 
     /// Looks for what a former session left behind.
