@@ -6,8 +6,7 @@
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Watches a computation from all of its threads. Every method has a default, so `()` is an observer that does
-/// nothing.
+/// Watches a computation from all of its threads. Every method has a default, so `()` is an observer that does nothing.
 pub trait Observer: Sync {
     /// Called after every Newton step of a full solve.
     fn newton_step(&self, _step: &NewtonStep) {}

@@ -9,10 +9,9 @@
 //! 3. the quantile of the errors in units of both. It is computed leave-one-out (split-free conformal prediction), so
 //!    that it holds for new points from the same distribution, whatever the law misses.
 //!
-//! Models with many local models do not have hundreds of measured errors for each. Their errors follow one law, so
-//! the law is fitted to all evidence together, with linear corrections per local model. The quantile uses the
-//! evidence of the local model and a part of the others'. The local root mean square uses only the local model's own
-//! evidence.
+//! Models with many local models do not have hundreds of measured errors for each. Their errors follow one law, so the
+//! law is fitted to all evidence together, with linear corrections per local model. The quantile uses the evidence of
+//! the local model and a part of the others'. The local root mean square uses only the local model's own evidence.
 //!
 //! The unit of the quantile determines how tight the bound is. For normally distributed errors of known size, no
 //! bound that holds for 99.6 % is less than 4.3 times the median error. The local root mean square follows the size
@@ -48,7 +47,8 @@ pub struct Calibration {
     ranges: Vec<(f64, f64)>,
     /// Positions of the evidence, one after the other; each coordinate is scaled to −1…1.
     places: Vec<f32>,
-    /// H_c, H_min and state; traction for models with sliding or heat; temperature rise for models with heat.
+    /// Central film thickness H_c, minimum film thickness H_min and state; traction for models with sliding or heat;
+    /// temperature rise for models with heat.
     quantities: Vec<Quantity>,
 }
 

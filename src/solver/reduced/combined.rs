@@ -17,7 +17,7 @@ use std::sync::{Arc, OnceLock};
 pub struct SharedBasis {
     /// Modes over the node array.
     pub basis: PodBasis,
-    /// K V in ξ over the node array: deformation of the modes V by the flexibility matrix K.
+    /// K V in the reference coordinate ξ over the node array: deformation of the modes V by the flexibility matrix K.
     flexed: Mat<f64>,
     /// wᵀ V: load carried by each mode, with the quadrature weights w.
     carried: Vec<f64>,

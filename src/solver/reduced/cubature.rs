@@ -1,11 +1,11 @@
 //! Goal-oriented cubature: few rows with non-negative weights for which every Newton *step* is nearly the one of all
 //! rows.
 //!
-//! For each iterate of the reduced model with all rows, some functionals of the Newton step must be reproduced
-//! (random ones of Δp̃, and ΔH_c): Σ_i ω_i (T V_i) w_i f_i = T Vᵀ W f with T = L J_r⁻¹, and the same with f replaced
-//! by J V Δz̃. Symbols: residual f, Jacobian J, reduced Jacobian J_r, modes V, quadrature weights w, functionals L.
-//! Relative weights ω = 1 on all rows solve the equations exactly. A greedy non-negative least squares finds few rows
-//! that nearly solve them, and pruning removes the least useful ones.
+//! For each iterate of the reduced model with all rows, some functionals of the Newton step must be reproduced (random
+//! ones of Δp̃, and ΔH_c, the changes of pressure coefficients and central film thickness): Σ_i ω_i (T V_i) w_i f_i = T
+//! Vᵀ W f with T = L J_r⁻¹, and the same with f replaced by J V Δz̃. Symbols: residual f, Jacobian J, reduced Jacobian
+//! J_r, modes V, quadrature weights w, functionals L. Relative weights ω = 1 on all rows solve the equations exactly. A
+//! greedy non-negative least squares finds few rows that nearly solve them, and pruning removes the least useful ones.
 //!
 //! A point contact has thousands of equations with thousands of rows. They are stored in single precision, and inner
 //! products are computed only for rows that the greedy algorithm has visited.

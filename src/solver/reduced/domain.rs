@@ -116,9 +116,8 @@ impl Domain {
         }
     }
 
-    /// Returns true if the traction quadrature is valid for the limiting stress of a problem. It is fitted to
-    /// unlimited stresses; for lubricant-parameterised Eyring models also to limited ones; with heat to the model's
-    /// own limit.
+    /// Returns true if the traction quadrature is valid for the limiting stress of a problem. It is fitted to unlimited
+    /// stresses; for lubricant-parameterised Eyring models also to limited ones; with heat to the model's own limit.
     pub(crate) fn knows_traction(&self, problem: &Problem) -> bool {
         let Some(limit) = problem.lubricant.limiting_stress else { return true };
         match self.stress_ratio(&problem.lubricant) {
@@ -158,8 +157,7 @@ impl Domain {
         self.other_shape(&problem.point).or_else(|| self.outside(problem, shapes))
     }
 
-    /// Returns true if the domain is of this lubricant. The limiting stress and the cavitation model are not
-    /// compared.
+    /// Returns true if the domain is of this lubricant. The limiting stress and the cavitation model are not compared.
     pub fn is_of(&self, lubricant: &Lubricant) -> bool {
         self.with_own_constants(*lubricant).of_the_liquid() == self.lubricant.of_the_liquid()
     }

@@ -32,8 +32,9 @@ pub struct ErrorEstimate {
 
 /// Largest relative change of H_c of line contacts between the full system's default penalty and complementarity.
 const MOVES_H_C: f64 = 3.5e-7;
-/// The same for H_min at the cavitation boundary: constant part and part per unit of M. Of 2,000 contacts with M
-/// 2…1000 the change is 8e-7 in the median and 3.8e-5 at most, which exceeds most bounds without this allowance.
+/// The same for the minimum film thickness H_min at the cavitation boundary: constant part and part per unit of M. Of
+/// 2,000 contacts with M 2…1000 the change is 8e-7 in the median and 3.8e-5 at most, which exceeds most bounds without
+/// this allowance.
 const MOVES_H_MIN: (f64, f64) = (2e-6, 4e-8);
 
 impl ErrorEstimate {

@@ -64,9 +64,8 @@ impl ErrorMeasures {
         let cells = deformation_weights(&window.grid);
         let weighted = Mat::from_fn(basis.nrows(), kept, |i, j| cells[i] * basis[(i, j)]);
         let projection = product(weighted.transpose(), flexed);
-        // f_δ = [−K V_p, V_δ] (p̃, δ̃), (3.12). E_δ is its Gram matrix, so both off-diagonal blocks have the minus
-        // sign that is missing in the lower left block of (3.13) as printed. The zero row and column of H₀ are
-        // omitted.
+        // f_δ = [−K V_p, V_δ] (p̃, δ̃), (3.12). E_δ is its Gram matrix, so both off-diagonal blocks have the minus sign
+        // that is missing in the lower left block of (3.13) as printed. The zero row and column of H₀ are omitted.
         let size = modes + if kept > 0 { kept } else { 0 };
         let weight = |i: usize| match norm {
             Norm::Euclidean => 1.0,

@@ -11,21 +11,21 @@
 //!
 //! The steps are signed and relative to the full film thickness on the model's grid; by construction they add up to
 //! the total. They may cancel: the film thickness of the Galerkin solution is often more accurate than that of the
-//! best approximation, because its H₀ is free.
+//! best approximation, because its rigid-body separation H₀ is free.
 //!
 //! **Best approximation**: the state (P, H₀) projected onto the trial space, in the weighted inner product for which
 //! the basis is orthonormal, among pressures that carry the load, as every reduced solution does. No reduced solution
 //! is closer to P in that norm.
 //!
 //! **Discretisation**: full solutions on the model's grid and on the next finer one (`ReferenceGrid::refined`), with
-//! Richardson extrapolation of order two, the order of the scheme (H_c on uniform grids: 1.98–1.99). The domain is
-//! the model's own; the domain-truncation error is not included. The minimum *nodal* film thickness has an error that
-//! jumps between nodes. So the parabola through the minimum and its neighbours is extrapolated, and the nodal value
-//! is compared with the result. Compared with three grids finer than a coarse one of 300 nodes (M 25, 40, 70), this
-//! is accurate to 0.05 % for H_c and to 4, 9 and 13 % for H_min. Heights of pressure spikes do not converge on these
-//! grids; pressures therefore have no discretisation part. Point contacts are extrapolated in both directions at
-//! once, with a second grid of half the spacings ([`second_grid`]), or of twice the spacings if the finer one would
-//! take too long.
+//! Richardson extrapolation of order two, the order of the scheme (central film thickness H_c on uniform grids:
+//! 1.98–1.99). The domain is the model's own; the domain-truncation error is not included. The minimum *nodal* film
+//! thickness H_min has an error that jumps between nodes. So the parabola through the minimum and its neighbours is
+//! extrapolated, and the nodal value is compared with the result. Compared with three grids finer than a coarse one of
+//! 300 nodes (M 25, 40, 70), this is accurate to 0.05 % for H_c and to 4, 9 and 13 % for H_min. Heights of pressure
+//! spikes do not converge on these grids; pressures therefore have no discretisation part. Point contacts are
+//! extrapolated in both directions at once, with a second grid of half the spacings ([`second_grid`]), or of twice the
+//! spacings if the finer one would take too long.
 //!
 //! A reduced model of point contacts may have a softer penalty than the full system. This difference is part of the
 //! projection.

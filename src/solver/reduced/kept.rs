@@ -51,7 +51,8 @@ impl Keeping {
             // The modes themselves have a ten times larger error. The film thickness changes by 1e-4 (95 %), at most
             // 7e-4.
             ContactKind::Point if self.anchored => 3e-8,
-            // Many local models, with K V interpolated over the radius ratio: 6e-4 (95 %) and 2e-3 at most.
+            // Many local models, with the deformation K V of the modes interpolated over the radius ratio: 6e-4 (95 %)
+            // and 2e-3 at most.
             ContactKind::Point if self.shapes => 8e-7,
             // 1e-4 (95 %) and 2e-4 at most.
             ContactKind::Point => 1e-7,
@@ -61,8 +62,8 @@ impl Keeping {
     /// Returns the accuracy of the first mode's coefficients in snapshots, relative to their size.
     pub fn starts(self) -> f64 {
         match self.kind {
-            // The iteration of a line contact starts at these values and has all modes of a wide range, with α p_H up
-            // to 45. Coarser values cause failures and additional Newton steps.
+            // The iteration of a line contact starts at these values and has all modes of a wide range, with
+            // piezoviscous parameters α p_H up to 45. Coarser values cause failures and additional Newton steps.
             ContactKind::Line if !self.anchored => 1e-6,
             ContactKind::Line | ContactKind::Point => 1e-3,
         }

@@ -218,8 +218,7 @@ impl Window {
 }
 
 impl ReducedModel {
-    /// Returns the index of the local model for a contact: by the nearest anchor, or by its radius ratio and then by
-    /// M.
+    /// Returns the index of the local model for a contact: by the nearest anchor, or by its radius ratio and then by M.
     pub fn window_for(&self, point: &OperatingPoint) -> usize {
         let moes = point.moes();
         if let Some(nearest) = self.nearest_anchor(moes) {

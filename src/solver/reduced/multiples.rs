@@ -28,7 +28,7 @@ pub const ALL_DIGITS: u32 = 23;
 const FACTOR_ACCURACY: f64 = 1e-6;
 /// Shares below this, relative to the largest, are stored with the digits of this share.
 const SMALL_SHARE: f64 = 1e-2;
-/// The same if the former spoils modes, as in local models whose pressures hardly differ.
+/// The same share if [`SMALL_SHARE`] spoils modes, as in local models whose pressures hardly differ.
 const SMALLER_SHARE: f64 = 1e-3;
 /// Largest accepted rounding error of a mode of norm one. Modes beyond it are noise, and the equations for their
 /// coefficients are singular.

@@ -1,8 +1,8 @@
-//! Local models around anchors in (ln M, ln L), for lubricant-parameterised models.
+//! Local models around anchors in (ln M, ln L), with the Moes parameters M and L, for lubricant-parameterised models.
 //!
-//! Registered pressures vary most with ln M and ln L, three times less with ln p_H over the lubricant ranges, and
-//! little with Roelands' exponent z. A local model that is narrow in p_H or z hardly needs fewer modes than a wide
-//! one. So local models are the cells of anchors in (ln M, ln L), for all lubricants.
+//! Registered pressures vary most with ln M and ln L, three times less with ln p_H (Hertzian pressure p_H) over the
+//! lubricant ranges, and little with Roelands' exponent z. A local model that is narrow in p_H or z hardly needs fewer
+//! modes than a wide one. So local models are the cells of anchors in (ln M, ln L), for all lubricants.
 
 use super::error_estimate::{ErrorEstimate, Estimated};
 use super::model::{ReducedModel, Window};
@@ -11,8 +11,7 @@ use crate::solver::full::GridCost;
 use crate::solver::parameters::apart;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 
-/// Another local model is blended in if its anchor is at most this much farther than the nearest one, in ln M and ln
-/// L.
+/// Another local model is blended in if its anchor is at most this much farther than the nearest one, in ln M and ln L.
 const BLENDED: f64 = 0.05;
 
 /// Overlap of the training cells: contacts may lie this much farther away than the cell's border, so that blending
@@ -56,8 +55,8 @@ impl ReducedModel {
 const NEIGHBOURS: usize = 8;
 
 impl Window {
-    /// Interpolates the discretisation error of H_c from the training solutions around a contact; `None` if they have
-    /// none.
+    /// Interpolates the discretisation error of the central film thickness H_c from the training solutions around a
+    /// contact; `None` if they have none.
     pub fn grid_cost(&self, point: &OperatingPoint) -> Option<GridCost> {
         let place = self.metric.place(point);
         let known = self.snapshots.iter().filter_map(|snapshot| {
@@ -84,7 +83,7 @@ impl ReducedSolution {
         1.0 - self.beside.iter().map(|(share, _)| share).sum::<f64>()
     }
 
-    /// Returns H₀ of the solution's own local model.
+    /// Returns the rigid-body separation H₀ of the solution's own local model.
     pub(super) fn own_h_0(&self) -> f64 {
         let others = self.beside.iter().map(|(share, other)| share * other.h_0).sum::<f64>();
         (self.h_0 - others) / self.own_share()

@@ -30,8 +30,8 @@ const FIRST_ATTEMPTS: usize = 12;
 
 /// Shares of the modes with which an iteration for a circular contact is tried. With all modes the sampled equations
 /// may have no solution, because the last modes hardly appear in any pressure and a shared basis represents them only
-/// in part. With fewer modes these contacts converge, with an error of H_c of up to 3.4e-3. For shear-thinning or
-/// thermal circular contacts other initial guesses are tried first. Line contacts need all modes.
+/// in part. With fewer modes these contacts converge, with an error of the central film thickness of up to 3.4e-3. For
+/// shear-thinning or thermal circular contacts other initial guesses are tried first. Line contacts need all modes.
 static SHARES: [f64; 5] = [1.0, 0.875, 0.75, 0.625, 0.5];
 
 /// Reduced model with the operators for the selected numbers of modes, and all work space.

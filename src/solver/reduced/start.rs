@@ -1,7 +1,6 @@
 //! Initial guesses of the online Newton iteration: an interpolation between the training solutions around the point,
-//! and the nearest of them.
-//! The interpolation also transfers the film thickness and the pressure spike. The nearest snapshot alone is the
-//! dissertation's choice.
+//! and the nearest of them. The interpolation also transfers the film thickness and the pressure spike. The nearest
+//! snapshot alone is the dissertation's choice.
 
 use super::dense;
 use super::model::{Snapshot, Window};
@@ -163,9 +162,9 @@ pub(super) fn unchanged(window: &Window, point: &OperatingPoint) -> Option<Guess
     window.nearest(point).map(|(snapshot, _)| Guess { h_c: snapshot.h_c, ..carried(snapshot, point) })
 }
 
-/// Interpolates between the nearest training solutions. The weights reproduce functions linear in (ln M, L, ln α),
-/// for shear-thinning contacts in |SRR| and NPR, for elliptical ones in ln(R_y/R), and strongly prefer near
-/// solutions.
+/// Interpolates between the nearest training solutions. The weights reproduce functions linear in (ln M, L, ln α), with
+/// the Moes parameters M and L; for shear-thinning contacts also in the slide-to-roll ratio |SRR| and the Newtonian
+/// plateau ratio NPR, for elliptical ones in ln(R_y/R), and strongly prefer near solutions.
 pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bool) -> Option<Guess> {
     let kind = match window.shapes {
         Some(_) => 2,

@@ -1,4 +1,5 @@
-//! Local models around anchors: one pool of full solutions over the whole range, divided into cells in (ln M, ln L).
+//! Local models around anchors: one pool of full solutions over the whole range, divided into cells in (ln M, ln L),
+//! with the Moes parameters M and L.
 //!
 //! All local models share one grid and the pool, which is half of all solutions of the plan, so that a full solution
 //! serves every local model near it. A local model with too few solutions computes further ones. A contact for which

@@ -10,8 +10,7 @@ use std::sync::Arc;
 
 /// Maximum number of solutions by which a cell is judged.
 const MOST_JUDGED: usize = 300;
-/// Film thickness above which the error of the pressure itself counts, instead of that relative to the film
-/// thickness.
+/// Film thickness above which the error of the pressure itself counts, instead of that relative to the film thickness.
 pub(super) const THIN: f64 = 0.1;
 
 /// Bases common to all local models around anchors.

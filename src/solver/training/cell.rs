@@ -1,4 +1,4 @@
-//! Cells of (ln M, ln L) around the anchors of local models.
+//! Cells of (ln M, ln L), with the Moes parameters M and L, around the anchors of local models.
 
 use super::spec::WindowSpec;
 use crate::solver::physics::contact::Moes;

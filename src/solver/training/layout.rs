@@ -26,7 +26,7 @@ use fastrand::Rng;
 
 /// Inlets that are tried, shortest first.
 const INLETS: [f64; 7] = [-5.0, -7.0, -10.0, -14.0, -20.0, -28.0, -40.0];
-/// Inlet of the comparison: H_c converges with the third power of its length.
+/// Inlet of the comparison: the central film thickness H_c converges with the third power of its length.
 const LONG_INLET: f64 = -60.0;
 /// Number of points at which inlets are compared. Farthest points start with the smallest M, for which the inlet
 /// matters most.

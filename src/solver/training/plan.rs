@@ -9,8 +9,8 @@ use crate::solver::reduced::{BEYOND_CELLS, Window};
 use fastrand::Rng;
 use std::f64::consts::PI;
 
-/// Weight of (ln α ratio)² in addition to (3.20) for points of a range in (M, L, α): α changes H_c by a few per cent
-/// at equal M and L.
+/// Weight of (ln α ratio)² in addition to (3.20) for points of a range in (M, L, α): α changes the central film
+/// thickness H_c by a few per cent at equal M and L.
 const ALPHA_WEIGHT: f64 = 0.02;
 /// The same for boxes of SI quantities: a larger weight would take points from the corners in M and L.
 const BOX_ALPHA_WEIGHT: f64 = 0.005;

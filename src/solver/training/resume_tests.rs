@@ -143,8 +143,7 @@ fn automatic_windows_are_split_until_they_fit_and_share_their_solutions() {
 
 #[test]
 fn automatic_windows_resume_too_even_from_their_trials() {
-    // 12 solutions per inlet are tried first, then 48 on each of two grids: stops during the trials and after a
-    // split.
+    // 12 solutions per inlet are tried first, then 48 on each of two grids: stops during the trials and after a split.
     let spec = automatic(Plan::FarthestPoint { snapshots: 30 }, 12);
     let mut state = TrainingState::new(spec.clone());
     train_resumable(&mut state, &()).unwrap();

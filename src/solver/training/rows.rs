@@ -27,8 +27,8 @@ const ROW_SNAPSHOT_SOLVES: usize = 160;
 const ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES: usize = 60;
 /// Steps smaller than this are to be reproduced in absolute terms, larger ones in relative terms.
 const STEP_FLOOR: f64 = 0.03;
-/// Number of random functionals of Δp̃ per iterate, in addition to the one of ΔH_c, for few and for many candidate
-/// rows.
+/// Number of random functionals of the step Δp̃ of the pressure coefficients per iterate, in addition to the one of the
+/// central film thickness, ΔH_c, for few and for many candidate rows.
 const RANDOM_FUNCTIONALS: [usize; 2] = [6, 2];
 /// Largest permitted error of the film thickness by sampling, for nine contacts in ten: a fifth of the permitted
 /// error of a model of line contacts. The error decreases by orders of magnitude with slightly more rows. With a
@@ -148,8 +148,8 @@ impl Trial {
     }
 }
 
-/// Returns H_c of contacts by the model of one local model alone, with the initial guesses of the online phase;
-/// `None` for a contact without a solution.
+/// Returns the central film thickness H_c of contacts by the model of one local model alone, with the initial guesses
+/// of the online phase; `None` for a contact without a solution.
 fn films(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,

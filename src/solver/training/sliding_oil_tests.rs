@@ -94,8 +94,7 @@ fn sliding_contacts_of_every_oil_stress_and_limit_are_near_full_solutions() {
     let (mut steps, mut held) = (0, 0);
     let points = random_points(&spec.range, ContactKind::Line, 30, 77);
     for (k, own) in points.iter().enumerate() {
-        // For another τ₀ its product with E′ is the same, and the limit's slope divided by τ₀ is in the trained
-        // range.
+        // For another τ₀ its product with E′ is the same, and the limit's slope divided by τ₀ is in the trained range.
         let stresses = [1.0, 0.5, 2.0][k % 3];
         let slope = stresses * [0.03, 0.06, 0.1][k / 3 % 3];
         let (point, lubricant) = (equal_but(own, stresses), limited(eyring(5e6 * stresses), 2e6, slope));

@@ -104,7 +104,7 @@ pub(crate) fn ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     }
 }
 
-/// Space of M, L, α and η₀ with limits of p_H \[Pa\] and of Roelands' exponent (0.4…0.8).
+/// Space of M, L, α and η₀ with limits of the Hertzian pressure p_H \[Pa\] and of Roelands' exponent (0.4…0.8).
 pub(crate) fn lubricants([m, l, alpha, viscosity]: [(f64, f64); 4], hertz_pressure: (f64, f64)) -> ParameterSpace {
     ParameterSpace::of([
         Axis::new(Quantity::M, m),
@@ -120,7 +120,7 @@ fn anchored(count: usize, modes: usize, grid: GridSpec, shared: usize) -> Window
     Windows::Anchored { count, modes, grid, shared, missing: 0.0, missing_of_any: 0.0, divided_by: 0 }
 }
 
-/// Adds SRR, E′ and the limits of Eyring lubricants to a space.
+/// Adds slide-to-roll ratio, reduced modulus E′ and the limits of Eyring lubricants to a space.
 fn with_eyring(mut range: ParameterSpace) -> ParameterSpace {
     range
         .axes

@@ -15,15 +15,15 @@ pub const EVIDENCE: usize = 1000;
 /// Error indicator of a training.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum Indicator {
-    /// e_f^I of (3.15), the dissertation's indicator, without large-scale work.
+    /// Residual e_f^I of (3.15), the dissertation's indicator, without large-scale work.
     #[default]
     Residual,
     /// e_f^I of (3.15) exactly as in the dissertation: in the Euclidean norm, with its own online scheme (δ̃ in the
     /// state, the nearest snapshot as the only initial guess). Its tolerances 100 … 0.1 refer to this indicator.
     Dissertation,
     /// Change of the reduced solution by three Newton steps of the full system: the largest of |ΔH_c/H_c|,
-    /// ½|ΔH_min/H_min| and e_z of (3.10). A tolerance for it refers to quantities of interest, and the state includes
-    /// the position of the pressure spike.
+    /// ½|ΔH_min/H_min| (central and minimum film thickness) and the state error e_z of (3.10). A tolerance for it
+    /// refers to quantities of interest, and the state includes the position of the pressure spike.
     Correction,
 }
 
@@ -132,9 +132,8 @@ pub struct TrainingSpec {
     /// Penalty factor γ̄ of (2.36) in the reduced equations; the full solutions keep their own.
     #[serde(default = "penalty")]
     pub penalty: f64,
-    /// True to build modes from max(P, 0). Negative pressures of a penalty are proportional to 1/γ̄. Those of the
-    /// full solutions contradict a softer penalty of the reduced equations and would cause an error of the film
-    /// thickness.
+    /// True to build modes from max(P, 0). Negative pressures of a penalty are proportional to 1/γ̄. Those of the full
+    /// solutions contradict a softer penalty of the reduced equations and would cause an error of the film thickness.
     #[serde(default)]
     pub positive_modes: bool,
     /// Number of random points per local model at which errors are measured for the error bound; 0 omits the bound.
@@ -281,8 +280,8 @@ pub enum Windows {
         /// cube.
         modes: usize,
     },
-    /// Cells around anchors in (ln M, ln L) on one grid, selected by the training from its solutions. Numbers of full
-    /// solutions of the plan are per local model.
+    /// Cells around anchors in (ln M, ln L), with the Moes parameters M and L, on one grid, selected by the training
+    /// from its solutions. Numbers of full solutions of the plan are per local model.
     Anchored {
         /// Number of local models.
         count: usize,

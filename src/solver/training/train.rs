@@ -84,7 +84,7 @@ impl TrainingState {
     }
 }
 
-/// Expected relative discretisation error of H_c above which the log contains a note.
+/// Expected relative discretisation error of the central film thickness above which the log contains a note.
 const TOO_COSTLY: f64 = 0.1;
 
 /// Trains every local model; if `ended`, from the existing solutions only.

@@ -63,8 +63,7 @@ impl Convolution {
 
     /// Computes the signal of a spectrum and overwrites the spectrum. Lengths as in [`Convolution::forward`].
     pub fn inverse(&self, spectrum: &mut [Complex64], signal: &mut [f64], work: &mut [Complex64]) {
-        // The first and last bin of a real signal's spectrum are real. Rounding must not make the inverse refuse
-        // them.
+        // The first and last bin of a real signal's spectrum are real. Rounding must not make the inverse refuse them.
         if let [first, .., last] = spectrum {
             (first.im, last.im) = (0.0, 0.0);
         }

@@ -1,10 +1,9 @@
 //! Elastic deformation Δ = K P of the half-space under a pressure P that is constant on rectangles, and under its
 //! mirror image, (2.38).
 //!
-//! Along X the nodes are equidistant and the flexibility matrix K is Toeplitz. It is applied by zero-padded FFT.
-//! Across there are few nodes, so each frequency has a small dense matrix that includes the mirror image at Y = 0.
-//! This costs as much as a second FFT over the mirrored domain, halves the number of transforms, and allows any
-//! spacing across.
+//! Along X the nodes are equidistant and the flexibility matrix K is Toeplitz. It is applied by zero-padded FFT. Across
+//! there are few nodes, so each frequency has a small dense matrix that includes the mirror image at Y = 0. This costs
+//! as much as a second FFT over the mirrored domain, halves the number of transforms, and allows any spacing across.
 
 use super::convolution::{Convolution, KernelError};
 use crate::host::pool::{self, on_all_cores};
@@ -72,8 +71,7 @@ fn corner(u: f64, v: f64) -> f64 {
     along + across
 }
 
-/// All strips that the kernel consists of, each integrated once. Equidistant ordinates use the same strips
-/// repeatedly.
+/// All strips that the kernel consists of, each integrated once. Equidistant ordinates use the same strips repeatedly.
 struct Strips {
     /// Heights v ≥ 0 of the strips, ascending.
     heights: Vec<f64>,
@@ -198,8 +196,7 @@ impl PointFlexibility {
         self.blocks.get_or_init(|| blocks)
     }
 
-    /// Returns one entry of K: the deformation of `node` by unit pressure at `other`. Both are indices of node
-    /// arrays.
+    /// Returns one entry of K: the deformation of `node` by unit pressure at `other`. Both are indices of node arrays.
     pub fn entry(&self, node: usize, other: usize) -> f64 {
         let (i, j) = (node / self.ny, node % self.ny);
         let (k, l) = (other / self.ny, other % self.ny);

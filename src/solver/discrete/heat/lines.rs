@@ -32,8 +32,8 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Creates cold lines (θ = 0) at increasing ordinates, the last of them on the axis, with the given abscissae of
-    /// stations.
+    /// Creates cold lines (temperature rise θ = 0) at increasing ordinates, the last of them on the axis, with the
+    /// given abscissae of stations.
     pub fn new(y: Vec<f64>, stations: &[f64], source: &Arc<MovingSource>) -> Self {
         let line = |_: &f64| Line {
             march: March::with(stations.to_vec(), Arc::clone(source)),
@@ -71,9 +71,8 @@ impl Lines {
         }
     }
 
-    /// Marches once along every line through its states and applies a share of the change of θ. The states in
-    /// `course` are ignored. If `parallel`, the films of all lines are evaluated on all threads. Returns the largest
-    /// change.
+    /// Marches once along every line through its states and applies a share of the change of θ. The states in `course`
+    /// are ignored. If `parallel`, the films of all lines are evaluated on all threads. Returns the largest change.
     pub fn march(&mut self, course: &Course<'_>, (share, tolerance): (f64, f64), parallel: bool) -> f64 {
         let Self { lines, asides, y } = self;
         if let [line] = &mut lines[..] {
@@ -165,8 +164,8 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Prepares the interpolation to places (ξ, Y) from stations at increasing ξ. Places before the first station
-    /// take its value.
+    /// Prepares the interpolation to places (ξ, Y), with the abscissa ξ, from stations at increasing ξ. Places before
+    /// the first station take its value.
     pub fn new(stations: &[f64], y: &[f64], places: impl Iterator<Item = (f64, f64)>) -> Self {
         let lines = Across::new(y);
         let of = |(xi, at): (f64, f64)| Between { along: cubic(stations, xi.max(stations[0])), across: lines.at(at) };

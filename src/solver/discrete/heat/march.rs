@@ -266,8 +266,7 @@ impl March {
                     let along = a * self.flow[from][j] + b * self.flow[i][j] + c * self.flow[to][j];
                     beside.map_or(along, |beside| along + beside.slope(|line| line.total[i][j]))
                 };
-                // Mass is conserved: the discretisation error of the total flow is distributed evenly across the
-                // film.
+                // Mass is conserved: the discretisation error of the total flow is distributed evenly across the film.
                 let lost = slope(POINTS - 1);
                 let mut share = 0.0;
                 std::array::from_fn(|j| {

@@ -104,8 +104,7 @@ pub struct Neighbours {
     pub beside: Option<[Side; 2]>,
     /// −Ψ_X at the faces between the points; in a plane including the flow along Y.
     pub across: [f64; POINTS - 1],
-    /// Influence of the fluxes at other stations on each surface temperature, and the weight of the station's own
-    /// flux.
+    /// Influence of the fluxes at other stations on each surface temperature, and the weight of the station's own flux.
     pub surfaces: [(f64, f64); 2],
 }
 
@@ -152,9 +151,8 @@ pub struct Made {
 }
 
 impl Place<'_> {
-    /// Evaluates the film at the given temperatures. The pressure gradient is scaled such that the pressure-driven
-    /// flow stays constant. For a Newtonian lubricant the scale follows from the temperatures; otherwise it is
-    /// `factor`.
+    /// Evaluates the film at the given temperatures. The pressure gradient is scaled such that the pressure-driven flow
+    /// stays constant. For a Newtonian lubricant the scale follows from the temperatures; otherwise it is `factor`.
     fn flowing(&self, theta: &Profile, stress: f64, factor: f64) -> Flowing {
         let across = &*ACROSS;
         let NodeState { pressure, gradient: [gradient, gradient_y], film } = self.state;
@@ -389,8 +387,7 @@ mod tests {
     use crate::solver::physics::contact::{OperatingPoint, Sliding};
     use crate::solver::physics::lubricant::{Heat, Lubricant, OilHeat};
 
-    /// Film without gradients whose viscosity does not depend on temperature, between surfaces of constant
-    /// temperature.
+    /// Film without gradients whose viscosity does not depend on temperature, between surfaces of constant temperature.
     fn conducted(lower: f64, upper: f64) -> (Station, Made, f64) {
         let sliding = Sliding { slide_to_roll_ratio: 0.4, newtonian_plateau_ratio: None };
         let point = OperatingPoint { sliding, viscosity_pa_s: 0.02, ..OperatingPoint::TABLE_2_1 };

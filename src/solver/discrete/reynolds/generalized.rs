@@ -1,8 +1,8 @@
 //! Generalized Reynolds row (3.23): contribution of shear-thinning to the nodes of the row, and to its derivatives.
 //!
-//! A shear-thinning node is a Newtonian one with the mobility multiplied by φ and the flow multiplied by 1 + SRR (½ −
-//! Z₀). φ and Z₀ follow from the film integrals at the node's own pressure gradient. The row itself is the Newtonian
-//! row.
+//! A shear-thinning node is a Newtonian one with the mobility multiplied by φ and the flow multiplied by
+//! 1 + SRR (½ − Z₀), with the slide-to-roll ratio SRR. φ and Z₀ follow from the film integrals at the node's own
+//! pressure gradient. The row itself is the Newtonian row.
 //!
 //! The derivatives have two additional parts, with respect to the nodal gradients P_X and P_Y, which are central
 //! differences. So the row extends from X −3 to +2, across to Y ±2 and to the diagonals: ∂f/∂P + (∂f/∂P_X) G_X +

@@ -43,7 +43,7 @@ impl History {
     }
 
     /// Stores a state with its H₀ (rigid-body separation) and its ρ̄H at the rows' nodes as the nearer previous one.
-    /// The former nearer state becomes the farther one.
+    /// The previously nearer state becomes the farther one.
     pub fn remember(&mut self, state: &[f64], h_0: f64, flow: impl Iterator<Item = f64>) {
         self.former.swap(0, 1);
         let past = &mut self.former[0];

@@ -150,7 +150,8 @@ pub trait Marching {
 
 /// Maximum number of steps of one march.
 const MOST_STEPS: f64 = 2e6;
-/// Range of the tolerances, relative to H_c, of controlled steps. Below it, rounding and Newton's tolerance dominate.
+/// Range of the tolerances, relative to the central film thickness H_c, of controlled steps. Below it, rounding and
+/// Newton's tolerance dominate.
 const FINEST_CONTROL: f64 = 1e-5;
 const COARSEST_CONTROL: f64 = 0.3;
 
@@ -224,8 +225,8 @@ impl Step {
         self.now.speed - self.growth * x
     }
 
-    /// Returns the weights of the previous ρ̄H, the nearer one first: (R/a²) ∂/∂T of (a²/R) ρ̄H, which is ∂(ρ̄H)/∂T
-    /// with the growth of the scale of H.
+    /// Returns the weights of the previous mass flow ρ̄H, the nearer one first: (R/a²) ∂/∂T of (a²/R) ρ̄H, which is
+    /// ∂(ρ̄H)/∂T with the growth of the scale of H.
     pub fn history_weights(&self) -> [f64; 2] {
         std::array::from_fn(|i| self.quotient.former[i] * self.former[i].film / self.now.scales.film)
     }

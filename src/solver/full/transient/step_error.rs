@@ -64,8 +64,7 @@ impl Trajectory {
         Some(coarse.difference(fine, Quantity::CentralFilm, (0.0, transient.duration))?.0)
     }
 
-    /// Returns true if the inputs deviate from a straight line by at most this share of their range over any two
-    /// steps.
+    /// Returns true if the inputs deviate from a straight line by at most this share of their range over any two steps.
     fn resolves_inputs_to(&self, share: f64) -> bool {
         let values = |input: Input| [input.radius, input.speed, input.load];
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);

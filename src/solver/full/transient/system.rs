@@ -31,9 +31,8 @@ pub struct FullMarch {
 /// Stopping tolerance of a step's Newton iteration for ‖Δz‖/‖z‖, with the unknowns z. Convergence is quadratic, so
 /// the remaining error is far smaller.
 const STEP_TOLERANCE: f64 = 1e-6;
-/// Stopping tolerance for cavitation by active sets, with the bounds of the tolerance of its linear solves. A step
-/// ends when the set is steady, so that accuracy costs only Krylov iterations, and mass is conserved to 1e-9 of the
-/// flow.
+/// Stopping tolerance for cavitation by active sets, with the bounds of the tolerance of its linear solves. A step ends
+/// when the set is steady, so that accuracy costs only Krylov iterations, and mass is conserved to 1e-9 of the flow.
 const HELD_TOLERANCE: f64 = 1e-8;
 const HELD_FORCING: (f64, f64) = (1e-12, 1e-5);
 

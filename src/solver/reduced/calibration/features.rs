@@ -4,13 +4,14 @@ use crate::solver::parameters::{Quantity, Scale};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::{Domain, ReducedSolution};
 
-/// Number of features of every reduced solution: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.
+/// Number of features of every reduced solution: ln M, L, ln α, ln e_f^I (Moes parameters M and L, pressure–viscosity
+/// coefficient α, residual e_f^I), and the logarithm of the last modes' share.
 pub(super) const FEATURES: usize = 5;
 /// Maximum number of features.
 pub(super) const MOST_FEATURES: usize = FEATURES + MOST_FURTHER;
 /// Maximum number of features in addition to these.
 const MOST_FURTHER: usize = 6;
-/// Number of errors of every reduced solution: of H_c, H_min and the state.
+/// Number of errors of every reduced solution: of the film thicknesses H_c and H_min and of the state.
 pub(super) const ERRORS: usize = 3;
 /// The two features that indicate the error directly and are not part of the position.
 pub(super) const SIGNS: std::ops::Range<usize> = 3..5;

@@ -142,9 +142,8 @@ fn own_law(common: &[f64], terms: &[Vec<f64>], logs: &[f64], ridge: f64) -> Opti
 }
 
 /// Computes the mean square and the quantile of several local models from the differences to the law. Errors change
-/// their sign over the range and are tiny near these places. Logarithms scatter strongly there and do not indicate
-/// how large an error can be. So the unit of the bound is the local root mean square of the errors, relative to the
-/// law.
+/// their sign over the range and are tiny near these places. Logarithms scatter strongly there and do not indicate how
+/// large an error can be. So the unit of the bound is the local root mean square of the errors, relative to the law.
 ///
 /// The law was fitted to the same errors that it is compared with. Each residual would be `unseen` = 1/(1 − h) times
 /// as large if the error had not been used in the fit. h is its leverage, on average the number of terms divided by

@@ -23,15 +23,14 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// Returns θ at the stations; empty for an isothermal contact.
+    /// Returns the temperature rise θ at the stations; empty for an isothermal contact.
     pub fn theta(&self) -> &[Profile] {
         self.heat.as_ref().map_or(&[], |heat| &heat.theta)
     }
 }
 
-/// Film thickness H above which the iteration ends with the requested tolerance. The remaining error is proportional
-/// to the squared step divided by the film thickness, so thinner films need a smaller tolerance. At M = 1000, H is
-/// 3e-4.
+/// Film thickness H above which the iteration ends with the requested tolerance. The remaining error is proportional to
+/// the squared step divided by the film thickness, so thinner films need a smaller tolerance. At M = 1000, H is 3e-4.
 const THICK: f64 = 0.01;
 /// Smallest share of the tolerance; below it rounding dominates.
 const LEAST_SHARE: f64 = 0.01;

@@ -10,8 +10,8 @@ use crate::solver::reduced::model::{ReducedModel, Snapshot};
 use crate::solver::reduced::start::{self, Guess};
 use std::cell::OnceCell;
 
-/// Largest accepted relative deviation of H_c from a snapshot. Consistent models deviate by less than 1 %; parts of
-/// different local models by far more.
+/// Largest accepted relative deviation of the central film thickness H_c from a snapshot. Consistent models deviate by
+/// less than 1 %; parts of different local models by far more.
 const WITHIN: f64 = 0.1;
 
 /// Number of snapshots that must be reproduced. A single one may lie where iterations do not converge.

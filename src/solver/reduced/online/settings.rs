@@ -103,8 +103,8 @@ pub struct ReducedOptions {
     pub pressure_modes: Option<usize>,
     /// Number of deformation modes of the dissertation's V_δ V_δᵀ K V_p; `None` for the exact K V_p.
     pub deformation_modes: Option<usize>,
-    /// Stopping tolerance for ‖Δp̃‖/‖p̃‖; thin films use a share of it. Newton's method converges quadratically: the
-    /// remaining error is the square of it.
+    /// Stopping tolerance for ‖Δp̃‖/‖p̃‖, with the pressure coefficients p̃; thin films use a share of it. Newton's
+    /// method converges quadratically: the remaining error is the square of it.
     pub tolerance: f64,
     /// Maximum number of Newton steps.
     pub max_newton: usize,

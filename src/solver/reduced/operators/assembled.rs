@@ -83,8 +83,7 @@ impl Operators {
         parts.iter_mut().for_each(|part| part.begin(system, case, start));
     }
 
-    /// Computes the contribution of each coefficient to the film thickness at X = 0 (and Y = 0), after
-    /// [`Self::begin`].
+    /// Computes the contribution of each coefficient to the film thickness at X = 0 (and Y = 0), after [`Self::begin`].
     pub fn aim(&mut self, window: &Window, scale: f64) {
         let Self { system, parts, deformation, lifted_at, whole_lift, .. } = self;
         let nodes = &window.grid.at_zero(scale);
@@ -98,7 +97,7 @@ impl Operators {
         parts.iter_mut().for_each(|part| part.aim(system, Centre { window, nodes, scale }));
     }
 
-    /// Returns the film thickness at X = 0 (and Y = 0) without H₀, after [`Self::aim`].
+    /// Returns the film thickness at X = 0 (and Y = 0) without the rigid-body separation H₀, after [`Self::aim`].
     pub fn lifted(&self, coefficients: &[f64]) -> f64 {
         dot(&self.system.lift, coefficients)
     }

@@ -34,7 +34,7 @@ impl Stop {
     }
 }
 
-/// Initial guess of an iteration, except for p̃ and H₀.
+/// Initial guess of an iteration, except for the pressure coefficients p̃ and the rigid-body separation H₀.
 #[derive(Clone, Copy)]
 pub(crate) struct Start<'a> {
     pub window: &'a Window,
@@ -43,7 +43,7 @@ pub(crate) struct Start<'a> {
     /// First cavitated column of each line along X. `None` deactivates the cavitation boundary: the penalty then acts
     /// on all pressures.
     pub fronts: Option<&'a [usize]>,
-    /// θ at the stations of a thermal contact; empty for a cold start.
+    /// Temperature rise θ at the stations of a thermal contact; empty for a cold start.
     pub theta: &'a [Profile],
 }
 

@@ -48,8 +48,7 @@ impl Deformation {
         }
     }
 
-    /// Returns the square of the projection error of the deformation for the given coefficients, per unit of the
-    /// scale.
+    /// Returns the square of the projection error of the deformation for the given coefficients, per unit of the scale.
     pub fn missed(&self, coefficients: &[f64]) -> f64 {
         match self {
             Self::Exact => 0.0,

@@ -126,8 +126,8 @@ impl Equations {
     }
 }
 
-/// Applies two bases to the rows: to their derivatives by coefficients and by H₀, and to their values with opposite
-/// sign.
+/// Applies two bases to the rows: to their derivatives by coefficients and by the rigid-body separation H₀, and to
+/// their values with opposite sign.
 fn reduce(
     (of_jacobian, of_residual): (MatRef<'_, f64>, MatRef<'_, f64>),
     (jacobian, films, values): (MatRef<'_, f64>, ColRef<'_, f64>, ColRef<'_, f64>),

@@ -1,5 +1,5 @@
 //! Cavitation boundary B of reduced contacts with complementarity, (D.14)–(D.22). Behind it P = 0 and no row is
-//! required; in front of it λ = 0.
+//! required; in front of it the multiplier λ is 0.
 //!
 //! A state is the sum of the modes, cut off at B. If B moves, single nodes are added to or removed from V, the load
 //! row, P and K P, (D.21) and (D.22), so nothing is of large scale. K V of the Jacobian stays that of a nearby
@@ -42,13 +42,12 @@ pub(super) const KIND: Kind = Kind {
     },
 };
 
-/// Factor by which modes are restrained to zero behind the cavitation boundary, relative to the size of the
-/// equations.
+/// Factor by which modes are restrained to zero behind the cavitation boundary, relative to the size of the equations.
 const RESTRAINED: f64 = 1e-6;
 
 /// Pressure that counts as negative in (D.17), for a line and for a plane. Smaller negative pressures are errors of
 /// the basis. For lines these are small: a boundary one node too far, with a pressure of −1e-4 there, is by far their
-/// largest error of H_min.
+/// largest error of the minimum film thickness.
 const NEGATIVE: [f64; 2] = [-1e-6, -1e-4];
 /// Number of direction changes after which B of a line stays where it is: its position is then known to one node.
 const TURNS: u8 = 4;

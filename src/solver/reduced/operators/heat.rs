@@ -1,6 +1,6 @@
-//! Thermal contacts with reduced operators. Each Newton step for (p̃, H₀) follows a march of the temperatures at
-//! constant pressure and film thickness, until neither changes. The march visits every few nodes of a line, or of a
-//! few lines of a plane. Temperatures need no basis.
+//! Thermal contacts with reduced operators. Each Newton step for the pressure coefficients p̃ and the rigid-body
+//! separation H₀ follows a march of the temperatures at constant pressure and film thickness, until neither changes.
+//! The march visits every few nodes of a line, or of a few lines of a plane. Temperatures need no basis.
 
 mod stations;
 
@@ -19,7 +19,7 @@ use crate::solver::reduced::warmth::Warmth;
 use std::sync::Arc;
 
 /// Stopping tolerances of the coupled iteration, relative to that of Newton's method alone: for the relative step of
-/// pressure and film thickness, and for the change of θ. A kelvin is 3e-3.
+/// pressure and film thickness, and for the change of the temperature rise θ. A kelvin is 3e-3.
 const TOLERANCES: (f64, f64) = (10.0, 10.0);
 
 /// Maximum number of coupled iterations, relative to the maximum number of isothermal Newton steps.
@@ -211,8 +211,7 @@ impl Heated {
 }
 
 impl Part for Heated {
-    /// A cold start begins at θ = 0 with the pressures of thermal contacts, without an isothermal solution in
-    /// between.
+    /// A cold start begins at θ = 0 with the pressures of thermal contacts, without an isothermal solution in between.
     fn begin(&mut self, system: &mut SampledSystem, case: &Case<'_>, start: &Start<'_>) {
         if let Some((rule, _)) = &mut self.rule {
             rule.begin(system, case, start);

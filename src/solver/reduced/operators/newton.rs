@@ -1,4 +1,5 @@
-//! Newton iteration on reduced operators. Nothing here is of large scale, and an iteration allocates nothing.
+//! Newton iteration on reduced operators for the pressure coefficients p̃ and the rigid-body separation H₀. Nothing
+//! here is of large scale, and an iteration allocates nothing.
 
 use super::assembled::Operators;
 use super::case::{Case, State};
@@ -21,8 +22,8 @@ const FILM_STEP: f64 = 1e3;
 /// Purpose of an evaluation of the rows.
 #[derive(Clone, Copy, PartialEq)]
 enum Wanted {
-    /// A step with new derivatives. With `exact`, K V is taken at the boundary's current position even for many
-    /// lines, instead of a nearby position.
+    /// A step with new derivatives. With `exact`, the deformation K V of the modes is taken at the boundary's current
+    /// position even for many lines, instead of a nearby position.
     Step { exact: bool },
     /// A step with previous derivatives, and the quantities that the cavitation boundary checks.
     StepAgain,
@@ -54,7 +55,7 @@ pub(crate) struct Iterate<'a> {
     pub coefficients: &'a [f64],
     /// Film thickness at X = 0 per unit of each coefficient.
     pub lift: &'a [f64],
-    /// H_c before the step.
+    /// Central film thickness H_c before the step.
     pub h_c: f64,
 }
 

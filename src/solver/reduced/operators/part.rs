@@ -51,7 +51,7 @@ pub(super) struct Centre<'a> {
 pub(super) struct Step {
     /// Share of the step that was applied, 0…1.
     pub omega: f64,
-    /// ‖Δp̃‖/‖p̃‖.
+    /// Relative step ‖Δp̃‖/‖p̃‖ of the pressure coefficients.
     pub size: f64,
 }
 
@@ -64,7 +64,7 @@ pub(super) enum Moved {
     BetweenRows,
     /// Fields or laws, so that the derivatives must be computed again.
     PastRows,
-    /// p̃ and H₀ themselves.
+    /// Pressure coefficients p̃ and rigid-body separation H₀ themselves.
     State,
     /// The part has no finite state.
     Lost,
@@ -80,7 +80,8 @@ pub(super) trait Part: Send {
     /// modes of a circular contact.
     fn aim(&mut self, _system: &mut SampledSystem, _at: Centre<'_>) {}
 
-    /// Modifies P, K P and the gradients of coefficients, which are stored one after the other at the support.
+    /// Modifies pressure P, deformation K P and gradients of coefficients, which are stored one after the other at the
+    /// support.
     fn spread(&mut self, _system: &SampledSystem, _coefficients: &[f64], _fields: &mut [f64]) {}
 
     /// Evaluates the nodes from fields and film thicknesses by the part's own laws; returns false to leave this to

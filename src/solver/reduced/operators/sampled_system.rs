@@ -21,7 +21,7 @@ pub(super) enum RowState {
     Penalised,
     /// It holds without a penalty.
     Full,
-    /// It lies behind the cavitation boundary: λ balances it, whatever its value.
+    /// It lies behind the cavitation boundary: the multiplier λ balances it, whatever its value.
     Cavitated,
 }
 
@@ -36,7 +36,8 @@ pub(super) struct SampledSystem {
     pub support: Support,
     /// Ranges of the support at which states are evaluated: first the own places, then those of parts.
     pub seen: Vec<Range<usize>>,
-    /// True to evaluate all of them at the end of an iteration too, because the next time step uses ρ̄H there.
+    /// True to evaluate all of them at the end of an iteration too, because the next time step uses the mass flow ρ̄H
+    /// there.
     pub transient: bool,
     /// Sampled equations, followed by further rows that parts use: six places of the support each. Missing nodes have
     /// weight zero.
@@ -152,8 +153,7 @@ impl SampledSystem {
         }
     }
 
-    /// Evaluates the sampled equations, with their derivatives if `sloping`. Returns the sum of their weighted
-    /// squares.
+    /// Evaluates the sampled equations, with their derivatives if `sloping`. Returns the sum of their weighted squares.
     pub fn evaluate_rows(&mut self, case: &Case<'_>, sloping: bool) -> f64 {
         let Case { scale, penalty, .. } = *case;
         let mut sum = 0.0;

@@ -82,7 +82,7 @@ fn along(across: usize, node: usize) -> (usize, usize) {
     (node % across, node / across)
 }
 
-/// Modes on a support, row-major, support × modes.
+/// Modes V_p and their deformations on a support, row-major, support × modes.
 pub(super) struct StateRows {
     pub modes: usize,
     /// V_p.

@@ -26,13 +26,13 @@ pub(super) const KIND: Kind = Kind {
 
 /// Quadrature with the modes at its nodes.
 pub(super) struct Rule {
-    /// Weight of each node in ξ and Y.
+    /// Weight of each node in the reference coordinates ξ and Y.
     weights: Vec<f64>,
     support: Support,
     basis: StateRows,
     /// Dependence on the shape of an ellipse; `None` for circular and line contacts.
     shaped: Option<Shaped>,
-    /// Work space: P, K P and the gradients.
+    /// Work space: pressure P, deformation K P and gradients.
     fields: Vec<f64>,
 }
 

@@ -14,8 +14,9 @@ use crate::solver::reduced::matrix_values;
 use faer::{Mat, MatRef};
 use serde::{Deserialize, Serialize};
 
-/// g and f at (ỹ, u), with the reduced state ỹ = (p̃, H₀) and the inputs u, tested with weighted rows of Vᵀ, and
-/// their derivatives. The last equation is the load balance w̄ π/2 − ∫P, which has no g.
+/// g and f at (ỹ, u), with the reduced state ỹ = (p̃, H₀) (pressure coefficients, rigid-body separation) and the inputs
+/// u, tested with weighted rows of Vᵀ, and their derivatives. The last equation is the load balance w̄ π/2 − ∫P, which
+/// has no g.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Linearisation {
     /// g: ρ̄H, with the density ρ̄ and the film thickness H.

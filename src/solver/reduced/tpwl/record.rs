@@ -43,8 +43,7 @@ impl TpwlRecord {
         2 * far > self.steps.len()
     }
 
-    /// Creates an empty record with capacity for `steps` steps of `entries` weights and a state of `len` entries
-    /// each.
+    /// Creates an empty record with capacity for `steps` steps of `entries` weights and a state of `len` entries each.
     pub fn with_room(steps: usize, entries: usize, len: usize) -> Self {
         Self {
             steps: Vec::with_capacity(steps),

@@ -60,7 +60,7 @@ pub struct TrainedMoment {
     pub time: f64,
     /// Inputs.
     pub input: Input,
-    /// Reduced state ỹ = (p̃, H₀).
+    /// Reduced state ỹ = (p̃, H₀): pressure coefficients and rigid-body separation.
     pub state: Vec<f64>,
     /// P of the full system at all nodes, at which it is linearised.
     pub pressure: Arc<[f64]>,
@@ -181,8 +181,7 @@ fn step_error(system: &Linearisation, point: &TrainedMoment, moments: &[TrainedM
     let length = now.time - former.time;
     let length_before = if i >= 2 { former.time - before.time } else { length };
     let quotient = BackwardDifference::second_order(length, length_before);
-    // In the linearised system the quotient acts on the deviations from the point, because its weights add up to
-    // zero.
+    // In the linearised system the quotient acts on the deviations from the point, because its weights add up to zero.
     let deviation = |moment: &TrainedMoment| {
         let state = Col::from_fn(moment.state.len(), |j| moment.state[j] - point.state[j]);
         let (here, there) = (input_vector(moment.input), input_vector(point.input));

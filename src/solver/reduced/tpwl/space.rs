@@ -17,8 +17,8 @@ pub fn input_vector(input: Input) -> [f64; INPUTS] {
     [1.0 / input.radius, input.speed, input.load]
 }
 
-/// Pressure basis on a grid with all linear parts condensed. The reduced state is ỹ = (p̃, H₀), the film thickness H₀
-/// + X²/(2R̄) + K V p̃.
+/// Pressure basis on a grid with all linear parts condensed. The reduced state is ỹ = (p̃, H₀), with the pressure
+/// coefficients p̃ and the rigid-body separation H₀, the film thickness H₀ + X²/(2R̄) + K V p̃.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ReducedSpace {
     /// Grid of the fields.

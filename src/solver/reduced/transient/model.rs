@@ -33,7 +33,7 @@ pub struct TrajectoryModel {
 pub struct LocalBasis {
     /// Modes, which are combinations of the model's whole basis, and sampled equations.
     pub window: Window,
-    /// p̃ of its centre in the whole basis.
+    /// Pressure coefficients p̃ of its centre in the whole basis.
     pub centre: Vec<f64>,
 }
 

@@ -17,7 +17,7 @@ use crate::solver::reduced::{ReducedError, Window, dense};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Stopping tolerance of a step for ‖Δp̃‖/‖p̃‖.
+/// Stopping tolerance of a step for ‖Δp̃‖/‖p̃‖, with the pressure coefficients p̃.
 const TOLERANCE: f64 = 1e-6;
 /// Maximum number of Newton steps of a time step, and of the steady start.
 const MOST_NEWTON: [usize; 2] = [15, 60];
@@ -153,7 +153,7 @@ impl<'a> ReducedMarch<'a> {
             && fronts.all(|own| own.len() == lines && own.iter().all(|front| *front <= self.grid.len()))
     }
 
-    /// Returns H₀ of the current state.
+    /// Returns the rigid-body separation H₀ of the current state.
     pub(super) fn h_0(&self) -> f64 {
         self.h_0
     }
@@ -170,7 +170,7 @@ impl<'a> ReducedMarch<'a> {
         self.start.resize(modes, 0.0);
     }
 
-    /// Converts the previous states to another basis: pressures to its modes, ρ̄H to its rows.
+    /// Converts the previous states to another basis: pressures to its modes, mass flow ρ̄H to its rows.
     fn change_to(&mut self, number: usize) {
         let (Some(at), true) = (self.at, number != self.number) else { return };
         let mut fields = std::mem::take(&mut self.fields);

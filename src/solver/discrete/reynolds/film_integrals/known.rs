@@ -5,8 +5,7 @@ use super::moments::shortened;
 use super::{FilmIntegrals, FilmLoad, FilmRule, MOST_ITERATIONS, alone, length, solve};
 use crate::solver::physics::lubricant::Fluidity;
 
-/// Largest first step, relative to the mid-film stress τ_m, for which the initial guess from a nearby film is
-/// accepted.
+/// Largest first step, relative to the mid-film stress τ_m, for which the initial guess from a nearby film is accepted.
 const FIRST_STEP: f64 = 0.3;
 
 /// Solved film, used as initial guess for a nearby one.

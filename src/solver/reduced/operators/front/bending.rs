@@ -1,4 +1,5 @@
-//! Changes of K V and K P by the boundary B: at stored positions of B, and by the nodes in between.
+//! Changes of the deformations K V (of the modes) and K P (of the pressure) by the boundary B: at stored positions of
+//! B, and by the nodes in between.
 
 use super::Front;
 use crate::solver::discrete::reynolds::CENTER;

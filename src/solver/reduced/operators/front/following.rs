@@ -12,8 +12,8 @@ use crate::solver::reduced::sums::row_times;
 const LITTLE: f64 = 1e-5;
 
 impl Front {
-    /// Moves B after a step, of which the share `omega` was taken. The contribution of gradients to λ is neglected:
-    /// it is small where P ends, and vanishes with the step.
+    /// Moves B after a step, of which the share `omega` was taken. The contribution of gradients to the multiplier λ is
+    /// neglected: it is small where P ends, and vanishes with the step.
     pub(super) fn follow(
         &mut self,
         system: &mut SampledSystem,
