@@ -317,7 +317,7 @@ impl March {
         }
     }
 
-    /// Returns the upwind data of a station from the two stations `from` on one side. Where the flow there `leaves`
+    /// Returns the upwind data of a station from the two stations `from` on one side. If the flow there `leaves`
     /// to that side, the difference quotient is of first order.
     fn side(&self, i: usize, from: [usize; 2], leaves: impl Fn(f64) -> bool) -> Side {
         let there = from.map(|k| &self.stations[k]);

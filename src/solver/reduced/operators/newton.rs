@@ -16,7 +16,8 @@ const NEAR: f64 = 1e-2;
 const SHRINKS: f64 = 0.3;
 
 /// Last step of the film iteration at a shear-thinning node, divided by the squared tolerance of the whole iteration.
-/// Both leave an error of the square of their step: at 1e-3 both are equal, at 1e-5 films are exact to rounding.
+/// Both iterations leave an error of the square of their last step. At a tolerance of 1e-3 both errors are equal; at 1e-5
+/// films are exact to rounding.
 const FILM_STEP: f64 = 1e3;
 
 /// Purpose of an evaluation of the rows.
