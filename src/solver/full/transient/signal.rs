@@ -48,10 +48,10 @@ pub enum Signal {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Inputs {
-    /// R̄(T).
+    /// Radius R̄(T).
     #[serde(default)]
     pub radius: Signal,
-    /// ū(T).
+    /// Entrainment speed ū(T).
     #[serde(default)]
     pub speed: Signal,
     /// Load w̄(T).
