@@ -1,28 +1,28 @@
-//! What numbers from outside may be: finite and sane, and named where they are not.
+//! Checks of values from outside the program: each must be finite and within its range. A refusal names the field.
 
-/// A value that is refused.
+/// Refusal of a value.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("`{field}` {problem}")]
 pub struct Refused {
-    /// The field, with dots between levels.
+    /// Name of the field, with dots between the levels.
     pub field: String,
-    /// What is wrong and what would be accepted.
+    /// What is wrong, and what is accepted.
     pub problem: String,
 }
 
 impl Refused {
-    /// Refuses a field.
+    /// Creates a refusal of the given field.
     pub fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
         Self { field: field.into(), problem: problem.into() }
     }
 
-    /// The same seen from outside: the field belongs to another one.
+    /// Returns the same refusal with the name of the enclosing field in front.
     pub fn within(self, outer: &str) -> Self {
         Self { field: format!("{outer}.{}", self.field), ..self }
     }
 }
 
-/// A number in its shortest exact form, with an exponent where it is very small or large.
+/// Number displayed in its shortest exact form, with an exponent if it is very small or very large.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number(pub f64);
 
@@ -33,10 +33,10 @@ impl std::fmt::Display for Number {
     }
 }
 
-/// Refuses a number that is not finite or lies outside an interval.
+/// Checks that a number is finite and lies between `low` and `high`, both included.
 ///
 /// # Errors
-/// Naming the field.
+/// [`Refused`] with the name of the field if it does not.
 pub fn number(field: &str, value: f64, low: f64, high: f64) -> Result<(), Refused> {
     if (low..=high).contains(&value) {
         return Ok(());
@@ -44,10 +44,10 @@ pub fn number(field: &str, value: f64, low: f64, high: f64) -> Result<(), Refuse
     Err(Refused::new(field, format!("is {}, but must be a finite number between {low:e} and {high:e}", Number(value))))
 }
 
-/// Refuses a text for people that would move a terminal's cursor or colour its letters.
+/// Checks that a text has no control characters, which could move the cursor or change the colours of a terminal.
 ///
 /// # Errors
-/// Naming the field.
+/// [`Refused`] with the name of the field if it has any.
 pub fn plain(field: &str, text: &str) -> Result<(), Refused> {
     if text.chars().any(char::is_control) {
         return Err(Refused::new(field, "has control characters; write plain text"));
@@ -55,10 +55,10 @@ pub fn plain(field: &str, text: &str) -> Result<(), Refused> {
     Ok(())
 }
 
-/// Refuses a count outside an interval.
+/// Checks that a count lies between `low` and `high`, both included.
 ///
 /// # Errors
-/// Naming the field.
+/// [`Refused`] with the name of the field if it does not.
 pub fn count(field: &str, value: usize, low: usize, high: usize) -> Result<(), Refused> {
     if (low..=high).contains(&value) {
         return Ok(());
@@ -66,10 +66,10 @@ pub fn count(field: &str, value: usize, low: usize, high: usize) -> Result<(), R
     Err(Refused::new(field, format!("is {value}, but must lie between {low} and {high}")))
 }
 
-/// Refuses an interval that is inverted or reaches beyond another one.
+/// Checks that an interval is not inverted and lies between `low` and `high`.
 ///
 /// # Errors
-/// Naming the field, and its end where one is wrong.
+/// [`Refused`] with the name of the field, and with `.0` or `.1` if one end is out of range.
 pub fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Result<(), Refused> {
     number(&format!("{field}.0"), from, low, high)?;
     number(&format!("{field}.1"), to, low, high)?;
@@ -80,7 +80,7 @@ pub fn interval(field: &str, (from, to): (f64, f64), low: f64, high: f64) -> Res
     Ok(())
 }
 
-/// Four significant digits without trailing zeros.
+/// Formats a number with four significant digits and without trailing zeros.
 pub fn digits(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

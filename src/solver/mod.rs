@@ -1,6 +1,7 @@
-//! The core: pure mathematics and physics of elastohydrodynamic contacts. It knows no screen, file, clock or terminal.
+//! Core of the program: mathematics and physics of elastohydrodynamic contacts, without screen, files, clock or
+//! terminal.
 //!
-//! Arrows point one way: `training` → `reduced` → `full` → `discrete` → `parameters` → `physics`.
+//! Dependencies point one way: `training` → `reduced` → `full` → `discrete` → `parameters` → `physics`.
 
 pub mod discrete;
 pub mod full;

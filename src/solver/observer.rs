@@ -1,57 +1,58 @@
-//! How a computation tells its caller how far it got, and learns that it is no longer wanted.
+//! Progress reports and cancellation of long computations.
 //!
-//! There is one [`Observer`] for everything that takes long. What tells more than this has a trait of its own on top of
-//! it: a march its moments, a training its state, a study its rows.
+//! All long computations use one trait, [`Observer`]. A computation that reports more has a trait that extends it: a
+//! transient march reports its time steps, a training its state, a study its rows.
 
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Watches a computation, from all of its threads. Every method has a default, so `()` watches nothing.
+/// Watches a computation from all of its threads. Every method has a default, so `()` is an observer that does nothing.
 pub trait Observer: Sync {
     /// Called after every Newton step of a full solve.
     fn newton_step(&self, _step: &NewtonStep) {}
 
-    /// Called with P (node array) after every Newton step of a full solve.
+    /// Called with the pressure P (one value per node) after every Newton step of a full solve.
     fn iterate(&self, _pressure: &[f64]) {}
 
-    /// Called after every Krylov iteration of a point contact's linear solve, with their count within the present
-    /// Newton step.
+    /// Called after every Krylov iteration of the linear solve of a point contact. `count` is the number of
+    /// iterations within the current Newton step.
     fn krylov_iteration(&self, _count: usize) {}
 
-    /// Called as long work of many parts proceeds.
+    /// Called when a part of a long computation is done.
     fn progress(&self, _progress: Progress) {}
 
-    /// Asked between steps, and every few milliseconds within long ones; `true` stops the computation with what it has.
+    /// Returns `true` to stop the computation, which then returns what it has. Called between steps, and every few
+    /// milliseconds within long steps.
     fn cancelled(&self) -> bool {
         false
     }
 }
 
-/// What one Newton step did.
+/// Report of one Newton step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NewtonStep {
-    /// Count from 1, over all attempts of the solve.
+    /// Number of the step, from 1, counted over all attempts of the solve.
     pub iteration: usize,
     /// 2-norm of the scaled residual before the step.
     pub residual: f64,
-    /// ‖Δz‖/‖z‖ of the step taken.
+    /// Relative step length ‖Δz‖/‖z‖, with z the vector of unknowns.
     pub step: f64,
 }
 
-/// How far long work is.
+/// Progress of a long computation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
-    /// What is being done, for people.
+    /// Description of the current stage, for display.
     pub stage: String,
-    /// Work done.
+    /// Parts done.
     pub done: usize,
-    /// Work in all of this stage.
+    /// Parts in this stage.
     pub total: usize,
 }
 
 impl Observer for () {}
 
-/// Stops a computation from another thread.
+/// Stops a computation when another thread sets it to `true`.
 impl Observer for AtomicBool {
     fn cancelled(&self) -> bool {
         self.load(Ordering::Relaxed)

@@ -1,4 +1,4 @@
-//! What a reader of an answer must know besides its numbers: each kind of warning once, with its values and its sentence.
+//! Warnings that accompany an answer. Each kind is defined once, with its values and its sentence.
 
 use crate::solver::full::transient::Ended;
 use crate::solver::parameters::Outside;
@@ -6,23 +6,25 @@ use crate::solver::physics::contact::PLAUSIBLE_HERTZ_PRESSURE_PA;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// Hertzian pressure \[Pa\] beyond which static load ratings are exceeded (ISO 76).
+/// Hertzian pressure \[Pa\] above which static load ratings are exceeded (ISO 76).
 pub const STATIC_RATING_PRESSURE_PA: f64 = 4.6e9;
-/// α* p_H beyond which an isothermal traction without a limiting stress is no physics: viscosity then outgrows every
-/// stress a lubricant can carry.
+/// Value of α* p_H (reciprocal asymptotic isoviscous pressure coefficient times Hertzian pressure) above which an
+/// isothermal traction without a limiting stress is unphysical: the shear stress exceeds what lubricants can carry.
 pub const PLAUSIBLE_EXPONENT: f64 = 12.0;
-/// A traction coefficient beyond which no lubricant was ever measured: it would have thinned under shear or yielded.
+/// Traction coefficient above which the result is unphysical: no measured lubricant has reached it, because
+/// shear-thinning or the limiting stress bounds the traction.
 pub const PLAUSIBLE_TRACTION: f64 = 0.15;
 /// Temperature \[K\] above which lubricants decompose: 300 °C.
 pub(in crate::solver) const ENDURED_K: f64 = 573.0;
-/// Péclet number u_i a/(2κ_i) below which heat flows upstream within a body.
+/// Péclet number u_i a/(2κ_i) (surface speed u_i, half-width a, thermal diffusivity κ_i) below which heat flows
+/// upstream within a body.
 const SMALLEST_PECLET: f64 = 5.0;
-/// Estimated errors of the steps in time beyond this are warned of.
+/// Estimated relative time-step error above which a warning is issued.
 const NOTABLE_STEP_ERROR: f64 = 0.03;
-/// Estimated discretisation errors beyond this are likely to be too small.
+/// Relative discretisation error above which the estimate is likely to be too small.
 const SATURATED: f64 = 0.1;
 
-/// What a reader of an answer must know. Its sentence is what it displays.
+/// Warning that accompanies an answer. `Display` writes its sentence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[serde(rename_all = "snake_case")]
 pub enum Warning {
@@ -31,53 +33,53 @@ pub enum Warning {
         "the full solver {ending} ({newton_iterations} Newton steps in {attempts} attempts, residual {residual_norm:.1e})"
     )]
     NotConverged {
-        /// How it ended, as the end of a sentence.
+        /// How the solve ended, worded as the end of a sentence.
         ending: String,
-        /// Newton steps.
+        /// Number of Newton steps.
         newton_iterations: usize,
-        /// Starts that were tried.
+        /// Number of attempts, each with another initial guess.
         attempts: usize,
         /// 2-norm of the scaled residual.
         residual_norm: f64,
     },
-    /// The boundary of the cavitated region cycled between two sets of nodes.
+    /// The boundary of the cavitated region oscillated between two sets of nodes.
     #[error("the cavitation boundary oscillated between two sets of nodes and was then moved node by node")]
     CavitationBoundaryOscillated,
-    /// The grid moves H_c by more than a few percent.
+    /// The discretisation error of the central film thickness H_c exceeds a few per cent.
     #[error("{}", discretisation(*relative, ends.as_ref(), spacing.as_ref()))]
     DiscretisationError {
         /// Estimated relative error of H_c.
         relative: f64,
-        /// The ends of the domain, where they are too near.
+        /// Ends of the domain, if they are too near.
         ends: Option<NearEnds>,
-        /// The spacing, where it is too wide.
+        /// Spacing, if it is too coarse.
         spacing: Option<WideSpacing>,
     },
     /// The discretisation error of H_c cannot be estimated.
     #[error("the discretisation error of H_c cannot be estimated; compare with a finer grid")]
     DiscretisationErrorUnknown,
-    /// The lengths of the steps in time move H_c by more than a few percent, or by more than was asked for.
+    /// The time-step error of H_c exceeds a few per cent or the requested tolerance.
     #[error("{}", time_step_error(*relative, *tolerance))]
     TimeStepError {
-        /// Estimated greatest relative error of H_c.
+        /// Largest estimated relative error of H_c.
         relative: f64,
-        /// The share of H_c that the steps were to be controlled by.
+        /// Requested tolerance, relative to H_c.
         tolerance: Option<f64>,
     },
-    /// A march in time did not reach the end of its duration.
+    /// A transient march stopped before the end of its duration.
     #[error("the march {}", ended.describe())]
     MarchStopped {
-        /// The last T reached.
+        /// Last dimensionless time T reached.
         reached: f64,
-        /// How it ended.
+        /// How the march ended.
         ended: Ended,
     },
-    /// The grid does not do for some moment of a march in time.
+    /// The grid is not sufficient at some time of a transient march.
     #[error("at T = {time:.4} {warning}; the grid does not do for this march")]
     DiscretisationErrorInTime {
-        /// T of the moment.
+        /// Dimensionless time T.
         time: f64,
-        /// The warning of the steady contact of that moment.
+        /// Warning of the steady contact at this time.
         warning: Box<Self>,
     },
     /// The inputs of a march change faster than its linearised model can follow.
@@ -86,68 +88,68 @@ pub enum Warning {
         /// What to do instead.
         advice: String,
     },
-    /// The grid is too wide across to resolve the side lobes.
+    /// The spacing in Y is too coarse to resolve the side lobes.
     #[error(
         "H_min is not resolved: the side lobes are too narrow for the spacing of {spacing:.3} across them; H_c is not \
          affected; take {wanted:.3} or less, or the graded grid"
     )]
     SideLobesUnresolved {
-        /// ΔY at H_min.
+        /// ΔY at the minimum film thickness H_min.
         spacing: f64,
-        /// One that would do.
+        /// A spacing that is sufficient.
         wanted: f64,
     },
-    /// Heat flows upstream within a body that moves slowly.
+    /// Heat flows upstream within a slowly moving body.
     #[error(
         "the Péclet number of body {body} is {peclet:.2}: below {SMALLEST_PECLET} heat flows upstream within it, and its \
          surface is colder than the theory of moving sources says"
     )]
     SmallPeclet {
-        /// 1 or 2.
+        /// Number of the body, 1 or 2.
         body: usize,
-        /// Its Péclet number.
+        /// Péclet number of the body.
         peclet: f64,
     },
     /// The film is hotter than lubricants endure.
     #[error("the film reaches {temperature_k:.0} K: oils decompose above {ENDURED_K} K, and no law was measured there")]
     TooHot {
-        /// Its highest temperature \[K\].
+        /// Highest temperature of the film \[K\].
         temperature_k: f64,
     },
-    /// Heat is lost between the nodes.
+    /// The energy balance is not met: heat is lost between the nodes.
     #[error(
         "{:.1} % of the heat that is made goes nowhere: the grid is too coarse for this film's temperatures",
         100.0 * share
     )]
     HeatLost {
-        /// Share of the heat that is made.
+        /// Share of the generated heat that is lost.
         share: f64,
     },
-    /// The reduced model was not trained for the contact, or for how its inputs change.
+    /// The contact, or the change of its inputs, is outside the trained range of the reduced model.
     #[error("{outside}")]
     OutsideTrainedRange {
-        /// The quantity, its value and the trained interval.
+        /// Quantity, its value and the trained interval.
         outside: Outside,
     },
-    /// The reduced model was trained with the cavitation penalty, and another law is asked for.
+    /// The reduced model was trained with the cavitation penalty, but another cavitation model is requested.
     #[error("the reduced model uses the cavitation penalty of its training, not {asked}; this moves H_c by about 1e-7")]
     CavitationOfTraining {
-        /// The law that is asked for.
+        /// Requested cavitation model.
         asked: String,
     },
-    /// The contact's own local model found no solution; its neighbour answers.
+    /// The local model of this contact found no solution, and a neighbouring one was used.
     #[error(
         "the local model that this contact belongs to found no solution; its neighbour answers, whose errors were not \
          measured here"
     )]
     NeighbouringModel,
-    /// The reduced model has no solution.
+    /// The reduced model found no solution.
     #[error("{reason}")]
     NoReducedSolution {
-        /// Why, a sentence.
+        /// Reason, as a sentence.
         reason: String,
     },
-    /// The full solver answers in place of the reduced model.
+    /// The full solver computed the answer instead of the reduced model.
     #[error("the full solver took over")]
     FullSolverTookOver,
     /// The Hertzian pressure exceeds what bearing steel carries.
@@ -157,10 +159,10 @@ pub enum Warning {
         if *pressure_pa > STATIC_RATING_PRESSURE_PA { ", and 4.6 GPa, where static load ratings end (ISO 76)" } else { "" }
     )]
     HertzPressure {
-        /// p_H \[Pa\].
+        /// Hertzian pressure p_H \[Pa\].
         pressure_pa: f64,
     },
-    /// Every isothermal traction without a limiting stress is unphysical at this α* p_H.
+    /// Any isothermal traction without a limiting stress is unphysical at this α* p_H.
     #[error(
         "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear stress is \
          unphysical"
@@ -169,7 +171,7 @@ pub enum Warning {
         /// α* p_H.
         exponent: f64,
     },
-    /// The traction coefficient is larger than any that was measured.
+    /// The traction coefficient is larger than any measured one.
     #[error(
         "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant thins under \
          shear or yields"
@@ -178,7 +180,7 @@ pub enum Warning {
         /// Traction coefficient.
         traction: f64,
     },
-    /// The shear stress is larger than any that lubricants carry.
+    /// The shear stress is larger than lubricants carry.
     #[error(
         "the shear stress of {:.3} GPa under {:.3} GPa is above the limit: beyond {PLAUSIBLE_TRACTION} of the pressure a \
          lubricant yields, and this one has no limiting stress",
@@ -186,9 +188,9 @@ pub enum Warning {
         1e-9 * pressure_pa
     )]
     ShearStressAboveLimit {
-        /// At mid-film, where the pressure is largest \[Pa\].
+        /// Shear stress at mid-film where the pressure is largest \[Pa\].
         stress_pa: f64,
-        /// That pressure \[Pa\].
+        /// Largest pressure \[Pa\].
         pressure_pa: f64,
     },
 }
@@ -196,47 +198,48 @@ pub enum Warning {
 /// Ends of a domain that are too near.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NearEnds {
-    /// Inlet, X.
+    /// X of the inlet.
     pub x: f64,
-    /// Side, Y; `None` for a line contact.
+    /// Y of the side; `None` for a line contact.
     pub y: Option<f64>,
-    /// −X of an inlet that would do; half of it for the side.
+    /// −X of an inlet that is sufficient; half of it for the side.
     pub wanted: f64,
 }
 
-/// A spacing that is too wide.
+/// Spacing that is too coarse.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WideSpacing {
     /// ΔX at X = −1.
     pub spacing: f64,
-    /// One that would do.
+    /// A spacing that is sufficient.
     pub wanted: f64,
 }
 
 impl Warning {
-    /// The warning of a Hertzian pressure \[Pa\], if it exceeds what bearing steel carries.
+    /// Returns a warning if the Hertzian pressure \[Pa\] exceeds what bearing steel carries.
     pub fn of_hertz_pressure(pressure_pa: f64) -> Option<Self> {
         (pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA).then_some(Self::HertzPressure { pressure_pa })
     }
 
-    /// The warning of the estimated error that steps in time leave in H_c, if it is more than three percent, or more
-    /// than the tolerance that was to control them.
+    /// Returns a warning if the estimated relative time-step error of H_c exceeds three per cent or the requested
+    /// tolerance.
     pub fn of_time_step(relative: f64, tolerance: Option<f64>) -> Option<Self> {
         let tolerance = tolerance.filter(|tolerance| relative > *tolerance);
         (relative > NOTABLE_STEP_ERROR || tolerance.is_some()).then_some(Self::TimeStepError { relative, tolerance })
     }
 
-    /// Whether it is of the discretisation error, of which tables of many contacts make a sentence of their own.
+    /// Returns true for the two warnings about the discretisation error. Tables of many contacts summarise these in a
+    /// separate sentence.
     pub fn is_of_grid(&self) -> bool {
         matches!(self, Self::DiscretisationError { .. } | Self::DiscretisationErrorUnknown)
     }
 
-    /// The warning about the Péclet number of a body, 1 or 2, if heat flows upstream within it.
+    /// Returns a warning if the Péclet number of a body (1 or 2) is so small that heat flows upstream within it.
     pub fn of_peclet((body, peclet): (usize, f64)) -> Option<Self> {
         (peclet < SMALLEST_PECLET).then_some(Self::SmallPeclet { body, peclet })
     }
 
-    /// Its kind, values and sentence as one JSON object: `{"kind": …, values…, "text": …}`.
+    /// Returns kind, values and sentence as one JSON object: `{"kind": …, values…, "text": …}`.
     pub fn to_json(&self) -> Value {
         let mut object = Map::new();
         match serde_json::to_value(self) {
@@ -255,12 +258,13 @@ impl Warning {
         Value::Object(object)
     }
 
-    /// Several of them as one sentence.
+    /// Joins several warnings into one sentence.
     pub fn joined<'a>(warnings: impl IntoIterator<Item = &'a Self>) -> String {
         warnings.into_iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
     }
 
-    /// Returns how many of some answers carry each kind, with the last warning of the kind as an example.
+    /// Counts how many of the given answers carry each kind of warning. Keeps the last warning of each kind as an
+    /// example.
     pub fn summary<'a>(answers: impl IntoIterator<Item = &'a [Self]>) -> Vec<Repeated> {
         let mut kinds: Vec<(usize, &Self)> = Vec::new();
         let mut all = 0;
@@ -280,19 +284,19 @@ impl Warning {
     }
 }
 
-/// A kind of warning that several answers carry. Its sentence is what it displays.
+/// Kind of warning that several answers carry. `Display` writes its sentence.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, Serialize, Deserialize)]
 #[error("{count} of {all} contacts, the last of them: {last}")]
 pub struct Repeated {
-    /// How many carry it.
+    /// Number of answers that carry it.
     pub count: usize,
-    /// Of how many.
+    /// Number of all answers.
     pub all: usize,
-    /// The last of them.
+    /// Last warning of this kind.
     pub last: Warning,
 }
 
-/// The sentence of a discretisation error, with a grid that would do.
+/// Formats the sentence of a discretisation error, with a grid that is sufficient.
 fn discretisation(relative: f64, ends: Option<&NearEnds>, spacing: Option<&WideSpacing>) -> String {
     let more = if relative > SATURATED { " or more" } else { "" };
     let ends = ends.map(|NearEnds { x, y, wanted }| match y {
@@ -311,7 +315,7 @@ fn discretisation(relative: f64, ends: Option<&NearEnds>, spacing: Option<&WideS
     format!("H_c is off by about {:.0} %{more}{colon}{}", 100.0 * relative, parts.join("; "))
 }
 
-/// The sentence of an error of the steps in time.
+/// Formats the sentence of a time-step error.
 fn time_step_error(relative: f64, tolerance: Option<f64>) -> String {
     let percent = 100.0 * relative;
     match tolerance {

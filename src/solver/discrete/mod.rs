@@ -1,4 +1,4 @@
-//! Grids, the discrete Reynolds equation on them, and how they deform.
+//! Grids, elastic deformation, and the discrete Reynolds and energy equations.
 
 pub mod elasticity;
 pub mod grid;

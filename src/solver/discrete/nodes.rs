@@ -1,5 +1,5 @@
-//! The nodes of a contact at one state, Newtonian or generalized: the one place where they are evaluated, for the full
-//! system, reduced and linearised models, error measures and balances alike.
+//! Evaluation of the nodes of a contact at one state, Newtonian, generalized or thermal. All parts of the solver use
+//! it: the full system, reduced and linearised models, error measures and balances.
 
 use super::heat::{RULE, WarmFilm, WarmLaws};
 use super::reynolds::film_integrals::KnownFilm;
@@ -10,39 +10,39 @@ use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
 use rayon::prelude::*;
 use std::ops::{Deref, Range};
 
-/// What pressure, gradient and film are made into a node by, in one contact.
+/// Laws that determine a node from pressure, gradient and film thickness in one contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Laws<'a> {
     /// Density and viscosity.
     pub fluid: &'a ScaledFluid,
-    /// How the viscosity falls with shear; none where the fluid is Newtonian.
+    /// Shear-thinning law; `None` for a Newtonian lubricant.
     pub shear: Option<&'a ScaledShear>,
     /// 1/λ̄ of (2.23).
     pub inverse_lambda: f64,
 }
 
-/// In which order nodes are evaluated.
+/// Order in which nodes are evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
-    /// On all threads, each node beside its own film of the former evaluation.
+    /// On all threads. Each node starts from its own film of the previous evaluation.
     Parallel,
-    /// One after the other, each beside its own film of the former evaluation.
+    /// One after the other. Each node starts from its own film of the previous evaluation.
     Alone,
-    /// One after the other; where a node has no former film, beside the film of the node before it.
+    /// One after the other. A node without a previous film starts from the film of the node before it.
     BesideTheFormer,
 }
 
-/// Nodes evaluated by one task: a film integral takes as long as some hundred Newtonian nodes.
+/// Nodes per task, Newtonian and shear-thinning: a film integral takes as long as some hundred Newtonian nodes.
 const SHARE: [usize; 2] = [2048, 32];
 
-/// Nodes whose laws are evaluated at once.
+/// Number of nodes whose laws are evaluated at once.
 const AT_ONCE: usize = 8;
 
-/// Nodes as the rows see them; a slice of [`Node`].
+/// Nodes as the rows use them. Dereferences to a slice of [`Node`].
 #[derive(Clone, Debug)]
 pub struct Nodes {
     nodes: Vec<Node>,
-    /// What thinning adds to each; empty where the state evaluated last was Newtonian.
+    /// Shear-thinning part of each node; empty if the last evaluated state was Newtonian.
     thinning: Vec<ShearNode>,
 }
 
@@ -55,12 +55,12 @@ impl Deref for Nodes {
 }
 
 impl Nodes {
-    /// Room for `count` nodes, of a thinning lubricant where `thinning` says so.
+    /// Allocates `count` nodes, and their shear-thinning parts if `thinning`.
     pub fn new(count: usize, thinning: bool) -> Self {
         Self { nodes: vec![Node::default(); count], thinning: Vec::with_capacity(if thinning { count } else { 0 }) }
     }
 
-    /// The nodes of given fields.
+    /// Evaluates the nodes of the given pressure and film thickness.
     pub fn of(laws: Laws<'_>, gradient: &PlaneGradient, pressure: &[f64], film: &[f64]) -> Self {
         let mut nodes = Self::new(pressure.len(), laws.shear.is_some());
         let at = |k: usize| gradient.at_node(pressure, k);
@@ -68,18 +68,18 @@ impl Nodes {
         nodes
     }
 
-    /// Forgets the films of former evaluations: those of another contact are no start.
+    /// Discards the films of previous evaluations. Those of another contact are not suitable as initial guesses.
     pub fn forget(&mut self) {
         self.thinning.fill(ShearNode::default());
     }
 
-    /// Whether the state evaluated last thins under shear.
+    /// Returns true if the last evaluated state is shear-thinning.
     pub fn thins(&self) -> bool {
         !self.thinning.is_empty()
     }
 
-    /// Evaluates all nodes of (P, H); `gradient` gives (P_X, P_Y) of each, which a Newtonian lubricant does not ask
-    /// for.
+    /// Evaluates all nodes at pressure P and film thickness H. `gradient` returns (P_X, P_Y) of a node; it is not
+    /// called for a Newtonian lubricant.
     pub fn evaluate(
         &mut self,
         laws: Laws<'_>,
@@ -124,8 +124,7 @@ impl Nodes {
         }
     }
 
-    /// Evaluates a part of the nodes of (P, H) in the order [`Order::BesideTheFormer`]; `gradient` as of
-    /// [`Self::evaluate`].
+    /// Evaluates a part of the nodes in the order [`Order::BesideTheFormer`]. `gradient` as in [`Self::evaluate`].
     pub fn evaluate_part(
         &mut self,
         laws: &Laws<'_>,
@@ -150,8 +149,8 @@ impl Nodes {
         }
     }
 
-    /// Evaluates some of the nodes of (P, H), of a lubricant that thins, in the order [`Order::BesideTheFormer`];
-    /// `gradient` as of [`Self::evaluate`].
+    /// Evaluates some nodes of a shear-thinning lubricant in the order [`Order::BesideTheFormer`]. `gradient` as in
+    /// [`Self::evaluate`].
     pub fn thin(
         &mut self,
         (laws, law): (&Laws<'_>, &ScaledShear),
@@ -167,8 +166,9 @@ impl Nodes {
         });
     }
 
-    /// Thins some of the nodes in the order [`Order::BesideTheFormer`], by a law that is given a node and the film near
-    /// which its own is: between two evaluations the stress hardly changes, in the first one the node before is near.
+    /// Evaluates some nodes in the order [`Order::BesideTheFormer`]. `thinned` receives the index of a node and a
+    /// film to start from. The stress changes little between two evaluations; in the first evaluation the previous
+    /// node is close enough.
     fn thin_beside_the_former(
         &mut self,
         wanted: impl IntoIterator<Item = usize>,
@@ -182,7 +182,7 @@ impl Nodes {
         }
     }
 
-    /// Evaluates all nodes of (P, H) at the temperatures of a film; `gradient` gives (P_X, P_Y) of each.
+    /// Evaluates all nodes at P, H and the temperatures of a film. `gradient` returns (P_X, P_Y) of a node.
     pub fn evaluate_warm(
         &mut self,
         laws: &WarmLaws<'_>,
@@ -211,7 +211,7 @@ impl Nodes {
         }
     }
 
-    /// Evaluates some of the nodes of (P, H) so, one after the other.
+    /// Does the same for some of the nodes, one after the other.
     pub fn evaluate_warm_at(
         &mut self,
         wanted: &[usize],
@@ -228,7 +228,7 @@ impl Nodes {
         }
     }
 
-    /// Makes a node one that is filled to a fraction θ: its unknown is θ, at P = 0.
+    /// Sets a node to the fill fraction θ: its unknown is then θ, at P = 0.
     pub fn fill(&mut self, node: usize, fraction: f64) {
         let Node { pressure, flow, flow_p, flow_h, mobility_p, .. } = &mut self.nodes[node];
         (*pressure, *mobility_p) = (0.0, 0.0);
@@ -238,19 +238,20 @@ impl Nodes {
         }
     }
 
-    /// Makes a node one that carries a given flow whatever its film is.
+    /// Sets a node to a given flow, independent of its film thickness.
     pub fn supply(&mut self, node: usize, flow: f64) {
         let node = &mut self.nodes[node];
         (node.flow, node.flow_p, node.flow_h) = (flow, 0.0, 0.0);
     }
 
-    /// A row at these nodes.
+    /// Evaluates a row at these nodes.
     #[inline]
     pub fn row(&self, geometry: &RowGeometry, penalty: f64, stencil: [usize; STENCIL]) -> Row {
         row(geometry, penalty, stencil.map(|node| &self.nodes[node]))
     }
 
-    /// Its derivatives by the nodal gradients along an axis, see [`gradient_slopes`]; the nodes must thin.
+    /// Returns the derivatives of a row by the nodal gradients along an axis, see [`gradient_slopes`]. Requires a
+    /// shear-thinning state.
     #[inline]
     pub fn slopes(&self, geometry: &RowGeometry, stencil: [usize; STENCIL], axis: usize) -> [f64; STENCIL] {
         gradient_slopes(geometry, stencil.map(|node| &self.thinning[node]), axis)

@@ -1,5 +1,5 @@
-//! What distinguishes a line from a plane: which nodes a row has and with what coefficients, quadrature weights, gap
-//! and deformation. Everything above is written once over a [`Space`].
+//! Differences between a line and a plane: the nodes of a row and its coefficients, quadrature weights, gap and
+//! deformation. All other code is written once over a [`Space`].
 
 use super::elasticity::{PointScratch, Scratch};
 use super::grid::{FIRST_UNKNOWN, INLET, LineGrid, PointGrid};
@@ -8,24 +8,24 @@ use super::reynolds::{RowGeometry, STENCIL};
 use crate::host::pool;
 use std::sync::Arc;
 
-/// Nodes, weights and deformation of a contact; node arrays run over X and, fastest, Y.
+/// Nodes, weights and deformation of a contact. Node arrays run over X and, fastest, Y.
 pub trait Grid {
     /// Work space of a deformation.
     type Scratch: Default;
 
-    /// Quadrature weights of node arrays; zero where P vanishes.
+    /// Quadrature weights of node arrays; zero where the pressure P vanishes.
     fn weights(&self) -> &[f64];
 
-    /// Abscissae X and ordinates Y ≤ 0; a line has the one Y = 0.
+    /// Abscissae X and ordinates Y ≤ 0; a line has the single ordinate Y = 0.
     fn abscissae(&self) -> (&[f64], &[f64]);
 
-    /// The ordinates in units of a, as the abscissae are: κY.
+    /// Ordinates κY in units of the half-width a, like the abscissae.
     fn across(&self) -> &[f64];
 
     /// Number of unknown pressures.
     fn unknowns(&self) -> usize;
 
-    /// Number of unknowns beside each other at one abscissa; unknowns run over X and, fastest, over these.
+    /// Number of unknowns at one abscissa. Unknowns run over X and, fastest, over these.
     fn column_unknowns(&self) -> usize;
 
     /// Node index of an unknown.
@@ -34,46 +34,47 @@ pub trait Grid {
     /// Nodes and weights of the cubic interpolation at X = 0 (and Y = 0).
     fn at_zero(&self) -> [(usize, f64); 4];
 
-    /// Δ = K P at every node; both slices are node arrays.
+    /// Computes the deformation Δ = K P at every node. Both slices are node arrays.
     fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Self::Scratch);
 
-    /// Value of a node array at X = 0 (and Y = 0).
+    /// Returns the value of a node array at X = 0 (and Y = 0).
     fn central(&self, values: &[f64]) -> f64 {
         self.at_zero().iter().map(|(node, w)| w * values[*node]).sum()
     }
 }
 
-/// A grid with the rows of its Reynolds equation.
+/// Grid with the rows of its Reynolds equation.
 pub trait Space: Sync {
-    /// Its grid.
+    /// Type of the grid.
     type Grid: Grid;
-    /// Whether loops over its nodes and rows are shared among threads.
+    /// True if loops over its nodes and rows run on several threads.
     const PARALLEL: bool;
-    /// The first so many of a row's six nodes may have weight.
+    /// Number of leading nodes of a row's six that may have a weight.
     const NODES: usize;
-    /// Axes along which the pressure has a gradient.
+    /// Number of axes along which the pressure has a gradient.
     const AXES: usize;
 
-    /// Its grid.
+    /// Grid of the space.
     fn grid(&self) -> &Self::Grid;
 
-    /// The nodes an unknown's row depends on, and its coefficients. Where a node is lacking, another stands in its
-    /// place with weight zero.
+    /// Returns the nodes that an unknown's row depends on, and its coefficients. A missing node is replaced by
+    /// another with weight zero.
     fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry);
 
-    /// The same with every other node, by which the error of the first one shows; none where a node lies outside.
+    /// Returns the same with every second node, to estimate the discretisation error of the first. `None` if a node
+    /// lies outside.
     fn wide_row(&self, unknown: usize) -> Option<([usize; STENCIL], RowGeometry)>;
 
-    /// Calls `f` with the unknown, its row's nodes and its item, for one item per unknown.
+    /// Calls `f` for every unknown with its index, the nodes of its row and its item.
     fn each_row<T: Send>(&self, items: &mut [T], f: impl Fn(usize, [usize; STENCIL], &mut T) + Sync);
 
     /// Writes the gap of the undeformed bodies at every node, (2.24).
     fn write_gap(&self, gap: &mut [f64]);
 
-    /// Writes the unknowns into a node array, whose other entries stay.
+    /// Copies the unknowns to a node array; its other entries stay unchanged.
     fn spread(&self, unknowns: &[f64], nodes: &mut [f64]);
 
-    /// Deformation of a node by unit pressure at itself, in the middle of the grid.
+    /// Returns the deformation of a node in the middle of the grid by unit pressure at itself.
     fn own_deformation(&self) -> f64;
 }
 
@@ -150,21 +151,21 @@ impl Grid for PointGrid {
     }
 }
 
-/// A line contact's grid and rows; in time these change with every step.
+/// Grid and rows of a line contact. In a transient contact the rows change with every step.
 #[derive(Clone, Debug)]
 pub struct LineSpace {
-    /// The grid.
+    /// Grid.
     pub grid: LineGrid,
-    /// 1/R̄ of (2.24); 1 where the radius does not vary.
+    /// 1/R̄ of (2.24), with the relative radius R̄; 1 if the radius is constant.
     pub curvature: f64,
-    /// Coefficients of the rows, those of the grid where nothing changes in time.
+    /// Coefficients of the rows; in a steady contact those of the grid.
     pub rows: Vec<RowGeometry>,
-    /// The side each row's flow comes from.
+    /// Side from which the flow of each row comes.
     pub upstream: Vec<Upstream>,
 }
 
 impl LineSpace {
-    /// A stationary contact's.
+    /// Creates the space of a steady contact.
     pub fn new(grid: LineGrid) -> Self {
         let (rows, upstream) = (grid.rows.clone(), vec![Upstream::Inlet; grid.rows.len()]);
         Self { grid, curvature: 1.0, rows, upstream }
@@ -218,10 +219,10 @@ impl Space for LineSpace {
     }
 }
 
-/// The half Y ≤ 0 of a point contact.
+/// Half Y ≤ 0 of a point contact.
 #[derive(Clone, Debug)]
 pub struct PlaneSpace {
-    /// The grid.
+    /// Grid.
     pub grid: Arc<PointGrid>,
 }
 
@@ -266,7 +267,7 @@ impl Space for PlaneSpace {
             let west2 = if column == 0 { ny } else { 2 * ny };
             for (j, item) in items.iter_mut().enumerate() {
                 let n = (column + 1) * ny + j + 1;
-                // The node that the axis lacks in the north has weight zero, whichever stands for it.
+                // The missing northern node on the axis has weight zero, whichever node replaces it.
                 f(column * m + j, [n - west2, n - ny, n, n + ny, n - 1, n + 1], item);
             }
         });

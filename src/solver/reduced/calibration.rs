@@ -1,19 +1,21 @@
-//! How far a reduced solution is off, in the units people care about: a calibrated bound without large-scale work.
+//! Calibrated error estimate of a reduced solution, without large-scale work.
 //!
-//! The residual alone does not say it (`training/indicator.rs` has the correlations). What is cheap to know about a
-//! reduced solution (where it lies, e_f^I, how much it leans on the basis's last modes) is therefore related to errors
-//! that were measured at random points when the training ended: a quadratic law in the logarithms, then the root mean
-//! square of the errors around in units of the law, then the quantile of the errors in units of both. That quantile is
-//! taken leaving one out (split-free conformal prediction), so that it holds for fresh points drawn like the evidence,
-//! whatever the law misses.
+//! The residual alone does not predict the error (`training/indicator.rs` has the correlations). The calibration
+//! relates cheap properties of a reduced solution (its position in the parameter space, its residual e_f^I, the size
+//! of its last modes) to errors measured at random points at the end of the training. It has three parts:
 //!
-//! Windows around anchors are too many for hundreds of measured errors each, and the errors of one model follow one law:
-//! the law is that of all evidence together, with what a window's own says of its linear terms, the quantile that of the
-//! window's own and of some of theirs, and how large errors are around a place each window's own evidence says.
+//! 1. a quadratic law for the logarithm of the error;
+//! 2. the local root mean square of the measured errors, in units of this law;
+//! 3. the quantile of the errors in units of both. It is computed leave-one-out (split-free conformal prediction), so
+//!    that it holds for new points from the same distribution, whatever the law misses.
 //!
-//! What the quantile counts in decides how loose a bound is. Of errors that are normally distributed, with a size known
-//! everywhere, no bound that holds for 99.6 % is less than 4.3 times the true error in the median; counted in the local
-//! root mean square, which follows how large errors are around a place, it comes near that.
+//! Models with many local models do not have hundreds of measured errors for each. Their errors follow one law, so the
+//! law is fitted to all evidence together, with linear corrections per local model. The quantile uses the evidence of
+//! the local model and a part of the others'. The local root mean square uses only the local model's own evidence.
+//!
+//! The unit of the quantile determines how tight the bound is. For normally distributed errors of known size, no
+//! bound that holds for 99.6 % is less than 4.3 times the median error. The local root mean square follows the size
+//! of the errors in the neighbourhood, so that the bound comes close to this factor.
 
 mod features;
 mod neighbours;
@@ -33,30 +35,31 @@ use neighbours::Neighbours;
 use quantity::{Quantity, quadratic};
 use steps::kept_place;
 
-/// Errors below this are noise of the three Newton steps they were measured by.
+/// Smaller errors are below the noise of the three Newton steps by which errors are measured.
 const FLOOR: f64 = 1e-8;
-/// Evidence of a window's own without which nothing is said there, where several learn together.
+/// Minimum evidence of one local model if several are calibrated together.
 pub const LEAST_OF_WINDOW: usize = 32;
 
-/// What a window knows about its own errors.
+/// Calibration of the errors of one local model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// Smallest and largest value of each feature in the evidence.
     ranges: Vec<(f64, f64)>,
-    /// Places of the evidence, each coordinate in −1…1, one after the other.
+    /// Positions of the evidence, one after the other; each coordinate is scaled to −1…1.
     places: Vec<f32>,
-    /// H_c, H_min, state, of a model that knows sliding or heat traction, and of one that knows heat the rise.
+    /// Central film thickness H_c, minimum film thickness H_min and state; traction for models with sliding or heat;
+    /// temperature rise for models with heat.
     quantities: Vec<Quantity>,
 }
 
 impl Calibration {
-    /// Learns from evidence of one kind; `None` when there is too little, or it is degenerate.
+    /// Fits the calibration to evidence of one kind. `None` if there is too little evidence, or if it is degenerate.
     pub fn fit(evidence: &[Evidence]) -> Option<Self> {
         Self::fit_together(&[evidence]).pop().flatten()
     }
 
-    /// Learns from the evidence of several windows of one model; `None` for windows with too little of their own, and for
-    /// all when there is too little together, or it is degenerate.
+    /// Fits the calibrations of several local models of one model together. An entry is `None` if that local model
+    /// has too little evidence; all are `None` if there is too little evidence in total, or if it is degenerate.
     pub fn fit_together(evidence: &[&[Evidence]]) -> Vec<Option<Self>> {
         let fitted = Self::fitted(evidence);
         fitted.unwrap_or_else(|| vec![None; evidence.len()])
@@ -93,7 +96,7 @@ impl Calibration {
         Some(windows.into_iter().map(|window| Some(window).filter(Self::sound)).collect())
     }
 
-    /// What the errors of a reduced solution are likely to be.
+    /// Estimates the errors of a reduced solution.
     pub fn estimate(&self, features: &Features) -> ErrorEstimate {
         let (scaled, beyond) = self.scaled(features);
         let terms = quadratic(&scaled);
@@ -108,27 +111,27 @@ impl Calibration {
         }
     }
 
-    /// The largest e_f^I, (3.15), of the evidence.
+    /// Returns the largest residual e_f^I, (3.15), of the evidence; infinity without evidence.
     pub fn largest_residual(&self) -> f64 {
         self.ranges.get(SIGNS.start).map_or(f64::INFINITY, |range| range.1.exp())
     }
 
-    /// Cases it rests on.
+    /// Returns the number of measured errors used.
     pub fn evidence(&self) -> usize {
         self.places.len() / (self.ranges.len() - SIGNS.len()).max(1)
     }
 
-    /// True if it has these features and errors.
+    /// Returns true if the calibration has these features and errors.
     pub fn is_of(&self, set: &FeatureSet) -> bool {
         self.ranges.len() == set.count() && self.quantities.len() == set.errors
     }
 
-    /// Whether its errors are those against full solutions, not what a few full Newton steps change.
+    /// Returns true if the errors were measured against full solutions, not estimated by a few full Newton steps.
     pub fn by_full_solutions(&self) -> bool {
         self.quantities.len() > ERRORS
     }
 
-    /// Whether every number in it makes sense, as when it was read from a file.
+    /// Returns true if all numbers are valid, for example after reading from a file.
     pub fn sound(&self) -> bool {
         let features = self.ranges.len();
         let known =
@@ -144,8 +147,8 @@ impl Calibration {
             && self.quantities.iter().all(|quantity| quantity.sound(terms, evidence))
     }
 
-    /// Features in −1…1 (clamped to the evidence), and by how much ln e_f^I and the last modes exceed it: errors are
-    /// taken to grow with them.
+    /// Returns the features scaled to −1…1 (clamped to the range of the evidence), and by how much ln e_f^I and the
+    /// last modes exceed this range. Errors are assumed to grow with the excess.
     fn scaled(&self, features: &Features) -> (Vec<f64>, f64) {
         let mut beyond = 0.0;
         let scale = |(k, (&(low, high), &value)): (usize, (&(f64, f64), &f64))| {
@@ -158,7 +161,7 @@ impl Calibration {
         (scaled, beyond)
     }
 
-    /// Of each piece of evidence the others around it: fresh points find no more.
+    /// Returns the neighbours of each piece of evidence without itself, as a new point would find them.
     fn left_out(&self) -> Vec<Neighbours> {
         let places = self.places.chunks_exact((self.ranges.len() - SIGNS.len()).max(1));
         places.enumerate().map(|(i, place)| self.neighbours(place, Some(i))).collect()
@@ -175,7 +178,7 @@ impl Calibration {
     }
 }
 
-/// The coordinates of the place among scaled features.
+/// Returns the coordinates of the position among scaled features.
 fn place(scaled: &[f64]) -> impl Iterator<Item = f32> {
     scaled.iter().enumerate().filter(|(k, _)| !SIGNS.contains(k)).map(|(_, v)| *v as f32)
 }

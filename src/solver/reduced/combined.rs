@@ -1,7 +1,8 @@
-//! Pressure modes that are combinations of one basis which several windows share.
+//! Pressure modes that are linear combinations of one basis shared by several local models.
 //!
-//! Windows around anchors know pressures that look alike: a few hundred modes make those of all, and a window's own few
-//! dozen are combinations of them. So a file holds one basis, and what it deforms is computed once.
+//! The pressures of the local models of one model are similar. A few hundred modes represent all of them, and the few
+//! dozen modes of one local model are combinations of these. A file stores one shared basis, and its deformation is
+//! computed once.
 
 use super::dense;
 use super::multiples::{factor_scales, kept_factors};
@@ -11,28 +12,28 @@ use crate::solver::discrete::grid::ContactGrid;
 use faer::{Mat, MatRef};
 use std::sync::{Arc, OnceLock};
 
-/// A basis of the pressures of several windows.
+/// Basis of the pressures of several local models.
 #[derive(Debug)]
 pub struct SharedBasis {
-    /// Its modes over the node array.
+    /// Modes over the node array.
     pub basis: PodBasis,
-    /// K V in ξ over the node array.
+    /// K V in the reference coordinate ξ over the node array: deformation of the modes V by the flexibility matrix K.
     flexed: Mat<f64>,
-    /// wᵀ V: what each mode carries.
+    /// wᵀ V: load carried by each mode, with the quadrature weights w.
     carried: Vec<f64>,
 }
 
-/// A window's modes, made of a shared basis.
+/// Modes of one local model as combinations of a shared basis.
 #[derive(Clone, Debug)]
 pub struct Combined {
-    /// The basis.
+    /// Shared basis.
     pub shared: Arc<SharedBasis>,
-    /// What the modes are, in this basis: modes of the basis × modes of the window.
+    /// Coefficients of the combinations: modes of the shared basis × modes of the local model.
     pub factors: Mat<f64>,
 }
 
-/// The pressure modes of a window, and what they deform. Combinations of a shared basis are made over all nodes once
-/// they are asked for there: a solve wants few nodes only.
+/// Pressure modes of a local model, and their deformation. Combinations of a shared basis are computed at all nodes
+/// only on request, because a solve needs few nodes.
 #[derive(Clone, Debug)]
 pub struct PressureModes {
     count: usize,
@@ -40,23 +41,23 @@ pub struct PressureModes {
     combined: Option<Combined>,
     basis: OnceLock<PodBasis>,
     flexed: OnceLock<Mat<f64>>,
-    /// Combinations in single precision, row-major nodes × modes: what pictures are drawn from.
+    /// Combinations in single precision, row-major nodes × modes, for the display of fields.
     single: OnceLock<Vec<f32>>,
 }
 
-/// Nodes whose modes are turned into single precision at once.
+/// Number of nodes whose modes are converted to single precision at once.
 const TOGETHER: usize = 512;
 
-/// wᵀ V.
+/// Returns wᵀ V.
 fn carried(weights: &[f64], modes: MatRef<'_, f64>) -> Vec<f64> {
     modes.col_iter().map(|mode| weights.iter().zip(mode.iter()).map(|(w, v)| w * v).sum()).collect()
 }
 
-/// Rows of the first columns of a matrix.
+/// Returns the given rows of the first columns of a matrix.
 fn rows(matrix: &Mat<f64>, nodes: &[usize], columns: usize) -> Mat<f64> {
     let mut out = Mat::zeros(nodes.len(), columns);
     for k in 0..columns {
-        // By slices: entries of a matrix one by one took a quarter of the time of the first visit to a window.
+        // Column slices are much faster than access to single entries.
         let column = matrix.col_as_slice(k);
         out.col_as_slice_mut(k).iter_mut().zip(nodes).for_each(|(out, node)| *out = column[*node]);
     }
@@ -64,7 +65,7 @@ fn rows(matrix: &Mat<f64>, nodes: &[usize], columns: usize) -> Mat<f64> {
 }
 
 impl SharedBasis {
-    /// A basis on a grid.
+    /// Creates the shared basis on a grid.
     pub fn new(basis: PodBasis, grid: &ContactGrid) -> Self {
         let (flexed, carried) = (grid.flex(&basis.modes), carried(grid.weights(), basis.modes.as_ref()));
         Self { basis, flexed, carried }
@@ -72,9 +73,9 @@ impl SharedBasis {
 }
 
 impl Combined {
-    /// The best combinations for pressures, one per column over the node array: their POD within the shared basis, up to
-    /// a loss of information, a number of modes and what is left of these as they are kept. `None` when the decomposition
-    /// fails.
+    /// Computes the best combinations for pressures, one per column over the node array: their POD within the shared
+    /// basis. The number of modes is limited by the loss of information, by `most`, and by the precision in which the
+    /// factors are stored. `None` if the decomposition fails.
     pub fn of(
         shared: &Arc<SharedBasis>,
         pressures: &Mat<f64>,
@@ -88,7 +89,7 @@ impl Combined {
         Some(Self { shared: Arc::clone(shared), factors }.into_modes(singular_values))
     }
 
-    /// The modes that it makes, with their singular values.
+    /// Converts the combinations to pressure modes with the given singular values.
     pub fn into_modes(self, singular_values: Vec<f64>) -> PressureModes {
         let (basis, flexed) = (OnceLock::new(), OnceLock::new());
         PressureModes {
@@ -101,13 +102,13 @@ impl Combined {
         }
     }
 
-    /// The first of its columns over some nodes, of the shared modes or of what these deform.
+    /// Evaluates the first combinations at some nodes; `whole` holds the shared modes or their deformation.
     fn over(&self, whole: &Mat<f64>, nodes: &[usize], columns: usize) -> Mat<f64> {
         let factors = self.factors.get(.., ..columns);
         dense::product(rows(whole, nodes, whole.ncols()).as_ref(), factors)
     }
 
-    /// All over the node array, in single precision and row-major.
+    /// Returns all combinations over the node array, in single precision and row-major.
     fn in_single_precision(&self) -> Vec<f32> {
         let (whole, modes) = (self.shared.basis.modes.as_ref(), self.factors.ncols());
         let mut rows = Vec::with_capacity(whole.nrows() * modes);
@@ -121,7 +122,7 @@ impl Combined {
 }
 
 impl PressureModes {
-    /// Modes of their own.
+    /// Creates modes with their own basis.
     pub fn own(basis: PodBasis, grid: &ContactGrid) -> Self {
         let flexed = grid.flex(&basis.modes);
         Self {
@@ -134,22 +135,22 @@ impl PressureModes {
         }
     }
 
-    /// How many there are.
+    /// Returns the number of modes.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// All singular values of the pressures that they are of.
+    /// Returns all singular values of the pressures.
     pub fn singular_values(&self) -> &[f64] {
         &self.singular_values
     }
 
-    /// What they are made of, where they are of a shared basis.
+    /// Returns the combinations, if the modes have a shared basis.
     pub fn combined(&self) -> Option<&Combined> {
         self.combined.as_ref()
     }
 
-    /// The modes over all nodes.
+    /// Returns the modes at all nodes.
     pub fn basis(&self) -> &PodBasis {
         self.basis.get_or_init(|| PodBasis {
             modes: self.whole(|shared| &shared.basis.modes),
@@ -157,8 +158,8 @@ impl PressureModes {
         })
     }
 
-    /// The coefficients of fields, one per column over the node array: modes × fields; of combinations those of the best
-    /// approximations. Of modes of their own starts alone are made of these.
+    /// Returns the coefficients of fields, one per column over the node array: modes × fields. For combinations they
+    /// are the best approximation; otherwise inner products, which are sufficient for initial guesses.
     pub fn coefficients(&self, weights: &[f64], fields: &Mat<f64>) -> Mat<f64> {
         if self.combined.is_some() {
             return self.basis().best_coefficients(weights, fields.as_ref());
@@ -168,19 +169,20 @@ impl PressureModes {
         Mat::from_fn(self.count, columns.len(), |k, j| columns[j][k])
     }
 
-    /// K V in ξ over the node array.
+    /// Returns K V in ξ over the node array.
     pub fn flexed(&self) -> &Mat<f64> {
         self.flexed.get_or_init(|| self.whole(|shared| &shared.flexed))
     }
 
-    /// Combinations over all nodes.
+    /// Computes the combinations at all nodes.
     fn whole(&self, of: impl Fn(&SharedBasis) -> &Mat<f64>) -> Mat<f64> {
         let made = |own: &Combined| dense::product(of(&own.shared).as_ref(), own.factors.as_ref());
         self.combined.as_ref().map_or_else(Mat::new, made)
     }
 
-    /// The pressures that the first modes with these coefficients have at the first nodes, as many as there is room for; of
-    /// combinations, where that is enough, from single precision: what is read from memory takes most of the time.
+    /// Evaluates the pressure of the first modes with these coefficients at the first nodes; the lengths of the
+    /// slices determine the numbers. `single` permits single precision for combinations. It is faster because reading
+    /// memory dominates.
     pub fn field(&self, coefficients: &[f64], single: bool, field: &mut [f64]) {
         match &self.combined {
             Some(own) if single && coefficients.len() == self.count => {
@@ -190,7 +192,7 @@ impl PressureModes {
         }
     }
 
-    /// The first modes at some nodes.
+    /// Returns the first modes at some nodes.
     pub fn at(&self, nodes: &[usize], modes: usize) -> Mat<f64> {
         match &self.combined {
             Some(own) => own.over(&own.shared.basis.modes, nodes, modes),
@@ -198,7 +200,7 @@ impl PressureModes {
         }
     }
 
-    /// K V of the first modes at some nodes.
+    /// Returns K V of the first modes at some nodes.
     pub(super) fn flexed_at(&self, nodes: &[usize], modes: usize) -> Mat<f64> {
         match &self.combined {
             Some(own) => own.over(&own.shared.flexed, nodes, modes),
@@ -206,7 +208,7 @@ impl PressureModes {
         }
     }
 
-    /// wᵀ V of the first modes, under the weights of their grid.
+    /// Returns wᵀ V of the first modes, with the quadrature weights of their grid.
     pub(super) fn carried(&self, weights: &[f64], modes: usize) -> Vec<f64> {
         match &self.combined {
             Some(own) => {
@@ -223,7 +225,7 @@ mod tests {
     use super::*;
     use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 
-    /// So many pressures like a contact's, each further along X and steeper than the one before.
+    /// Pressures similar to those of contacts, each shifted along X and steeper than the one before.
     fn bumps(grid: &ContactGrid, count: usize, (further, steeper): (f64, f64)) -> Mat<f64> {
         Mat::from_fn(grid.len(), count, |i, k| {
             let ((x, y), k) = (grid.place(i), k as f64);
@@ -255,7 +257,7 @@ mod tests {
             }
             assert!((made.singular_values()[k] / plain.singular_values[k] - 1.0).abs() < 1e-9);
             let inner: f64 = (0..grid.len()).map(|i| weights[i] * basis.modes[(i, k)] * plain.modes[(i, k)]).sum();
-            // As they are kept: the pressures that they make are off by a millionth.
+            // The stored factors are rounded: the relative error of the pressures is a millionth.
             let share = made.singular_values()[k] / made.singular_values()[0];
             assert!((inner.abs() - 1.0).abs() * share < 1e-6, "mode {k}: {inner}");
             let off = (0..grid.len()).map(|i| (deformed[(i, k)] - directly[(i, k)]).abs()).fold(0.0, f64::max);
@@ -279,7 +281,7 @@ mod tests {
         let made = Combined::of(&shared, &own, weights, (0.0, 12)).unwrap();
         let (least, most) = (missed(&shared.basis, &own), missed(made.basis(), &own));
         assert!(least > 1e-7 && most < 1.5 * least, "{least:.1e}, {most:.1e}");
-        // By inner products alone rare modes would be said to have what they share with the first.
+        // By inner products, rare modes would receive the part that they share with the first mode.
         let inner = |k: usize| made.basis().coefficients(weights, |i| own[(i, 0)])[k];
         let best = made.coefficients(weights, &own);
         let apart = (0..12).map(|k| (inner(k) - best[(k, 0)]).abs()).fold(0.0, f64::max);

@@ -1,4 +1,4 @@
-//! The scalars of a reduced state in time, from the nodes under the contact alone.
+//! Scalars of a transient reduced state, computed from the nodes in the contact only.
 
 use crate::solver::discrete::grid::{LineGrid, dot};
 use crate::solver::full::transient::Conditions;
@@ -6,31 +6,31 @@ use crate::solver::full::{Scalars, under_contact};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 
-/// The rows of a basis under the contact, and what it takes to draw scalars from them.
+/// Rows of a basis in the contact, and data to compute the scalars from them.
 ///
-/// Where film and pressure have their extremes is found in single precision, which halves what must be read of the
-/// basis in a step; their values there, like those at X = 0, are those of double precision.
+/// The positions of the extremes of film thickness and pressure are found in single precision, which halves the
+/// memory read per step. The values there and at X = 0 are computed in double precision.
 pub(crate) struct ContactRows {
     modes: usize,
-    /// The first of the nodes.
+    /// First of the nodes.
     first: usize,
     /// X of the nodes.
     x: Vec<f64>,
-    /// V on them, then K V: (2 · nodes) × modes.
+    /// V at the nodes, followed by K V: (2 · nodes) × modes, with the pressure modes V and the flexibility matrix K.
     coarse: Mat<f32>,
-    /// The same, row-major.
+    /// The same in double precision, row-major.
     rows: Vec<f64>,
-    /// Places among the nodes around X = 0, and their weights.
+    /// Indices among these nodes around X = 0, with their interpolation weights.
     centre: Vec<(usize, f64)>,
     coefficients: Vec<f32>,
     values: Vec<f32>,
 }
 
 impl ContactRows {
-    /// The rows of V and K V, both nodes × modes, on a grid.
+    /// Selects the rows of V and K V, both nodes × modes, on a grid.
     pub fn new(grid: &LineGrid, pressure: MatRef<'_, f64>, deformation: MatRef<'_, f64>) -> Self {
         let (first, weights) = grid.interpolation(0.0);
-        // The largest pressure lies where the smallest film is looked for.
+        // The largest pressure lies in the region that is searched for the minimum film thickness.
         let under = |&x: &f64| under_contact(x);
         let from = grid.x.iter().position(under).map_or(first, |from| from.min(first));
         let to = grid.x.iter().rposition(under).map_or(0, |last| last + 1).max(first + weights.len());
@@ -51,7 +51,8 @@ impl ContactRows {
         }
     }
 
-    /// Scalars of the state (p̃, H₀); `bend` is what the film at a node has beside K V p̃.
+    /// Computes the scalars of the state (p̃, H₀) from the pressure coefficients p̃ and the rigid-body separation H₀.
+    /// `bend` returns the film thickness at a node in addition to K V p̃.
     pub fn scalars(&mut self, at: &Conditions, coefficients: &[f64], h_0: f64, bend: impl Fn(usize) -> f64) -> Scalars {
         self.coefficients.iter_mut().zip(coefficients).for_each(|(single, c)| *single = *c as f32);
         let values = ColMut::from_slice_mut(&mut self.values);
@@ -99,7 +100,7 @@ mod tests {
     fn they_give_the_scalars_of_the_fields() {
         let problem = Problem::new(&OperatingPoint::TABLE_4_2, Lubricant::default()).unwrap();
         let at = Frame::Fixed.conditions(&problem, 0.0, Input { radius: 0.8, ..Inputs::default().at(0.0) }).unwrap();
-        // No node of the third grid lies at X = 0.
+        // The third grid has no node at X = 0.
         for (dx, domain) in [(0.005, (-4.0, 2.0)), (0.02, (-3.0, 1.6)), (0.017, (-3.0, 1.57))] {
             let grid = GridSpec::Uniform { dx, domain }.line().unwrap().scaled(1.0);
             let mut random = fastrand::Rng::with_seed(3);

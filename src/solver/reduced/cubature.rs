@@ -1,29 +1,30 @@
-//! Goal-oriented cubature: few rows with non-negative weights that give every Newton *step* what all rows would give
-//! it.
+//! Goal-oriented cubature: few rows with non-negative weights for which every Newton *step* is nearly the one of all
+//! rows.
 //!
-//! For each iterate of the all-rows reduced model, some functionals of the Newton step are demanded to come out right
-//! (random ones of Δp̃, and ΔH_c): Σ_i ω_i (T V_i) w_i f_i = T Vᵀ W f with T = L J_r⁻¹, and the same with f replaced by
-//! J V Δz̃. Relative weights ω = 1 on all rows solve the equations exactly; a greedy non-negative least squares finds
-//! few rows that nearly do, and pruning drops the least useful ones.
+//! For each iterate of the reduced model with all rows, some functionals of the Newton step must be reproduced (random
+//! ones of Δp̃, and ΔH_c, the changes of pressure coefficients and central film thickness): Σ_i ω_i (T V_i) w_i f_i = T
+//! Vᵀ W f with T = L J_r⁻¹, and the same with f replaced by J V Δz̃. Symbols: residual f, Jacobian J, reduced Jacobian
+//! J_r, modes V, quadrature weights w, functionals L. Relative weights ω = 1 on all rows solve the equations exactly. A
+//! greedy non-negative least squares finds few rows that nearly solve them, and pruning removes the least useful ones.
 //!
-//! The equations of a point contact are thousands over thousands of rows: they are kept in single precision, and inner
-//! products are formed for rows that the greedy has looked at, not for all pairs.
+//! A point contact has thousands of equations with thousands of rows. They are stored in single precision, and inner
+//! products are computed only for rows that the greedy algorithm has visited.
 
 use super::sampling::{SampledRows, TestSpace};
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Accum, Mat, Par, Side};
 
-/// Rows the forward greedy collects before pruning, relative to the target.
+/// Number of rows of the forward greedy before pruning, relative to the target.
 const OVERSHOOT: f64 = 2.0;
 /// Ridge on the inner products of unit columns.
 const RIDGE: f64 = 1e-12;
-/// Rows whose test functions √w ‖V_i‖ stay below this are no candidates: nothing happens there.
+/// Rows with test functions √w ‖V_i‖ below this are no candidates, since they do not matter.
 const LEAST_TEST: f64 = 3e-4;
-/// Rounds per row of [`GoalEquations::fit`] at most, and the relative gradient at which nothing is left to gain.
+/// Maximum number of rounds per row of [`GoalEquations::fit`], and relative gradient at which it ends.
 const ROUNDS: usize = 20;
 const CLOSE: f64 = 1e-9;
-/// Rounds without growth after which the greedy ends.
+/// Number of rounds without growth after which the greedy ends.
 const STALLS: usize = 8;
 
 /// Equations that a cubature rule should satisfy, one column per candidate row.
@@ -31,19 +32,19 @@ const STALLS: usize = 8;
 pub struct GoalEquations {
     /// Rows that may be sampled, ascending.
     candidates: Vec<usize>,
-    /// Equation after equation.
+    /// Coefficients, equation by equation.
     entries: Vec<f32>,
-    /// What all rows together give, one per equation.
+    /// Value of all rows together, one per equation.
     wanted: Vec<f64>,
 }
 
 impl GoalEquations {
-    /// No equations yet, over candidate rows.
+    /// Creates an empty collection over the given candidate rows.
     pub fn new(candidates: Vec<usize>) -> Self {
         Self { candidates, entries: Vec::new(), wanted: Vec::new() }
     }
 
-    /// No equations yet, over the rows of a test space that matter.
+    /// Creates an empty collection over the rows of a test space that matter.
     pub fn over(test: &TestSpace) -> Self {
         let matters = |&row: &usize| {
             let square: f64 = test.modes.row(row).iter().map(|v| v * v).sum();
@@ -52,12 +53,12 @@ impl GoalEquations {
         Self::new((0..test.weights.len()).filter(matters).collect())
     }
 
-    /// The candidate rows.
+    /// Returns the candidate rows.
     pub fn candidates(&self) -> &[usize] {
         &self.candidates
     }
 
-    /// Equations collected.
+    /// Returns the number of equations.
     pub fn count(&self) -> usize {
         self.wanted.len()
     }
@@ -74,7 +75,7 @@ impl GoalEquations {
         self.wanted.extend_from_slice(&other.wanted);
     }
 
-    /// Rows and relative weights: at most `target` rows. `None` when the equations are degenerate.
+    /// Returns at most `target` rows and their relative weights. `None` if the equations are degenerate.
     pub fn solve(&self, target: usize) -> Option<(Vec<usize>, Vec<f64>)> {
         let mut fit = Fit::new(self);
         let forward = ((target as f64 * OVERSHOOT).ceil() as usize).min(fit.useful());
@@ -86,7 +87,7 @@ impl GoalEquations {
             let gradient = fit.gradient(&support, &weights);
             let mut ranked: Vec<usize> = (0..gradient.len()).filter(|&i| gradient[i] > 0.0).collect();
             ranked.sort_by(|&a, &b| gradient[b].total_cmp(&gradient[a]));
-            // Several columns per round at first; one at a time after a stall, which also ends cycling.
+            // Several columns per round at first; one at a time after a stall, which also ends cycles.
             let batch = if stalls > 0 { 1 } else { (forward / 12).clamp(1, forward - before) };
             let further = ranked.into_iter().filter(|i| !support.contains(i)).take(batch);
             let further: Vec<usize> = further.collect();
@@ -104,16 +105,16 @@ impl GoalEquations {
         Some(fit.rule(&support, &weights))
     }
 
-    /// Rows and relative weights, at most `most`, by the non-negative least squares of Lawson and Hanson (1974, chapter
-    /// 23), which lowers the residual with every row: for equations that can be met closely, whose neighbouring columns
-    /// hardly differ. `None` when they are degenerate.
+    /// Returns at most `most` rows and their relative weights by the non-negative least squares of Lawson and Hanson
+    /// (1974, chapter 23), whose residual decreases with every row. Suitable for equations that can be met closely
+    /// and whose neighbouring columns hardly differ. `None` if the equations are degenerate.
     pub fn fit(&self, most: usize) -> Option<(Vec<usize>, Vec<f64>)> {
         let mut fit = Fit::new(self);
         let mut support: Vec<usize> = Vec::with_capacity(most);
         let mut weights: Vec<f64> = Vec::with_capacity(most);
         let mut refused = vec![false; self.candidates.len()];
         let wanted = self.wanted.iter().map(|v| v * v).sum::<f64>().sqrt();
-        // Rows come and go; each round ends with a smaller residual, or refuses a row that would not stay.
+        // Each round ends with a smaller residual, or excludes a row that would not stay.
         for _ in 0..ROUNDS * most {
             if support.len() == most {
                 break;
@@ -134,7 +135,7 @@ impl GoalEquations {
                     refused.fill(false);
                     break;
                 }
-                // As far as no weight changes its sign; those that vanish leave.
+                // The step ends where the first weight becomes zero; rows with zero weight leave.
                 let steps =
                     weights.iter().zip(&fitted).filter(|(_, to)| **to <= 0.0).map(|(from, to)| from / (from - to));
                 let share = steps.fold(1.0, f64::min);
@@ -151,16 +152,16 @@ impl GoalEquations {
     }
 }
 
-/// Least squares on the equations' columns, scaled to unit length. Columns are named by their place among the
-/// candidates.
+/// Least squares with the columns of the equations, scaled to unit length. Columns are identified by their index
+/// among the candidates.
 struct Fit<'a> {
     equations: &'a GoalEquations,
     /// Lengths of the columns.
     norms: Vec<f64>,
-    /// Columns looked at so far, and where each column is among them.
+    /// Columns visited so far, and the index of each column among them.
     seen: Vec<usize>,
     place: Vec<Option<usize>>,
-    /// The unit columns looked at, their inner products, and those with the right-hand side.
+    /// Visited unit columns, their inner products, and those with the right-hand side.
     columns: Mat<f64>,
     gram: Mat<f64>,
     right: Vec<f64>,
@@ -178,7 +179,7 @@ impl<'a> Fit<'a> {
         Self { equations, norms, seen: Vec::new(), place: vec![None; n], columns, gram, right: Vec::new() }
     }
 
-    /// Rows, ascending, and relative weights of a fit.
+    /// Returns rows, ascending, and relative weights of a fit.
     fn rule(&self, support: &[usize], weights: &[f64]) -> (Vec<usize>, Vec<f64>) {
         let rule = support.iter().zip(weights).map(|(&i, w)| (self.equations.candidates[i], w / self.norms[i]));
         let mut pairs: Vec<(usize, f64)> = rule.collect();
@@ -186,7 +187,7 @@ impl<'a> Fit<'a> {
         pairs.into_iter().unzip()
     }
 
-    /// Whether a column may be used at all: rows that never matter may not.
+    /// Returns true if a column may be used; columns of negligible length may not.
     fn usable(&self, i: usize, largest: f64) -> bool {
         self.norms[i] > 1e-9 * largest
     }
@@ -195,14 +196,13 @@ impl<'a> Fit<'a> {
         self.norms.iter().copied().fold(0.0, f64::max)
     }
 
-    /// How many columns may be used.
+    /// Returns the number of usable columns.
     fn useful(&self) -> usize {
         let largest = self.largest();
         (0..self.norms.len()).filter(|&i| self.usable(i, largest)).count()
     }
 
-    /// Inner product of every unit column with what a rule leaves of the right-hand side; 0 for those that may not be
-    /// used.
+    /// Returns the inner product of every unit column with the residual of a rule; 0 for unusable columns.
     fn gradient(&self, support: &[usize], weights: &[f64]) -> Vec<f64> {
         let GoalEquations { candidates, entries, wanted } = self.equations;
         let mut rest = wanted.clone();
@@ -222,7 +222,7 @@ impl<'a> Fit<'a> {
         gradient
     }
 
-    /// Forms the inner products of columns that were not looked at before.
+    /// Computes the inner products of columns that were not visited before.
     fn look_at(&mut self, columns: &[usize]) {
         let fresh: Vec<usize> = columns.iter().copied().filter(|&i| self.place[i].is_none()).collect();
         let (rows, known, n) = (self.equations.count(), self.seen.len(), self.equations.candidates.len());
@@ -241,7 +241,7 @@ impl<'a> Fit<'a> {
         self.right.extend(new.col_iter().map(|column| column.iter().zip(wanted).map(|(a, b)| a * b).sum::<f64>()));
     }
 
-    /// Inner products and right-hand side of a support.
+    /// Returns the inner products and the right-hand side of a support.
     fn normal_equations(&self, support: &[usize]) -> Option<(Mat<f64>, Mat<f64>)> {
         let places: Vec<usize> = support.iter().map(|&i| self.place[i]).collect::<Option<_>>()?;
         let m = places.len();
@@ -250,14 +250,14 @@ impl<'a> Fit<'a> {
         Some((gram, Mat::from_fn(m, 1, |r, _| self.right[places[r]])))
     }
 
-    /// Fit on a support, weights of any sign.
+    /// Fits weights of any sign on a support.
     fn free(&self, support: &[usize]) -> Option<Vec<f64>> {
         let (gram, right) = self.normal_equations(support)?;
         let w = Llt::new(gram.as_ref(), Side::Lower).ok()?.solve(&right);
         Some((0..support.len()).map(|k| w[(k, 0)]).collect())
     }
 
-    /// Non-negative fit on a support: drops the most negative until none is left.
+    /// Fits non-negative weights on a support: removes the most negative one until none is left.
     fn non_negative(&self, support: &mut Vec<usize>) -> Option<Vec<f64>> {
         loop {
             let w = self.free(support)?;
@@ -269,13 +269,13 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// Takes one or two rows out, those that the fit misses least.
+    /// Removes the one or two rows with the smallest loss.
     fn prune(&self, support: &mut Vec<usize>, target: usize) -> Option<()> {
         let (gram, right) = self.normal_equations(support)?;
         let m = support.len();
         let inverse = Llt::new(gram.as_ref(), Side::Lower).ok()?.solve(Mat::<f64>::identity(m, m));
         let w: Vec<f64> = (0..m).map(|r| (0..m).map(|c| inverse[(r, c)] * right[(c, 0)]).sum()).collect();
-        // What the fit loses without a row is w²/(G⁻¹)ᵢᵢ; rows that want a negative weight go first.
+        // The loss of the fit without a row is w²/(G⁻¹)ᵢᵢ. Rows with negative weights are removed first.
         let value = |k: usize| if w[k] <= 0.0 { w[k] } else { w[k] * w[k] / inverse[(k, k)] };
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
@@ -288,21 +288,22 @@ impl<'a> Fit<'a> {
     }
 }
 
-/// Fewest rows per mode that are accepted: a rule with fewer leaves the reduced Jacobian (nearly) singular.
+/// Minimum number of rows per mode. With fewer, the reduced Jacobian is (nearly) singular.
 const LEAST_ROWS_PER_MODE: f64 = 1.2;
-/// Share of the wanted rows below which pruning has gone too far: so few carry neither lines with heat, steps in time nor
-/// cold circles that slide.
+/// Share of the target below which pruning has removed too many rows: thermal lines, transient contacts and sliding
+/// circular contacts solved cold need more.
 const LEAST_SHARE: f64 = 0.85;
 
-/// Sampled rows with G = V_Iᵀ diag(w ω), at most `target`; a rule of far fewer gives way to a closer fit, where that has
-/// them. `None` when the equations are satisfied by too few rows to carry the modes: collect more of them.
+/// Returns sampled equations with G = V_Iᵀ diag(w ω), at most `target` of them. If pruning leaves far fewer, the
+/// closer fit is used instead, if it has more. `None` if the equations are satisfied by too few rows for the modes:
+/// more equations are then needed.
 pub fn cubature(test: &TestSpace, equations: &GoalEquations, target: usize) -> Option<SampledRows> {
     let modes = test.modes.ncols();
     let least = (LEAST_ROWS_PER_MODE * modes as f64).ceil() as usize;
     let few = ((LEAST_SHARE * target as f64) as usize).max(least);
     let solved = equations.solve(target);
     let of = |count: usize| move |(rows, _): &(Vec<usize>, Vec<f64>)| rows.len() >= count;
-    // Pruning lets neighbours go together where their columns hardly differ; the closer fit keeps one of them.
+    // Pruning can remove neighbouring rows together if their columns hardly differ; the closer fit keeps one of them.
     let closer = if solved.as_ref().is_some_and(of(few)) { None } else { equations.fit(target) };
     let (rows, relative) = closer.filter(of(few)).or(solved.filter(of(least)))?;
     let reconstruction =
@@ -334,7 +335,7 @@ mod tests {
 
     #[test]
     fn a_close_fit_meets_smooth_equations_with_few_rows() {
-        // Bumps that move: neighbouring columns hardly differ, and the rule must hold for bumps it has not seen.
+        // Moving bumps: neighbouring columns hardly differ, and the rule must hold for bumps it was not fitted to.
         let n = 400;
         let bump = |centre: f64, i: usize| (-((i as f64 / n as f64 - centre) * 8.0).powi(2)).exp();
         let mut equations = GoalEquations::new((0..n).collect());

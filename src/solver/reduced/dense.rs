@@ -1,5 +1,4 @@
-//! Products and solutions of dense matrices on one thread: what is computed with them must not depend on how many
-//! threads there are.
+//! Products and solutions of dense matrices on one thread, so that results do not depend on the number of threads.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -7,26 +6,26 @@ use faer::linalg::matmul::matmul;
 use faer::perm::PermRef;
 use faer::{Accum, ColMut, ColRef, Mat, MatMut, MatRef, Par, Spec};
 
-/// A B.
+/// Returns A B.
 pub(crate) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut out = Mat::zeros(a.nrows(), b.ncols());
     matmul(out.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
     out
 }
 
-/// out = A x.
+/// Computes out = A x.
 pub(crate) fn times(a: MatRef<'_, f64>, x: &[f64], out: &mut [f64]) {
     let (out, x) = (ColMut::from_slice_mut(out), ColRef::from_slice(x));
     matmul(out.as_mat_mut(), Accum::Replace, a, x.as_mat(), 1.0, Par::Seq);
 }
 
-/// xᵀ A x.
+/// Returns xᵀ A x.
 pub(crate) fn quadratic_form(a: MatRef<'_, f64>, x: &[f64]) -> f64 {
     let columns = a.col_iter().zip(x);
     columns.map(|(column, factor)| factor * column.iter().zip(x).map(|(a, x)| a * x).sum::<f64>()).sum()
 }
 
-/// A⁻¹ B, by an LU factorisation with partial pivoting; not finite where A is singular.
+/// Returns A⁻¹ B by an LU factorisation with partial pivoting; not finite if A is singular.
 pub(crate) fn solved(a: MatRef<'_, f64>, mut b: Mat<f64>) -> Mat<f64> {
     let size = a.nrows();
     let scratch = factor::lu_in_place_scratch::<usize, f64>(size, size, Par::Seq, Spec::default());
@@ -39,11 +38,11 @@ pub(crate) fn solved(a: MatRef<'_, f64>, mut b: Mat<f64>) -> Mat<f64> {
     b
 }
 
-/// A small square system with one right-hand side and all work space: solving it allocates nothing.
+/// Small square system with one right-hand side and all work space. Solving it allocates nothing.
 pub(crate) struct SmallSystem {
-    /// The matrix; its factors once it is solved.
+    /// Matrix; its factors after a solve.
     pub matrix: Mat<f64>,
-    /// Right-hand side, then solution; not finite where the matrix is singular.
+    /// Right-hand side; the solution after a solve, not finite if the matrix is singular.
     pub rhs: Vec<f64>,
     perm: Vec<usize>,
     perm_inverse: Vec<usize>,
@@ -51,7 +50,7 @@ pub(crate) struct SmallSystem {
 }
 
 impl SmallSystem {
-    /// Work space for `len` equations.
+    /// Allocates the work space for `len` equations.
     pub fn new(len: usize) -> Self {
         let memory = factor::lu_in_place_scratch::<usize, f64>(len, len, Par::Seq, Spec::default())
             .or(solve::solve_in_place_scratch::<usize, f64>(len, 1, Par::Seq));
@@ -64,7 +63,7 @@ impl SmallSystem {
         }
     }
 
-    /// Solves it, by an LU factorisation with partial pivoting.
+    /// Solves the system by an LU factorisation with partial pivoting.
     pub fn solve(&mut self) {
         let stack = MemStack::new(&mut self.memory);
         let (matrix, perms) = (self.matrix.as_mut(), (&mut self.perm, &mut self.perm_inverse));
@@ -74,7 +73,7 @@ impl SmallSystem {
         solve::solve_in_place(lu, lu, perm, rhs, Par::Seq, stack);
     }
 
-    /// Solves it for another right-hand side, by the factors of the last [`Self::solve`].
+    /// Solves the system for another right-hand side with the factors of the last [`Self::solve`].
     pub fn solve_again(&mut self) {
         let (lu, stack) = (self.matrix.as_ref(), MemStack::new(&mut self.memory));
         let perm = PermRef::new_checked(&self.perm, &self.perm_inverse, lu.nrows());
@@ -89,7 +88,7 @@ mod tests {
 
     #[test]
     fn what_is_solved_solves_and_no_number_of_threads_changes_a_bit() {
-        // Beyond the sizes from which factorisations and products would be shared among threads.
+        // Beyond the sizes from which factorisations and products would use several threads.
         let size = 200;
         let entry =
             |i: usize, j: usize| ((i * 37 + j * 91 + i * j) % 101) as f64 / 101.0 + if i == j { 20.0 } else { 0.0 };

@@ -1,4 +1,5 @@
-//! What a reduced model covers: a space of contacts with one lubricant's laws, and whether a contact lies inside.
+//! Validity range of a reduced model: a space of contacts with the laws of one lubricant, and tests whether a contact
+//! is inside.
 
 use crate::solver::full::Problem;
 use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity};
@@ -6,7 +7,7 @@ use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, 
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw, WholeLubricant};
 use serde::{Deserialize, Serialize};
 
-/// The contacts a reduced model covers.
+/// Contacts that a reduced model covers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Domain {
     /// Line or point contacts.
@@ -18,7 +19,7 @@ pub struct Domain {
     pub lubricant: Lubricant,
 }
 
-/// Whether a model covers a problem.
+/// Result of the test whether a model covers a problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Trust {
     /// Inside the trained range.
@@ -29,79 +30,80 @@ pub enum Trust {
 
 /// Relative tolerance at the ends of an interval, for rounding.
 const ROUNDING: f64 = 1e-6;
-/// Relative tolerance of a radius or a modulus, which people state to few digits.
+/// Relative tolerance of a radius or a modulus, which users state to few digits.
 const STATED: f64 = 1e-3;
 
 impl Domain {
-    /// Returns the interval of a quantity over all its contacts; `None` if nothing is said of it.
+    /// Returns the interval of a quantity over all contacts; `None` if the quantity is not restricted.
     pub fn interval(&self, quantity: Quantity) -> Option<(f64, f64)> {
         self.space.interval(quantity, self.contact)
     }
 
-    /// Returns the interval of M.
+    /// Returns the interval of M (Moes load parameter).
     pub fn m(&self) -> (f64, f64) {
         self.interval(Quantity::M).unwrap_or((0.0, f64::INFINITY))
     }
 
-    /// Returns the interval of L.
+    /// Returns the interval of L (Moes lubricant parameter).
     pub fn l(&self) -> (f64, f64) {
         self.interval(Quantity::L).unwrap_or((0.0, f64::INFINITY))
     }
 
-    /// Returns the largest Hertzian pressure \[Pa\].
+    /// Returns the largest Hertzian pressure p_H \[Pa\]; infinity if it is not limited.
     pub fn highest_pressure_pa(&self) -> f64 {
         self.interval(Quantity::HertzPressure).map_or(f64::INFINITY, |(_, highest)| highest)
     }
 
-    /// Returns the viscosity η₀ \[Pa·s\] of its contacts, or the geometric mean of their interval.
+    /// Returns the viscosity η₀ \[Pa·s\] of the contacts, or the geometric mean of its interval.
     pub fn middle_viscosity_pa_s(&self) -> f64 {
         self.space
             .axis(Quantity::Viscosity)
             .map_or_else(|| self.interval(Quantity::Viscosity).map_or(f64::NAN, |(low, _)| low), |axis| axis.value(0.5))
     }
 
-    /// True for thermal contacts.
+    /// Returns true for thermal contacts.
     pub fn heats(&self) -> bool {
         self.lubricant.heat.is_some()
     }
 
-    /// True if its lubricants are shear-thinning and isothermal, so that films depend on sliding.
+    /// Returns true for isothermal contacts with shear-thinning lubricants, whose film thickness depends on sliding.
     pub fn thins(&self) -> bool {
         self.lubricant.shear != ShearLaw::Newtonian && !self.heats()
     }
 
-    /// True if films depend on sliding, by shear-thinning or by heat.
+    /// Returns true if the film thickness depends on sliding, by shear-thinning or by heat.
     pub fn slides(&self) -> bool {
         self.thins() || self.heats()
     }
 
-    /// True if errors are measured against converged full solutions: a few Newton steps do not show them everywhere under
-    /// shear-thinning, with heat, and over wide lubricant ranges.
+    /// Returns true if errors are measured against converged full solutions. For shear-thinning, thermal and
+    /// lubricant-parameterised models a few Newton steps do not show all errors.
     pub fn measured_in_full(&self) -> bool {
         self.slides() || self.space.varies_lubricant()
     }
 
-    /// Returns the interval of |SRR|; `None` where films do not depend on sliding.
+    /// Returns the interval of |SRR| (slide-to-roll ratio); `None` if the film thickness does not depend on sliding.
     pub fn srr(&self) -> Option<(f64, f64)> {
         self.slides().then(|| self.space.interval(Quantity::SlideToRollRatio, self.contact))?
     }
 
-    /// True if the Eyring stress τ₀ is free: of a lubricant-parameterised model only E′ τ₀ counts.
+    /// Returns true if the Eyring stress τ₀ is free: a lubricant-parameterised model depends only on the product with
+    /// the reduced modulus, E′ τ₀.
     fn frees_eyring_stress(&self) -> bool {
         self.thins() && self.space.varies_lubricant()
     }
 
-    /// Returns τ₀ of a lubricant over that of the model; `None` where the model does not free τ₀ or the lubricant has none.
+    /// Returns τ₀ of a lubricant relative to that of the model; `None` if τ₀ is not free or the lubricant has none.
     fn stress_ratio(&self, lubricant: &Lubricant) -> Option<f64> {
         let stress = |laws: &Lubricant| Quantity::EyringStress.of_contact(&OperatingPoint::TABLE_2_1, laws);
         if self.frees_eyring_stress() { Some(stress(lubricant)? / stress(&self.lubricant)?) } else { None }
     }
 
-    /// Returns the contact with the model's own τ₀ that has the same film: of equal M, L, p_H, lubricant and SRR, with E′ τ₀ as
-    /// it was. The contact itself where the model does not free τ₀.
+    /// Returns the contact with the model's own τ₀ that has the same dimensionless film: M, L, p_H, lubricant, SRR
+    /// and E′ τ₀ are equal. Returns the contact itself if τ₀ is not free.
     pub(crate) fn as_trained(&self, point: &OperatingPoint, lubricant: &Lubricant) -> OperatingPoint {
         let Some(stresses) = self.stress_ratio(lubricant) else { return *point };
-        // 2U goes with E′⁻⁴ at a given L; then the speed follows from 2U E′ R, and the load from M.
+        // At constant L, 2U is proportional to E′⁻⁴. The speed then follows from 2U E′ R, and the load from M.
         let load = match point.kind {
             ContactKind::Line => stresses.recip(),
             ContactKind::Point => stresses.powi(-2),
@@ -114,8 +116,8 @@ impl Domain {
         }
     }
 
-    /// True if the traction quadrature was fitted to stresses like those of a problem: to unlimited ones, for
-    /// lubricant-parameterised Eyring models to limited ones as well, with heat to those of the model's own limit.
+    /// Returns true if the traction quadrature is valid for the limiting stress of a problem. It is fitted to unlimited
+    /// stresses; for lubricant-parameterised Eyring models also to limited ones; with heat to the model's own limit.
     pub(crate) fn knows_traction(&self, problem: &Problem) -> bool {
         let Some(limit) = problem.lubricant.limiting_stress else { return true };
         match self.stress_ratio(&problem.lubricant) {
@@ -130,7 +132,7 @@ impl Domain {
         }
     }
 
-    /// Whether the model covers a problem; ends of intervals count as inside.
+    /// Returns whether the model covers a problem. The ends of intervals count as inside.
     pub fn trust(&self, problem: &Problem) -> Trust {
         let other = |why: &str| Trust::Outside(Outside::Other(why.to_owned()));
         if let Some(why) = self.other_laws(problem) {
@@ -144,8 +146,9 @@ impl Domain {
         found.or_else(|| self.outside(problem, |_| true)).map_or(Trust::Trained, Trust::Outside)
     }
 
-    /// Why pressures and films have shapes the model does not cover, whatever the lubricant: M, L, p_H, the film thickness or
-    /// the shape lie outside. For another lubricant inside, the bases still apply and the reduced equations are exact.
+    /// Returns the reason why the shapes of pressure and film are not covered, for any lubricant: M, L, p_H, the film
+    /// thickness or the radius ratio is outside. If they are inside, the bases apply to other lubricants as well, and
+    /// the reduced equations are exact.
     pub fn strange_shape(&self, problem: &Problem) -> Option<Outside> {
         let shapes = |quantity: Quantity| {
             use Quantity::{FilmThickness, GradientStress, HertzPressure, L, M, RadiusRatio};
@@ -154,12 +157,12 @@ impl Domain {
         self.other_shape(&problem.point).or_else(|| self.outside(problem, shapes))
     }
 
-    /// True if it is a domain of a lubricant, whatever limits its traction and whatever its cavitation.
+    /// Returns true if the domain is of this lubricant. The limiting stress and the cavitation model are not compared.
     pub fn is_of(&self, lubricant: &Lubricant) -> bool {
         self.with_own_constants(*lubricant).of_the_liquid() == self.lubricant.of_the_liquid()
     }
 
-    /// A lubricant with the model's own constants in place of those that the model leaves free.
+    /// Replaces the constants that the model leaves free by the model's own.
     fn with_own_constants(&self, mut laws: Lubricant) -> Lubricant {
         if !self.space.constants.is_empty() && laws.heat.is_some() && self.heats() {
             (laws.heat, laws.limiting_stress) = (self.lubricant.heat, self.lubricant.limiting_stress);
@@ -172,7 +175,7 @@ impl Domain {
         }
     }
 
-    /// A sentence if a problem has laws the model was not trained with.
+    /// Returns a sentence if a problem has laws that the model was not trained with.
     fn other_laws(&self, problem: &Problem) -> Option<&'static str> {
         let (asked, own) = (self.with_own_constants(problem.lubricant), self.lubricant);
         match (asked.heat, own.heat) {
@@ -184,7 +187,7 @@ impl Domain {
         if without_heat(asked) != without_heat(own) {
             return Some("the model was trained with other lubricant laws");
         }
-        // With heat the limit also limits the heat that shear generates.
+        // In a thermal contact the limiting stress also limits the heat generated by shear.
         if asked.heat.is_some() && asked.limiting_stress != own.limiting_stress {
             return Some("the model was trained with another limiting stress, which with heat changes the film");
         }
@@ -196,7 +199,7 @@ impl Domain {
         ellipse.then(|| Outside::Other("the model was trained for circular contacts only".to_owned()))
     }
 
-    /// The plateau ratio where it does not vary: of Eyring and thermal models the lubricant's own.
+    /// Checks a constant plateau ratio. Eyring and thermal models use the lubricant's own.
     fn other_plateau(&self, problem: &Problem) -> Option<Outside> {
         let plateau = problem.lubricant.shear.plateau();
         let given = problem.point.sliding.newtonian_plateau_ratio.unwrap_or(plateau);
@@ -205,7 +208,7 @@ impl Domain {
             .then(|| Outside::Other(format!("the model was trained with an NPR of {plateau}, not {given}")))
     }
 
-    /// Constants of a thermal lubricant and its bodies that the model leaves free within intervals.
+    /// Checks the constants of a thermal lubricant and its bodies that the model leaves free within intervals.
     pub(crate) fn other_constants(&self, lubricant: &Lubricant) -> Option<Outside> {
         if !self.heats() || self.space.constants.is_empty() {
             return None;
@@ -224,7 +227,7 @@ impl Domain {
         })
     }
 
-    /// True if a quantity has an influence of its own beside M, L, α, η₀ and p_H.
+    /// Returns true if a quantity has an influence in addition to M, L, α, η₀ and p_H.
     fn counts(&self, quantity: Quantity) -> bool {
         match quantity {
             Quantity::Load => false,
@@ -234,7 +237,7 @@ impl Domain {
         }
     }
 
-    /// The first quantity outside, of those that are asked for.
+    /// Returns the first quantity that is outside, of those selected by `asked`.
     fn outside(&self, problem: &Problem, asked: impl Fn(Quantity) -> bool) -> Option<Outside> {
         let point = self.as_trained(&problem.point, &problem.lubricant);
         let space = &self.space;
@@ -252,11 +255,12 @@ impl Domain {
     fn value_outside(&self, quantity: Quantity, point: &OperatingPoint, lubricant: &Lubricant) -> Option<Outside> {
         let ends = self.interval(quantity)?;
         let value = match quantity {
-            // Of another law there is no stress that it could be compared with.
+            // For another law there is no stress to compare with.
             Quantity::GradientStress => self.stress_ratio(lubricant).and_then(|_| quantity.of(point))?,
-            // Where nothing shears the film there is no plateau.
+            // A Newtonian lubricant has no plateau.
             Quantity::NewtonianPlateauRatio => quantity.of(point).unwrap_or(1.0),
-            // Films are even in SRR where both bodies are alike, or were trained as either.
+            // Film thickness is even in SRR if both bodies are of the same material, or if the model was trained with
+            // either order.
             Quantity::SlideToRollRatio if !self.distinguishes_bodies(lubricant) => quantity.of(point)?.abs(),
             _ => quantity.of(point)?,
         };
@@ -273,22 +277,23 @@ impl Domain {
         })
     }
 
-    /// E′ τ₀ outside, as an interval of τ₀ for the contact's own E′.
+    /// Expresses E′ τ₀ outside its interval as an interval of τ₀ for the contact's own E′.
     fn other_stress(&self, point: &OperatingPoint, stresses: f64, (low, high): (f64, f64)) -> Option<Outside> {
         let stress = Quantity::EyringStress.of_contact(point, &self.lubricant)? * stresses;
         let at = |own: f64| stress * own / point.modulus_pa;
         Outside::of(Quantity::EyringStress, self.contact, stress, (at(low), at(high)), 0.0)
     }
 
-    /// True if exchanging the bodies changes the film: they differ in material, and the model was not trained with either
-    /// order.
+    /// Returns true if exchanging the bodies changes the film: their materials differ, and the model was not trained
+    /// with either order.
     fn distinguishes_bodies(&self, lubricant: &Lubricant) -> bool {
         let differ = lubricant.heat.is_some_and(|heat| heat.bodies[0] != heat.bodies[1]);
         differ && self.space.constants.is_empty()
     }
 
-    /// Of a box of R, u_m and w: whether no contact of the box has the M, L, α and η₀ of a contact. With these given u_m/R and
-    /// w/R (w/R² of circles) are fixed for the box's E′, so that one free R is left.
+    /// Checks a box of radius R, speed u_m and load w: whether some contact of the box has the M, L, α and η₀ of the
+    /// given one. For given values u_m/R and w/R (w/R² for circular contacts) are fixed by the box's E′, so that R
+    /// alone is free.
     fn outside_box(&self, point: &OperatingPoint) -> Option<Outside> {
         if !self.space.is_si_box() {
             return None;
@@ -309,7 +314,7 @@ impl Domain {
             ContactKind::Line => 1.0,
             ContactKind::Point => 2.0,
         };
-        // R that the intervals of u_m and w leave.
+        // Interval of R that the intervals of u_m and w permit.
         let by_speed = |speed: f64| radius.0 * speed / smallest.speed_m_per_s;
         let by_load = |load: f64| radius.0 * (load / smallest.load).powf(1.0 / power);
         let least = radius.0.max(by_speed(speed.0)).max(by_load(load.0));
@@ -386,7 +391,7 @@ mod tests {
             let mut rng = Rng::with_seed(5);
             for point in random_points(&space, contact, 300, 1) {
                 assert!(trusted(&point), "{point:?}");
-                // The same numbers with another R and E′ are the same contact.
+                // The same numbers with another R and E′ describe the same contact.
                 let request = MoesRequest {
                     radius_m: Some(0.1 * rng.f64() + 1e-3),
                     modulus_pa: Some(1e11),

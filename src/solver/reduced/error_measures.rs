@@ -1,13 +1,13 @@
-//! Error measures of section 3.1.2: e_z against a full solution (3.10), the residuals e_f (3.14) and e_f^I (3.15).
+//! Error measures of section 3.1.2: e_z with respect to a full solution (3.10), and the residuals e_f (3.14) and
+//! e_f^I (3.15).
 //!
-//! The state is the dissertation's, z = (P, δ, H₀). P and δ are node arrays, δ the elastic deformation H − H₀ − (X² +
-//! Y²)/2; f_δ = δ − K P is taken in the reference coordinate, in which the reduced model lives. Which norm ‖·‖ is meant
-//! is a choice of [`Norm`]. A model whose deformation is the exact K V_p has f_δ = 0 and no δ̃; with V_δ the Galerkin
-//! rows give δ̃ = V_δᵀ W K V_p p̃.
+//! The state is that of the dissertation, z = (P, δ, H₀), with pressure P, elastic deformation δ = H − H₀ − (X² +
+//! Y²)/2 and rigid-body separation H₀; P and δ are node arrays. f_δ = δ − K P is taken in the reference coordinate of
+//! the reduced model. [`Norm`] selects the norm ‖·‖. A model with the exact deformation K V_p has f_δ = 0 and no δ̃.
+//! With deformation modes V_δ the Galerkin rows give δ̃ = V_δᵀ W K V_p p̃.
 //!
-//! ‖f_δ‖² = z̃ᵀ E_δ z̃ costs no large-scale work, but is a difference of large numbers: below about 1e-7 ‖K V_p p̃‖ it
-//! is rounding, and where that makes it negative it counts as zero. What the norm is computed from then is far below
-//! the other parts of the residual.
+//! ‖f_δ‖² = z̃ᵀ E_δ z̃ needs no large-scale work, but is a difference of large numbers. Below about 1e-7 ‖K V_p p̃‖
+//! it is rounding, and a negative result counts as zero. This level is far below the other parts of the residual.
 
 use super::dense::{product, quadratic_form};
 use super::model::{Window, deformation_weights};
@@ -18,44 +18,44 @@ use crate::solver::full::Solution;
 use faer::{ColRef, Mat};
 use serde::{Deserialize, Serialize};
 
-/// In which norm states and residuals are measured; H₀ and the load balance count once in either.
+/// Norm of states and residuals. H₀ and the load balance count once in either.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum Norm {
-    /// All nodes count alike: the dissertation's ‖·‖₂, which grows with the number of nodes.
+    /// All nodes count equally: the dissertation's ‖·‖₂, which grows with the number of nodes.
     Euclidean,
-    /// Nodes count by their cell sizes, so that grids can be compared: the L2 norm over X (and Y). The online residual
-    /// is measured in it.
+    /// Nodes count by their cell sizes, so that grids can be compared: the L2 norm over X (and Y). The online
+    /// residual uses this norm.
     #[default]
     Quadrature,
 }
 
-/// The residual of a reduced solution and its parts.
+/// Residual of a reduced solution and its parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residuals {
     /// e_f of (3.14): all rows of the Reynolds equation.
     pub all_rows: f64,
-    /// e_f^I of (3.15): the sampled rows only.
+    /// e_f^I of (3.15): the sampled equations only.
     pub sampled_rows: f64,
     /// ‖f_δ‖ by (3.13).
     pub deformation: f64,
-    /// f_h0, the load balance.
+    /// f_h0, the load-balance residual.
     pub load: f64,
 }
 
-/// The error measures of one window under given options.
+/// Error measures of one local model for given options.
 pub struct ErrorMeasures {
     norm: Norm,
     penalty: f64,
     grid: ContactGrid,
     sampled_rows: Vec<usize>,
-    /// V_δᵀ W K V_p, which gives δ̃; without rows for the exact operator.
+    /// V_δᵀ W K V_p, which gives δ̃; without rows for the exact deformation.
     projection: Mat<f64>,
     /// E_δ over (p̃, δ̃).
     deformation_error: Mat<f64>,
 }
 
 impl ErrorMeasures {
-    /// Precomputes E_δ for a window and the truncation of the options.
+    /// Computes E_δ for a local model and the number of modes in the options.
     pub fn new(window: &Window, options: &ReducedOptions, norm: Norm) -> Self {
         let modes = options.pressure_modes.unwrap_or(usize::MAX).clamp(1, window.pressure.count());
         let kept = options.deformation_modes.map_or(0, |k| k.clamp(1, window.deformation.modes.ncols()));
@@ -64,8 +64,8 @@ impl ErrorMeasures {
         let cells = deformation_weights(&window.grid);
         let weighted = Mat::from_fn(basis.nrows(), kept, |i, j| cells[i] * basis[(i, j)]);
         let projection = product(weighted.transpose(), flexed);
-        // f_δ = [−K V_p, V_δ] (p̃, δ̃), (3.12); E_δ is its Gram matrix, so both off-diagonal blocks carry the minus
-        // sign that the lower left one of (3.13) lacks in print. Its zero row and column of H₀ are left out.
+        // f_δ = [−K V_p, V_δ] (p̃, δ̃), (3.12). E_δ is its Gram matrix, so both off-diagonal blocks have the minus sign
+        // that is missing in the lower left block of (3.13) as printed. The zero row and column of H₀ are omitted.
         let size = modes + if kept > 0 { kept } else { 0 };
         let weight = |i: usize| match norm {
             Norm::Euclidean => 1.0,
@@ -84,19 +84,19 @@ impl ErrorMeasures {
         }
     }
 
-    /// E_δ of (3.13) over (p̃, δ̃); zero for the exact deformation operator.
+    /// Returns E_δ of (3.13) over (p̃, δ̃); zero for the exact deformation.
     pub fn deformation_error(&self) -> &Mat<f64> {
         &self.deformation_error
     }
 
-    /// (p̃, δ̃) of a reduced solution's pressure coefficients.
+    /// Returns (p̃, δ̃) for the pressure coefficients of a reduced solution.
     pub fn state(&self, coefficients: &[f64]) -> Vec<f64> {
         let coefficients = ColRef::from_slice(coefficients);
         let deformation = product(self.projection.as_ref(), coefficients.as_mat());
         coefficients.iter().chain(deformation.col(0).iter()).copied().collect()
     }
 
-    /// e_f and e_f^I of a reduced solution, given by its pressure coefficients and its reconstructed fields.
+    /// Returns e_f and e_f^I of a reduced solution from its pressure coefficients and its reconstructed fields.
     pub fn residuals(&self, coefficients: &[f64], fields: &Solution) -> Residuals {
         let problem = &fields.problem;
         let (scale, weights) = (fields.mesh.scale, self.grid.weights());
@@ -105,7 +105,7 @@ impl ErrorMeasures {
         let squared: Vec<f64> = (0..self.grid.unknowns())
             .map(|unknown| {
                 let (stencil, geometry) = self.grid.row(unknown);
-                // Behind a rupture boundary λ balances the row.
+                // Behind the cavitation boundary the multiplier λ balances the row.
                 let multiplier = fields.multiplier.get(self.grid.node(unknown)).copied().unwrap_or(0.0);
                 let value =
                     nodes.row(&geometry.scaled(scale).across_by(kappa), self.penalty, stencil).value + multiplier;
@@ -125,7 +125,7 @@ impl ErrorMeasures {
         }
     }
 
-    /// e_z of (3.10): ‖z − Vz̃‖/‖z‖ of reconstructed fields against a full solution on the same grid.
+    /// Returns e_z of (3.10): ‖z − Vz̃‖/‖z‖ of reconstructed fields with respect to a full solution on the same grid.
     pub fn state_error(&self, fields: &Solution, full: &Solution) -> f64 {
         let cells = deformation_weights(&self.grid);
         let (bent, approximate) = (full.deformation(), fields.deformation());
@@ -165,7 +165,7 @@ mod tests {
         TrainingSpec { windows, pressure_loss: 1e-5, deformation_loss: 1e-4, ..line(sampling, 24) }
     }
 
-    /// Reduced solutions at random points with what they are measured by.
+    /// Calls `look` with reduced solutions at random points.
     fn for_solutions(
         sampling: Sampling,
         options: ReducedOptions,
@@ -206,7 +206,7 @@ mod tests {
                     .sqrt();
                 let form = measures.residuals(&solved.coefficients, &fields).deformation;
                 assert!((form / direct - 1.0).abs() < 1e-5, "{norm:?}: {form} {direct}");
-                // As printed, without the minus sign below, the form is not even small.
+                // As printed, without the second minus sign, the form is not even small.
                 let (p, d) = state.split_at(modes);
                 let mixed: f64 = (0..modes)
                     .flat_map(|i| (0..kept_modes).map(move |j| (i, j)))
@@ -261,7 +261,7 @@ mod tests {
                 shifted.scalars.h_0 += 1e-3;
                 shifted.film.iter_mut().for_each(|h| *h += 1e-3);
                 let by_shift = measures.state_error(&shifted, &full);
-                // Only H₀ differs: the deformation H − H₀ − X²/2 does not.
+                // Only H₀ differs, not the deformation H − H₀ − X²/2.
                 assert!(by_shift > 0.0 && by_shift < 1e-3 / full.scalars.h_0.abs(), "{by_shift}");
                 let mut stretched = full.clone();
                 stretched.pressure.iter_mut().for_each(|p| *p *= 1.01);

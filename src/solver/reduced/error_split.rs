@@ -1,32 +1,33 @@
-//! Where the error of a reduced solution comes from.
+//! Split of the error of a reduced solution by cause.
 //!
-//! Four solutions of one contact lie between a reduced one and the truth, and each step between them has one cause:
+//! Four steps lie between the exact solution and a reduced one, and each has one cause:
 //!
 //! | from | to | error |
 //! |---|---|---|
 //! | full, extrapolated to vanishing spacing | full on the model's grid | discretisation |
 //! | full on the model's grid | its best approximation in the basis | basis |
 //! | best approximation | Galerkin solution: all rows, same basis | projection |
-//! | Galerkin solution | the reduced solution: sampled rows | sampling |
+//! | Galerkin solution | the reduced solution: sampled equations | sampling |
 //!
-//! The steps are signed, in units of the full film on the model's grid, and add up to the whole by construction. They
-//! may cancel: a film of the Galerkin solution is often nearer to the truth than that of the best approximation,
-//! because its H₀ is free to follow.
+//! The steps are signed and relative to the full film thickness on the model's grid; by construction they add up to
+//! the total. They may cancel: the film thickness of the Galerkin solution is often more accurate than that of the
+//! best approximation, because its rigid-body separation H₀ is free.
 //!
-//! **Best approximation**: the state (P, H₀) projected onto the trial space, in the weighted product under which the
-//! basis is orthonormal, among pressures that carry the load, as every reduced solution does. No reduced solution is
-//! nearer to P in that norm.
+//! **Best approximation**: the state (P, H₀) projected onto the trial space, in the weighted inner product for which
+//! the basis is orthonormal, among pressures that carry the load, as every reduced solution does. No reduced solution
+//! is closer to P in that norm.
 //!
-//! **Discretisation**: full solutions on the model's grid and on the next finer one (`ReferenceGrid::refined`), and
-//! Richardson's extrapolation with order two, which the scheme has (H_c on uniform grids: 1.98–1.99). The ends of the
-//! domain are the model's own; what a longer inlet would change is not part of it. The smallest *nodal* film has an
-//! error that jumps with the node it falls on, so the parabola through it and its neighbours is extrapolated and the
-//! nodal value held against that. Against three grids finer than a coarse one of 300 nodes (M 25, 40, 70) this was
-//! right to 0.05 % for H_c and to 4, 9 and 13 % for H_min. Heights of spikes do not converge on these grids; pressures
-//! therefore have no discretisation part. Point contacts are extrapolated in both directions at once, with a second
-//! grid of half the spacings ([`second_grid`]), or of twice the spacings where the finer one would take too long.
+//! **Discretisation**: full solutions on the model's grid and on the next finer one (`ReferenceGrid::refined`), with
+//! Richardson extrapolation of order two, the order of the scheme (central film thickness H_c on uniform grids:
+//! 1.98–1.99). The domain is the model's own; the domain-truncation error is not included. The minimum *nodal* film
+//! thickness H_min has an error that jumps between nodes. So the parabola through the minimum and its neighbours is
+//! extrapolated, and the nodal value is compared with the result. Compared with three grids finer than a coarse one of
+//! 300 nodes (M 25, 40, 70), this is accurate to 0.05 % for H_c and to 4, 9 and 13 % for H_min. Heights of pressure
+//! spikes do not converge on these grids; pressures therefore have no discretisation part. Point contacts are
+//! extrapolated in both directions at once, with a second grid of half the spacings ([`second_grid`]), or of twice the
+//! spacings if the finer one would take too long.
 //!
-//! A reduced model of point contacts may have a softer penalty than the full system. What that costs is part of the
+//! A reduced model of point contacts may have a softer penalty than the full system. This difference is part of the
 //! projection.
 
 use super::model::{ReducedModel, Window};
@@ -44,57 +45,57 @@ use faer::Mat;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// 2² − 1: an error of second order on a grid and on the one with half its spacing.
+/// 2² − 1: for an error of second order on a grid and on one with half its spacing.
 const RICHARDSON: f64 = 3.0;
 
-/// Why an error cannot be split.
+/// Reason why an error cannot be split.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SplitError {
-    /// The problem itself is refused.
+    /// The problem is refused.
     #[error(transparent)]
     Problem(#[from] SolveError),
-    /// The model has no finer grid.
+    /// The model's grid cannot be refined.
     #[error("the model's grid cannot be refined: {0}")]
     Grid(#[from] GridError),
-    /// The reduced model has no solution here.
+    /// The reduced model has no solution.
     #[error(transparent)]
     Reduced(#[from] ReducedError),
-    /// The model with all rows has none.
+    /// The reduced model with all rows has no solution.
     #[error("with all rows {0}")]
     Galerkin(#[source] ReducedError),
-    /// A full solve did not converge, or the second grid does not belong to the first: a sentence.
+    /// A full solve did not converge, or the second grid does not match the first. Contains a sentence.
     #[error("{0}")]
     Full(String),
-    /// The observer asked to stop.
+    /// The observer stopped the computation.
     #[error("cancelled")]
     Cancelled,
 }
 
-/// Signed parts of one scalar's error, each relative to the full solution on the model's grid.
+/// Signed parts of the error of one scalar, relative to the full solution on the model's grid.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Parts {
-    /// Best approximation minus full.
+    /// Best approximation minus full solution.
     pub basis: f64,
     /// All rows minus best approximation.
     pub projection: f64,
-    /// Sampled rows minus all rows.
+    /// Sampled equations minus all rows.
     pub sampling: f64,
-    /// Full minus its extrapolated limit.
+    /// Full solution minus its extrapolated limit.
     pub discretisation: f64,
 }
 
 impl Parts {
-    /// The reduced solution against the full one on the same grid: what verification shows.
+    /// Returns the error of the reduced solution with respect to the full one on the same grid.
     pub fn reduction(&self) -> f64 {
         self.basis + self.projection + self.sampling
     }
 
-    /// The reduced solution against the extrapolated limit.
+    /// Returns the error of the reduced solution with respect to the extrapolated limit.
     pub fn whole(&self) -> f64 {
         self.reduction() + self.discretisation
     }
 
-    /// The parts by name, in the order in which a model gains them.
+    /// Returns the parts with their names, in the order basis, projection, sampling, discretisation.
     pub fn named(&self) -> [(&'static str, f64); 4] {
         [
             ("basis", self.basis),
@@ -105,23 +106,23 @@ impl Parts {
     }
 }
 
-/// Distances of pressures e_P = ‖ΔP‖/‖P‖ in the weighted norm. They are lengths: they do not add up.
+/// Distances of pressures e_P = ‖ΔP‖/‖P‖ in the weighted norm. They are lengths and do not add up.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct PressureParts {
-    /// Best approximation from full: the least any solution in this basis can have.
+    /// Best approximation from full: a lower bound for all solutions in this basis.
     pub basis: f64,
     /// All rows from best approximation.
     pub projection: f64,
-    /// Sampled rows from all rows.
+    /// Sampled equations from all rows.
     pub sampling: f64,
-    /// Sampled rows from full.
+    /// Sampled equations from full.
     pub reduction: f64,
 }
 
-/// The error of one reduced solution, by cause.
+/// Error of one reduced solution, by cause.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorSplit {
-    /// The reduced solution whose error it is.
+    /// Reduced solution.
     pub reduced: ReducedSolution,
     /// Scalars of the reduced solution.
     pub scalars: Scalars,
@@ -135,22 +136,22 @@ pub struct ErrorSplit {
     pub pressure: PressureParts,
 }
 
-/// Splits errors of one model under one truncation; keeps grids, operators and work space between contacts.
+/// Splits errors of one model for given options. Keeps grids, operators and work space between contacts.
 pub struct ErrorSplitter {
     sampled: Online,
     windows: Vec<Option<References>>,
 }
 
-/// What a window's reduced solutions are compared with.
+/// Reference solvers for the reduced solutions of a local model.
 struct References {
     all_rows: Online,
     full: ContactSolver,
-    /// Finer than the model's grid, or coarser where a finer one would take too long.
+    /// Finer than the model's grid, or coarser if a finer one would take too long.
     second: ContactSolver,
 }
 
 impl ErrorSplitter {
-    /// A splitter; grids and operators are made per window when first needed.
+    /// Creates a splitter. Grids and operators of a local model are built at its first use.
     pub fn new(model: Arc<ReducedModel>, options: ReducedOptions) -> Self {
         let windows = model.windows.iter().map(|_| None).collect();
         Self { sampled: Online::new(model, options), windows }
@@ -159,7 +160,7 @@ impl ErrorSplitter {
     /// Splits the error at one contact.
     ///
     /// # Errors
-    /// When the contact is refused, one of the solutions cannot be had, or the observer cancels.
+    /// [`SplitError`] if the contact is refused, one of the solutions fails, or the observer cancels.
     pub fn split(
         &mut self,
         point: &OperatingPoint,
@@ -181,7 +182,7 @@ impl ErrorSplitter {
         references.all_rows.forget();
         let galerkin = references.all_rows.solve(point, lubricant).map_err(SplitError::Galerkin)?;
         let galerkin = references.all_rows.reconstruct(&galerkin).map_err(SplitError::Galerkin)?;
-        // The truth must not depend on what it judges: the full solve starts cold.
+        // The reference must not depend on the reduced solution: the full solve starts cold.
         let solved = references.full.solve(point, lubricant, Start::Cold, observer)?;
         let full = converged(solved, "the model’s grid")?;
         let solved = references.second.solve(point, lubricant, Start::From(&full), observer)?;
@@ -230,12 +231,12 @@ fn converged(solution: Solution, grid: &str) -> Result<Solution, SplitError> {
     }
 }
 
-/// The projection of a full state onto the trial space of a reduced solution, among pressures that carry the load.
+/// Projects a full state onto the trial space of a reduced solution, among pressures that carry the load.
 fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolution) -> ReducedSolution {
     let weights = window.grid.weights();
     let basis = window.pressure.basis().clone().cut(reduced.coefficients.len());
     let load = window.pressure.carried(weights, basis.modes.ncols());
-    // The shortest way to the right load runs along the best approximation of what carries it.
+    // The shortest correction of the load is along the best approximation of the load functional.
     let fields = Mat::from_fn(weights.len(), 2, |i, k| if k == 0 { full.pressure[i] } else { 1.0 });
     let best = basis.best_coefficients(weights, fields.as_ref());
     let [mut coefficients, way] = [0, 1].map(|k| best.col(k).iter().copied().collect::<Vec<f64>>());
@@ -249,7 +250,7 @@ fn best_approximation(window: &Window, full: &Solution, reduced: &ReducedSolutio
     ReducedSolution { coefficients, fronts, beside: Vec::new(), h_0: full.scalars.h_0, ..reduced.clone() }
 }
 
-/// Parts of one scalar, given for full, best approximation, all rows, sampled rows.
+/// Returns the parts for one scalar of the full solution, the best approximation, all rows, and sampled equations.
 fn parts([full, best, galerkin, reduced]: [f64; 4], limit: f64) -> Parts {
     Parts {
         basis: (best - full) / full,
@@ -259,7 +260,7 @@ fn parts([full, best, galerkin, reduced]: [f64; 4], limit: f64) -> Parts {
     }
 }
 
-/// H_c and H_min on vanishing spacings.
+/// Returns H_c and H_min extrapolated to vanishing spacing.
 fn limits(window: &Window, full: &Solution, second: &Solution) -> Result<(f64, f64), SplitError> {
     match &window.grid {
         ContactGrid::Line(_) => {
@@ -284,7 +285,7 @@ fn extrapolate(coarse: f64, fine: f64) -> f64 {
     fine + (fine - coarse) / RICHARDSON
 }
 
-/// ‖P_a − P_b‖/‖P‖ in the weighted norm.
+/// Returns ‖P_a − P_b‖/‖P‖ in the weighted norm.
 fn distance(weights: &[f64], a: &Solution, b: &Solution, full: &Solution) -> f64 {
     let norm = |value: &dyn Fn(usize) -> f64| -> f64 {
         weights.iter().enumerate().map(|(i, w)| w * value(i).powi(2)).sum::<f64>().sqrt()
@@ -292,7 +293,8 @@ fn distance(weights: &[f64], a: &Solution, b: &Solution, full: &Solution) -> f64
     norm(&|i| a.pressure[i] - b.pressure[i]) / norm(&|i| full.pressure[i])
 }
 
-/// The smallest film between nodes: the vertex of the parabola through the smallest nodal film and its neighbours.
+/// Returns the minimum film thickness between nodes: the vertex of the parabola through the minimum nodal value and
+/// its neighbours.
 fn lowest_film(solution: &Solution) -> f64 {
     let at = solution.x.partition_point(|&x| x < solution.scalars.x_h_min - 1e-12);
     let at = at.clamp(FIRST_UNKNOWN, solution.x.len() - 2);

@@ -1,81 +1,84 @@
-//! To what precision the modes, rules and starting values of a window are kept, by what kind of window it is.
+//! Precision in which the modes, sampled equations and starting values of a local model are stored, by kind of model.
 
 use super::model::{Snapshot, Window};
 use super::multiples::{Multiples, ROUNDS, kept_digits};
 use crate::solver::physics::contact::ContactKind;
 use faer::Mat;
 
-/// Bits of the significand that are kept of films of snapshots, a relative step of 1.5e-5: starts in windows around anchors are a
-/// hundred times as far off.
+/// Bits of the significand stored for film thicknesses of snapshots: a relative step of 1.5e-5, a hundredth of the
+/// error of initial guesses in local models.
 pub const FILM_DIGITS: u32 = 16;
-/// How many times less exactly those of rare modes are kept at most: starts know little of these.
+/// Largest factor by which coefficients of rare modes are stored less accurately. Initial guesses predict these
+/// coefficients poorly anyway.
 const COARSEST: f64 = 20.0;
 
-/// What decides how exactly the modes of a window are kept.
+/// Properties that determine how accurately the modes of a local model are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keeping {
     /// Line or point contacts.
     pub kind: ContactKind,
-    /// Whether it is one of many windows around anchors.
+    /// True for one of many local models around anchors.
     pub anchored: bool,
-    /// Whether it knows heat.
+    /// True for thermal models.
     pub heat: bool,
-    /// Whether it knows ellipses.
+    /// True for models of elliptical contacts.
     pub shapes: bool,
 }
 
 impl Keeping {
-    /// Of a window of a model that knows heat or does not.
+    /// Returns the properties of a local model of a model with or without heat.
     pub fn of(window: &Window, heat: bool) -> Self {
         let (anchored, shapes) = (window.anchor.is_some(), window.shapes.is_some());
         Self { kind: window.grid.kind(), anchored, heat, shapes }
     }
 
-    /// Whether what is made of the rows' values has few digits, [`RULE_ACCURACY`](super::RULE_ACCURACY), or is the weights of a cubature: of windows
-    /// that come by the dozen, and of those with heat.
+    /// Returns true if the reconstruction of the sampled equations is stored with few digits,
+    /// [`RULE_ACCURACY`](super::RULE_ACCURACY), or as cubature weights: for models with many local models, and for
+    /// thermal ones.
     pub fn shortens_rules(self) -> bool {
         self.anchored || self.shapes || self.heat
     }
 
-    /// Accuracy of pressures at every node, relative to their own size there.
+    /// Returns the accuracy of pressures at every node, relative to their size there.
     pub fn accuracy(self) -> f64 {
         match self.kind {
-            // Temperatures are not known to more.
+            // Temperatures limit the accuracy.
             ContactKind::Line if self.anchored && self.heat => 1e-10,
-            // These have dozens of windows, and thin films under heavy loads: at 1e-8 Newtonian ones lost more than their
-            // modes miss, at 1e-10 sliding ones up to a tenth of the film, at 1e-11 nothing of it.
+            // These models have thin films under high loads, especially with sliding: 1e-11 leaves no measurable
+            // error of the film thickness.
             ContactKind::Line if self.anchored => 1e-11,
             ContactKind::Line => 1e-13,
-            // Their modes miss ten times more: here films are off by 1e-4 (95 of 100), 7e-4 at most; at 1e-7 by 4e-3.
+            // The modes themselves have a ten times larger error. The film thickness changes by 1e-4 (95 %), at most
+            // 7e-4.
             ContactKind::Point if self.anchored => 3e-8,
-            // These have many windows, and K V is interpolated over the shapes: 6e-4 and 2e-3.
+            // Many local models, with the deformation K V of the modes interpolated over the radius ratio: 6e-4 (95 %)
+            // and 2e-3 at most.
             ContactKind::Point if self.shapes => 8e-7,
-            // 1e-4 and 2e-4.
+            // 1e-4 (95 %) and 2e-4 at most.
             ContactKind::Point => 1e-7,
         }
     }
 
-    /// Accuracy of the coefficients of the first mode in snapshots, relative to their size.
+    /// Returns the accuracy of the first mode's coefficients in snapshots, relative to their size.
     pub fn starts(self) -> f64 {
         match self.kind {
-            // A line's iteration starts at them as they are and has all modes of a whole range, with α p_H up to 45: at 1e-3
-            // 47 of 10,000 iterations led nowhere, beside a snapshot of their own (Table 3.3's plan of 120 by hand). At 1e-4
-            // all led to one, but some took six steps where at 1e-6 two are enough.
+            // The iteration of a line contact starts at these values and has all modes of a wide range, with
+            // piezoviscous parameters α p_H up to 45. Coarser values cause failures and additional Newton steps.
             ContactKind::Line if !self.anchored => 1e-6,
             ContactKind::Line | ContactKind::Point => 1e-3,
         }
     }
 }
 
-/// Coefficients of a window's snapshots in so many modes, snapshots × modes, as they are kept, and the scales of their
-/// columns: no more than starts are made of them.
+/// Rounds the coefficients of snapshots to their stored precision: snapshots × modes, with the scales of the columns.
+/// They serve only as initial guesses.
 pub fn kept_starts(snapshots: &[Snapshot], modes: usize, accuracy: f64) -> (Vec<f64>, Mat<f64>) {
     let of = |i: usize, k: usize| snapshots.get(i)?.coefficients.get(k).copied();
     kept_coefficients(Mat::from_fn(snapshots.len(), modes, |i, k| of(i, k).unwrap_or_default()), accuracy)
 }
 
 fn kept_coefficients(mut coefficients: Mat<f64>, accuracy: f64) -> (Vec<f64>, Mat<f64>) {
-    // Steps go with sizes, which rounding may change: what is kept stays as it is when it is kept again.
+    // The steps depend on the sizes, which rounding may change. Repeated until storing again changes nothing.
     for _ in 0..ROUNDS {
         let (_, kept) = Multiples::keep(coefficients.clone(), &start_scales(&coefficients), accuracy, 0.0);
         if kept == coefficients {
@@ -93,7 +96,7 @@ fn start_scales(coefficients: &Mat<f64>) -> Vec<f64> {
     sizes.iter().map(|own| 1.0 / (own * (largest / own).sqrt().min(COARSEST))).collect()
 }
 
-/// Snapshots of a window, in so many modes, with their films and coefficients as they are kept.
+/// Rounds film thicknesses and coefficients of snapshots to their stored precision, for the given number of modes.
 pub fn keep_snapshots(snapshots: &mut [Snapshot], modes: usize, keeping: Keeping) {
     let (_, kept) = kept_starts(snapshots, modes, keeping.starts());
     for (snapshot, kept) in snapshots.iter_mut().zip(kept.row_iter()) {

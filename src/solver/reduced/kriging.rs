@@ -1,8 +1,8 @@
-//! A start of the online iteration by kriging: what the training solutions of a window say of a contact between them.
+//! Initial guess of the online iteration by kriging between the training solutions of a local model.
 //!
-//! Universal kriging with the covariance −r³ and a quadratic trend is interpolation by radial functions: no length has to
-//! be chosen. Coefficients of the pressure, the logarithm of the film over the formula's, and the rupture boundary are
-//! interpolated at once.
+//! Universal kriging with the covariance −r³ (distance r) and a quadratic trend is interpolation by radial functions
+//! without a length parameter. It interpolates the pressure coefficients, the logarithm of the film thickness
+//! relative to a formula, and the cavitation boundary at once.
 
 use super::dense;
 use super::model::Window;
@@ -11,32 +11,34 @@ use crate::solver::parameters::{MOST_NUMBERS, Metric, Place, apart};
 use crate::solver::physics::contact::OperatingPoint;
 use faer::Mat;
 
-/// Terms of the trend, a quadratic in as many numbers as tell contacts apart; and of the longest one.
+/// Number of terms of a quadratic trend in the given number of coordinates; and the maximum.
 const fn terms(numbers: usize) -> usize {
     (numbers + 1) * (numbers + 2) / 2
 }
 const MOST_TERMS: usize = terms(MOST_NUMBERS);
-/// Solutions per term without which there is no trend.
+/// Minimum number of solutions per term.
 const FEWEST: usize = 2;
-/// What trends that the solutions cannot tell apart are held by.
+/// Ridge for trends that the solutions do not determine.
 const RIDGE: f64 = 1e-9;
 
-/// Interpolates between the training solutions of a window.
+/// Interpolation between the training solutions of a local model.
 pub(super) struct Kriging {
     metric: Metric,
     centre: Place,
-    /// Length in which places are counted.
+    /// Unit of distances.
     length: f64,
     places: Vec<Place>,
-    /// Of each solution, then of each term, what it contributes: coefficients, ln of the film, fronts.
+    /// Contributions of each solution, then of each term: coefficients, ln of the film thickness, cavitation
+    /// boundaries.
     weights: Vec<f64>,
     modes: usize,
-    /// Numbers that are interpolated.
+    /// Number of interpolated values.
     numbers: usize,
 }
 
 impl Kriging {
-    /// Of the snapshots of a local model; `None` where they are too few or do not differ enough.
+    /// Fits the interpolation to the snapshots of a local model. `None` if there are too few, or if they do not
+    /// differ enough.
     pub fn of(window: &Window, metric: Metric) -> Option<Self> {
         let snapshots = &window.snapshots;
         let (count, modes) = (snapshots.len(), window.pressure.count());
@@ -77,7 +79,7 @@ impl Kriging {
         sound.then_some(Self { metric, centre, length, places, weights, modes, numbers })
     }
 
-    /// The start for a contact; `None` where it is none.
+    /// Returns the initial guess for a contact; `None` if it is not finite.
     pub fn start(&self, point: &OperatingPoint) -> Option<Guess> {
         let place = scaled(self.metric.place(point), self.centre, self.length);
         let mut coefficients = vec![0.0; self.numbers];
@@ -98,7 +100,7 @@ fn scaled(place: Place, centre: Place, length: f64) -> Place {
     std::array::from_fn(|k| (place[k] - centre[k]) / length)
 }
 
-/// 1, so many numbers, and their products.
+/// Returns the terms of the trend: 1, the coordinates, and their products.
 fn trend(place: Place, numbers: usize) -> [f64; MOST_TERMS] {
     let mut terms = [1.0; MOST_TERMS];
     terms[1..=numbers].copy_from_slice(&place[..numbers]);
@@ -112,7 +114,7 @@ fn trend(place: Place, numbers: usize) -> [f64; MOST_TERMS] {
     terms
 }
 
-/// r³ of r².
+/// Returns r³ for a given r².
 fn cubed(square: f64) -> f64 {
     square * square.sqrt()
 }

@@ -1,4 +1,4 @@
-//! Matrices in serialised values: numbers of rows and columns, and the entries column by column.
+//! Serialisation of matrices: numbers of rows and columns, and the entries column by column.
 
 use faer::Mat;
 use serde::de::Error as _;
@@ -16,7 +16,7 @@ pub fn serialize<S: Serializer>(matrix: &Mat<f64>, serializer: S) -> Result<S::O
 /// Reads a matrix.
 ///
 /// # Errors
-/// When there are not as many entries as rows and columns say.
+/// If the number of entries is not rows × columns.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Mat<f64>, D::Error> {
     let (rows, columns, entries) = <(usize, usize, Vec<f64>)>::deserialize(deserializer)?;
     if rows.checked_mul(columns) != Some(entries.len()) {

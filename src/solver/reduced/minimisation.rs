@@ -1,34 +1,35 @@
-//! Residual minimisation: which combinations of the sampled rows are to be small, where they are not tested by V.
+//! Residual minimisation: combinations of the sampled equations that are minimised, instead of being tested by V.
 //!
-//! LSPG takes the rows themselves, (2.68)–(2.72), all of them or, collocated, the sampled ones, (D.27). GNAT takes what
-//! the sampled rows say of all of them by two bases, (2.80)–(2.82). D of (D.10) weights rows by the first pressure mode:
-//! they differ by eight orders between the far inlet and the contact, and behind the rupture there is none.
+//! LSPG minimises the rows themselves, (2.68)–(2.72): all of them or, collocated, the sampled ones, (D.27). GNAT
+//! minimises the reconstruction of all rows from the sampled ones by two bases, (2.80)–(2.82). D of (D.10) weights
+//! rows by the first pressure mode. Rows differ by eight orders of magnitude between the far inlet and the contact,
+//! and the mode vanishes in the cavitated region.
 
 use super::sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, gappy_rows, leading_modes};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Mat, MatRef};
 use serde::{Deserialize, Serialize};
 
-/// By what the online phase finds its step.
+/// Scheme that determines the online step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum Scheme {
-    /// Galerkin's: the rows tested by V vanish.
+    /// Galerkin: the rows tested by V vanish.
     #[default]
     Galerkin,
-    /// The sum of squares of the rows is least (LSPG).
+    /// Least squares of the rows (LSPG).
     LeastSquares {
-        /// Whether rows are weighted by D of (D.10).
+        /// True to weight the rows by D of (D.10).
         weighted: bool,
     },
-    /// The sum of squares of what two bases make of the sampled rows is least (GNAT).
+    /// Least squares of the reconstruction of the sampled equations by two bases (GNAT).
     Gnat {
-        /// Whether rows are weighted by D of (D.10).
+        /// True to weight the rows by D of (D.10).
         weighted: bool,
     },
 }
 
 impl Scheme {
-    /// Its words in sentences.
+    /// Returns the name used in sentences.
     pub fn name(self) -> &'static str {
         match self {
             Self::Galerkin => "Galerkin",
@@ -39,7 +40,7 @@ impl Scheme {
         }
     }
 
-    /// Factors of the rows, √w times D of (D.10).
+    /// Returns the factors of the rows, √w times D of (D.10), with the quadrature weights w.
     pub(crate) fn factors(self, test: &TestSpace) -> Vec<f64> {
         let weighted = matches!(self, Self::LeastSquares { weighted: true } | Self::Gnat { weighted: true });
         let of = |(row, weight): (usize, &f64)| weight.sqrt() * if weighted { test.modes[(row, 0)].abs() } else { 1.0 };
@@ -47,8 +48,8 @@ impl Scheme {
     }
 }
 
-/// The rows of residual minimisation, chosen as `sampling` says by snapshots that are scaled by the scheme's factors;
-/// `None` where the linear algebra gives up.
+/// Returns the rows of residual minimisation, selected by `sampling` from snapshots scaled with the scheme's factors.
+/// `None` if the linear algebra fails.
 pub(crate) fn minimised_rows(
     test: &TestSpace,
     (scheme, sampling): (Scheme, Sampling),
@@ -79,7 +80,7 @@ pub(crate) fn minimised_rows(
     Some(SampledRows { rows, reconstruction: jacobian, scheme, residual: Some(product * residual) })
 }
 
-/// (Φ_I)⁺ with the factors of the rows I: coefficients in Φ of what the rows' values say of all of them.
+/// Returns (Φ_I)⁺ with the factors of the rows I: the coefficients in Φ of the reconstruction from these rows.
 fn interpolation(modes: MatRef<'_, f64>, rows: &[usize], factors: &[f64]) -> Mat<f64> {
     let (count, square) = (modes.ncols(), rows.len());
     let sampled = Mat::from_fn(square, count, |r, c| modes[(rows[r], c)]);

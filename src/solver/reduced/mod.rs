@@ -1,9 +1,10 @@
-//! Reduced models: POD bases, row sampling, reduced operators and the online Newton iteration without large-scale work.
+//! Reduced models: POD bases, sampled equations, reduced operators and the online Newton iteration without
+//! large-scale work.
 //!
-//! State (p̃, H₀); deformation and load are linear and condensed. Everything lives in the reference coordinate ξ; the
-//! registration scale s enters the online phase as a number: X = −1 + (ξ + 1)s, H = H₀ − ½ ln s + (X² + Y²)/2 + s (K
-//! V_p p̃). Line and point contacts share all of it: what differs is in their grids
-//! ([`crate::solver::discrete::grid::ContactGrid`]) and in the penalty of a window.
+//! The state is (p̃, H₀): pressure coefficients and rigid-body separation. Deformation and load are linear and
+//! condensed. All data live in the reference coordinate ξ. The registration scale s enters the online phase as a
+//! number: X = −1 + (ξ + 1)s, H = H₀ − ½ ln s + (X² + Y²)/2 + s (K V_p p̃). Line and point contacts share all code;
+//! they differ in their grids ([`crate::solver::discrete::grid::ContactGrid`]) and in the penalty of a local model.
 
 mod calibration;
 mod combined;

@@ -1,4 +1,4 @@
-//! What a reduced model is made of.
+//! Data of a reduced model.
 
 use super::calibration::{Calibration, Features};
 use super::combined::PressureModes;
@@ -19,73 +19,73 @@ use faer::Mat;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A training solution as the model keeps it.
+/// Training solution stored with the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// The operating point.
+    /// Operating point.
     pub point: OperatingPoint,
-    /// Its coefficients in the pressure basis.
+    /// Coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
-    /// Its H₀.
+    /// Rigid-body separation H₀.
     pub h_0: f64,
-    /// Its central film H_c, from the full solution.
+    /// Central film thickness H_c of the full solution.
     pub h_c: f64,
-    /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
+    /// With complementarity, the first cavitated column of each line along X, in node arrays; empty with a penalty.
     pub fronts: Vec<usize>,
-    /// What the grid costs H_c, where the training asked.
+    /// Discretisation error of H_c, if estimated in the training.
     pub grid_cost: Option<GridCost>,
 }
 
-/// One local model: a window of M with its own grid, bases and sampled rows.
+/// Local model for an interval of M or around an anchor, with its own grid, bases and sampled equations.
 #[derive(Clone, Debug)]
 pub struct Window {
-    /// Range of M for which this window is used.
+    /// Interval of M for which this local model is used.
     pub m: (f64, f64),
-    /// Of a window that serves the contacts around a place in (ln M, ln L) that place; M then says no more than how far
-    /// these reach.
+    /// Centre of the local model in (ln M, ln L), if it was built around one. `m` is then only the extent of its
+    /// contacts.
     pub anchor: Option<Moes>,
     /// Distance between its solutions, if it was built around an anchor.
     pub metric: Metric,
-    /// The grid of its solutions.
+    /// Grid of its solutions.
     pub grid: ContactGrid,
-    /// Penalty factor γ̄ of (2.36) in the reduced equations. Sampled rows of a point contact want it softer than the
-    /// full system.
+    /// Penalty factor γ̄ of (2.36) in the reduced equations. The sampled equations of a point contact need a softer
+    /// one than the full system.
     pub penalty: f64,
-    /// How its films rupture: of complementarity it has the solutions, the boundary that moves, and no penalty.
+    /// Cavitation model of its solutions. With complementarity the boundary moves, and there is no penalty.
     pub cavitation: Cavitation,
-    /// Pressure basis, with K V_p: the exact deformation operator, of a circle.
+    /// Pressure basis V_p with its deformation K V_p, exact for circular contacts.
     pub pressure: PressureModes,
-    /// Deformation basis (of K P in the reference coordinate ξ); windows around anchors share one.
+    /// Deformation basis (of K P in the reference coordinate ξ); local models around anchors share one.
     pub deformation: Arc<PodBasis>,
-    /// K V_p of ellipses, where the window knows them.
+    /// K V_p of elliptical contacts, if the local model covers them.
     pub shapes: Option<Shapes>,
-    /// How rows were sampled.
+    /// Sampling method of the equations.
     pub sampling: Sampling,
-    /// Sampled rows as indices of unknowns, ascending.
+    /// Sampled equations as indices of unknowns, ascending.
     pub sampled_rows: Vec<usize>,
-    /// By what the online step is found.
+    /// Scheme that determines the online step.
     pub scheme: Scheme,
-    /// What is made of the sampled rows' values: of Galerkin's scheme G with Vᵀ W f ≈ G f_I, modes × rows; of least
-    /// squares a factor each, 1 × rows; of GNAT what the Jacobian's basis says of them, equations × rows.
+    /// Reconstruction from the sampled equations. Galerkin: G with Vᵀ W f ≈ G f_I, modes × rows. Least squares: one
+    /// factor each, 1 × rows. GNAT: coefficients in the Jacobian's basis, equations × rows.
     pub reconstruction: Mat<f64>,
-    /// What GNAT makes of the residual's values, of the size of the former.
+    /// GNAT's reconstruction of the residual, of the same shape as `reconstruction`.
     pub residual_reconstruction: Option<Mat<f64>>,
     /// Training solutions.
     pub snapshots: Vec<Snapshot>,
-    /// Traction from few of the nodes that these rows depend on; none where the model does not know sliding.
+    /// Traction quadrature on few nodes of these equations; `None` if the model does not include sliding.
     pub traction: Option<TractionRule>,
-    /// What it knows about its own errors, with all modes and these rows; none until it was measured.
+    /// Calibration of its errors, with all modes and these equations; `None` until they are measured.
     pub calibration: Option<Calibration>,
 }
 
-/// How large the model of a window is.
+/// Size of a local model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ModelSize {
-    /// Pressure modes.
+    /// Number of pressure modes.
     pub pressure: usize,
-    /// Deformation modes.
+    /// Number of deformation modes.
     pub deformation: usize,
-    /// Sampled rows.
+    /// Number of sampled equations.
     pub rows: usize,
 }
 
@@ -96,23 +96,23 @@ impl std::fmt::Display for ModelSize {
     }
 }
 
-/// A reduced model of stationary contacts of one kind.
+/// Reduced model of steady contacts of one kind.
 #[derive(Clone, Debug)]
 pub struct ReducedModel {
-    /// Title for people.
+    /// Title for display.
     pub title: String,
-    /// What it was trained for.
+    /// Trained range.
     pub domain: Domain,
     /// Local models by ascending M.
     pub windows: Vec<Window>,
-    /// The scene it was trained by, as text; empty for a model that was never saved.
+    /// Training scene as text; empty for a model that was never saved.
     pub scene: String,
-    /// What the training did, one sentence per line.
+    /// Log of the training, one sentence per line.
     pub log: Vec<String>,
 }
 
-/// Weights under which deformations are decomposed: the cell sizes, with the neighbour's at the nodes that carry no
-/// pressure.
+/// Returns the weights for the decomposition of deformations: the cell sizes, with the neighbour's at nodes that
+/// carry no pressure.
 pub fn deformation_weights(grid: &ContactGrid) -> Vec<f64> {
     let weights = grid.weights();
     let n = weights.len();
@@ -125,12 +125,11 @@ pub fn deformation_weights(grid: &ContactGrid) -> Vec<f64> {
     }
 }
 
-/// How many times the largest residual that was measured in training an answer may have where the model was not
-/// trained.
+/// Largest accepted residual outside the trained range, relative to the largest one measured in the training.
 const FAR_RESIDUAL: f64 = 10.0;
 
 impl Window {
-    /// Assembles a window from its bases, with the penalty of the full system.
+    /// Creates a local model from its bases, with the penalty of the full system.
     pub fn new(
         m: (f64, f64),
         grid: ContactGrid,
@@ -163,8 +162,8 @@ impl Window {
         }
     }
 
-    /// Why an iteration outside the model's range has found no solution, by its residual e_f^I: it is far beyond those
-    /// of the training.
+    /// Returns the reason why a solution outside the trained range is not accepted, by its residual e_f^I: it is far
+    /// beyond those of the training. `None` if it is not.
     pub fn residual_doubt(&self, residual: f64) -> Option<String> {
         let largest = self.calibration.as_ref().map_or(f64::INFINITY, Calibration::largest_residual);
         let far = residual.is_nan() || residual > FAR_RESIDUAL * largest;
@@ -173,8 +172,8 @@ impl Window {
         })
     }
 
-    /// How far a solution of its own at a point is likely to be off from the full one that ruptures by a law; `None` until
-    /// errors were measured.
+    /// Estimates the error of a solution with respect to the full one with the cavitation model `asked`; `None` until
+    /// errors are measured.
     pub fn likely_error(
         &self,
         features: &Features,
@@ -185,18 +184,18 @@ impl Window {
         Some(estimate.against(point, asked, self.cavitation))
     }
 
-    /// R_y/R that it serves: all of a window that knows one shape.
+    /// Returns the interval of R_y/R; everything if the local model has a single shape.
     pub fn served_ratios(&self) -> (f64, f64) {
         self.shapes.as_ref().map_or((0.0, f64::INFINITY), |shapes| shapes.ratios)
     }
 
-    /// How large it is with all its modes.
+    /// Returns the size with all modes.
     pub fn size(&self) -> ModelSize {
         let (pressure, deformation) = (self.pressure.count(), self.deformation.modes.ncols());
         ModelSize { pressure, deformation, rows: self.sampled_rows.len() }
     }
 
-    /// Replaces the sampled rows, which ends a calibration and the rule for the traction on their nodes.
+    /// Replaces the sampled equations. This discards the calibration and the traction quadrature.
     pub fn set_rows(&mut self, sampling: Sampling, rows: SampledRows) {
         self.sampling = sampling;
         self.sampled_rows = rows.rows;
@@ -205,7 +204,8 @@ impl Window {
         (self.traction, self.calibration) = (None, None);
     }
 
-    /// The nearest training solution by [`separation`], or by what tells oils apart where it knows many.
+    /// Returns the nearest training solution and its distance: by the model's metric for local models around anchors,
+    /// otherwise by [`separation`].
     pub fn nearest(&self, point: &OperatingPoint) -> Option<(&Snapshot, f64)> {
         if self.anchor.is_some() {
             let own = self.metric.place(point);
@@ -218,7 +218,7 @@ impl Window {
 }
 
 impl ReducedModel {
-    /// Index of the window that serves a contact: by the nearest anchor, or by its shape, then by M.
+    /// Returns the index of the local model for a contact: by the nearest anchor, or by its radius ratio and then by M.
     pub fn window_for(&self, point: &OperatingPoint) -> usize {
         let moes = point.moes();
         if let Some(nearest) = self.nearest_anchor(moes) {
@@ -232,32 +232,32 @@ impl ReducedModel {
         own.or_else(|| self.windows.iter().rposition(|w| beside(&w))).unwrap_or(0)
     }
 
-    /// The window that serves a contact.
+    /// Returns the local model for a contact.
     pub fn window_at(&self, point: &OperatingPoint) -> &Window {
         &self.windows[self.window_for(point)]
     }
 
-    /// The kind of contact it is a model of.
+    /// Returns the kind of contact.
     pub fn contact(&self) -> ContactKind {
         self.windows.first().map_or_else(ContactKind::default, |window| window.grid.kind())
     }
 
-    /// Whether it is a model of ellipses.
+    /// Returns true for a model of elliptical contacts.
     pub fn of_ellipses(&self) -> bool {
         self.domain.space.of_ellipses()
     }
 
-    /// Whether its rows want gradients of the pressure: of a lubricant that thins under shear, and of films with heat.
+    /// Returns true if its rows need pressure gradients: for shear-thinning lubricants and for thermal films.
     pub(crate) fn slides(&self) -> bool {
         self.domain.slides()
     }
 
-    /// Whether it is a model of this kind of contact: of lines, of circles, or of ellipses.
+    /// Returns true if the model is of the point's kind of contact: line, circular or elliptical.
     pub fn is_of(&self, point: &OperatingPoint) -> bool {
         self.contact() == point.kind && self.of_ellipses() == point.is_elliptic()
     }
 
-    /// Whether the model was trained for a problem.
+    /// Returns whether the model was trained for a problem.
     pub fn trust(&self, problem: &Problem) -> Trust {
         self.domain.trust(problem)
     }

@@ -1,49 +1,52 @@
-//! To what precision the modes of a model are kept.
+//! Precision in which the modes of a model are stored.
 //!
-//! A file has a mode's values as multiples of a power of two, one for each node times one for each mode: a mode that hardly
-//! appears in any solution needs few digits, and a node where pressures are small as many as any other, since the mobility
-//! of thick films multiplies what is lost there. Modes are rounded to these before rows are chosen and errors measured, so
-//! that a model that was trained and one that is read are the same, and bounds are those of both. So are what starts are
-//! made of: where films are thin, what Newton's last step leaves of a start that is a thousandth off is what they are off.
+//! A file stores the values of modes as multiples of a power of two: one factor per node times one per mode. A mode
+//! that hardly appears in any solution needs few digits. A node with small pressures needs as many digits as any
+//! other, since the mobility of thick films amplifies errors there. Modes are rounded before rows are selected and
+//! errors measured, so that a trained model and one read from a file are identical, and the error bounds hold for
+//! both. Starting values are rounded too: in thin films the last Newton step does not remove the error of an
+//! inaccurate initial guess completely.
 
 use super::pod::PodBasis;
 use faer::Mat;
 
-/// Modes are kept as if none were rarer than this, relative to the first one.
+/// Modes are stored as if none were rarer than this, relative to the first one.
 const RAREST: f64 = 1e-5;
-/// Fields are nowhere kept as if they were smaller than this, relative to their largest value.
+/// Fields are stored as if they were nowhere smaller than this, relative to their largest value.
 const SMALLEST: f64 = 1e-30;
-/// Rounds after which what is kept stays: a row whose size lies at a power of two may turn to the next multiple once.
+/// Maximum number of rounds until storing again changes nothing. A row whose size is near a power of two may change
+/// its multiple once.
 pub(super) const ROUNDS: usize = 8;
 
-/// Accuracy of what an interpolation makes of the values of its rows, relative to what it makes of all for a mode: residuals
-/// that are nearly zero are what it is given.
+/// Accuracy of the reconstruction from sampled equations, relative to its size for a mode. The residuals that it is
+/// applied to are nearly zero.
 pub const RULE_ACCURACY: f64 = 1e-4;
 
-/// Bits of the significand of an f32, the leading one not counted.
+/// Bits of the significand of an f32, without the leading one.
 pub const ALL_DIGITS: u32 = 23;
-/// Accuracy of the share of each mode of a shared basis in the pressures of a window, relative to that share.
+/// Accuracy of the share of each mode of a shared basis in the pressures of a local model, relative to that share.
 const FACTOR_ACCURACY: f64 = 1e-6;
-/// The share, relative to the largest, below which digits are those of that.
+/// Shares below this, relative to the largest, are stored with the digits of this share.
 const SMALL_SHARE: f64 = 1e-2;
-/// The same where that spoils modes: of windows whose pressures hardly differ it left half of them.
+/// The same share if [`SMALL_SHARE`] spoils modes, as in local models whose pressures hardly differ.
 const SMALLER_SHARE: f64 = 1e-3;
-/// What a mode of norm one may lose by that and still be one: those that follow it are noise, and equations that ask for
-/// their coefficients are singular.
+/// Largest accepted rounding error of a mode of norm one. Modes beyond it are noise, and the equations for their
+/// coefficients are singular.
 const SPOILT: f64 = 0.1;
 
-/// The multiples that columns over nodes are kept as: 2^(exponent of the row + exponent of the column).
+/// Multiples in which columns over nodes are stored: 2^(exponent of the row + exponent of the column).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Multiples {
-    /// None where no column has a value worth the name.
+    /// Exponents of the rows; `None` if all values of the row are negligible.
     pub rows: Vec<Option<i16>>,
-    /// Of each column.
+    /// Exponents of the columns.
     pub columns: Vec<i16>,
 }
 
 impl Multiples {
-    /// Those that keep columns to `accuracy` relative to the size Σ_k (scale_k V_ik)² of each row, or to `least` of the
-    /// largest row where that is more, and what is kept: it stays as it is when it is kept again.
+    /// Rounds columns to `accuracy` relative to the size Σ_k (scale_k V_ik)² of each row, or relative to `least` of
+    /// the largest row if that is more. Returns the multiples and the rounded matrix, which stays unchanged when it
+    /// is rounded again.
     pub fn keep(mut matrix: Mat<f64>, scales: &[f64], accuracy: f64, least: f64) -> (Self, Mat<f64>) {
         let mut multiples = Self::of(&matrix, scales, accuracy, least);
         for _ in 0..ROUNDS {
@@ -77,19 +80,21 @@ impl Multiples {
     }
 }
 
-/// What is made of the values of sampled rows, modes × rows, as it is kept where dozens of windows have one each.
+/// Rounds the reconstruction from sampled equations, modes × rows, to its stored precision. Used for models with
+/// dozens of local models.
 pub fn kept_rule(rule: Mat<f64>) -> Mat<f64> {
     let scales = vec![1.0; rule.ncols()];
     Multiples::keep(rule, &scales, RULE_ACCURACY, 0.0).1
 }
 
-/// How large the share of each of the first modes, so many at most, in the solutions of a window is, root mean square.
+/// Returns the root mean square share of each of the first modes, at most `modes`, in the solutions of a local model.
 pub fn factor_scales(singular_values: &[f64], modes: usize) -> Vec<f64> {
     let count = (singular_values.len() as f64).sqrt();
     singular_values.iter().take(modes).map(|sigma| (sigma / count).max(f64::MIN_POSITIVE)).collect()
 }
 
-/// What a window's orthonormal modes are in a shared basis, as it is kept, up to the first of them that is spoilt by that.
+/// Rounds the coefficients of a local model's orthonormal modes in a shared basis to their stored precision. Ends
+/// before the first mode that is spoilt by rounding.
 pub(super) fn kept_factors(factors: Mat<f64>, scales: &[f64]) -> Mat<f64> {
     let keep = |columns: usize, share: f64| {
         let (some, scales) = (factors.get(.., ..columns).to_owned(), &scales[..columns]);
@@ -102,18 +107,18 @@ pub(super) fn kept_factors(factors: Mat<f64>, scales: &[f64]) -> Mat<f64> {
         return kept;
     }
     let finer = keep(all, SMALLER_SHARE);
-    // Steps go with the sizes of rows, which have fewer modes then.
+    // The steps depend on the sizes of the rows, which then have fewer modes.
     spoilt(&finer).map_or(finer, |first| keep(first, SMALLER_SHARE))
 }
 
-/// The accuracy to which what a window's modes are in a shared basis stays as it is once it is kept, and the least share
-/// that it counts for.
+/// Returns the accuracy for which stored coefficients of modes in a shared basis stay unchanged, and the smallest
+/// share that determines digits.
 pub fn factor_accuracy(factors: &Mat<f64>, scales: &[f64]) -> [f64; 2] {
     let stays = Multiples::keep(factors.clone(), scales, FACTOR_ACCURACY, SMALL_SHARE).1 == *factors;
     [FACTOR_ACCURACY, if stays { SMALL_SHARE } else { SMALLER_SHARE }]
 }
 
-/// A number with so many digits of its significand, rounded to the nearest.
+/// Rounds a number to the nearest one with `digits` bits of the significand.
 pub fn kept_digits(number: f64, digits: u32) -> f32 {
     let single = number as f32;
     let dropped = ALL_DIGITS.saturating_sub(digits);
@@ -123,16 +128,17 @@ pub fn kept_digits(number: f64, digits: u32) -> f32 {
 }
 
 impl PodBasis {
-    /// How large each mode's share in the snapshots is, root mean square: σ_k over the root of their number.
+    /// Returns the root mean square share of each mode in the snapshots: σ_k divided by the square root of their
+    /// number.
     pub fn scales(&self) -> Vec<f64> {
         let sigma = &self.singular_values;
         let (largest, count) = (sigma.first().copied().unwrap_or(1.0).max(f64::MIN_POSITIVE), sigma.len() as f64);
         sigma.iter().take(self.modes.ncols()).map(|s| s.max(RAREST * largest) / count.sqrt()).collect()
     }
 
-    /// The same with its modes as they are kept: what each one loses changes the fields of the snapshots by `accuracy` of
-    /// their size at every node at most (both as root mean squares over the snapshots). What is kept stays as it is when it
-    /// is kept again.
+    /// Rounds the modes to their stored precision. The error of each mode changes the fields of the snapshots by at
+    /// most `accuracy` of their size at every node (both as root mean squares over the snapshots). Rounding again
+    /// changes nothing.
     pub fn kept(self, accuracy: f64) -> Self {
         let scales = self.scales();
         Self { modes: Multiples::keep(self.modes, &scales, accuracy, 0.0).1, singular_values: self.singular_values }
@@ -151,7 +157,7 @@ mod tests {
         };
         let pressures = Mat::from_fn(300, 24, |i, k| if i < 4 { 0.0 } else { pressure(k, i) });
         let mut basis = PodBasis::new(pressures.as_ref(), &[0.02; 300], 1e-9).unwrap().cut(12);
-        // What a decomposition leaves of zeros has a size like any other.
+        // Rounding errors of a decomposition would otherwise have a size like other values.
         basis.modes.row_mut(2).fill(0.0);
         for accuracy in [1e-5, 1e-8, 1e-11] {
             let kept = basis.clone().kept(accuracy);
@@ -177,7 +183,7 @@ mod tests {
         let of = Mat::from_fn(40, 12, |i, k| ((i * (k + 3)) as f64 * 0.61).sin() * 0.6f64.powi(i as i32));
         let factors = PodBasis::new(of.as_ref(), &[1.0; 40], 0.0).unwrap().cut(12).modes;
         let falls = |by: f64| -> Vec<f64> { (0..12).map(|k| by.powi(k)).collect() };
-        // The rarest share, how many modes are left, and to what share they are kept.
+        // Ratio of successive shares, number of remaining modes, and share that determines digits.
         for (by, modes, share) in [(0.6, 12..=12, 1e-2), (0.2, 12..=12, 1e-3), (0.03, 3..=8, 1e-3)] {
             let kept = kept_factors(factors.clone(), &falls(by));
             let scales = &falls(by)[..kept.ncols()];

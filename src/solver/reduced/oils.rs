@@ -1,8 +1,8 @@
-//! Local models around anchors in (ln M, ln L), for spaces whose lubricant varies.
+//! Local models around anchors in (ln M, ln L), with the Moes parameters M and L, for lubricant-parameterised models.
 //!
-//! Registered pressures vary most with ln M and ln L, three times less over the lubricant ranges with ln p_H, and little with
-//! Roelands' exponent z. A local model that is narrow in one of the latter needs hardly fewer modes than a wide one, so local
-//! models are the cells of anchors in (ln M, ln L), whatever the lubricant.
+//! Registered pressures vary most with ln M and ln L, three times less with ln p_H (Hertzian pressure p_H) over the
+//! lubricant ranges, and little with Roelands' exponent z. A local model that is narrow in p_H or z hardly needs fewer
+//! modes than a wide one. So local models are the cells of anchors in (ln M, ln L), for all lubricants.
 
 use super::error_estimate::{ErrorEstimate, Estimated};
 use super::model::{ReducedModel, Window};
@@ -11,23 +11,23 @@ use crate::solver::full::GridCost;
 use crate::solver::parameters::apart;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 
-/// How much farther than the nearest anchor, in ln M and ln L, another one may be to be blended in.
+/// Another local model is blended in if its anchor is at most this much farther than the nearest one, in ln M and ln L.
 const BLENDED: f64 = 0.05;
 
-/// How much farther contacts of its training may lie: a window knows more than it is asked for, so that nothing is
-/// extrapolated where it is blended.
+/// Overlap of the training cells: contacts may lie this much farther away than the cell's border, so that blending
+/// does not extrapolate.
 pub(crate) const BEYOND_CELLS: f64 = 0.1;
 
-/// How far a contact lies from an anchor, in ln M and ln L.
+/// Returns the distance of a contact from an anchor, in ln M and ln L.
 pub(crate) fn from_anchor(moes: Moes, anchor: Moes) -> f64 {
     (moes.m / anchor.m).ln().hypot((moes.l / anchor.l).ln())
 }
 
 impl ReducedModel {
-    /// Windows beside the one with the nearest anchor that share in a contact, with their shares; none but near borders.
-    /// Shares begin with zero where an anchor comes near enough, so that nothing jumps.
+    /// Returns the local models that are blended with the nearest one near borders, with their shares. The shares
+    /// start at zero, so that the blend is continuous.
     pub(super) fn blended(&self, moes: Moes) -> Vec<(f64, usize)> {
-        // Temperatures are not blended.
+        // Thermal solutions are not blended.
         let Some(nearest) = self.nearest_anchor(moes).filter(|_| !self.domain.heats()) else { return Vec::new() };
         let far = |k: usize| self.windows[k].anchor.map_or(f64::INFINITY, |anchor| from_anchor(moes, anchor));
         let least = far(nearest);
@@ -38,12 +38,12 @@ impl ReducedModel {
         others.into_iter().map(|(share, k)| (share / all, k)).collect()
     }
 
-    /// The window with the nearest anchor; none of a model without anchors.
+    /// Returns the local model with the nearest anchor; `None` for a model without anchors.
     pub(super) fn nearest_anchor(&self, moes: Moes) -> Option<usize> {
         self.next_anchor(moes, usize::MAX)
     }
 
-    /// The same but for one window.
+    /// Returns the local model with the nearest anchor except one.
     pub(super) fn next_anchor(&self, moes: Moes, except: usize) -> Option<usize> {
         let far = |(k, window): (usize, &Window)| window.anchor.map(|anchor| (k, from_anchor(moes, anchor)));
         let others = self.windows.iter().enumerate().filter(|(k, _)| *k != except);
@@ -51,11 +51,12 @@ impl ReducedModel {
     }
 }
 
-/// Training solutions between which the cost of the grid is interpolated.
+/// Number of training solutions from which the discretisation error is interpolated.
 const NEIGHBOURS: usize = 8;
 
 impl Window {
-    /// What the grid costs H_c of a contact, by those of the training solutions around it; none where these do not say.
+    /// Interpolates the discretisation error of the central film thickness H_c from the training solutions around a
+    /// contact; `None` if they have none.
     pub fn grid_cost(&self, point: &OperatingPoint) -> Option<GridCost> {
         let place = self.metric.place(point);
         let known = self.snapshots.iter().filter_map(|snapshot| {
@@ -65,7 +66,7 @@ impl Window {
         let mut near: Vec<(f64, GridCost)> = known.collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         near.truncate(NEIGHBOURS);
-        // Shepard's weights fall with the fourth power of the distance.
+        // Shepard's weights decrease with the fourth power of the distance.
         let weights: Vec<f64> = near.iter().map(|(apart, _)| 1.0 / (apart * apart).max(f64::MIN_POSITIVE)).collect();
         let all: f64 = weights.iter().sum();
         let mean = |of: &dyn Fn(&GridCost) -> f64| {
@@ -77,18 +78,18 @@ impl Window {
 }
 
 impl ReducedSolution {
-    /// The share of its own window in it.
+    /// Returns the share of the solution's own local model in the blend.
     pub(super) fn own_share(&self) -> f64 {
         1.0 - self.beside.iter().map(|(share, _)| share).sum::<f64>()
     }
 
-    /// H₀ of its own window.
+    /// Returns the rigid-body separation H₀ of the solution's own local model.
     pub(super) fn own_h_0(&self) -> f64 {
         let others = self.beside.iter().map(|(share, other)| share * other.h_0).sum::<f64>();
         (self.h_0 - others) / self.own_share()
     }
 
-    /// Makes its numbers those of the blend with the solutions beside it.
+    /// Replaces the scalars by those of the blend with the solutions of `beside`.
     pub(super) fn blend(&mut self) {
         if self.beside.is_empty() {
             return;
@@ -102,7 +103,7 @@ impl ReducedSolution {
         self.iterations += beside.iter().map(|(_, other)| other.iterations).sum::<usize>();
         let tractions: Option<f64> = beside.iter().map(|(share, other)| Some(share * other.traction?)).sum();
         self.traction = self.traction.zip(tractions).map(|(mine, others)| own * mine + others);
-        // The error of a blend is the blend of the errors, at most.
+        // The error of a blend is at most the blend of the errors.
         self.error = self.error.and_then(|mine| {
             let errors: Option<Vec<ErrorEstimate>> = beside.iter().map(|(_, other)| other.error).collect();
             let errors = errors?;
@@ -115,7 +116,7 @@ impl ReducedSolution {
                 }
             };
             let (h_c, h_min, state) = (quantity(&|e| e.h_c), quantity(&|e| e.h_min), quantity(&|e| e.state));
-            // All tell it, or none does: they are of one contact.
+            // All solutions have this estimate or none, since they are of one contact.
             let traction = mine.traction.map(|own| quantity(&|e| e.traction.unwrap_or(own)));
             Some(ErrorEstimate { h_c, h_min, state, traction, rise: None })
         });

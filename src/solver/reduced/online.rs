@@ -1,4 +1,4 @@
-//! The online phase: which window, which start, and back to fields.
+//! Online phase: selection of the local model and of initial guesses, and reconstruction of fields.
 
 mod attempt;
 mod fields;
@@ -24,43 +24,43 @@ use attempt::{Found, Watch, attempt, walk};
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// Newton steps before another start is tried: good starts need 4, and what needs more than 12 mostly never gets there.
+/// Maximum number of Newton steps before another initial guess is tried. Good guesses need 4; iterations with more
+/// than 12 rarely converge.
 const FIRST_ATTEMPTS: usize = 12;
 
-/// Shares of the modes with which an iteration for a circle is tried. Where it gets nowhere with all, sampled rows
-/// may have no solution: the last modes hardly appear in any pressure, and a basis that windows share knows them only
-/// in part. Without these all seven converged that had not among 60,000 contacts of three trainings, H_c off by 3.4e-3 at
-/// most; from other starts films were off by up to 5e-2. Circles that thin under shear or have heat find their solutions from
-/// other starts, all but five of 20,000 and two of 5,000, which are tried with fewer modes at last. Of lines all modes count.
+/// Shares of the modes with which an iteration for a circular contact is tried. With all modes the sampled equations
+/// may have no solution, because the last modes hardly appear in any pressure and a shared basis represents them only
+/// in part. With fewer modes these contacts converge, with an error of the central film thickness of up to 3.4e-3. For
+/// shear-thinning or thermal circular contacts other initial guesses are tried first. Line contacts need all modes.
 static SHARES: [f64; 5] = [1.0, 0.875, 0.75, 0.625, 0.5];
 
-/// A model with the operators of the chosen truncation and all work space.
+/// Reduced model with the operators for the selected numbers of modes, and all work space.
 pub struct Online {
-    /// The model.
+    /// Model.
     pub model: Arc<ReducedModel>,
     options: ReducedOptions,
-    /// Operators of each window, made when it is first needed.
+    /// Operators of each local model, built at first use.
     windows: Vec<OnceCell<Operators>>,
-    /// The start in each window around an anchor, made likewise; none where its solutions are too few.
+    /// Kriging of each local model around an anchor, built at first use; `None` if it has too few solutions.
     krigings: Vec<OnceCell<Option<Kriging>>>,
-    /// The last converged solutions, where the next one starts while somebody drags or follows a curve.
+    /// Last converged solutions, which start the next solve during dragging or along a curve.
     former: Former,
 }
 
 impl Online {
-    /// A solver for the model; operators are prepared per window when first needed.
+    /// Creates a solver for the model. The operators of a local model are built at first use.
     pub fn new(model: Arc<ReducedModel>, options: ReducedOptions) -> Self {
         let windows = model.windows.iter().map(|_| OnceCell::new()).collect();
         let krigings = model.windows.iter().map(|_| OnceCell::new()).collect();
         Self { model, options, windows, krigings, former: Former::default() }
     }
 
-    /// The settings in force.
+    /// Returns the settings.
     pub fn options(&self) -> &ReducedOptions {
         &self.options
     }
 
-    /// Makes the operators of the window that serves a contact, so that the next solve there does not have to.
+    /// Builds the operators for a contact, so that the next solve does not have to.
     pub fn prepare(&mut self, point: &OperatingPoint) {
         let index = self.model.window_for(point);
         if let (Some(window), Some(cell)) = (self.model.windows.get(index), self.windows.get(index)) {
@@ -68,26 +68,31 @@ impl Online {
         }
     }
 
-    /// Forgets the previous solutions, so that the next solve starts from the snapshots.
+    /// Discards the previous solutions, so that the next solve starts from the snapshots.
     pub fn forget(&mut self) {
         self.former = Former::default();
     }
 
-    /// Solves a contact: from the last two solutions of this object where it continues their line, from the last one
-    /// where that is near, else from the snapshots around the point, else from the nearest one by (3.20), else by
-    /// continuation from that one.
+    /// Solves a contact. Initial guesses are tried in this order:
+    ///
+    /// 1. kriging, in a local model around an anchor; with heat it comes after 2;
+    /// 2. extrapolation of the last two solutions, or the last solution, if the contact is near and there is no
+    ///    kriging;
+    /// 3. interpolation between the snapshots around the point;
+    /// 4. the nearest snapshot by (3.20);
+    /// 5. continuation from that snapshot.
     ///
     /// # Errors
-    /// When the point is refused or Newton does not converge.
+    /// [`ReducedError`] if the point is refused or Newton's method does not converge.
     pub fn solve(&mut self, point: &OperatingPoint, lubricant: Lubricant) -> Result<ReducedSolution, ReducedError> {
         self.solve_watched(point, lubricant, &())
     }
 
-    /// [`Online::solve`] for someone who may no longer want it: asked before each attempt, which is a few milliseconds of
-    /// work, with heat some ten. What was remembered is then forgotten.
+    /// Solves a contact like [`Online::solve`], but checks for cancellation before each attempt. An attempt takes a
+    /// few milliseconds, with heat about ten. Cancellation discards the previous solutions.
     ///
     /// # Errors
-    /// As there, and when it was stopped.
+    /// As [`Online::solve`], and [`ReducedError::Cancelled`].
     pub fn solve_watched(
         &mut self,
         point: &OperatingPoint,
@@ -96,14 +101,15 @@ impl Online {
     ) -> Result<ReducedSolution, ReducedError> {
         let solved = self.solved(point, lubricant, Watch::of(wish));
         if wish.cancelled() {
-            // A wish in between may have been heard at one window's attempts only.
+            // A cancellation may have stopped the attempts of one local model only.
             self.forget();
             return Err(ReducedError::Cancelled);
         }
         solved
     }
 
-    /// [`Online::solve`] showing every iterate's sampled rows, for the training.
+    /// Solves a contact like [`Online::solve`] and passes the sampled equations of every iterate to `rows`, for the
+    /// training.
     pub(crate) fn solve_observed(
         &mut self,
         point: &OperatingPoint,
@@ -123,7 +129,7 @@ impl Online {
         let wish = watch.wish;
         let (mut solved, blended) = match self.iterated(index, point, lubricant, &mut watch) {
             Ok(solved) => (solved, self.model.blended(point.moes())),
-            // The next window knows contacts of this one near their border; what it is wrong by here was not measured.
+            // The next local model covers contacts near the common border. Its error here was not measured.
             Err(why @ ReducedError::NotConverged { .. }) => {
                 let next = self.model.next_anchor(point.moes(), index).ok_or(why.clone())?;
                 let solved = self.iterated(next, point, lubricant, &mut Watch::of(wish)).map_err(|_| why)?;
@@ -132,7 +138,7 @@ impl Online {
             Err(why) => return Err(why),
         };
         for (share, further) in blended {
-            // Where the one beside has no solution, the own one serves alone.
+            // If the other local model has no solution, the own one is used alone.
             if let Ok(other) = self.iterated(further, point, lubricant, &mut Watch::of(wish)) {
                 solved.beside.push((share, other));
             }
@@ -148,7 +154,7 @@ impl Online {
         }
     }
 
-    /// Why a solution outside the model's range cannot be one.
+    /// Returns the reason why a solution outside the trained range is not accepted; `None` if it is.
     fn doubt(&self, solved: &ReducedSolution) -> Result<Option<String>, ReducedError> {
         let window = self.model.windows.get(solved.window).ok_or(ReducedError::Empty)?;
         if let Some(why) = window.residual_doubt(solved.residual_estimate) {
@@ -158,7 +164,7 @@ impl Online {
         Ok((lowest.is_nan() || lowest <= 0.0).then(|| format!("its film falls to H = {lowest:.1e}")))
     }
 
-    /// Newton's iteration from one start after the other.
+    /// Runs Newton's method from one initial guess after the other.
     fn iterated(
         &mut self,
         index: usize,
@@ -177,11 +183,13 @@ impl Online {
         if problem.shear.is_some() && !self.model.slides() {
             return Err(ReducedError::ShearThinning);
         }
-        // Its α and its plateau ratio are those that count; starts are those of a contact with the trained stress.
+        // The equations use the contact's own α and plateau ratio. Initial guesses are those of a contact with the
+        // trained Eyring stress.
         let model = Arc::clone(&self.model);
         let point = &model.domain.as_trained(&problem.point, &problem.lubricant);
         let kriged = self.kriged(index, point);
-        // Without heat a start by kriging follows from the contact alone, so that nothing jumps with what was solved before.
+        // An isothermal kriging prediction depends on the contact alone, so that the result does not depend on
+        // previous solutions.
         let former_first = kriged.is_none() || problem.heat.is_some();
         let (Some(window), Some(cell)) = (model.windows.get(index), self.windows.get_mut(index)) else {
             return Err(ReducedError::Empty);
@@ -213,8 +221,8 @@ impl Online {
                 Err(error) => last = error,
             }
         }
-        // The last resorts: do with fewer modes, and walk from the nearest snapshot's operating point to this one. With heat a
-        // walk that leads nowhere takes seconds.
+        // If all guesses fail: fewer modes, then continuation from the nearest snapshot. With heat a failed
+        // continuation takes seconds.
         let fewer = with(at_last)
             .find_map(|guess| attempt(window, operators, &problem, &guess, FIRST_ATTEMPTS, &self.options, watch).ok());
         let found = fewer.or_else(|| {
@@ -230,7 +238,7 @@ impl Online {
         }
     }
 
-    /// The start by kriging in a window around an anchor.
+    /// Returns the kriging prediction in a local model around an anchor.
     fn kriged(&self, index: usize, point: &OperatingPoint) -> Option<Guess> {
         let window = self.model.windows.get(index).filter(|window| window.anchor.is_some())?;
         self.krigings
@@ -240,7 +248,7 @@ impl Online {
             .start(point)
     }
 
-    /// Solves a contact from one snapshot of its window and from nowhere else, showing every iterate, for the training.
+    /// Solves a contact from one snapshot of its local model only and reports every iterate, for the training.
     pub(crate) fn solve_from(
         &mut self,
         snapshot: &Snapshot,
@@ -260,7 +268,7 @@ impl Online {
         Ok(self.keep(&problem, index, found))
     }
 
-    /// Remembers a solution as the next start and returns it.
+    /// Stores a solution as the next initial guess and returns it.
     fn keep(&mut self, problem: &Problem, window: usize, found: Found) -> ReducedSolution {
         let theta = found.theta().to_vec();
         let Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat } = found;
@@ -294,7 +302,7 @@ impl Online {
             window.likely_error(&features, &problem.point, problem.lubricant.cavitation)
         });
         if let Some(estimate) = solved.error.as_mut().filter(|estimate| estimate.traction.is_some()) {
-            // Of a traction that is no physics nothing is promised, nor of one that is cut as none was.
+            // No error estimate for an unphysical traction, nor for one limited in a way that was not trained.
             let meant = problem.traction_warning().is_none()
                 && (knows_traction || !(domain.thins() && domain.space.varies_lubricant()));
             estimate.traction = estimate.traction.filter(|_| meant);
@@ -304,7 +312,7 @@ impl Online {
 }
 
 impl ReducedSolution {
-    /// Whether its film is hotter than lubricants endure: of such a one nothing is promised.
+    /// Returns true if the film is hotter than lubricants endure. Such a solution has no error estimate.
     pub fn is_too_hot(&self) -> bool {
         let inlet_k = self.lubricant.heat.map_or(f64::NAN, |heat| heat.inlet_temperature);
         self.heat.as_ref().is_some_and(|heat| heat.hottest_k(inlet_k) > ENDURED_K)
@@ -312,7 +320,8 @@ impl ReducedSolution {
 }
 
 impl ReducedModel {
-    /// Shares of the modes with which its iterations are tried at once, and where no start led to a solution.
+    /// Returns the shares of the modes that are tried for each kriging prediction, and those tried after all guesses
+    /// failed.
     fn shares_of_modes(&self) -> (&'static [f64], &'static [f64]) {
         match (self.contact(), self.slides()) {
             (ContactKind::Point, false) => (&SHARES, &[]),
@@ -322,7 +331,7 @@ impl ReducedModel {
     }
 }
 
-/// No fewer than all modes: so are iterations that are shown to a training.
+/// Returns all modes only, as for iterations that are reported to a training.
 fn all_modes() -> (&'static [f64], &'static [f64]) {
     (SHARES.split_at(1).0, &[])
 }

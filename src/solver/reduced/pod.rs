@@ -4,19 +4,18 @@ use super::dense;
 use faer::linalg::solvers::Svd;
 use faer::{ColRef, Mat, MatRef};
 
-/// A POD basis with all its singular values.
+/// POD basis with all its singular values.
 #[derive(Clone, Debug)]
 pub struct PodBasis {
     /// One mode per column over the node array, orthonormal under the grid's weights: Vᵀ W V = I.
     pub modes: Mat<f64>,
-    /// All singular values of the snapshots, also of modes that were not kept.
+    /// All singular values of the snapshots, including those of modes that were not kept.
     pub singular_values: Vec<f64>,
 }
 
 impl PodBasis {
     /// Decomposes snapshots (one per column, node arrays) under the weights and keeps the modes up to a loss of
-    /// information. Nodes with zero weight get zero modes. Returns `None` when the decomposition fails (non-finite
-    /// snapshots).
+    /// information. Nodes with zero weight get zero modes. `None` if the decomposition fails (non-finite snapshots).
     pub fn new(snapshots: MatRef<'_, f64>, weights: &[f64], loss: f64) -> Option<Self> {
         let (nodes, columns) = (snapshots.nrows(), snapshots.ncols());
         if snapshots.row_iter().flat_map(|r| r.iter()).any(|v| !v.is_finite()) {
@@ -33,10 +32,10 @@ impl PodBasis {
         Some(basis)
     }
 
-    /// As many modes as `loss` asks of [`Self::new`], at most so many, orthonormal under `weights` and with its singular
-    /// values, but chosen so that they miss least under `emphasis`, other weights that are positive where `weights` are:
-    /// for equations to which some places matter more than others. Returns `None` when a decomposition fails (non-finite
-    /// snapshots).
+    /// Decomposes snapshots such that the modes have the smallest error under the weights `emphasis`, for equations
+    /// to which some places matter more than others. `emphasis` must be positive where `weights` are. The number of
+    /// modes is that of [`Self::new`] for `loss`, at most `most`. The modes are orthonormal under `weights`, and the
+    /// singular values are those of [`Self::new`]. `None` if a decomposition fails (non-finite snapshots).
     pub fn emphasised(
         snapshots: MatRef<'_, f64>,
         weights: &[f64],
@@ -53,7 +52,7 @@ impl PodBasis {
         Some(Self { modes: modes.get(.., ..keep.min(modes.ncols())).to_owned(), ..plain })
     }
 
-    /// With no more than so many of its modes.
+    /// Reduces the number of modes to at most `most`, but at least one.
     pub fn cut(mut self, most: usize) -> Self {
         if most < self.modes.ncols() {
             self.modes = self.modes.get(.., ..most.max(1)).to_owned();
@@ -61,15 +60,15 @@ impl PodBasis {
         self
     }
 
-    /// Vᵀ W v: the coefficients of a node array, given by its value at each node.
+    /// Returns Vᵀ W v: the coefficients of a node array, given by its value at each node.
     pub fn coefficients(&self, weights: &[f64], value: impl Fn(usize) -> f64) -> Vec<f64> {
         let of = |mode: ColRef<'_, f64>| mode.iter().zip(weights).enumerate().map(|(i, (v, w))| w * v * value(i)).sum();
         self.modes.col_iter().map(of).collect()
     }
 
-    /// The coefficients of the best approximations of fields, one per column over the node array: modes × fields; not finite
-    /// where modes depend on each other. Modes that were rounded are not quite orthonormal: of a rare one
-    /// [`Self::coefficients`] has mostly what it shares with the first.
+    /// Returns the coefficients of the best approximations of fields, one per column over the node array: modes ×
+    /// fields; not finite if the modes are linearly dependent. Rounded modes are not quite orthonormal: for a rare
+    /// one, [`Self::coefficients`] mostly contains the part that it shares with the first mode.
     pub fn best_coefficients(&self, weights: &[f64], fields: MatRef<'_, f64>) -> Mat<f64> {
         let modes = self.modes.as_ref();
         let weighted =
@@ -78,13 +77,14 @@ impl PodBasis {
         dense::solved(inner(modes).as_ref(), inner(fields))
     }
 
-    /// Loss of information when only the first `k` modes are kept, (2.90).
+    /// Returns the loss of information with the first `k` modes, (2.90).
     pub fn loss(&self, k: usize) -> f64 {
         let total: f64 = self.singular_values.iter().sum();
         self.singular_values.iter().skip(k).sum::<f64>() / total
     }
 
-    /// Fewest modes whose loss does not exceed `loss`, (2.92), at least one and at most all that are kept.
+    /// Returns the smallest number of modes whose loss does not exceed `loss`, (2.92); at least one and at most all
+    /// modes.
     pub fn modes_for(&self, loss: f64) -> usize {
         self.modes_within(loss, self.modes.ncols())
     }
@@ -143,7 +143,7 @@ mod tests {
         let weights: Vec<f64> = (0..40).map(|i| 0.01 + 0.002 * f64::from(i)).collect();
         let strong: Vec<f64> = (0..40).map(|i| if i >= 30 { 1e4 * weights[i] } else { weights[i] }).collect();
         let snapshots = Mat::from_fn(40, 12, |i, j| (-(i as f64 / 40.0 - j as f64 / 12.0).powi(2) * 30.0).exp());
-        // What the span of a basis misses of the snapshots at least, under weights.
+        // Smallest error of the snapshots in the span of a basis, under weights.
         let missed = |basis: &PodBasis, weights: &[f64]| -> f64 {
             let own = PodBasis::new(basis.modes.as_ref(), weights, 0.0).unwrap().modes;
             let weighted = Mat::from_fn(40, 12, |i, j| weights[i] * snapshots[(i, j)]);
@@ -154,7 +154,7 @@ mod tests {
         let emphasised = PodBasis::emphasised(snapshots.as_ref(), &weights, &strong, (0.05, 40)).unwrap();
         let keep = plain.modes.ncols();
         assert_eq!((emphasised.modes.ncols(), &emphasised.singular_values), (keep, &plain.singular_values));
-        // Eckart and Young: no span of as many modes misses less than the further singular values.
+        // Eckart and Young: no span of that many modes has a smaller error than the further singular values.
         let singular_values = PodBasis::new(snapshots.as_ref(), &strong, 0.0).unwrap().singular_values;
         let least = singular_values[keep..].iter().map(|s| s * s).sum::<f64>().sqrt();
         assert!((missed(&emphasised, &strong) / least - 1.0).abs() < 1e-6);

@@ -1,4 +1,4 @@
-//! The solution of a reduced model.
+//! Solution of a reduced model.
 
 use super::domain::Trust;
 use super::error_estimate::ErrorEstimate;
@@ -7,43 +7,43 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use serde::{Deserialize, Serialize};
 
-/// What the online phase returns: small numbers only; fields are reconstructed on request.
+/// Result of the online phase: few numbers only. Fields are reconstructed on request.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReducedSolution {
-    /// The operating point it belongs to.
+    /// Operating point.
     pub point: OperatingPoint,
-    /// The laws it belongs to.
+    /// Lubricant laws.
     #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
-    /// The window that served it.
+    /// Index of the local model used.
     pub window: usize,
-    /// Whether that is not the contact's own, which found no solution: errors were not measured there.
+    /// True if it is not the contact's own local model, which found no solution. Its errors were not measured there.
     pub stands_in: bool,
     /// Coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
-    /// Under complementarity the first ruptured column of each line along X, in node arrays; empty under a penalty.
+    /// With complementarity, the first cavitated column of each line along X, in node arrays; empty with a penalty.
     pub fronts: Vec<usize>,
-    /// Solutions of further windows around anchors, near whose borders it is blended with them, and the share of each;
-    /// the films and what follows from them are then those of the blend.
+    /// Solutions of other local models that are blended in near borders, with their shares. The scalars are then
+    /// those of the blend.
     pub beside: Vec<(f64, ReducedSolution)>,
-    /// H₀.
+    /// Rigid-body separation H₀.
     pub h_0: f64,
-    /// Central film H_c.
+    /// Central film thickness H_c.
     pub h_c: f64,
-    /// Traction coefficient (3.41) by the window's rule on few nodes; none of a model that does not know sliding.
+    /// Traction coefficient (3.41) by the traction quadrature; `None` if the model does not include sliding.
     pub traction: Option<f64>,
-    /// The share that the limiting stress takes of what its own window's traction were without one, 0…1; none with heat, or
-    /// where no rule says it.
+    /// Share by which the limiting stress reduces the traction of its own local model, 0…1; `None` with heat, or
+    /// without a traction quadrature.
     pub cut: Option<f64>,
-    /// Its temperatures; none without heat.
+    /// Temperatures; `None` if isothermal.
     pub heat: Option<Warmth>,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub iterations: usize,
-    /// e_f^I, (3.15), in the L2 norm over X restricted to the sampled rows.
+    /// Residual e_f^I, (3.15), in the L2 norm over X restricted to the sampled equations.
     pub residual_estimate: f64,
-    /// Calibrated estimate of its errors. None where the model has no calibration, or solved otherwise than it was
-    /// calibrated: outside its domain, by another window, with fewer modes or other settings; nor of a film hotter than
-    /// lubricants endure.
+    /// Calibrated estimate of its errors. `None` if the model has no calibration or was used differently from it:
+    /// outside the trained range, with another local model, fewer modes or other settings. Also `None` for a film
+    /// hotter than lubricants endure.
     pub error: Option<ErrorEstimate>,
     /// Whether the model was trained for the point.
     pub trust: Trust,

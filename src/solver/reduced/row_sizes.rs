@@ -1,4 +1,4 @@
-//! How strongly the rows of the full system answer to their own pressures along trajectories.
+//! Sensitivity of the rows of the full system to their own pressures along trajectories.
 
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
 use crate::solver::discrete::nodes::Nodes;
@@ -7,14 +7,16 @@ use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::full::transient::Trajectory;
 
-/// States that the mean is taken over, about.
+/// Approximate number of states for the mean.
 const STATES: usize = 100;
 
-/// The mean of |∂r/∂P| of each row by its own pressure, its film included, in a time step along trajectories that kept
-/// fields; one value per unknown, in the scales of the trajectories' frame. `penalty` is the slope of Λ = −γ̄ min(P, 0)
-/// behind the rupture. In the far inlet it is 10⁸ times as large as under the contact: the little that modes miss there
-/// would decide over the film, if every row counted by its cell's size. The flow is taken from the inlet throughout:
-/// the other side hardly changes a size.
+/// Returns the mean of |∂r/∂P| of each row r by its own pressure P, including the deformation of the film. It is
+/// taken over time steps of trajectories with stored fields. One value per unknown, in the scales of the
+/// trajectories' frame. `penalty` is the slope of Λ = −γ̄ min(P, 0) in the cavitated region.
+///
+/// In the far inlet the mean is 10⁸ times as large as in the contact. If every row counted by its cell size, small
+/// projection errors there would dominate the film thickness. The flow is assumed to come from the inlet; the other
+/// direction hardly changes a size.
 pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], penalty: f64) -> Vec<f64> {
     let mut sums = vec![0.0; grid.unknowns()];
     let (mut count, gradient) = (0.0, PlaneGradient::along_line(&grid.x));
@@ -25,7 +27,7 @@ pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], pena
         let storage = 1.5 * steps as f64 / trajectory.transient.duration;
         let (frame, inputs) = (trajectory.transient.frame, &trajectory.transient.inputs);
         for state in trajectory.states.iter().step_by(stride) {
-            // What was marched through was accepted then.
+            // Conditions along a computed march were accepted before.
             let Ok(at) = frame.conditions(&trajectory.problem, state.time, inputs.at(state.time)) else { continue };
             let nodes = Nodes::of(at.problem.laws(), &gradient, &state.pressure, &state.film);
             for (k, sum) in sums.iter_mut().enumerate() {
@@ -41,8 +43,9 @@ pub(crate) fn mean_diagonals(grid: &LineGrid, trajectories: &[&Trajectory], pena
     sums.iter().map(|sum| sum / count).collect()
 }
 
-/// What each row of the full system counts in a linearised one: cell sizes over the root of the rows' mean diagonals.
-/// The root is halfway to rows of equal diagonals, with which the reduced system is no longer stable in time.
+/// Returns the weight of each row of the full system in a linearised model: the cell size divided by the square root
+/// of the row's mean diagonal. This is halfway to rows of equal diagonals, for which the reduced system is unstable
+/// in time.
 pub(crate) fn row_weights(grid: &LineGrid, trajectories: &[&Trajectory], penalty: f64) -> Vec<f64> {
     let weights = grid.weights[FIRST_UNKNOWN..].iter().zip(mean_diagonals(grid, trajectories, penalty));
     weights.map(|(weight, diagonal)| weight / diagonal.sqrt()).collect()
@@ -68,7 +71,7 @@ mod tests {
         let penalty = 1e4;
         let sizes = mean_diagonals(&grid, &[&trajectory], penalty);
         let problem = &trajectory.problem;
-        // The row with one pressure changed and the film bent by it.
+        // The row with one changed pressure and the resulting deformation.
         let value = |state: &transient::State, k: usize, by: f64| {
             let (mut pressure, mut bent) = (vec![0.0; grid.len()], vec![0.0; grid.len()]);
             pressure[k + FIRST_UNKNOWN] = by;

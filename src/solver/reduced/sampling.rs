@@ -1,7 +1,7 @@
-//! Which rows of the Reynolds equation the online phase evaluates, and how the projected residual follows from them.
+//! Selection of the sampled equations, and reconstruction of the projected residual from them.
 //!
-//! Every method returns rows I and a matrix G (modes × rows) with Vᵀ W f ≈ G f_I, so that the online phase does not
-//! know which one was used.
+//! Every method returns rows I and a matrix G (modes × rows) with Vᵀ W f ≈ G f_I (modes V, weights W, residual f), so
+//! that the online phase is independent of the method.
 
 use super::minimisation::Scheme;
 use super::pod::PodBasis;
@@ -10,30 +10,30 @@ use faer::linalg::solvers::{ColPivQr, PartialPivLu, Solve, Svd};
 use faer::{Mat, MatRef};
 use serde::{Deserialize, Serialize};
 
-/// How the rows of the reduced system are sampled.
+/// Sampling method of the reduced equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum Sampling {
     /// Every row: no sampling error, large-scale cost.
     All,
-    /// The dissertation's greedy of Fig. 2.9 with the rows of V_p themselves, (2.106).
+    /// Greedy selection of the dissertation, Fig. 2.9, with the rows of V_p themselves, (2.106).
     Greedy,
-    /// Q-DEIM with its fixed reconstruction V_pᵀ Φ_J (Φ_J,I)⁻¹: pivoted QR picks the rows.
+    /// Q-DEIM with the fixed reconstruction V_pᵀ Φ_J (Φ_J,I)⁻¹; pivoted QR selects the rows.
     #[default]
     QDeim,
     /// Goal-oriented cubature: rows with non-negative weights that reproduce the Newton steps, G = V_Iᵀ diag(w).
     Cubature,
 }
 
-/// Sampled rows (unknown indices, ascending) and the matrix G.
+/// Sampled equations (unknown indices, ascending) and the matrix G.
 #[derive(Clone, Debug)]
 pub struct SampledRows {
     /// Row indices.
     pub rows: Vec<usize>,
-    /// What is made of their values, see [`super::Window::reconstruction`].
+    /// Reconstruction from their values, see [`super::Window::reconstruction`].
     pub reconstruction: Mat<f64>,
-    /// By what the step is found.
+    /// Scheme that determines the step.
     pub scheme: Scheme,
-    /// What GNAT makes of the residual's values.
+    /// GNAT's reconstruction of the residual.
     pub residual: Option<Mat<f64>>,
 }
 
@@ -42,11 +42,11 @@ pub struct SampledRows {
 pub struct RowSnapshots {
     /// f_p at the iterates.
     pub residual: Vec<Vec<f64>>,
-    /// J V Δz̃ at the iterates (the Δ is missing in (2.109)'s print).
+    /// J V Δz̃ at the iterates (the Δ is missing in (2.109) as printed).
     pub jacobian: Vec<Vec<f64>>,
 }
 
-/// What the rows of the Reynolds equation are tested with: V and the quadrature weights at the unknowns.
+/// Test space of the rows of the Reynolds equation: V and the quadrature weights at the unknowns.
 #[derive(Clone, Debug)]
 pub struct TestSpace {
     /// V, unknowns × modes.
@@ -56,7 +56,7 @@ pub struct TestSpace {
 }
 
 impl TestSpace {
-    /// The test space of a pressure basis on a grid.
+    /// Returns the test space of a pressure basis on a grid.
     pub fn new(basis: &PodBasis, grid: &ContactGrid) -> Self {
         let nodes: Vec<usize> = (0..grid.unknowns()).map(|unknown| grid.node(unknown)).collect();
         Self {
@@ -65,7 +65,7 @@ impl TestSpace {
         }
     }
 
-    /// G = V_Iᵀ W_I for given rows.
+    /// Returns the rows with G = V_Iᵀ W_I.
     fn rows(&self, rows: Vec<usize>) -> SampledRows {
         let reconstruction =
             Mat::from_fn(self.modes.ncols(), rows.len(), |k, r| self.weights[rows[r]] * self.modes[(rows[r], k)]);
@@ -74,18 +74,18 @@ impl TestSpace {
 }
 
 impl SampledRows {
-    /// Rows whose combinations G f_I vanish, Galerkin's.
+    /// Creates sampled equations for Galerkin's scheme: the combinations G f_I vanish.
     pub fn tested(rows: Vec<usize>, reconstruction: Mat<f64>) -> Self {
         Self { rows, reconstruction, scheme: Scheme::Galerkin, residual: None }
     }
 }
 
-/// Every row with its quadrature weight.
+/// Returns every row with its quadrature weight.
 pub fn all_rows(test: &TestSpace) -> SampledRows {
     test.rows((0..test.weights.len()).collect())
 }
 
-/// Leading left singular vectors of snapshots.
+/// Returns the leading left singular vectors of snapshots.
 pub(super) fn leading_modes(snapshots: &[Vec<f64>], count: usize) -> Option<Mat<f64>> {
     let n = snapshots.first()?.len();
     let matrix = Mat::from_fn(n, snapshots.len(), |i, j| snapshots[j][i]);
@@ -94,12 +94,13 @@ pub(super) fn leading_modes(snapshots: &[Vec<f64>], count: usize) -> Option<Mat<
     Some(svd.U().get(.., ..count).to_owned())
 }
 
-/// The dissertation's greedy selection, Fig. 2.9, on the POD bases of residual and Jacobian snapshots.
+/// Selects rows by the greedy algorithm of the dissertation, Fig. 2.9, on the POD bases of residual and Jacobian
+/// snapshots. `None` if the linear algebra fails.
 pub fn greedy(test: &TestSpace, snapshots: &RowSnapshots, count: usize) -> Option<SampledRows> {
     Some(test.rows(greedy_rows(snapshots, count)?))
 }
 
-/// Rows by pivoted QR of the Jacobian's snapshots, or by the greedy.
+/// Selects rows by pivoted QR of the Jacobian snapshots, or by the greedy algorithm.
 pub(super) fn gappy_rows(sampling: Sampling, snapshots: &RowSnapshots, count: usize) -> Option<Vec<usize>> {
     if sampling == Sampling::Greedy {
         return greedy_rows(snapshots, count);
@@ -125,7 +126,7 @@ fn greedy_rows(snapshots: &RowSnapshots, count: usize) -> Option<Vec<usize>> {
     Some(rows)
 }
 
-/// As many rows as modes, by QR with column pivoting, ascending.
+/// Selects as many rows as modes by QR with column pivoting, ascending.
 fn pivots(phi: MatRef<'_, f64>) -> Vec<usize> {
     let qr = ColPivQr::new(phi.transpose());
     let (forward, _) = qr.P().arrays();
@@ -134,7 +135,7 @@ fn pivots(phi: MatRef<'_, f64>) -> Vec<usize> {
     rows
 }
 
-/// What of column `mode` its interpolation through the former columns at the chosen rows leaves.
+/// Returns the error of column `mode` interpolated from the previous columns at the selected rows.
 fn interpolation_error(modes: &Mat<f64>, rows: &[usize], mode: usize) -> Vec<f64> {
     let n = modes.nrows();
     let mut error: Vec<f64> = (0..n).map(|i| modes[(i, mode)]).collect();
@@ -151,10 +152,10 @@ fn interpolation_error(modes: &Mat<f64>, rows: &[usize], mode: usize) -> Vec<f64
     error
 }
 
-/// Q-DEIM on the Jacobian snapshots: as many rows as POD modes Φ, found by QR with column pivoting of Φᵀ (Drmač &
-/// Gugercin 2016).
+/// Selects rows by Q-DEIM on the Jacobian snapshots: as many rows as POD modes Φ, by QR with column pivoting of Φᵀ
+/// (Drmač & Gugercin 2016).
 ///
-/// One result for each of the counts; `None` where the linear algebra gives up.
+/// Returns one result for each of the counts; `None` if the linear algebra fails.
 pub fn q_deim(test: &TestSpace, snapshots: &RowSnapshots, counts: &[usize]) -> Vec<Option<SampledRows>> {
     let most = counts.iter().copied().max().unwrap_or(0);
     let modes = leading_modes(&snapshots.jacobian, most);
@@ -165,12 +166,12 @@ pub fn q_deim(test: &TestSpace, snapshots: &RowSnapshots, counts: &[usize]) -> V
     counts.iter().map(|count| of(*count)).collect()
 }
 
-/// The rows of one basis Φ.
+/// Returns the rows for one basis Φ.
 fn q_deim_of(test: &TestSpace, phi: MatRef<'_, f64>) -> SampledRows {
     let count = phi.ncols();
     let unknowns = phi.nrows();
     let rows = pivots(phi);
-    // The snapshots are scaled by √w: so are the test functions, and G undoes it on the sampled values.
+    // The snapshots are scaled by √w. So are the test functions, and G removes the scale from the sampled values.
     let modes = test.modes.ncols();
     let scaled = Mat::from_fn(unknowns, modes, |i, k| test.weights[i].sqrt() * test.modes[(i, k)]);
     let projected: Mat<f64> = phi.transpose() * &scaled;
@@ -181,7 +182,7 @@ fn q_deim_of(test: &TestSpace, phi: MatRef<'_, f64>) -> SampledRows {
     SampledRows::tested(rows, reconstruction)
 }
 
-/// Whether a matrix has only finite entries.
+/// Returns true if a matrix has only finite entries.
 pub fn is_finite(matrix: MatRef<'_, f64>) -> bool {
     matrix.col_iter().all(|c| c.iter().all(|v| v.is_finite()))
 }
@@ -212,7 +213,7 @@ mod tests {
         assert_eq!(sampled.rows.len(), 6);
         let all = all_rows(&test);
         for column in &snapshots.jacobian {
-            // A residual f whose √w-scaled values lie in the snapshot space.
+            // Residual f whose √w-scaled values lie in the snapshot space.
             let f: Vec<f64> = column.iter().enumerate().map(|(i, v)| v / test.weights[i].sqrt()).collect();
             for k in 0..4 {
                 let exact: f64 = f.iter().enumerate().map(|(i, f)| all.reconstruction[(k, i)] * f).sum();

@@ -1,8 +1,9 @@
-//! K V for every ellipse of a window: the deformation of modes as a function of κ = b/a, interpolated between few.
+//! K V for all elliptical contacts of a local model: the deformation of modes V as a function of κ = b/a,
+//! interpolated between few values.
 //!
-//! Its entries are smooth functions of ln κ. Over Chebyshev nodes of a window's range six of them reach some 1e-6 of
-//! the largest deformation, and what a reduced model costs hardly feels them: the rows of the support are combined once
-//! per contact. Single precision does for them, 6e-8 of it, and halves what they take.
+//! The entries are smooth functions of ln κ. With six Chebyshev nodes over the range of a local model the error is
+//! about 1e-6 of the largest deformation. The online cost hardly changes, because the rows are combined once per
+//! contact. Single precision (6e-8) is sufficient and halves the memory.
 
 use crate::host::pool::on_all_cores;
 use crate::solver::discrete::grid::{ContactGrid, GridError, PointGrid};
@@ -13,32 +14,32 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Nodes in ln κ of a window whose radii differ tenfold at most, and of a wider one.
+/// Number of nodes in ln κ for radius ratios that differ at most tenfold, and for a wider range.
 const NODES: [usize; 2] = [6, 9];
-/// Beyond the range of a window, in shares of it, up to which its shapes are still used.
+/// Part of the range by which shapes may be used beyond its ends.
 const BEYOND: f64 = 0.1;
 
-/// K V of a window for a range of R_y/R.
+/// K V of a local model for an interval of the radius ratio R_y/R.
 #[derive(Clone, Debug)]
 pub struct Shapes {
-    /// R_y/R that it is made for.
+    /// Interval of R_y/R.
     pub ratios: (f64, f64),
-    /// Ends of ln κ.
+    /// Ends of the interval of ln κ.
     ends: (f64, f64),
-    /// K(κ) V over the node array, one for each node in ln κ.
+    /// K(κ) V over the node array, one matrix per node in ln κ.
     pub(super) flexed: Vec<Mat<f32>>,
 }
 
-/// Where Chebyshev's nodes of the second kind lie in −1…1.
+/// Returns Chebyshev node `i` of the second kind in −1…1.
 fn node(i: usize, count: usize) -> f64 {
     -(PI * i as f64 / (count - 1) as f64).cos()
 }
 
 impl Shapes {
-    /// Of modes on the nodes of a grid.
+    /// Computes the matrices for modes on the nodes of a grid.
     ///
     /// # Errors
-    /// When a kernel cannot be built, or a ratio is none of an ellipse.
+    /// [`GridError`] if a kernel cannot be built, or if a ratio is not one of an ellipse.
     pub fn new(grid: &Arc<PointGrid>, modes: &Mat<f64>, ratios: (f64, f64)) -> Result<Self, GridError> {
         let (low, high) = ratios;
         let log_kappa = |ratio: f64| match Ellipse::of_ratio(ratio) {
@@ -57,24 +58,25 @@ impl Shapes {
         Ok(Self { ratios, ends, flexed })
     }
 
-    /// The factor, at least 1, by which R_y/R of a contact lies outside those of some shapes, or of circles.
+    /// Returns the factor, at least 1, by which R_y/R of a contact lies outside that of some shapes, or outside
+    /// circular contacts for `None`.
     pub fn aside(shapes: Option<&Self>, point: &OperatingPoint) -> f64 {
         let ((low, high), ratio) = (shapes.map_or(CIRCLES, |shapes| shapes.ratios), point.radius_ratio());
         (low / ratio).max(ratio / high).max(1.0)
     }
 
-    /// Whether it holds for an ellipse, a little beyond its range too.
+    /// Returns true if the shapes are valid for an ellipse; also slightly beyond their range.
     pub fn hold_for(&self, ellipse: &Ellipse) -> bool {
         self.place(ellipse).abs() <= 1.0 + 2.0 * BEYOND
     }
 
-    /// ln κ in −1…1.
+    /// Returns ln κ scaled to −1…1.
     fn place(&self, ellipse: &Ellipse) -> f64 {
         let (low, high) = self.ends;
         if high > low { (2.0 * ellipse.kappa.ln() - low - high) / (high - low) } else { 0.0 }
     }
 
-    /// K(κ) V of an ellipse.
+    /// Returns K(κ) V of an ellipse.
     #[cfg(test)]
     pub(crate) fn flexed_at(&self, ellipse: &Ellipse) -> Mat<f64> {
         let (nodes, modes) = self.flexed[0].shape();
@@ -99,13 +101,13 @@ impl Shapes {
         }
     }
 
-    /// The weights of the nodes that interpolate at an ellipse: one per matrix.
+    /// Returns the interpolation weights at an ellipse, one per matrix.
     pub(super) fn weights(&self, ellipse: &Ellipse) -> Vec<f64> {
         let (count, at) = (self.flexed.len(), self.place(ellipse));
         if let Some(exact) = (0..count).find(|&i| node(i, count) == at) {
             return (0..count).map(|i| f64::from(u8::from(i == exact))).collect();
         }
-        // Barycentric weights of these nodes: alternating, halves at the ends.
+        // Barycentric weights of these nodes: alternating signs, halved at the ends.
         let weight = |i: usize| {
             let half = if i == 0 || i + 1 == count { 0.5 } else { 1.0 };
             let sign = if i.is_multiple_of(2) { half } else { -half };

@@ -1,6 +1,6 @@
-//! Where the online Newton iteration starts: an interpolation between the training solutions around the point, and the
-//! nearest of them.
-//! The interpolation carries film and spike along; the nearest snapshot alone is the dissertation's choice.
+//! Initial guesses of the online Newton iteration: an interpolation between the training solutions around the point,
+//! and the nearest of them. The interpolation also transfers the film thickness and the pressure spike. The nearest
+//! snapshot alone is the dissertation's choice.
 
 use super::dense;
 use super::model::{Snapshot, Window};
@@ -9,28 +9,28 @@ use crate::solver::parameters::{SHAPE_WEIGHT, separation};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
 use faer::Mat;
 
-/// Snapshots that take part in the interpolation of Newtonian contacts, in that of shear-thinning ones, which have two
-/// parameters more, and in that of ellipses, which have one.
+/// Number of snapshots for the interpolation of Newtonian contacts; of shear-thinning ones, with two more parameters;
+/// and of elliptical ones, with one more.
 const NEIGHBOURS: [usize; 3] = [6, 10, 8];
-/// Weight of (ln α ratio)² beside (3.20).
+/// Weight of (ln α ratio)² in addition to (3.20).
 const ALPHA_WEIGHT: f64 = 0.02;
-/// Functions that it reproduces there.
+/// Number of functions that the interpolation reproduces, for the same three kinds.
 const FEATURES: [usize; 3] = [4, 6, 5];
 
-/// A start: coefficients of the pressure, and the film at X = 0 (and Y = 0). Modes without a coefficient are left out of the
-/// iteration that begins here.
+/// Initial guess: coefficients of the pressure, and film thickness at X = 0 (and Y = 0). Modes without a coefficient
+/// are omitted in the iteration that starts here.
 #[derive(Clone)]
 pub(super) struct Guess {
     pub coefficients: Vec<f64>,
     pub h_c: f64,
-    /// The first ruptured column of each line along X; empty under a penalty.
+    /// First cavitated column of each line along X; empty with a penalty.
     pub fronts: Vec<usize>,
-    /// θ at the stations of a contact with heat; empty where it begins without.
+    /// θ at the stations of a thermal contact; empty to start without temperatures.
     pub theta: Vec<Profile>,
 }
 
 impl Guess {
-    /// The same with this share of the modes.
+    /// Returns the guess with this share of the modes.
     pub fn with_modes(&self, share: f64) -> Self {
         let mut fewer = self.clone();
         fewer.coefficients.truncate(((share * self.coefficients.len() as f64) as usize).max(1));
@@ -38,16 +38,16 @@ impl Guess {
     }
 }
 
-/// How near by (3.20) the previous solution must be to be preferred to an interpolation.
+/// Distance by (3.20) below which the previous solution is preferred to an interpolation.
 const DRAG_DISTANCE: f64 = 1e-3;
-/// The longest step, squared, of a curve that is followed: the distance of (3.20) between neighbours.
+/// Largest squared step of a curve: the distance of (3.20) between neighbours.
 const LONGEST_STEP: f64 = 0.03;
-/// How far a contact may lie beside the line through the last two, and ahead of them, in lengths of the way to it and
-/// of their distance.
+/// Largest distance of a contact from the line through the last two, relative to its distance from the last one; and
+/// largest extrapolation, relative to the distance of the last two.
 const BESIDE: f64 = 0.25;
 const AHEAD: f64 = 1.5;
 
-/// A converged solution.
+/// Converged solution.
 pub(super) struct Known {
     pub window: usize,
     pub point: OperatingPoint,
@@ -57,7 +57,7 @@ pub(super) struct Known {
     pub theta: Vec<Profile>,
 }
 
-/// The last two converged solutions, the latest first.
+/// Last two converged solutions, the latest first.
 #[derive(Default)]
 pub(super) struct Former {
     known: [Option<Known>; 2],
@@ -69,7 +69,7 @@ impl Former {
         self.known = [Some(latest), known];
     }
 
-    /// The latest one, where it is near.
+    /// Returns the latest solution, if it is near.
     pub fn beside(&self, window: usize, point: &OperatingPoint) -> Option<Guess> {
         let near = |known: &&Known| known.window == window && separation(point, &known.point) < DRAG_DISTANCE;
         self.known[0].as_ref().filter(near).map(|known| Guess {
@@ -80,7 +80,8 @@ impl Former {
         })
     }
 
-    /// The line through both, where a contact nearby continues it: along a curve that halves the iterations.
+    /// Extrapolates the last two solutions, if the contact is near and continues their line. Along a curve this
+    /// halves the number of iterations.
     pub fn continued(&self, window: usize, point: &OperatingPoint) -> Option<Guess> {
         let [Some(latest), Some(before)] = &self.known else { return None };
         if latest.window != window || before.window != window {
@@ -110,7 +111,8 @@ impl Former {
     }
 }
 
-/// Where a contact lies, in lengths that add up to [`separation`] for contacts close together, and ln α.
+/// Returns the coordinates of a contact, ln α included. Their squared distance is [`separation`] plus the weighted ln
+/// α term, for contacts close together.
 fn coordinates(point: &OperatingPoint) -> [f64; 6] {
     let (moes, sliding) = (point.moes(), point.sliding);
     let plateau = sliding.newtonian_plateau_ratio.unwrap_or(1.0);
@@ -128,8 +130,8 @@ fn square(v: [f64; 6]) -> f64 {
     v.iter().map(|v| v * v).sum()
 }
 
-/// The film of a formula in the solver's scaling up to a constant, what films are compared by: Moes' for line, Hamrock
-/// and Dowson's for circular contacts, Chittenden's for ellipses.
+/// Returns a film thickness formula in the solver's scaling up to a constant, to compare film thicknesses: Moes for
+/// line contacts, Hamrock and Dowson for circular, Chittenden for elliptical contacts.
 pub(super) fn film_number(point: &OperatingPoint) -> f64 {
     match point.kind {
         ContactKind::Line => {
@@ -144,24 +146,25 @@ pub(super) fn film_number(point: &OperatingPoint) -> f64 {
     }
 }
 
-/// The nearest training solution by (3.20), its film carried over by the formula.
+/// Returns the nearest training solution by (3.20), with its film thickness scaled by the formula.
 pub(super) fn nearest(window: &Window, point: &OperatingPoint) -> Option<Guess> {
     window.nearest(point).map(|(snapshot, _)| carried(snapshot, point))
 }
 
-/// A training solution, its film carried over to a point by the formula.
+/// Returns a training solution with its film thickness scaled to a point by the formula.
 pub(super) fn carried(snapshot: &Snapshot, point: &OperatingPoint) -> Guess {
     let h_c = snapshot.h_c * film_number(point) / film_number(&snapshot.point);
     Guess { coefficients: snapshot.coefficients.clone(), h_c, fronts: snapshot.fronts.clone(), theta: Vec::new() }
 }
 
-/// The nearest training solution by (3.20) with its own film.
+/// Returns the nearest training solution by (3.20) with its own film thickness.
 pub(super) fn unchanged(window: &Window, point: &OperatingPoint) -> Option<Guess> {
     window.nearest(point).map(|(snapshot, _)| Guess { h_c: snapshot.h_c, ..carried(snapshot, point) })
 }
 
-/// Interpolation between the nearest training solutions: weights that reproduce functions linear in (ln M, L, ln α),
-/// of shear-thinning contacts in |SRR| and NPR, of ellipses in ln(R_y/R), and strongly prefer near ones.
+/// Interpolates between the nearest training solutions. The weights reproduce functions linear in (ln M, L, ln α), with
+/// the Moes parameters M and L; for shear-thinning contacts also in the slide-to-roll ratio |SRR| and the Newtonian
+/// plateau ratio NPR, for elliptical ones in ln(R_y/R), and strongly prefer near solutions.
 pub(super) fn interpolated(window: &Window, point: &OperatingPoint, thinning: bool) -> Option<Guess> {
     let kind = match window.shapes {
         Some(_) => 2,

@@ -1,15 +1,15 @@
-//! Sums over modes, where a solve spends most of its time: in the widest vector registers that the machine has, and
-//! everywhere in the same order, so that no result depends on the machine.
+//! Sums over modes, which take most of the time of a solve. They use the widest vector registers of the machine, but
+//! always the same order, so that results do not depend on the machine.
 //!
-//! What is to run there must be inlined there: each sum is a struct with a plain loop, without closures.
+//! Code inside a dispatch must be inlined: each sum is a struct with a plain loop, without closures.
 #![allow(clippy::needless_range_loop, reason = "columns beside each other are read at the same place")]
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Products that are summed beside each other.
+/// Number of partial sums per product.
 const BESIDE: usize = 8;
 
-/// One node of a row: what its modes are there, what they bend, and the row's derivatives by the one and the other.
+/// One node of a row: modes, deformation of the modes, and derivatives of the row by both values.
 #[derive(Clone, Copy)]
 pub(super) struct RowNode<'a> {
     pub values: &'a [f64],
@@ -18,7 +18,7 @@ pub(super) struct RowNode<'a> {
     pub by_deformation: f64,
 }
 
-/// A row of the Jacobian: the sum over its nodes, one after the other.
+/// Computes a row of the Jacobian: the sum over its nodes, one after the other.
 pub(super) fn jacobian_row<const N: usize>(nodes: [RowNode<'_>; N], out: &mut [f64]) {
     Arch::new().dispatch(JacobianRow { nodes, out });
 }
@@ -34,7 +34,7 @@ impl<const N: usize> WithSimd for JacobianRow<'_, N> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { mut nodes, out } = self;
-        // Columns as long as the row, so that nothing is checked within the loop.
+        // Columns as long as the row avoid bounds checks in the loop.
         let modes = out.len();
         for node in &mut nodes {
             (node.values, node.deformations) = (&node.values[..modes], &node.deformations[..modes]);
@@ -49,12 +49,12 @@ impl<const N: usize> WithSimd for JacobianRow<'_, N> {
     }
 }
 
-/// The first rows of a row-major matrix, as many as there are sums, each times x.
+/// Multiplies the first rows of a row-major matrix by x; `out` determines their number.
 pub(super) fn rows_times<T: Copy + Into<f64>>(rows: &[T], x: &[f64], out: &mut [f64]) {
     Arch::new().dispatch(RowsTimes { rows, x, out });
 }
 
-/// Row `place` of a row-major matrix times x.
+/// Multiplies row `place` of a row-major matrix by x.
 pub(super) fn row_times(rows: &[f64], place: usize, x: &[f64]) -> f64 {
     let mut out = [0.0];
     rows_times(&rows[place * x.len()..], x, &mut out);
@@ -93,7 +93,7 @@ impl<T: Copy + Into<f64>> WithSimd for RowsTimes<'_, T> {
     }
 }
 
-/// Adds to sums what columns give them, each by its factor and one after the other.
+/// Adds columns times their factors to sums, one after the other.
 pub(super) fn add_columns<T: Copy + Into<f64>, const N: usize>(columns: [(f64, &[T]); N], out: &mut [f64]) {
     Arch::new().dispatch(AddColumns { columns, out });
 }
@@ -127,7 +127,7 @@ impl<T: Copy + Into<f64>, const N: usize> WithSimd for AddColumns<'_, T, N> {
 mod tests {
     use super::*;
 
-    /// Numbers of a column, none like the other.
+    /// Different numbers in every column.
     fn column(own: usize, len: usize) -> Vec<f64> {
         (0..len).map(|k| ((own * 37 + k * 11) as f64 * 0.7).sin()).collect()
     }

@@ -1,4 +1,4 @@
-//! Traction and film along a curve: contacts that differ in one quantity, each solved from its neighbours.
+//! Traction and film thickness along a curve: contacts that differ in one quantity, each solved from its neighbours.
 
 use super::online::{Online, ReducedError};
 use super::reduced_solution::ReducedSolution;
@@ -9,15 +9,14 @@ use crate::solver::physics::lubricant::Lubricant;
 /// One contact of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurvePoint {
-    /// What varies, here.
+    /// Value of the varied quantity.
     pub value: f64,
-    /// Its solution, with H_c and traction among its scalars; why there is none where the contact is refused or Newton
-    /// did not converge.
+    /// Solution, with H_c and traction; or the error if the contact is refused or Newton's method did not converge.
     pub solution: Result<ReducedSolution, ReducedError>,
 }
 
-/// Solves the contacts of a curve in the order of the values, as they are asked for: whoever draws one may stop in
-/// between. What the solver solved before has no influence.
+/// Solves the contacts of a curve in the order of the values, lazily, so that a caller may stop early. Previous
+/// solutions of the solver have no influence.
 pub fn traction_curve<'a>(
     online: &'a mut Online,
     point: &'a OperatingPoint,

@@ -1,16 +1,19 @@
-//! The automatic algorithm of section 3.1.3 (Fig. 3.2), and a greedy beside it.
+//! Automatic algorithm of section 3.1.3 (Fig. 3.2), and a greedy algorithm.
 //!
-//! Both begin with solutions pre-computed by (3.16). [`Plan::Adaptive`] then looks for bad approximations over the
-//! whole range by (3.17); at the first one it looks around for a worse one, adds its full solution, retrains, and
-//! searches its neighbourhood by (3.18) before it goes on globally. Enough good approximations in a row end a rung of
-//! the ladder of tolerances. [`Plan::WorstOfPool`] judges a whole pool per round and adds the worst. A failed reduced
-//! solve counts as worst.
+//! Both start with solutions computed at the points of (3.16).
 //!
-//! Each point judged by the correction costs three full Newton steps beside the 15 of a cold full solution. Few good
-//! approximations in a row leave the largest error to chance: scenes ask for 300. The greedy judges twice as many points
-//! for the same errors, and retrains less often.
+//! - [`Plan::Adaptive`] searches the whole range for bad approximations by (3.17). At the first one it looks for a
+//!   worse one nearby, adds its full solution, and retrains. Then it searches the neighbourhood by (3.18) before it
+//!   continues globally. Enough good approximations in a row end the current tolerance.
+//! - [`Plan::WorstOfPool`] judges a whole pool per round and adds the worst points.
 //!
-//! Points are drawn in order and judged in parallel, so that the result follows the seed whatever the number of
+//! A failed reduced solve counts as worst.
+//!
+//! Judging a point by the correction costs three full Newton steps, compared with 15 for a cold full solution. If few
+//! good approximations in a row suffice, the largest error is left to chance; the scenes require 300. The greedy
+//! algorithm judges twice as many points for the same errors, but retrains less often.
+//!
+//! Points are drawn in order and judged in parallel, so that the result depends on the seed but not on the number of
 //! threads.
 
 use super::build::WindowTraining;
@@ -26,12 +29,12 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::{Sampling, Window};
 use fastrand::Rng;
 
-/// Points judged at a time by the searches.
+/// Number of points that a search judges at a time.
 const BATCH: usize = 16;
 
-/// Searches window `k` to the end; returns its last model, or `None` once it needs more modes than it may have. A
-/// cubature takes longer than a round of the search: there it is the model with all rows that is judged, and rows are
-/// sampled once at the end.
+/// Searches local model `k` to the end and returns its last state; `None` if it needs more modes than permitted. A
+/// cubature takes longer than a round of the search. In this case the model with all rows is judged, and the
+/// equations are sampled once at the end.
 pub(super) fn search(
     work: &mut WindowTraining<'_>,
     state: &mut TrainingState,
@@ -66,7 +69,7 @@ fn judge(judges: &mut Judges<'_>, drawn: &[Drawn], own: &WindowState) -> Result<
     let points: Vec<OperatingPoint> = drawn.iter().map(|(_, point)| *point).collect();
     let mut errors = judges.judge(&points)?;
     for (error, point) in errors.iter_mut().zip(&points) {
-        // A solution that is known already cannot be added again.
+        // A point with a known solution cannot be added again.
         if own.solved.iter().any(|s| s.point == *point) {
             *error = 0.0;
         }
@@ -74,8 +77,8 @@ fn judge(judges: &mut Judges<'_>, drawn: &[Drawn], own: &WindowState) -> Result<
     Ok(errors)
 }
 
-/// The dissertation's search: goes on until a bad approximation is found, and returns the worst in its vicinity; or
-/// ends.
+/// Runs the dissertation's search until a bad approximation is found, and returns the worst in its vicinity; `None`
+/// if the search ends.
 fn find_bad(
     work: &WindowTraining<'_>,
     plan: &Plan,
@@ -113,7 +116,7 @@ fn find_bad(
             );
             let errors = judge(&mut judges, &around, own)?;
             next.judged += around.len() - 1;
-            // The first of equals, so that failures do not wander.
+            // The first of equal errors, so that failures do not drift.
             let worst = (0..around.len()).rev().max_by(|&a, &b| errors[a].total_cmp(&errors[b])).unwrap_or(0);
             next.bad.push(BadPoint {
                 point: around[worst].1,
@@ -143,7 +146,7 @@ fn find_bad(
     }
 }
 
-/// One round of the greedy: the worst of a fresh pool that are not near each other.
+/// Runs one round of the greedy algorithm: returns the worst points of a new pool that are not near each other.
 fn worst_of_pool(
     work: &WindowTraining<'_>,
     plan: &Plan,
@@ -170,7 +173,7 @@ fn worst_of_pool(
         if chosen.len() == (*per_round).min(limit - known) {
             break;
         }
-        // One that is nearer to a point of this round than to any known solution may be good by then.
+        // A point nearer to another one of this round than to all known solutions may be good after retraining.
         let nearest = window.nearest(&candidate).map_or(f64::INFINITY, |(_, d)| d);
         if chosen.iter().all(|c| separation(c, &candidate) >= nearest) {
             chosen.push(candidate);

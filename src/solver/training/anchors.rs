@@ -1,9 +1,9 @@
-//! Windows around anchors: one pool of full solutions over the whole range, and the cells in (ln M, ln L) that it falls
-//! into.
+//! Local models around anchors: one pool of full solutions over the whole range, divided into cells in (ln M, ln L),
+//! with the Moes parameters M and L.
 //!
-//! All windows share one grid and the pool, half of all solutions that the plan asks for, so that a full solution serves
-//! every window near it; a window with fewer than its number takes further ones of its own. A contact that the full
-//! solver gives no solution for is left out, and named.
+//! All local models share one grid and the pool, which is half of all solutions of the plan, so that a full solution
+//! serves every local model near it. A local model with too few solutions computes further ones. A contact for which
+//! the full solver does not converge is omitted and named in the log.
 
 use super::bases::{InCommon, THIN, missed_by_modes};
 use super::build::WindowTraining;
@@ -22,12 +22,12 @@ use faer::Mat;
 use fastrand::Rng;
 use std::sync::Arc;
 
-/// Rounds in which anchors move to the middle of their cells.
+/// Number of rounds in which anchors move to the middle of their cells.
 const ROUNDS: usize = 30;
-/// Solves the pool and begins with the windows that it is divided into.
+/// Computes the pool and creates the local models that divide it.
 ///
 /// # Errors
-/// When the range holds too few points, or the observer cancels.
+/// [`TrainingError`] if the range holds too few points, or if the observer cancels.
 pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
     let spec = state.spec.clone();
     let (Windows::Anchored { count, modes, grid, divided_by, .. }, Some(each)) =
@@ -50,7 +50,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
     }
     work.named = true;
     work.solve_pending(state, Part::Trial(0))?;
-    // The state keeps its own until the windows have begun: whoever stops here goes on from there.
+    // The state keeps its copy until the local models are created, so that a stopped training can be continued.
     let pool = Arc::new(state.trials[0].solved.clone());
     if pool.len() < FEWEST * count {
         return Err(work.too_few(pool.len()));
@@ -64,7 +64,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
         let inside: Vec<f64> = places.iter().filter(|moes| cell.holds(**moes, 0.0)).map(|moes| moes.m).collect();
         let ends = inside.iter().fold((f64::INFINITY, 0.0f64), |(low, high), m| (low.min(*m), high.max(*m)));
         let m = outward((ends.0.max(whole.m.0), ends.1.min(whole.m.1)));
-        // Beyond where it is blended, so that nothing is extrapolated.
+        // The cell includes the region of blending, so that blending does not extrapolate.
         let near = pool.iter().zip(&places).filter(|(_, moes)| cell.holds(**moes, 2.0 * BEYOND_CELLS));
         let own: Vec<Solved> = near.map(|(solved, _)| solved.clone()).collect();
         let window = WindowSpec { m, anchor: Some((anchor.m, anchor.l)), ..whole };
@@ -74,10 +74,11 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
     Ok(())
 }
 
-/// The bases of all windows around anchors, from the solutions that each has within its own cell as it begins.
+/// Computes the common bases of all local models around anchors, from the initial solutions in each one's own cell.
+/// `None` without anchors.
 ///
 /// # Errors
-/// When a decomposition fails, or the observer cancels.
+/// [`TrainingError`] if a decomposition fails, or if the observer cancels.
 pub(super) fn in_common(
     spec: &TrainingSpec,
     windows: &[WindowState],
@@ -113,8 +114,8 @@ pub(super) fn in_common(
     bases.map(Some)
 }
 
-/// Chooses so many anchors, by ascending M: the cell whose pressures so many modes miss most, for its films, is divided
-/// until there are enough.
+/// Returns at most `count` anchors by ascending M. Repeatedly divides the cell whose pressures have the largest error
+/// with this number of modes, relative to the film thickness.
 fn choose_anchors(pool: &[Solved], grid: &ContactGrid, (count, modes): (usize, usize)) -> Vec<Moes> {
     let places: Vec<Moes> = pool.iter().map(|solved| solved.point.moes()).collect();
     let mut anchors = middles(&places, 1);
@@ -130,7 +131,7 @@ fn choose_anchors(pool: &[Solved], grid: &ContactGrid, (count, modes): (usize, u
         let halves = middles(&inside, 2);
         anchors.splice(worst..=worst, halves);
         missed.splice(worst..=worst, [None, None]);
-        // Borders of others may have moved: they are told apart by their contacts.
+        // Borders of other cells may have moved; their contents show this.
         let after = self::cells(&places, &anchors);
         let mut before: Vec<&[usize]> = cells.iter().map(Vec::as_slice).collect();
         before.splice(worst..=worst, [[].as_slice(), [].as_slice()]);
@@ -144,7 +145,7 @@ fn choose_anchors(pool: &[Solved], grid: &ContactGrid, (count, modes): (usize, u
     anchors
 }
 
-/// Of each anchor the places nearest to it.
+/// Returns, for each anchor, the places nearest to it.
 fn cells(places: &[Moes], anchors: &[Moes]) -> Vec<Vec<usize>> {
     let mut cells = vec![Vec::new(); anchors.len()];
     for (k, moes) in places.iter().enumerate() {
@@ -158,16 +159,16 @@ fn nearest(anchors: &[Moes], moes: Moes) -> usize {
     (0..anchors.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
 }
 
-/// How much so many modes miss of the pressures of a cell, root mean square, over their films as far as these are thin:
-/// what is missing in P bends a film by as much, whatever its thickness. Nothing, of no more solutions than modes. What
-/// the modes miss of solutions that did not make them is no better judge: it divides the corners of the range only, until
-/// they hold no solutions.
+/// Returns the root mean square error of a cell's pressures with this number of modes, relative to the film thickness
+/// where that is small: an error of P deforms a film by the same amount, whatever its thickness. The error is zero if
+/// there are no more solutions than modes. Only solutions of the basis itself are used; the error of others would
+/// concentrate the division at the corners of the range.
 fn missing(pool: &[Solved], cell: &[usize], grid: &ContactGrid, modes: usize) -> f64 {
     let solutions: Vec<&Solved> = cell.iter().map(|k| &pool[*k]).collect();
     missed_by_modes(&solutions, grid).map_or(f64::INFINITY, |missed| missed.get(modes).copied().unwrap_or(0.0))
 }
 
-/// Places in the middle of so many cells of (ln M, ln L).
+/// Returns the centres of `count` cells of (ln M, ln L).
 fn middles(places: &[Moes], count: usize) -> Vec<Moes> {
     let mut anchors: Vec<Moes> = places.first().copied().into_iter().collect();
     while anchors.len() < count.min(places.len()) {
@@ -213,7 +214,7 @@ mod tests {
         let low =
             |modes: usize| choose_anchors(&pool, &grid, (6, modes)).iter().filter(|anchor| anchor.m < 12.0).count();
         assert!(low(4) >= 4, "{}", low(4));
-        // Modes as many as solutions miss nothing anywhere.
+        // As many modes as solutions leave no error anywhere.
         assert!(low(120) < low(4), "{}", low(120));
     }
 

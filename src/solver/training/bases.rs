@@ -1,4 +1,4 @@
-//! Bases of full solutions, and how many modes they need.
+//! Bases from full solutions, and the number of modes they need.
 
 use super::state::Solved;
 use crate::solver::discrete::grid::ContactGrid;
@@ -8,22 +8,22 @@ use crate::solver::reduced::{
 use faer::Mat;
 use std::sync::Arc;
 
-/// Solutions by which a cell is judged, at most.
+/// Maximum number of solutions by which a cell is judged.
 const MOST_JUDGED: usize = 300;
-/// The film above which pressures count more than what they do to it.
+/// Film thickness above which the error of the pressure itself counts, instead of that relative to the film thickness.
 pub(super) const THIN: f64 = 0.1;
 
-/// What all windows around anchors have in common.
+/// Bases common to all local models around anchors.
 #[derive(Clone)]
 pub(super) struct InCommon {
-    /// Their deformation basis: deformations are smooth, and one serves them all.
+    /// Common deformation basis; deformations are smooth, so that one basis is sufficient.
     pub deformation: Arc<PodBasis>,
-    /// What their pressure modes are made of, where they share a basis.
+    /// Basis of which their pressure modes are combinations, if they share one.
     pub pressure: Option<Arc<SharedBasis>>,
 }
 
-/// What no mode, one, two… miss of the pressures of solutions, root mean square, over their films as far as these are thin;
-/// `None` when the decomposition fails.
+/// Returns the root mean square error of the solutions' pressures with no mode, one, two, …, relative to the film
+/// thickness where that is small. `None` if the decomposition fails.
 pub(super) fn missed_by_modes(solutions: &[&Solved], grid: &ContactGrid) -> Option<Vec<f64>> {
     let every = solutions.len().div_ceil(MOST_JUDGED).max(1);
     let judged: Vec<&&Solved> = solutions.iter().step_by(every).collect();
@@ -40,13 +40,14 @@ pub(super) fn missed_by_modes(solutions: &[&Solved], grid: &ContactGrid) -> Opti
     Some(missed)
 }
 
-/// How many modes miss no more than so much of solutions; `None` when the decomposition fails.
+/// Returns the number of modes for which this error is at most `missing`; `None` if the decomposition fails.
 pub(super) fn modes_missing(solutions: &[Solved], grid: &ContactGrid, missing: f64) -> Option<usize> {
     let missed = missed_by_modes(&solutions.iter().collect::<Vec<_>>(), grid)?;
     Some(missed.iter().position(|missed| *missed <= missing).unwrap_or(missed.len()))
 }
 
-/// How many of the modes of solutions miss no more than so much of any one of them; `None` when the decomposition fails.
+/// Returns the number of modes for which the error of each solution is at most `missing`; `None` if the decomposition
+/// fails.
 pub(super) fn modes_missing_of_any(solutions: &[Solved], grid: &ContactGrid, missing: f64) -> Option<usize> {
     let (nodes, weights) = (grid.len(), grid.weights());
     let pressures = Mat::from_fn(nodes, solutions.len(), |i, j| solutions[j].pressure[i]);
@@ -63,9 +64,9 @@ pub(super) fn modes_missing_of_any(solutions: &[Solved], grid: &ContactGrid, mis
     most.max()
 }
 
-/// POD of pressures, of max(P, 0) where modes are to be `positive`, and of deformations, each up to a loss of
-/// information and a number of modes, as they are kept, unless they are `in_common` with other windows; and the snapshots in
-/// the pressure basis, of those solutions that are of the model's `own` lubricant.
+/// Computes the POD of pressures (of max(P, 0) if `positive`) and of deformations, each up to a loss of information
+/// and a number of modes, rounded to the stored precision. Bases in `in_common` are used instead, if given. Also
+/// returns the snapshots in the pressure basis, for the solutions with the model's `own` lubricant.
 pub(super) fn bases(
     ([pressure_loss, deformation_loss], most, keeping): ([f64; 2], usize, Keeping),
     positive: bool,

@@ -1,4 +1,4 @@
-//! From a specification to a model: snapshots, bases, row snapshots, sampled rows.
+//! Building a local model from a specification: full solutions, bases, row snapshots, sampled equations.
 
 use super::bases::{InCommon, bases, modes_missing, modes_missing_of_any};
 use super::cell::{Cell, anchor};
@@ -24,25 +24,25 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A window in training: everything it is made with.
+/// Local model in training, with all data to build it.
 pub(super) struct WindowTraining<'a> {
     pub spec: &'a TrainingSpec,
     pub window: WindowSpec,
     pub grid: ContactGrid,
-    /// Range of M from which it is trained.
+    /// Interval of M of its training points.
     pub reach: (f64, f64),
-    /// Pressure modes beyond which it is to be split instead of being assembled.
+    /// Number of pressure modes above which it is split instead of being built.
     pub most_modes: Option<usize>,
-    /// The cell of its anchor, where it has one.
+    /// Cell of its anchor, if it has one.
     pub cell: Option<Cell>,
-    /// The bases that it shares with the other windows, where it does.
+    /// Bases shared with other local models, if any.
     pub in_common: Option<InCommon>,
-    /// Whether contacts without a full solution are left out and named.
+    /// True if contacts without a full solution are omitted and named.
     pub named: bool,
     pub observer: &'a dyn TrainingObserver,
 }
 
-/// Full solutions between two checkpoints.
+/// Number of full solutions between two checkpoints.
 const SOLVED_AT_ONCE: usize = 16;
 
 impl<'a> WindowTraining<'a> {
@@ -58,7 +58,7 @@ impl<'a> WindowTraining<'a> {
         Ok(Self { spec, window, grid, reach, most_modes, cell: None, in_common: None, named: false, observer })
     }
 
-    /// The contacts that it is trained from.
+    /// Returns the set of its training points.
     pub fn within(&self) -> Within {
         Within { cell: self.cell.clone(), ..self.spec.within(self.reach).beyond(&self.window) }
     }
@@ -70,7 +70,8 @@ impl<'a> WindowTraining<'a> {
         ))
     }
 
-    /// Full solutions at all pending points of a part, in parallel, in order. What was finished stays finished.
+    /// Computes full solutions at all pending points of a part, in parallel, in order. Finished solutions are kept on
+    /// errors.
     pub fn solve_pending(&self, state: &mut TrainingState, part: Part) -> Result<(), TrainingError> {
         loop {
             let own = state.part(part);
@@ -135,7 +136,7 @@ impl<'a> WindowTraining<'a> {
         on_all_cores(|| points.par_iter().map_init(|| ContactSolver::on(&self.grid), solve).collect())
     }
 
-    /// Bases of given solutions, with all rows; `None` when they need more modes than the window may have.
+    /// Builds the bases from given solutions, with all rows; `None` if they need more modes than permitted.
     pub fn assemble(&self, solutions: &[Solved]) -> Result<Option<Window>, TrainingError> {
         let Self { spec, window, grid, most_modes, observer, .. } = self;
         if solutions.len() < FEWEST {
@@ -188,7 +189,7 @@ impl<'a> WindowTraining<'a> {
         Ok(Some(model))
     }
 
-    /// A window with its rows sampled as the specification says.
+    /// Samples the equations of a local model as specified.
     pub fn sample(&self, mut window: Window, rng: &mut Rng) -> Result<Window, TrainingError> {
         let Self { spec, observer, .. } = self;
         if spec.sampling == Sampling::All && spec.scheme != Scheme::Galerkin {
@@ -213,7 +214,7 @@ impl<'a> WindowTraining<'a> {
     }
 }
 
-/// A sentence about a contact that is left out.
+/// Returns a sentence about an omitted contact.
 fn without_solution(point: &OperatingPoint) -> String {
     let (moes, oil) = (point.moes(), (point.viscosity_pa_s * 1e3, point.alpha_per_pa * 1e9));
     format!(

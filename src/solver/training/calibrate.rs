@@ -1,8 +1,8 @@
-//! What a finished window finds out about its own errors.
+//! Measurement of the errors of a finished local model.
 //!
-//! At random points (3.17) of the window's own range the reduced solution is carried on by three full Newton steps,
-//! under shear-thinning and of many oils until they converge; what they change is its error. That is evidence for [`Calibration`], and
-//! nothing else: no basis sees these points.
+//! At random points (3.17) of its own range, the reduced solution is continued by three full Newton steps. For
+//! shear-thinning and lubricant-parameterised models the full solver iterates until convergence. The resulting change
+//! is the error. It serves only as evidence for the [`Calibration`]: no basis contains these points.
 
 use super::cell::Cell;
 use super::error::TrainingError;
@@ -16,11 +16,11 @@ use crate::solver::reduced::{
 use fastrand::Rng;
 use std::sync::Arc;
 
-/// Measures the errors of window `k`, `model` being the model of it alone. Points where the reduced model fails are no
-/// evidence: there nothing is shown.
+/// Measures the errors of local model `k`; `model` contains this one only. Points at which the reduced model fails
+/// are omitted, since no error is shown for them.
 ///
 /// # Errors
-/// When the observer cancels.
+/// [`TrainingError`] if the observer cancels.
 pub(super) fn measured(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,
@@ -40,7 +40,7 @@ pub(super) fn measured(
     let measured = in_parallel(observer, &stage, &contacts, solvers, |(online, corrector), _, (point, lubricant)| {
         online.forget();
         let solved = online.solve(point, *lubricant).ok()?;
-        // Of a film too hot for any lubricant nothing is promised.
+        // No error estimate for a film too hot for any lubricant.
         if solved.is_too_hot() {
             return None;
         }
@@ -50,10 +50,10 @@ pub(super) fn measured(
     Ok(measured.into_iter().flatten().collect())
 }
 
-/// Tells the windows of a model their errors by the evidence of each: windows around anchors learn together.
+/// Calibrates the local models with the evidence of each; those around anchors together.
 ///
 /// # Errors
-/// When the observer cancels.
+/// [`TrainingError`] if the observer cancels.
 pub(super) fn calibrate(
     windows: &mut [Window],
     evidence: Vec<Vec<Evidence>>,
@@ -69,7 +69,8 @@ pub(super) fn calibrate(
     Ok(())
 }
 
-/// The range of M in which a window serves: the first and the last one also serve what lies beyond.
+/// Returns the interval of M in which a local model is used. The first and the last one are also used beyond their
+/// ends.
 fn served((first, last): (bool, bool), window: &Window) -> (f64, f64) {
     let (low, high) = window.m;
     (if first { 0.0 } else { low }, if last { f64::INFINITY } else { high })

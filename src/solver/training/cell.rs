@@ -1,11 +1,11 @@
-//! Cells of (ln M, ln L) around the anchors of windows.
+//! Cells of (ln M, ln L), with the Moes parameters M and L, around the anchors of local models.
 
 use super::spec::WindowSpec;
 use crate::solver::physics::contact::Moes;
 use crate::solver::reduced::{ReducedModel, from_anchor};
 use std::sync::Arc;
 
-/// The contacts around one of several anchors.
+/// Contacts nearest to one of several anchors.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     anchors: Arc<[Moes]>,
@@ -13,25 +13,25 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// That of a window; none where windows have no anchors.
+    /// Returns the cell of anchor `own`; `None` if one of the anchors is missing.
     pub fn of(anchors: impl IntoIterator<Item = Option<Moes>>, own: usize) -> Option<Self> {
         let anchors: Option<Arc<[Moes]>> = anchors.into_iter().collect();
         anchors.filter(|anchors| own < anchors.len()).map(|anchors| Self { anchors, own })
     }
 
-    /// That of a window of a model.
+    /// Returns the cell of a local model.
     pub fn of_model(model: &ReducedModel, own: usize) -> Option<Self> {
         Self::of(model.windows.iter().map(|window| window.anchor), own)
     }
 
-    /// Whether a contact is nearer to the own anchor than to the others, or farther by no more than so much.
+    /// Returns true if a contact is nearest to the own anchor, or at most `beyond` farther than the nearest one.
     pub fn holds(&self, moes: Moes, beyond: f64) -> bool {
         let nearest = self.anchors.iter().map(|anchor| from_anchor(moes, *anchor)).fold(f64::INFINITY, f64::min);
         from_anchor(moes, self.anchors[self.own]) <= nearest + beyond
     }
 }
 
-/// M and L of a window's anchor.
+/// Returns M and L of a specification's anchor.
 pub(super) fn anchor(window: &WindowSpec) -> Option<Moes> {
     window.anchor.map(|(m, l)| Moes { m, l })
 }

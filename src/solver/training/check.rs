@@ -1,4 +1,4 @@
-//! What a specification of a training may say.
+//! Checks of a training specification.
 
 use super::spec::{Plan, TrainingSpec, WindowSpec, Windows};
 use crate::solver::limits::{Refused, count, interval, number, plain};
@@ -7,30 +7,30 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, LARGEST_HEATED_SRR, ShearLaw, ViscosityLaw};
 use crate::solver::reduced::{LEAST_EVIDENCE, LEAST_OF_WINDOW, Sampling, Scheme};
 
-/// Most points of a plan, or judged in one go.
+/// Maximum number of points of a plan, or of points judged at once.
 const MOST_POINTS: usize = 100_000;
-/// Most full solutions of a window.
+/// Maximum number of full solutions of a local model.
 const MOST_SNAPSHOTS: usize = 5000;
 
-/// Most windows around anchors.
+/// Maximum number of local models around anchors.
 const MOST_ANCHORS: usize = 256;
-/// Of films, that the modes of a window may miss, at most.
+/// Largest permitted error of the modes, relative to the film thickness.
 const MOST_MISSING: f64 = 0.1;
 
-/// Fewest rows per mode of residual minimisation.
+/// Minimum number of rows per mode of residual minimisation.
 const FEWEST_MINIMISED: f64 = 1.1;
 
 impl TrainingSpec {
-    /// Refuses what no training can be made of, before anything is solved.
+    /// Checks the specification before anything is solved.
     ///
     /// # Errors
-    /// Naming the field.
+    /// [`Refused`] with the name of the field if no training is possible.
     pub fn check(&self) -> Result<(), Refused> {
         check(self)
     }
 }
 
-/// Refuses what no training can be made of, naming the field.
+/// Checks a specification; a refusal names the field.
 pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
     plain("title", &spec.title)?;
     spec.range.check().map_err(|refused| refused.within("range"))?;
@@ -41,7 +41,7 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
     number("rows_per_mode", spec.rows_per_mode, 1.0, 20.0)?;
     scheme(spec.scheme, spec.sampling, spec.rows_per_mode)?;
     number("penalty", spec.penalty, 1e2, 1e9)?;
-    // Windows around anchors learn together.
+    // Local models around anchors are calibrated together.
     let least = match spec.windows {
         Windows::Anchored { count, .. } => LEAST_OF_WINDOW.max(LEAST_EVIDENCE.div_ceil(count.max(1))),
         Windows::Given(_) | Windows::Automatic { .. } => LEAST_EVIDENCE,
@@ -58,7 +58,8 @@ pub(super) fn check(spec: &TrainingSpec) -> Result<(), Refused> {
     plan(spec).map_err(|refused| refused.within("plan"))
 }
 
-/// Residual minimisation has no use for weights that make tested rows right; GNAT's bases are those of sampled rows.
+/// Checks that scheme and sampling match. Cubature weights belong to rows tested by V, not to residual minimisation;
+/// the bases of GNAT are those of sampled equations.
 pub(super) fn scheme(scheme: Scheme, sampling: Sampling, rows_per_mode: f64) -> Result<(), Refused> {
     match (scheme, sampling) {
         (Scheme::LeastSquares { .. } | Scheme::Gnat { .. }, Sampling::Cubature) => Err(Refused::new(
@@ -106,7 +107,7 @@ fn plan(spec: &TrainingSpec) -> Result<(), Refused> {
     }
 }
 
-/// What all plans share that search for bad approximations.
+/// Checks the fields common to all plans that search for bad approximations.
 fn search(start: usize, tolerances: &[f64], limit: usize) -> Result<(), Refused> {
     count("start", start, 4, MOST_SNAPSHOTS)?;
     count("limit", limit, start, MOST_SNAPSHOTS)?;
@@ -120,7 +121,7 @@ fn search(start: usize, tolerances: &[f64], limit: usize) -> Result<(), Refused>
     }
 }
 
-/// Which spaces go with which lubricants: what the reduced operators support.
+/// Checks that the parameter space and the lubricant match, as the reduced operators support them.
 fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     let refuse = |field: &str, problem: &str| Err(Refused::new(field, problem));
     let (range, laws) = (&spec.range, &spec.lubricant);
@@ -183,13 +184,13 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     }
 }
 
-/// Refuses negative SRR, in which films are even, and too large ones.
+/// Refuses negative SRR, since film thickness is even in SRR, and SRR above `most`.
 fn sliding(spec: &TrainingSpec, most: f64) -> Result<(), Refused> {
     let srr = spec.range.interval(Quantity::SlideToRollRatio, spec.contact()).unwrap_or_default();
     interval("range.axes.SlideToRollRatio", srr, 0.0, most)
 }
 
-/// A fixed α must be the one that the viscosity law determines.
+/// Refuses a fixed α that differs from that of the viscosity law.
 fn own_coefficient(spec: &TrainingSpec) -> Result<(), Refused> {
     match spec.range.fixed(Quantity::Alpha).zip(spec.lubricant.own_coefficient()) {
         Some((alpha, own)) if (alpha / own - 1.0).abs() > 1e-3 => Err(Refused::new(
@@ -200,7 +201,8 @@ fn own_coefficient(spec: &TrainingSpec) -> Result<(), Refused> {
     }
 }
 
-/// A space of thermal contacts gives SRR, R and E′, by which films warm at equal M and L.
+/// Checks the parameter space of a thermal training. It must contain SRR, R and E′, on which temperatures depend at
+/// equal M and L.
 fn thermal(spec: &TrainingSpec) -> Result<(), Refused> {
     let range = &spec.range;
     for quantity in [Quantity::SlideToRollRatio, Quantity::Radius, Quantity::Modulus] {

@@ -1,5 +1,5 @@
-//! Reduced models in time that are led from one time to the next: what they give is what a march gives, they go back to
-//! where they were, and tell what they were not trained for.
+//! Tests of transient reduced models with inputs given step by step: they reproduce marches, return to stored states,
+//! and report inputs outside the trained range.
 
 use super::small::Made;
 use super::trajectories_tests::{full, grid, reduced, trained, transient, under};
@@ -139,7 +139,7 @@ fn a_way_that_cannot_be_gone_leaves_it_where_it_was() {
         let refused = led.advance(span, at(load)).map(|_| ()).unwrap_err().to_string();
         assert!(!refused.is_empty() && (*led.moment(), led.fields()) == before, "{span}, {load}: {refused}");
     }
-    // It goes on as if nothing had been asked.
+    // It continues as if nothing had been requested.
     let mut other = begun(&model);
     other.advance(0.02, at(1.05)).unwrap();
     assert_eq!(led.advance(0.01, at(1.0)).unwrap(), other.advance(0.01, at(1.0)).unwrap());
@@ -147,7 +147,7 @@ fn a_way_that_cannot_be_gone_leaves_it_where_it_was() {
 
 #[test]
 fn the_approach_is_the_same_in_every_frame() {
-    // With the kernel in lengths of the reference contact, whatever those of the frame.
+    // With the kernel in lengths of the reference contact, for every frame.
     let approach = |led: &CoupledMarch| {
         let at = led.conditions();
         -led.separation() - at.scales.film * at.problem.load / std::f64::consts::PI * at.scales.half_width.ln()
@@ -200,7 +200,7 @@ fn what_leaves_the_training_is_told_by_quantity_and_time() {
         Transient { point: crate::solver::physics::contact::OperatingPoint { load: 2.5e5, ..other.point }, ..other };
     let other = march(&mut ReducedMarch::new(&model, &other).unwrap(), &other, &()).unwrap();
     assert!(domain.left_by(&other)[0].to_string().starts_with("M = "), "{:?}", domain.left_by(&other));
-    // Of a single course any other is strange, however slow and near.
+    // Any other time history is outside the range of a single training, however slow and near.
     let single = self::model(Cavitation::Penalty, Frame::Fixed);
     let own = Transient { duration: 0.6, ..transient(Frame::Fixed, SINE) };
     let other = Signal::Harmonic { amplitude: 0.05, period: 0.5 };

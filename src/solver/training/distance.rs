@@ -1,22 +1,22 @@
-//! How different two solutions are, told from their parameters alone (3.1.1).
+//! Distance of two solutions as a function of their parameters alone (3.1.1).
 //!
-//! s = ωᵀ g_s, (3.3), with candidate functions that vanish for equal contacts, (3.4), (3.5). The weights maximise the
-//! correlation (3.8) with the distances (3.6) of known solutions under ω ≥ 0, (3.9). With a = ⟨D₂, G_k⟩ and Q = ⟨G_j,
-//! G_k⟩ that is the non-negative least-squares problem min ½ωᵀQω − aᵀω, since the correlation does not feel the length
-//! of ω.
+//! s = ωᵀ g_s, (3.3), with weights ω and candidate functions g_s that vanish for equal contacts, (3.4), (3.5). The
+//! weights maximise the correlation (3.8) with the distances (3.6) of known solutions under ω ≥ 0, (3.9). With a =
+//! ⟨D₂, G_k⟩ and Q = ⟨G_j, G_k⟩ this is the non-negative least-squares problem min ½ωᵀQω − aᵀω, since the correlation
+//! does not depend on the length of ω.
 //!
-//! Distances (3.6) are not squared: |ΔM|/√(M₁² + M₂²), the root of (3.20)'s first term, fits them better than its square
-//! (`scenes/reduced/distance_measure_*.ron`).
+//! The distances (3.6) are not squared: |ΔM|/√(M₁² + M₂²), the root of the first term of (3.20), fits them better
+//! than its square (`scenes/reduced/distance_measure_*.ron`).
 
 use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
-/// A candidate function g_s,k of two contacts.
+/// Candidate function g_s,k of two contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
-    /// What it is, for people.
+    /// Formula, for display.
     pub name: &'static str,
-    /// Its value: zero for equal contacts, never negative.
+    /// Value: zero for equal contacts, never negative.
     pub value: fn(&OperatingPoint, &OperatingPoint) -> f64,
 }
 
@@ -36,7 +36,7 @@ pub const DISSERTATION: [Candidate; 2] = [
     Candidate { name: "(ΔL)²", value: |a, b| (a.moes().l - b.moes().l).powi(2) },
 ];
 
-/// Further functions: logarithms of M and L, the roots of (3.20)'s, and the raw parameters.
+/// Further functions: logarithms of M and L, the roots of those of (3.20), and the parameters themselves.
 pub const FURTHER: [Candidate; 8] = [
     Candidate { name: "(Δ ln M)²", value: |a, b| logarithms(a.moes().m, b.moes().m) },
     Candidate { name: "(Δ ln L)²", value: |a, b| logarithms(a.moes().l, b.moes().l) },
@@ -51,14 +51,15 @@ pub const FURTHER: [Candidate; 8] = [
 /// Weights of a distance measure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
-    /// ω, one per candidate, scaled so that s fits the distances themselves.
+    /// ω, one per candidate, scaled such that s fits the distances themselves.
     pub weights: Vec<f64>,
-    /// δ of (3.8): one is perfect.
+    /// Correlation δ of (3.8); 1 is perfect.
     pub correlation: f64,
 }
 
-/// Weights ω ≥ 0 that maximise the correlation (3.8) between s and the distances of solutions `z`, one per point.
-/// `None` when there are fewer than two points, their numbers differ, or nothing varies.
+/// Fits weights ω ≥ 0 that maximise the correlation (3.8) between s and the distances of the solutions `z`, one per
+/// point. `None` if there are fewer than two points, if the numbers of points and solutions differ, or if nothing
+/// varies.
 pub fn fit(candidates: &[Candidate], points: &[OperatingPoint], z: &[Vec<f64>]) -> Option<Fit> {
     let products = Products::new(candidates, points, z)?;
     let weights = non_negative(&products.q, &products.a);
@@ -66,7 +67,7 @@ pub fn fit(candidates: &[Candidate], points: &[OperatingPoint], z: &[Vec<f64>]) 
     correlation.is_finite().then_some(Fit { weights, correlation })
 }
 
-/// δ of (3.8) for given weights, `None` as for [`fit`].
+/// Returns δ of (3.8) for given weights; `None` as for [`fit`].
 pub fn correlation(
     candidates: &[Candidate],
     weights: &[f64],
@@ -76,7 +77,7 @@ pub fn correlation(
     Some(Products::new(candidates, points, z)?.correlation(weights)).filter(|delta| delta.is_finite())
 }
 
-/// The inner products of (3.8) over all pairs of points: ⟨D₂, G_k⟩, ⟨G_j, G_k⟩ and ⟨D₂, D₂⟩.
+/// Inner products of (3.8) over all pairs of points: ⟨D₂, G_k⟩, ⟨G_j, G_k⟩ and ⟨D₂, D₂⟩.
 struct Products {
     a: Vec<f64>,
     q: Vec<Vec<f64>>,
@@ -117,7 +118,7 @@ impl Products {
     }
 }
 
-/// min ½ωᵀQω − aᵀω under ω ≥ 0 by coordinate descent.
+/// Solves min ½ωᵀQω − aᵀω under ω ≥ 0 by coordinate descent.
 fn non_negative(q: &[Vec<f64>], a: &[f64]) -> Vec<f64> {
     let n = a.len();
     let mut omega = vec![0.0f64; n];
@@ -126,7 +127,7 @@ fn non_negative(q: &[Vec<f64>], a: &[f64]) -> Vec<f64> {
         for k in (0..n).filter(|&k| q[k][k] > 0.0) {
             let rest: f64 = (0..n).filter(|&l| l != k).map(|l| q[k][l] * omega[l]).sum();
             let next = ((a[k] - rest) / q[k][k]).max(0.0);
-            // In units of what the candidate contributes, whatever its scale.
+            // Relative to the contribution of the candidate, independent of its scale.
             moved = moved.max((next - omega[k]).abs() * q[k][k] / a[k].max(f64::MIN_POSITIVE));
             omega[k] = next;
         }

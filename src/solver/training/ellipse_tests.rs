@@ -1,4 +1,5 @@
-//! Models of ellipses: near full solutions of every shape, whichever came before, and refused beyond.
+//! Tests of models of elliptical contacts: agreement with full solutions of every shape in any order, and refusal
+//! outside the range.
 
 use super::small::{self, ellipses, with_ends};
 use super::*;
@@ -16,7 +17,7 @@ fn trained(sampling: Sampling) -> (TrainingSpec, Arc<ReducedModel>) {
     (spec, model)
 }
 
-/// The largest relative error of H_c at fresh points.
+/// Returns the largest relative error of H_c at new points.
 fn worst(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> f64 {
     let mut online = Online::new(Arc::clone(model), ReducedOptions::default());
     let mut full = ContactSolver::on(&model.windows[0].grid);
@@ -56,7 +57,7 @@ fn what_was_solved_before_does_not_matter_and_shapes_beyond_are_refused() {
     let once: Vec<f64> = points.iter().map(|point| solve(point).unwrap().h_c).collect();
     let again: Vec<f64> = points.iter().rev().map(|point| solve(point).unwrap().h_c).collect();
     assert!(once.iter().eq(again.iter().rev()));
-    // A circle lies inside; its shape comes from the same interpolation.
+    // A circular contact lies inside; its shape comes from the same interpolation.
     let circle = OperatingPoint { radius_y_m: None, ..points[0] };
     assert_eq!(solve(&circle).unwrap().trust, Trust::Trained);
     for ratio in [0.2, 20.0] {
@@ -73,7 +74,7 @@ fn what_was_solved_before_does_not_matter_and_shapes_beyond_are_refused() {
     );
 }
 
-/// Deformations of any shape in the range are those of its own kernel.
+/// Deformations of any shape in the range agree with those of its own kernel.
 #[test]
 fn shapes_interpolate_the_deformation_of_every_ellipse() {
     let grid = super::small::POINT_GRID.build().unwrap();

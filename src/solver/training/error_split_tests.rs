@@ -1,5 +1,5 @@
-//! The parts of an error: they add up, the best approximation is the best, and the discretisation part is what much
-//! finer grids say.
+//! Tests of the parts of an error: they add up, no solution is better than the best approximation, and the
+//! discretisation part agrees with much finer grids.
 
 use crate::solver::discrete::grid::{PointGridSpec, ReferenceGrid};
 use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
@@ -50,7 +50,7 @@ fn the_parts_add_up_to_what_verification_and_extrapolation_see() {
         }
         let limit = (4.0 * finer.h_c - full.h_c) / 3.0;
         assert!((split.h_c.whole() - (reduced.h_c - limit) / full.h_c).abs() < 1e-8);
-        // No solution in the basis is nearer to the pressure than the best approximation.
+        // No solution in the basis is closer to the pressure than the best approximation.
         let pressure = split.pressure;
         assert!(pressure.basis <= pressure.reduction * (1.0 + 1e-6), "{pressure:?}");
         assert!(pressure.basis > 1e-9 && pressure.sampling < pressure.reduction + pressure.basis, "{pressure:?}");

@@ -1,4 +1,4 @@
-//! Reduced models of contacts with heat.
+//! Tests of reduced models of thermal contacts.
 
 use super::small::{
     heated, heated_balls, heated_bounded, heated_ellipses, heated_ellipses_bounded, heated_oils, heated_oils_bounded,
@@ -19,7 +19,8 @@ fn online(model: &Arc<ReducedModel>) -> Online {
     Online::new(Arc::clone(model), ReducedOptions::default())
 }
 
-/// Errors of H_c, H_min, traction and the rise at mid-film against the full solution on the model's grid.
+/// Returns the errors of H_c, H_min, traction and mid-film temperature rise with respect to the full solution on the
+/// model's grid.
 fn errors(online: &Online, solved: &ReducedSolution, full: &Solution) -> [f64; 4] {
     let own = online.reconstruct(solved).unwrap();
     let [rise, true_rise] = [&own, full].map(|solution| solution.heat.as_ref().unwrap().central);
@@ -32,7 +33,7 @@ fn errors(online: &Online, solved: &ReducedSolution, full: &Solution) -> [f64; 4
     ]
 }
 
-/// Asserts that errors stay below bars, and within three times their bounds.
+/// Asserts that errors are below `bars`, and below three times their bounds.
 fn assert_near_and_bounded(solved: &ReducedSolution, found: [f64; 4], bars: [f64; 4]) {
     for (error, bar) in found.into_iter().zip(bars) {
         assert!(error < bar, "{:?}: {found:?}", solved.point);
@@ -46,7 +47,7 @@ fn assert_near_and_bounded(solved: &ReducedSolution, found: [f64; 4], bars: [f64
 
 #[test]
 fn reduced_contacts_with_heat_are_the_full_ones() {
-    // What is wanted of a model with heat at worst.
+    // Largest permitted errors of a thermal model.
     let bars = [5e-3, 1e-2, 1e-2, 3e-2];
     for spec in [heated(Sampling::All, 30), heated_bounded()] {
         let sampling = spec.sampling;
@@ -62,7 +63,7 @@ fn reduced_contacts_with_heat_are_the_full_ones() {
             for (error, bar) in found.into_iter().zip(bars) {
                 assert!(error < bar, "{sampling:?} at {point:?}: {found:?}");
             }
-            // What is known without fields is what the fields say.
+            // Scalars computed without fields agree with those of the fields.
             let fields = online.reconstruct(&solved).unwrap();
             let (warmth, heat) = (solved.heat.as_ref().unwrap(), fields.heat.as_ref().unwrap());
             assert!((warmth.central.mid_film_k - heat.central.mid_film_k).abs() < 1e-6);
@@ -103,7 +104,7 @@ fn reduced_balls_with_heat_are_the_full_ones() {
         for (error, bar) in found.into_iter().zip([1e-2, 2e-2, 2e-2, 3e-2]) {
             assert!(error < bar, "{point:?}: {found:?}");
         }
-        // Temperatures are drawn at every node of the plane, between the lines that were marched.
+        // Temperatures are interpolated to every node of the plane, between the marched lines.
         let fields = online.reconstruct(&solved).unwrap();
         let (own, heat) = (fields.heat.as_ref().unwrap(), truth.heat.as_ref().unwrap());
         assert!(own.y == heat.y && own.rise_k.len() == heat.rise_k.len());
@@ -137,7 +138,7 @@ fn reduced_ellipses_of_many_oils_with_heat_are_the_full_ones_and_bounded() {
         let truth = full.solve(&point, lubricant, Start::Cold, &()).unwrap();
         let found = errors(&online, &solved, &truth);
         assert_near_and_bounded(&solved, found, [1e-2, 2e-2, 2e-2, 3e-2]);
-        // Fields lie at Y = y/b, temperatures where they are in units of a, and heat flows aside as far as it is.
+        // Fields are stored at Y = y/b; temperatures and side flow use lengths in units of a.
         let fields = online.reconstruct(&solved).unwrap();
         let (own, heat) = (fields.heat.as_ref().unwrap(), truth.heat.as_ref().unwrap());
         assert!(own.y == heat.y && own.balance.residual().abs() < 3e-2, "{:?}", own.balance);
@@ -152,7 +153,7 @@ fn reduced_ellipses_of_many_oils_with_heat_are_the_full_ones_and_bounded() {
     assert!(matches!(&told, Trust::Outside(why) if why.to_string().contains("ratio of radii")), "{told:?}");
 }
 
-/// The contact of equal M, L, α and η₀ with so many times R and E′.
+/// Returns the contact of equal M, L, α and η₀ with R and E′ multiplied by factors.
 fn equal_but(point: &OperatingPoint, radius: f64, modulus: f64) -> OperatingPoint {
     let request = MoesRequest {
         radius_m: Some(point.radius_m * radius),
@@ -175,11 +176,11 @@ fn contacts_of_equal_radius_over_cubed_modulus_are_alike_unless_their_stress_is_
         let other = equal_but(&point, stiffer.powi(3), stiffer);
         assert!((other.speed_m_per_s / point.speed_m_per_s - 1.0).abs() < 1e-9, "the speed says it");
         let [a, b] = [point, other].map(|at| solver.solve(&at, laws, Start::Cold, &()).unwrap());
-        // Turns end with steps of a millionth.
+        // The coupled iteration ends with steps of a millionth.
         assert!((a.scalars.h_c / b.scalars.h_c - 1.0).abs() < 3e-6, "{} {}", a.scalars.h_c, b.scalars.h_c);
         let [warm, as_warm] = [&a, &b].map(|solution| solution.heat.as_ref().unwrap().central);
         assert!(warm.mid_film_k > 0.1 && warm.difference(&as_warm) < 1e-4, "{warm:?} {as_warm:?}");
-        // Shear rates and with them stresses go with a/R = 4 p_H/E′.
+        // Shear rates, and with them stresses, are proportional to a/R = 4 p_H/E′.
         let ratio = a.traction_coefficient() / b.traction_coefficient();
         assert!((ratio / stiffer - 1.0).abs() < 1e-4, "{ratio}");
     }
@@ -190,7 +191,7 @@ fn many_oils_with_heat_are_the_full_ones_and_bounded() {
     let spec = heated_oils_bounded();
     let model = trained(&spec);
     assert!(model.windows.len() == 2 && model.windows.iter().all(|window| window.anchor.is_some()));
-    // Bases know other constants; what solves start from are contacts of its own.
+    // Bases contain solutions with other constants; starting values are contacts with the model's own.
     for window in &model.windows {
         assert!(window.snapshots.len() < 75 && window.pressure.count() == window.snapshots[0].coefficients.len());
         assert!(window.snapshots.iter().all(|snapshot| spec.lubricant_of(&snapshot.point) == spec.lubricant));
@@ -199,7 +200,7 @@ fn many_oils_with_heat_are_the_full_ones_and_bounded() {
     let mut full = ContactSolver::on(&model.windows[0].grid);
     let mut random = fastrand::Rng::with_seed(5);
     for (k, point) in random_points(&spec.range, ContactKind::Line, 12, 12).into_iter().enumerate() {
-        // Its own constants, and others of its range.
+        // The model's own constants, and others of its range.
         let lubricant =
             if k % 3 == 0 { spec.lubricant } else { spec.range.with_random_constants(spec.lubricant, &mut random) };
         online.forget();
@@ -352,7 +353,7 @@ fn what_a_model_does_not_know_is_told() {
     assert_eq!(outside(larger, laws), "R = 20 mm, but the model was trained at 10 mm only");
     let stiffer = outside(equal_but(&point, 1.0, 1.1), laws);
     assert!(stiffer.starts_with("E' = 254") && stiffer.ends_with("trained at 231 GPa only"), "{stiffer}");
-    // A model that knows no heat refuses.
+    // An isothermal model refuses.
     let cold = trained(&line(Sampling::QDeim, 50));
     let refused = online(&cold).solve(&point, laws).unwrap_err();
     assert!(refused == ReducedError::Heat && refused.to_string().contains("knows no heat"));
@@ -376,7 +377,7 @@ fn trainings_with_heat_are_of_ranges_with_heat() {
     let cold = BodyHeat { conductivity: 0.0, ..BodyHeat::default() };
     let heat = Heat { bodies: [cold; 2], ..Heat::default() };
     assert!(refused(good.clone().heated(Some(heat))).contains("conductivity"));
-    // A model declares the range.
+    // A model declares the trained range.
     assert_eq!(good.domain().space, good.range);
 }
 

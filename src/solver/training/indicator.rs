@@ -1,11 +1,13 @@
-//! How good a reduced solution is, judged without the full one (3.1.2).
+//! Error indicators of a reduced solution without the full one (3.1.2).
 //!
-//! The residual ranks pressures, not films. The change under Newton steps of the full system ranks films: Spearman's
-//! correlation with the true error of H_c is 0.97, that of the residual at most 0.76. The steps are undamped: damping by
-//! the residual hides the error, since the penalty makes it jump beside a solution though the step is good. Three of
-//! them find H_min well enough for a calibrated bound. Under shear-thinning, and over the wide windows of many oils, no
-//! number of steps is enough everywhere: there the full system is solved until it converges. It is large-scale work,
-//! though no cold full solution.
+//! The residual ranks pressures, not film thicknesses. The change by Newton steps of the full system ranks film
+//! thicknesses: Spearman's correlation with the true error of the central film thickness H_c is 0.97, compared with at
+//! most 0.76 for the residual. The steps are undamped. Damping by the residual would hide the error, since the penalty
+//! makes the residual jump even for a good step. Three steps give the minimum film thickness H_min accurately enough
+//! for a calibrated bound.
+//!
+//! For shear-thinning and lubricant-parameterised models no fixed number of steps is sufficient everywhere. There the
+//! full system is solved until convergence. This is large-scale work, but needs no cold full solution.
 
 use super::error::TrainingError;
 use super::observer::TrainingObserver;
@@ -19,10 +21,10 @@ use crate::solver::reduced::{ErrorMeasures, Measured, Norm, Online, ReducedOptio
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Full Newton steps of [`Indicator::Correction`].
+/// Number of full Newton steps of [`Indicator::Correction`].
 const CORRECTIONS: usize = 3;
 
-/// Reduced solvers of a model under training, one per thread.
+/// Reduced solvers of a model in training, one per thread.
 pub(super) struct Judges<'a> {
     indicator: Indicator,
     lubricant: Lubricant,
@@ -46,8 +48,8 @@ impl<'a> Judges<'a> {
         Self { indicator, lubricant: spec.lubricant, measures, solvers, observer }
     }
 
-    /// The indicator at each point, infinite where the reduced model fails. Every solve starts afresh, so that neither
-    /// order nor threads matter.
+    /// Returns the indicator at each point; infinite if the reduced model fails. Every solve starts without previous
+    /// solutions, so that the result depends neither on the order nor on the threads.
     pub fn judge(&mut self, points: &[OperatingPoint]) -> Result<Vec<f64>, TrainingError> {
         let Self { indicator, lubricant, measures, solvers, observer } = self;
         let measures = measures.as_ref();
@@ -68,7 +70,7 @@ impl<'a> Judges<'a> {
     }
 }
 
-/// The indicator of one reduced solve, `None` when it fails.
+/// Returns the indicator of one reduced solve; `None` if it fails.
 fn error_at(
     indicator: Indicator,
     measures: Option<&ErrorMeasures>,
@@ -92,23 +94,23 @@ fn error_at(
     error.is_finite().then_some(error)
 }
 
-/// Measures errors of a window's reduced solutions by full Newton steps; keeps its work space.
+/// Measures errors of a local model's reduced solutions by full Newton steps; keeps its work space.
 pub(super) struct Corrector {
     grid: ContactGrid,
-    /// Made when first needed.
+    /// Full solver, created at first use.
     full: Option<ContactSolver>,
 }
 
 impl Corrector {
-    /// For the reduced solutions of a window.
+    /// Creates the corrector for a local model.
     pub fn of(window: &Window) -> Self {
         Self { grid: window.grid.clone(), full: None }
     }
 
-    /// Relative errors of H_c, H_min, the state (e_z of (3.10)) and, where the model has a rule for it and it has a
-    /// meaning, the traction, as a few full Newton steps from a reduced solution find them: nearly exact where the
-    /// model is fair, and large where it is not. Of a model that knows sliding, heat or many oils they are those against the
-    /// full solution; none where that fails.
+    /// Returns the relative errors of H_c, H_min, the state (e_z of (3.10)) and, if the model has a quadrature for it
+    /// and it is physical, the traction. They are estimated by a few full Newton steps from the reduced solution:
+    /// nearly exact for a good model, and large for a bad one. For models with sliding, heat or varying lubricants
+    /// they are measured against the full solution; `None` if that fails.
     pub fn errors(&mut self, online: &Online, solved: &ReducedSolution) -> Option<Measured> {
         let before = online.reconstruct(solved).ok()?;
         let sliding = online.model.slides();
@@ -120,7 +122,7 @@ impl Corrector {
         let (from, to) = (&before.scalars, &after.scalars);
         let (mut difference, mut size) = ((from.h_0 - to.h_0).powi(2), to.h_0.powi(2));
         for (node, was) in before.deformation().into_iter().enumerate() {
-            // Both share the gap of the undeformed bodies.
+            // Both have the same gap of the undeformed bodies.
             let is = was + (after.film[node] - before.film[node]) - (to.h_0 - from.h_0);
             difference += (before.pressure[node] - after.pressure[node]).powi(2) + (was - is).powi(2);
             size += after.pressure[node].powi(2) + is * is;
@@ -139,7 +141,7 @@ impl Corrector {
     }
 }
 
-/// The full solution, from a reduced one; none where it does not converge.
+/// Computes the full solution from a reduced one; `None` if it does not converge.
 fn full_solution(full: &mut ContactSolver, before: &Solution) -> Option<Solution> {
     let Problem { point, lubricant, .. } = &before.problem;
     full.solve(point, *lubricant, Start::From(before), &()).ok().filter(Solution::converged)

@@ -1,15 +1,15 @@
-//! The grid of automatic windows, chosen by trial from the range alone.
+//! Selection of the grid for automatic local models, by trial solutions.
 //!
-//! All windows share one grid: their edges then show no change of discretisation, and a window that is split hands
-//! every full solution on. Both trials use the explorer's spacing and outlet.
+//! All local models share one grid. So the discretisation does not change at their edges, and the full solutions of a
+//! split local model can be used by both parts. All trials use the explorer's spacing and outlet.
 //!
-//! **Inlet**: the shortest of a ladder whose central films at the first 12 farthest points (3.16) agree with those of a
-//! very long inlet to 4e-3. The lightest load with the largest L decides it.
+//! **Inlet**: the shortest of a list for which the central film thicknesses at the first 12 farthest points (3.16)
+//! agree with those of a very long inlet to 4e-3. The lightest load with the largest L determines it.
 //!
-//! **Registration**: with and without, the first half of 48 trial solutions makes a basis and the second half is
-//! projected on it; the smaller of the largest errors decides. The trial solutions on the chosen grid are the first of
-//! the training. Registration pays for wide windows and small numbers of modes; for narrow windows and small losses it
-//! hardly matters.
+//! **Registration**: with and without, the first half of 48 trial solutions forms a basis, and the second half is
+//! projected onto it. The choice with the smaller largest error is used. The trial solutions on the selected grid are
+//! the first ones of the training. Registration is useful for wide intervals of M and few modes; for narrow intervals
+//! and small losses of information it hardly matters.
 
 use super::build::WindowTraining;
 use super::error::TrainingError;
@@ -26,19 +26,21 @@ use fastrand::Rng;
 
 /// Inlets that are tried, shortest first.
 const INLETS: [f64; 7] = [-5.0, -7.0, -10.0, -14.0, -20.0, -28.0, -40.0];
-/// The inlet they are compared with: H_c converges with the third power of its length.
+/// Inlet of the comparison: the central film thickness H_c converges with the third power of its length.
 const LONG_INLET: f64 = -60.0;
-/// Points at which inlets are compared; farthest points begin with the smallest M, where the inlet matters most.
+/// Number of points at which inlets are compared. Farthest points start with the smallest M, for which the inlet
+/// matters most.
 const INLET_POINTS: usize = 12;
-/// Change of H_c that an inlet may cause: about what the explorer's spacing leaves at M 165 to 500.
+/// Largest accepted change of H_c by the inlet: about the discretisation error of the explorer's spacing at M 165 to
+/// 500.
 const INLET_TOLERANCE: f64 = 4e-3;
-/// Solutions that decide on registration.
+/// Number of solutions for the choice of registration.
 const TRIAL_POINTS: usize = 48;
 
-/// Chooses the grid and begins with one window over the whole range.
+/// Selects the grid and creates one local model over the whole range.
 ///
 /// # Errors
-/// When the range holds too few points, a full solve fails, or the observer cancels.
+/// [`TrainingError`] if the range holds too few points, a full solve fails, or the observer cancels.
 pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
     let (spec, whole) = (state.spec.clone(), outward(state.spec.domain().m()));
     let points = Within::all(&spec.range, ContactKind::Line, spec.heats()).farthest_points(
@@ -62,7 +64,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
     for candidate in INLETS {
         let films = match tried(candidate, true, few) {
             Ok(films) => films,
-            // An inlet that is too short to be solved on is too short.
+            // An inlet on which the solver fails is too short.
             Err(TrainingError::NotConverged { .. }) => continue,
             Err(error) => return Err(error),
         };
@@ -89,7 +91,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
         without.0
     ));
     let inherited = match spec.plan {
-        // A manual plan is exactly its points.
+        // A tensor grid consists of its own points only.
         Plan::Grid { .. } => Vec::new(),
         _ if registered => with.1,
         _ => without.1,
@@ -100,7 +102,7 @@ pub(super) fn choose(state: &mut TrainingState, observer: &dyn TrainingObserver)
     Ok(())
 }
 
-/// Solutions at points on a grid, of which the first may be there already.
+/// Returns the solutions at some points on a grid; the first ones may exist already.
 fn try_grid(
     state: &mut TrainingState,
     window: WindowSpec,
@@ -124,7 +126,7 @@ fn try_grid(
     Ok(state.trials[k].solved.clone())
 }
 
-/// Largest relative error of the second half's pressures in a basis of the first half.
+/// Returns the largest relative error of the second half's pressures in a basis of the first half.
 fn held_out(grid: GridSpec, solved: &[Solved], observer: &dyn TrainingObserver) -> Result<f64, TrainingError> {
     let solved = solved.to_vec();
     on_one_thread(observer, move || {
@@ -137,7 +139,7 @@ fn held_out(grid: GridSpec, solved: &[Solved], observer: &dyn TrainingObserver) 
     })?
 }
 
-/// ‖P − V Vᵀ W P‖/‖P‖ in the norm of the grid's weights.
+/// Returns ‖P − V Vᵀ W P‖/‖P‖ in the norm of the grid's weights.
 fn projection_error(basis: &PodBasis, grid: &ReferenceGrid, pressure: &[f64]) -> f64 {
     let size = |v: &[f64]| v.iter().zip(&grid.weights).map(|(v, w)| w * v * v).sum::<f64>().sqrt();
     let mut rest = pressure.to_vec();
@@ -147,10 +149,10 @@ fn projection_error(basis: &PodBasis, grid: &ReferenceGrid, pressure: &[f64]) ->
     size(&rest) / size(pressure)
 }
 
-/// An interval widened to four significant digits, for people.
+/// Widens an interval to four significant digits, for display.
 pub(super) fn outward((low, high): (f64, f64)) -> (f64, f64) {
     let digits = |v: f64| format!("{v:.3e}").parse().unwrap_or(v);
-    // Half of the last digit is taken off or added before rounding; an end that has few digits stays what it is.
+    // Half of the last digit is subtracted or added before rounding; an end with few digits is unchanged.
     let round = |v: f64, half: f64| {
         let shifted = v + half * 10f64.powf(v.log10().floor());
         if (digits(v) / v - 1.0).abs() < 1e-12 { v } else { digits(shifted) }

@@ -1,7 +1,8 @@
-//! Local bases of a model in time: the states along its trainings fall into clusters, and each has modes of its own.
+//! Local bases of a transient model: the states along its training trajectories are divided into clusters, each with
+//! its own modes.
 //!
-//! Modes of a cluster are made of the whole basis, so that a file holds little more than how. A cluster's basis learns the
-//! states around it too, as far as a march may go before another takes over.
+//! The modes of a cluster are combinations of the whole basis, so that a file stores only their coefficients. A
+//! cluster's basis includes the states around it, as far as a march may go before another basis is used.
 
 use super::trajectories::boundaries;
 use crate::solver::discrete::grid::dot;
@@ -12,27 +13,28 @@ use faer::Mat;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Local bases that a training is to make.
+/// Settings of the local bases of a training.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LocalBases {
-    /// How many.
+    /// Number of clusters.
     pub clusters: usize,
-    /// Pressure modes of each, at most.
+    /// Maximum number of pressure modes of each.
     pub modes: usize,
 }
 
-/// Most states that are told apart: of longer trainings every n-th one.
+/// Maximum number of clustered states; of longer trainings every n-th state is used.
 const MOST_STATES: usize = 3000;
-/// Most states that make a basis.
+/// Maximum number of states for one basis.
 const MOST_MEMBERS: usize = 300;
-/// Rounds in which centres move to the mean of their clusters.
+/// Number of rounds in which centres move to the mean of their clusters.
 const ROUNDS: usize = 30;
-/// How much farther than its nearest centre a state may lie and still be learned: twice what hysteresis asks for.
+/// Largest distance of a state from a centre, relative to its nearest centre, for which the basis includes it: twice
+/// the hysteresis of the online selection.
 const OVERLAP: f64 = 1.0 / (HYSTERESIS * HYSTERESIS);
 
-/// The local bases of a model that has its whole basis, with all rows; `test` makes the test space of a basis. `None` when
-/// a decomposition fails.
+/// Computes the local bases, with all rows, of a model that has its whole basis. `test` returns the test space of a
+/// basis. `None` if a decomposition fails.
 pub(super) fn local_bases(
     model: &TrajectoryModel,
     trajectories: &[Trajectory],
@@ -76,7 +78,7 @@ pub(super) fn local_bases(
     centres.iter().cloned().map(local).collect()
 }
 
-/// Centres of so many clusters, fewer where there are fewer places: begun at places that are far from each other.
+/// Returns the centres of at most `count` clusters. The initial centres are far from each other.
 fn centres(places: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
     let mut centres: Vec<Vec<f64>> = places.first().cloned().into_iter().collect();
     while centres.len() < count.min(places.len()) {
@@ -103,7 +105,7 @@ fn nearest(centres: &[Vec<f64>], place: &[f64]) -> usize {
     (0..centres.len()).min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
 }
 
-/// Squared distance.
+/// Returns the squared distance.
 fn square(a: &[f64], b: &[f64]) -> f64 {
     let difference: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
     dot(&difference, &difference)

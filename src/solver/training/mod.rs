@@ -1,7 +1,7 @@
-//! Making reduced models: sampling plans, snapshots in parallel, bases, row sampling.
+//! Training of reduced models: sampling plans, full solutions in parallel, bases, sampled equations.
 //!
-//! The same specification gives the same model: everything random comes from its seed, and parallel work is collected
-//! in order.
+//! The same specification gives the same model: all random numbers follow from its seed, and parallel work is
+//! collected in order.
 
 mod adaptive;
 mod anchors;

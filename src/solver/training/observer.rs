@@ -1,4 +1,4 @@
-//! Who watches a training.
+//! Observer of a training.
 
 use super::error::TrainingError;
 use super::state::{Solved, TrainingState};
@@ -6,13 +6,14 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::contact::OperatingPoint;
 use std::sync::atomic::AtomicBool;
 
-/// Watches a training.
+/// Observer of a training.
 pub trait TrainingObserver: Observer {
-    /// Shown the state whenever full solutions were finished: what a crash must not lose can be written here.
+    /// Called with the state whenever full solutions are finished, so that it can be saved.
     fn checkpoint(&self, _state: &TrainingState) {}
 
-    /// Full solutions that somebody else has computed, or is to compute: of each contact that is asked for, by its place
-    /// in the order, the solution, why there is none, or [`TrainingError::Awaited`]. None computes them here.
+    /// Returns full solutions that are computed elsewhere. `asked` lists the contacts with their places in the order.
+    /// For each it returns the solution, the error, or [`TrainingError::Awaited`]. `None` if the training is to
+    /// compute them itself.
     fn solved_elsewhere(&self, _asked: &[(usize, OperatingPoint)]) -> Option<Vec<Result<Solved, TrainingError>>> {
         None
     }

@@ -1,4 +1,5 @@
-//! Models of many oils: near full solutions of every oil, without a jump between windows, and told where they end.
+//! Tests of lubricant-parameterised models: agreement with full solutions for every lubricant, continuity between
+//! local models, and reported limits.
 
 use super::small::{self, heated_ellipses, oils, oils_of_points, with_ends};
 use super::*;
@@ -135,7 +136,7 @@ fn models_of_points_share_a_basis_leave_thin_films_out_and_tell_what_their_grid_
 
 #[test]
 fn where_boundaries_lie_far_apart_every_window_still_solves_what_it_serves() {
-    // Thick films rupture late: behind some contacts' boundaries others have a third of their outlet.
+    // Thick films cavitate late: the cavitated region of some contacts contains a third of the outlet of others.
     let ends = [
         (Quantity::M, (2.0, 9.0)),
         (Quantity::L, (0.5, 2.6)),
@@ -205,8 +206,8 @@ fn windows_have_no_more_modes_than_what_they_may_miss_asks_for() {
     windows_miss_no_more_than([0.0, 1e-2], most);
 }
 
-/// Of a training with limits of what modes may miss of all and of any solution; `of` makes one number of what they miss of
-/// each, squared.
+/// Tests a training with limits of the modes' error for all solutions together and for any single one. `of` combines
+/// the squared errors of the solutions.
 fn windows_miss_no_more_than([missing, missing_of_any]: [f64; 2], of: fn(&[f64]) -> f64) {
     let spec = oils(Sampling::QDeim, 60);
     let Windows::Anchored { count, modes, grid, .. } = spec.windows else { panic!() };
@@ -218,7 +219,7 @@ fn windows_miss_no_more_than([missing, missing_of_any]: [f64; 2], of: fn(&[f64])
     for (window, state) in model.windows.iter().zip(&state.windows) {
         let (basis, weights) = (window.pressure.basis(), window.grid.weights());
         let norm = |v: &dyn Fn(usize) -> f64| (0..weights.len()).map(|i| weights[i] * v(i).powi(2)).sum::<f64>();
-        // What the first of the modes leave of a pressure, over its film.
+        // Error of the first modes for a pressure, relative to its film thickness.
         let missed = |modes: usize| {
             let squared = |solved: &Solved| {
                 let shares = basis.coefficients(weights, |i| solved.pressure[i]);

@@ -1,15 +1,15 @@
-//! Work that nothing can interrupt (a decomposition, a kernel, a plan of many points), done so that a cancel need not
-//! wait for it; and work of many parts, done on all threads.
+//! Uninterruptible work (a decomposition, a kernel, a plan of many points) on a separate thread, so that a
+//! cancellation need not wait for it; and work of many parts on all threads.
 
 use super::error::TrainingError;
 use crate::host::pool;
 use crate::solver::observer::{Observer, Progress};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Does `work` on a separate thread while the observer is asked; see [`pool::on_one_thread`].
+/// Runs `work` on a separate thread and checks the observer meanwhile; see [`pool::on_one_thread`].
 ///
 /// # Errors
-/// When the observer cancels.
+/// [`TrainingError::Cancelled`] if the observer cancels.
 pub fn on_one_thread<T: Send + 'static>(
     observer: &dyn Observer,
     work: impl FnOnce() -> T + Send + 'static,
@@ -17,10 +17,11 @@ pub fn on_one_thread<T: Send + 'static>(
     pool::on_one_thread(|| !observer.cancelled(), work).ok_or(TrainingError::Cancelled)
 }
 
-/// Does `work` for every item, on all threads with a tool of `tool` each; what came of the items is in their order.
+/// Runs `work` for every item on all threads. Each thread creates its work space by `tool`. Returns the results in
+/// the order of the items.
 ///
 /// # Errors
-/// When the observer cancels.
+/// [`TrainingError::Cancelled`] if the observer cancels.
 pub(super) fn in_parallel<T: Sync, W, R: Send>(
     observer: &dyn Observer,
     stage: &str,

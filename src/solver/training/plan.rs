@@ -1,4 +1,4 @@
-//! Sampling plans: which operating points of a range are solved in full, and which are tested.
+//! Sampling plans: operating points of a range for full solutions and for tests.
 
 use super::cell::Cell;
 use super::spec::{TrainingSpec, WindowSpec};
@@ -9,55 +9,56 @@ use crate::solver::reduced::{BEYOND_CELLS, Window};
 use fastrand::Rng;
 use std::f64::consts::PI;
 
-/// Weight of (ln α ratio)² beside (3.20) when points of a range in (M, L, α) are spread: α changes H_c by a few per
-/// cent at equal M and L.
+/// Weight of (ln α ratio)² in addition to (3.20) for points of a range in (M, L, α): α changes the central film
+/// thickness H_c by a few per cent at equal M and L.
 const ALPHA_WEIGHT: f64 = 0.02;
-/// The same for boxes of SI quantities: more would take points from M and L, whose corners need them.
+/// The same for boxes of SI quantities: a larger weight would take points from the corners in M and L.
 const BOX_ALPHA_WEIGHT: f64 = 0.005;
 
-/// A random point near another one by (3.18), coordinates in the unit cube: μ = min(max(μ_ref + σN, 0), 1).
+/// Returns a random point near another one by (3.18) in the unit cube: μ = min(max(μ_ref + σN, 0), 1).
 pub(super) fn local_point(mut unit: Unit, sigma: f64, count: usize, rng: &mut Rng) -> Unit {
     let mut normal = || (-2.0 * (1.0 - rng.f64()).ln()).sqrt() * (2.0 * PI * rng.f64()).cos();
     unit.iter_mut().take(count).for_each(|v| *v = (*v + sigma * normal()).clamp(0.0, 1.0));
     unit
 }
 
-/// So many coordinates of (3.17) in the unit cube, in the middle of the others.
+/// Returns a random point by (3.17) in the unit cube; coordinates from `count` on are in the middle.
 pub(super) fn global_point(count: usize, rng: &mut Rng) -> Unit {
     let mut unit = middle([]);
     unit.iter_mut().take(count).for_each(|v| *v = 0.5 * (1.0 - (PI * rng.f64()).cos()));
     unit
 }
 
-/// Draws per wanted point before a range is given up as holding none.
+/// Number of draws per point after which a range counts as empty.
 const MAX_DRAWS: usize = 10_000;
 
-/// A point with its coordinates in the unit cube.
+/// Point with its coordinates in the unit cube.
 pub(super) type Drawn = (Unit, OperatingPoint);
 
-/// The contacts of a range, of one kind and with M in an interval.
+/// Contacts of a range, of one kind and with M in an interval.
 #[derive(Clone, Debug)]
 pub(super) struct Within {
     pub range: ParameterSpace,
     pub kind: ContactKind,
-    /// True for films with heat.
+    /// True for thermal contacts.
     pub heat: bool,
     pub m: (f64, f64),
     pub radius_ratio: (f64, f64),
-    /// The cell of an anchor, with what is blended beyond it.
+    /// Cell of an anchor, including the region of blending.
     pub cell: Option<Cell>,
 }
 
-/// Random points of a range by (3.17), which pushes towards its boundary: the same ones for the same seed, whoever
-/// asks. Fewer than `count` where hardly any contact of the range is admissible.
+/// Draws random points of a range by (3.17), which favours its boundary. The same seed always gives the same points.
+/// Returns fewer than `count` if hardly any contact of the range is admissible.
 pub fn random_points(range: &ParameterSpace, kind: ContactKind, count: usize, seed: u64) -> Vec<OperatingPoint> {
     random_points_while(range, kind, count, seed, || true)
 }
 
-/// Points between two questions whether more are wanted.
+/// Number of points between two checks of `wanted`.
 const UNASKED: usize = 1000;
 
-/// The same as long as they are wanted: a hundred thousand take a tenth of a second.
+/// Draws points like [`random_points`] as long as `wanted` returns true. A hundred thousand points take a tenth of a
+/// second.
 pub fn random_points_while(
     range: &ParameterSpace,
     kind: ContactKind,
@@ -80,14 +81,14 @@ pub fn random_points_while(
 }
 
 impl TrainingSpec {
-    /// Its contacts with M in an interval.
+    /// Returns the contacts with M in an interval.
     pub(super) fn within(&self, m: (f64, f64)) -> Within {
         Within { m, ..Within::all(&self.range, self.contact(), self.heats()) }
     }
 }
 
 impl Within {
-    /// With any M.
+    /// Returns the contacts with any M.
     pub fn all(range: &ParameterSpace, kind: ContactKind, heat: bool) -> Self {
         Self {
             range: range.clone(),
@@ -99,12 +100,13 @@ impl Within {
         }
     }
 
-    /// With the shapes that a window serves, and the cell of its anchor if it has one.
+    /// Restricts to the radius ratios that a local model covers, and to the cell of its anchor if given.
     pub fn served_by(self, window: &Window, cell: Option<Cell>) -> Self {
         Self { radius_ratio: window.served_ratios(), cell, ..self }
     }
 
-    /// With the shapes of a window, and with what training reaches beyond the ends of the range and of these.
+    /// Restricts to the radius ratios of a specification, and extends these and the range by the overlap of the
+    /// training.
     pub fn beyond(self, window: &WindowSpec) -> Self {
         let (low, high) = window.radius_ratio.unwrap_or((0.0, f64::INFINITY));
         Self { radius_ratio: (low / OVERLAP, high * OVERLAP), range: self.range.beyond(), ..self }
@@ -120,7 +122,7 @@ impl Within {
         self.range.at(self.kind, &unit).filter(wanted)
     }
 
-    /// Up to `count` points at the coordinates that `draw` gives; fewer where hardly any is admissible.
+    /// Returns up to `count` points at the coordinates of `draw`; fewer if hardly any is admissible.
     pub fn drawn(&self, count: usize, mut draw: impl FnMut() -> Unit) -> Vec<Drawn> {
         let mut one = || {
             let unit = draw();
@@ -129,17 +131,17 @@ impl Within {
         (0..count).map_while(|_| (0..MAX_DRAWS).find_map(|_| one())).collect()
     }
 
-    /// Random points by (3.17).
+    /// Draws random points by (3.17).
     pub fn random_points(&self, count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
         let coordinates = self.range.coordinates();
         self.drawn(count, || global_point(coordinates, rng)).into_iter().map(|(_, point)| point).collect()
     }
 
-    /// Farthest-point sampling (3.16) beside points that are known already: every next point of a random pool is the
-    /// one farthest from all.
+    /// Selects points by farthest-point sampling (3.16), in addition to known points: every next point of a random
+    /// pool is the one farthest from all others.
     pub fn farthest_points(&self, known: &[OperatingPoint], count: usize, rng: &mut Rng) -> Vec<OperatingPoint> {
         let mut pool = self.random_points((40 * count).max(2000), rng);
-        // The corners of the range are its extremes, and a random pool never quite reaches them.
+        // The corners of the range are its extremes, which a random pool never quite reaches.
         pool.extend(self.range.corners().filter_map(|corner| self.at(corner)));
         let place = |p: &OperatingPoint| (p.moes(), p.alpha_per_pa.ln(), p.sliding, p.radius_ratio().ln());
         let metric = self.range.varies_lubricant().then(|| Metric::of_plan(&self.range, self.heat));

@@ -1,4 +1,4 @@
-//! Training a model of point contacts on a coarse grid: every sampling method, fresh points, and what is refused.
+//! Tests of training a model of point contacts on a coarse grid: every sampling method, new points, and refusals.
 
 use super::small::{POINT_GRID, point, trained};
 use super::*;

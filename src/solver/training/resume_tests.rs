@@ -1,4 +1,4 @@
-//! Trainings as a whole: stopped and resumed, on any number of threads, with tolerances out of reach.
+//! Tests of complete trainings: stopped and resumed, on any number of threads, with tolerances that cannot be met.
 
 use super::small::{moes, moes_with, oils};
 use super::*;
@@ -8,7 +8,7 @@ use crate::solver::reduced::{ReducedModel, Sampling, Window};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// A small box on a coarse grid: a full solve takes a fraction of a millisecond.
+/// Small box on a coarse grid: a full solve takes a fraction of a millisecond.
 fn small(plan: Plan) -> TrainingSpec {
     let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };
     let range = ParameterSpace::si_box([(2e-3, 3e-3), (3.0, 5.0), (1e5, 2e5), (6e-9, 10e-9)], 231e9, 0.01);
@@ -38,7 +38,7 @@ fn pool(tolerance: f64, limit: usize) -> Plan {
     Plan::WorstOfPool { start: 6, indicator: Indicator::Correction, pool: 40, per_round: 3, tolerance, limit }
 }
 
-/// Cancels at a checkpoint and keeps what was written there, as a crash would find it.
+/// Observer that cancels at a checkpoint and keeps the state written there, as after a crash.
 struct StopAt {
     solutions: usize,
     stopped: AtomicBool,
@@ -59,7 +59,7 @@ impl Observer for StopAt {
     }
 }
 
-/// Everything of a model that its results depend on.
+/// Returns all parts of a model that its results depend on.
 fn essence(model: &ReducedModel) -> Vec<String> {
     let window = |w: &Window| {
         let bases = format!("{:?} {:?}", w.snapshots, w.pressure.basis().modes);
@@ -79,7 +79,7 @@ fn stopped_and_resumed_is_the_same(spec: &TrainingSpec, stops: &[usize]) {
         for mut state in [state, crashed] {
             assert!(state.solutions() >= solutions);
             let before: Vec<_> = state.windows.iter().flat_map(|w| &w.solved).map(|s| s.point).collect();
-            // Through bytes, as a file would keep it.
+            // Through bytes, as stored in a file.
             let bytes = postcard::to_allocvec(&state).unwrap();
             state = postcard::from_bytes(&bytes).unwrap();
             let resumed = train_resumable(&mut state, &()).unwrap();
@@ -113,7 +113,7 @@ fn windows_around_anchors_resume_in_their_pool_and_behind_it_and_a_stopped_pool_
     assert_eq!(state.model(&()).unwrap().windows.len(), 3);
 }
 
-/// The small box with automatic windows of few modes, which must be split.
+/// The small box with automatic local models of few modes, which must be split.
 fn automatic(plan: Plan, modes: usize) -> TrainingSpec {
     TrainingSpec { windows: Windows::Automatic { modes }, pressure_loss: 1e-4, ..small(plan) }
 }
@@ -161,7 +161,7 @@ fn a_training_that_is_stopped_in_its_trials_says_that_there_is_no_model_yet() {
 
 #[test]
 fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
-    // Films far below what this grid resolves beyond M of a few hundred.
+    // Films too thin for this grid at M above a few hundred.
     let mut spec = small(Plan::FarthestPoint { snapshots: 60 });
     spec.range = moes((20.0, 50_000.0), (0.05, 2.5), 1e12);
     let grid = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 2.0) };

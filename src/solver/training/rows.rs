@@ -1,5 +1,5 @@
-//! Row sampling of a window: the all-rows reduced model runs at random parameters, for a cubature and around anchors at the
-//! trainings too, and what its iterates show decides which rows stay.
+//! Sampling of a local model's equations. The reduced model with all rows runs at random parameters; for a cubature
+//! and around anchors also at the training points. Its iterates determine the sampled equations.
 
 use super::cell::Cell;
 use super::error::TrainingError;
@@ -21,35 +21,37 @@ use fastrand::Rng;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Random parameters at which iterates are collected (reduced solves only), and of contacts with heat in a plane, where
-/// one of all rows takes a second; of these no more trainings show theirs.
+/// Number of random parameters at which iterates are collected by reduced solves. Thermal point contacts, for which a
+/// solve with all rows takes a second, have a smaller number, also for their training points.
 const ROW_SNAPSHOT_SOLVES: usize = 160;
 const ROW_SNAPSHOT_SOLVES_OF_WARM_PLANES: usize = 60;
-/// Steps smaller than this are demanded to be right absolutely, larger ones relatively.
+/// Steps smaller than this are to be reproduced in absolute terms, larger ones in relative terms.
 const STEP_FLOOR: f64 = 0.03;
-/// Random functionals of Δp̃ per iterate, beside the one of ΔH_c, on a grid of few and of many rows.
+/// Number of random functionals of the step Δp̃ of the pressure coefficients per iterate, in addition to the one of the
+/// central film thickness, ΔH_c, for few and for many candidate rows.
 const RANDOM_FUNCTIONALS: [usize; 2] = [6, 2];
-/// By how much sampled rows may miss nine films in ten that all rows give: a fifth of what a model of lines may be off by.
-/// From one number of rows to the next this falls by orders of magnitude; where they are too few by a tenth, iterations
-/// end at films that are off by a third.
+/// Largest permitted error of the film thickness by sampling, for nine contacts in ten: a fifth of the permitted
+/// error of a model of line contacts. The error decreases by orders of magnitude with slightly more rows. With a
+/// tenth too few, iterations may end with an error of a third.
 const MISSED_BY_ROWS: f64 = 2e-4;
-/// So many times the rows that were asked for are tried, until they miss less.
+/// Factors on the requested number of rows that are tried until the error is small enough.
 const MORE_ROWS: [f64; 4] = [1.1, 1.2, 1.35, 1.5];
-/// Contacts by which that is told.
+/// Number of contacts by which the error is measured.
 const CONTACTS_OF_TRIAL: usize = 100;
-/// Candidate rows that are many.
+/// Number of candidate rows above which there are many.
 const MANY_ROWS: usize = 3000;
 
-/// A reduced solve whose iterates are collected.
+/// Reduced solve whose iterates are collected.
 struct Task<'a> {
     point: OperatingPoint,
     lubricant: Lubricant,
-    /// At a training its nearest other solution, where it begins; a random point begins wherever the online phase starts.
+    /// Initial guess: for a training point its nearest other solution; `None` for a random point, which uses the
+    /// guesses of the online phase.
     from: Option<&'a Snapshot>,
 }
 
 impl<'a> Task<'a> {
-    /// At training `k` of a window; `None` where it is the only one.
+    /// Returns the task of training point `k` of a local model; `None` if it is the only one.
     fn beside(window: &'a Window, k: usize, lubricant: Lubricant) -> Option<Self> {
         let point = window.snapshots[k].point;
         let far = |other: &Snapshot| separation(&point, &other.point);
@@ -57,7 +59,7 @@ impl<'a> Task<'a> {
         others.min_by(|a, b| far(a).total_cmp(&far(b))).map(|nearest| Self { point, lubricant, from: Some(nearest) })
     }
 
-    /// Solves, showing every iterate; false when it diverges.
+    /// Solves and passes every iterate to `keep`; returns false if the solve fails.
     fn solve(&self, online: &mut Online, keep: &mut dyn FnMut(&Iterate<'_>)) -> bool {
         let Self { point, lubricant, from } = self;
         online.forget();
@@ -68,18 +70,18 @@ impl<'a> Task<'a> {
     }
 }
 
-/// What one reduced solve contributes.
+/// Contribution of one reduced solve.
 enum Evidence {
     Snapshots(RowSnapshots),
     Goals(GoalEquations),
 }
 
-/// Runs `exact` (the window alone, with all rows) at random parameters, collects every iterate, and samples; around an
-/// anchor more rows than are asked for where these do not tell its contacts apart as all rows do. `None` when the linear
-/// algebra gives up.
+/// Samples the equations of a local model. `exact`, this local model alone with all rows, runs at random parameters,
+/// and every iterate is collected. Around an anchor, more rows than requested are used if the error by sampling is
+/// too large. `None` if the linear algebra fails.
 ///
 /// # Errors
-/// When the observer cancels.
+/// [`TrainingError`] if the observer cancels.
 pub(super) fn sample_rows(
     spec: &TrainingSpec,
     exact: &Arc<ReducedModel>,
@@ -110,11 +112,11 @@ pub(super) fn sample_rows(
     Ok(sampled)
 }
 
-/// Contacts that no row was chosen by, with their films by all rows.
+/// Contacts that were not used for sampling, with their film thicknesses by all rows.
 struct Trial(Vec<(OperatingPoint, f64)>);
 
 impl Trial {
-    /// Of a window alone with all its rows; what these do not solve is left out.
+    /// Solves the contacts by a local model with all its rows; contacts without a solution are omitted.
     fn of_rows(
         spec: &TrainingSpec,
         exact: &Arc<ReducedModel>,
@@ -125,8 +127,8 @@ impl Trial {
         Ok(Self(points.into_iter().zip(films).filter_map(|(point, film)| Some((point, film?))).collect()))
     }
 
-    /// By how much so many rows miss the films of nine contacts in ten at most, relative to them; what they do not solve
-    /// they miss altogether.
+    /// Returns the relative error of the film thickness by sampling that nine contacts in ten do not exceed. A
+    /// contact without a solution has an infinite error.
     fn missed_by(
         &self,
         spec: &TrainingSpec,
@@ -146,8 +148,8 @@ impl Trial {
     }
 }
 
-/// H_c of contacts by the model of a window alone, each from the start that the online phase takes; none where it finds no
-/// solution.
+/// Returns the central film thickness H_c of contacts by the model of one local model alone, with the initial guesses
+/// of the online phase; `None` for a contact without a solution.
 fn films(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,
@@ -163,11 +165,12 @@ fn films(
     })
 }
 
-/// Models that differ from one in the rows of one of its windows, which are sampled anew, so many per mode each; `None`
-/// where the linear algebra gives up. `spec` is the training that the model was made by.
+/// Returns models that differ from one in the sampled equations of one local model, which are sampled again, for each
+/// number of rows per mode. An entry is `None` if the linear algebra fails. `spec` is the training specification of
+/// the model.
 ///
 /// # Errors
-/// When the observer cancels.
+/// [`TrainingError`] if the observer cancels.
 pub fn with_rows(
     spec: &TrainingSpec,
     model: &ReducedModel,
@@ -197,7 +200,7 @@ pub fn with_rows(
     Ok(sampled.into_iter().map(|rows| rows.map(with)).collect())
 }
 
-/// What reduced solves with all rows show of a window.
+/// Iterates of reduced solves with all rows of a local model.
 struct Shown {
     test: Arc<TestSpace>,
     of: (Scheme, Sampling),
@@ -206,8 +209,8 @@ struct Shown {
 }
 
 impl Shown {
-    /// Runs `exact` at random parameters and, for a cubature and around anchors, at its trainings. `None` of a model without
-    /// a window.
+    /// Runs `exact` at random parameters and, for a cubature and around anchors, at its training points. `None` for a
+    /// model without a local model.
     fn by(
         spec: &TrainingSpec,
         exact: &Arc<ReducedModel>,
@@ -221,7 +224,8 @@ impl Shown {
             false => (ROW_SNAPSHOT_SOLVES, usize::MAX),
         };
         let points = served.random_points(solves, rng);
-        // Every second line with heat has thermal constants of the range, as what a model is asked for has.
+        // Every second thermal line contact has thermal constants from the range, like the contacts the model is used
+        // for.
         let mut constants = Rng::with_seed(spec.seed);
         let at = |(k, point): (usize, OperatingPoint)| {
             let other = spec.warms_a_line() && k % 2 == 1;
@@ -230,7 +234,7 @@ impl Shown {
             Task { point, lubricant, from: None }
         };
         let mut tasks: Vec<Task<'_>> = points.into_iter().enumerate().map(at).collect();
-        // Windows around anchors are asked up to their ends, where few random contacts lie.
+        // Local models around anchors are used up to the ends of their cells, where few random contacts lie.
         if spec.sampling == Sampling::Cubature || window.anchor.is_some() {
             let every = window.snapshots.len().div_ceil(trainings).max(1);
             let beside = |k| Task::beside(window, k, spec.lubricant);
@@ -253,7 +257,7 @@ impl Shown {
         Ok(Some(on_one_thread(observer, move || all.with(collected))?))
     }
 
-    /// With further evidence.
+    /// Adds the evidence of further solves.
     fn with(mut self, collected: Vec<Evidence>) -> Self {
         for part in collected {
             match part {
@@ -267,7 +271,7 @@ impl Shown {
         self
     }
 
-    /// The rows that all of it speaks for, for each number of them per mode; `None` where the linear algebra gives up.
+    /// Selects the equations for each number of rows per mode; `None` if the linear algebra fails.
     fn rows(&self, rows_per_mode: &[f64]) -> Vec<Option<SampledRows>> {
         let Self { test, of, rows, equations } = self;
         let count = |per_mode: &f64| ((test.modes.ncols() as f64 * per_mode).round() as usize).min(test.weights.len());
@@ -276,8 +280,8 @@ impl Shown {
     }
 }
 
-/// The rows that a scheme takes by what snapshots or, for a cubature, goal equations speak for: of each count, `None`
-/// where the linear algebra gives up.
+/// Selects equations by a scheme from snapshots or, for a cubature, from goal equations, for each count; `None` if
+/// the linear algebra fails.
 pub(super) fn rows_by(
     test: &TestSpace,
     (scheme, sampling): (Scheme, Sampling),
@@ -297,8 +301,8 @@ pub(super) fn rows_by(
     chosen.into_iter().map(|chosen| chosen.filter(finite)).collect()
 }
 
-/// Residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty when it diverges: that
-/// teaches nothing about the rows a good iteration meets.
+/// Returns the residual and Jacobian snapshots of one solve, scaled by √w and by the largest of them. Empty if it
+/// diverges, since such iterates do not represent a good iteration.
 fn snapshots(spec: &TrainingSpec, online: &mut Online, test: &TestSpace, task: &Task<'_>) -> RowSnapshots {
     let factors = spec.scheme.factors(test);
     let scaled = |v: &[f64]| -> Vec<f64> { v.iter().zip(&factors).map(|(v, factor)| v * factor).collect() };
@@ -326,7 +330,7 @@ fn normalise(snapshots: &mut [Vec<f64>]) {
     }
 }
 
-/// The goal equations of every iterate of one solve added to `none`; none when it diverges.
+/// Returns `none` with the goal equations of every iterate of one solve; without them if it diverges.
 fn goals(online: &mut Online, test: &TestSpace, none: GoalEquations, task: &Task<'_>, rng: &mut Rng) -> GoalEquations {
     let mut equations = none.clone();
     let mut keep = |iterate: &Iterate<'_>| add_goals(&mut equations, test, iterate, rng);
@@ -358,7 +362,7 @@ pub(super) fn add_goals(equations: &mut GoalEquations, test: &TestSpace, iterate
     let goals = dense::solved(iterate.jacobian.transpose(), functionals);
     let share = 1.0 / ((random + 1) as f64).sqrt();
     let (first, second) = (share / change.max(STEP_FLOOR), share / change);
-    // T V_i for every row; on one thread, so that rounding does not depend on how many there are.
+    // T V_i for every row; on one thread, so that rounding does not depend on the number of threads.
     let rows = test.weights.len();
     let mut tested = Mat::<f64>::zeros(rows, random + 1);
     matmul(tested.as_mut(), Accum::Replace, test.modes.as_ref(), goals.get(..modes, ..), 1.0, Par::Seq);

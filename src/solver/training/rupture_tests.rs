@@ -1,4 +1,5 @@
-//! Models of films that rupture by complementarity: near full solutions of the same law, with the boundary where it is.
+//! Tests of models with complementarity: agreement with full solutions of the same cavitation model, including the
+//! cavitation boundary.
 
 use super::small::{line, line_grid, point, sliding_oils, sliding_oils_of_points, trained};
 use super::*;
@@ -19,8 +20,8 @@ fn on(grid: GridSpec, spec: TrainingSpec) -> TrainingSpec {
     TrainingSpec { windows: Windows::Given(vec![WindowSpec::new((1.0, 500.0), grid)]), ..spec }
 }
 
-/// Largest relative errors of H_c, and of traction where there is one, at fresh points, and how far the boundary lies from
-/// the full solutions'.
+/// Returns the largest relative errors of H_c and, if available, of traction at new points, and the largest distance
+/// of the cavitation boundary from that of the full solutions.
 fn errors(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> ([f64; 2], usize) {
     let grid = &model.windows[0].grid;
     let mut online = Online::new(Arc::clone(model), ReducedOptions::default());
@@ -36,7 +37,8 @@ fn errors(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> ([f64; 2], usize) {
         if let Some(traction) = solved.traction {
             worst[1] = f64::max(worst[1], (traction / truth.traction_coefficient() - 1.0).abs());
         }
-        // Pressures of modes that share a basis are made in single precision, and bodies deform by ten times the film.
+        // Pressures of modes that share a basis are computed in single precision, and the deformation is ten times
+        // the film thickness.
         let (shares, apart) = (model.windows[0].pressure.combined().is_some(), fields.scalars.h_c / solved.h_c - 1.0);
         let digits = if shares { 1e-6 } else { 1e-8 };
         assert!(apart.abs() < digits, "{:?}: the film of the fields is by {apart:.1e} another", spec.contact());
@@ -53,7 +55,8 @@ fn errors(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> ([f64; 2], usize) {
     (worst, off)
 }
 
-/// By how much λ misses what balances the rows behind the boundary with every node evaluated by its law, at most.
+/// Returns the largest difference between λ and the value that balances the rows behind the boundary, with every node
+/// evaluated by its law.
 fn missed_by_multiplier(fields: &Solution, grid: &ContactGrid) -> f64 {
     let gradient = PlaneGradient::new(&fields.x, &fields.y);
     let nodes = Nodes::of(fields.problem.laws(), &gradient, &fields.pressure, &fields.film);

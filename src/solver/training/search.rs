@@ -1,57 +1,57 @@
-//! Where a search for bad approximations is, as a state keeps it.
+//! State of a search for bad approximations.
 
 use super::spec::{Indicator, Plan};
 use crate::solver::parameters::Unit;
 use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
-/// Where a search for bad approximations is.
+/// State of a search for bad approximations.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Search {
-    /// Whether it was begun.
+    /// True after the start.
     pub begun: bool,
-    /// State of the random numbers.
+    /// State of the random number generator.
     pub random: u64,
-    /// Rung of the ladder of tolerances.
+    /// Index of the current tolerance.
     pub rung: usize,
-    /// Good approximations in a row, of the global search.
+    /// Number of good approximations in a row of the global search.
     pub successes: usize,
-    /// Centre of the local search (unit cube) and its good approximations in a row.
+    /// Centre of the local search (unit cube) and its number of good approximations in a row.
     pub local: Option<(Unit, usize)>,
-    /// Points judged so far.
+    /// Number of points judged so far.
     pub judged: usize,
-    /// Reduced solves that failed so far.
+    /// Number of failed reduced solves so far.
     pub failed: usize,
-    /// Full solutions when each rung was done.
+    /// Number of full solutions when each tolerance was met.
     pub rungs: Vec<usize>,
     /// Bad approximations in the order in which they were found.
     pub bad: Vec<BadPoint>,
-    /// Whether it is over.
+    /// True at the end.
     pub finished: bool,
 }
 
-/// A bad approximation that a search came upon and had solved in full.
+/// Bad approximation that a search found and solved in full.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BadPoint {
-    /// Where.
+    /// Operating point.
     pub point: OperatingPoint,
-    /// What the indicator said; infinite where the reduced solve failed.
+    /// Value of the indicator; infinite if the reduced solve failed.
     pub indicator: f64,
-    /// Full solutions of its window when it was found.
+    /// Number of full solutions of its local model when it was found.
     pub solutions: usize,
-    /// Rung of the ladder of tolerances on which it was found.
+    /// Index of the tolerance for which it was found.
     pub rung: usize,
 }
 
 impl Search {
-    /// Begins, unless it has begun.
+    /// Starts the search, unless it has started.
     pub(super) fn begin(&mut self, seed: u64) {
         if !self.begun {
             (self.begun, self.random) = (true, seed);
         }
     }
 
-    /// What it did, for the model's log.
+    /// Returns a summary for the model's log; `None` for a plan without a search.
     pub(super) fn describe(&self, plan: &Plan) -> Option<String> {
         let (indicator, tolerances) = match plan {
             Plan::Adaptive { indicator, tolerances, .. } => (*indicator, tolerances.as_slice()),

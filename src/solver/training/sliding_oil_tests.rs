@@ -1,4 +1,4 @@
-//! Models of sliding contacts of many oils that thin by Eyring's law.
+//! Tests of lubricant-parameterised models of sliding contacts with Eyring lubricants.
 
 use super::small::{self, POINT_GRID, line_grid, sliding_oils, with_ends};
 use super::*;
@@ -18,7 +18,7 @@ fn limited(lubricant: Lubricant, ambient: f64, slope: f64) -> Lubricant {
     Lubricant { limiting_stress: Some(LimitingStress { ambient, slope, eyring: None }), ..lubricant }
 }
 
-/// The contact of these numbers that slides.
+/// Returns a sliding contact with these parameters.
 fn contact(kind: ContactKind, (m, l): (f64, f64), (radius, modulus): (f64, f64), srr: f64) -> OperatingPoint {
     let request = MoesRequest {
         radius_m: Some(radius),
@@ -51,19 +51,19 @@ fn contacts_of_equal_modulus_times_stress_have_equal_films_and_tractions_that_go
         assert!(apart(&one, &other) < tolerance, "{kind:?}: {:.1e}", apart(&one, &other));
         let ratio = other.traction_coefficient() / one.traction_coefficient();
         assert!((ratio / 2.5 - 1.0).abs() < 100.0 * tolerance, "{kind:?}: {ratio}");
-        // What a limit leaves goes with its slope over the stress.
+        // A limited traction depends on the ratio of the limit's slope to the stress.
         let [one, other] = [(&one, 0.02), (&other, 0.05)].map(|(solution, slope)| {
             let lubricant = limited(solution.problem.lubricant, slope * 1e8, slope);
             solution.clone().of_problem(Problem::new(&solution.problem.point, lubricant).unwrap())
         });
         let ratio = other.traction_coefficient() / one.traction_coefficient();
         assert!((ratio / 2.5 - 1.0).abs() < 100.0 * tolerance, "{kind:?}: {ratio}");
-        // Thinning is felt, and so is the stress alone.
+        // Shear-thinning has an effect, and so has the stress alone.
         let [softer, newtonian] = [eyring(10e6), Lubricant::default()]
             .map(|laws| solve(&contact(kind, (25.0, 8.0), (0.01, 250e9), 0.6), laws).scalars.h_c);
         let felt = [softer, newtonian].map(|film| (film / one.scalars.h_c - 1.0).abs());
         assert!(felt.iter().all(|felt| *felt > 1e-4), "{kind:?}: {felt:?}");
-        // Films are even in SRR.
+        // Film thickness is even in SRR.
         let mirrored = solve(&contact(kind, (25.0, 8.0), (0.01, 250e9), -0.6), eyring(4e6));
         assert!(apart(&one, &mirrored) < tolerance);
     }
@@ -74,7 +74,7 @@ fn trained(spec: &TrainingSpec) -> (Arc<ReducedModel>, Online) {
     (Arc::clone(&model), Online::new(model, ReducedOptions::default()))
 }
 
-/// The contact that has the film of another one, with so many times its τ₀.
+/// Returns the contact with the same dimensionless film and τ₀ multiplied by `stresses`.
 fn equal_but(point: &OperatingPoint, stresses: f64) -> OperatingPoint {
     let request = MoesRequest {
         radius_m: Some(2.0 * point.radius_m),
@@ -94,7 +94,7 @@ fn sliding_contacts_of_every_oil_stress_and_limit_are_near_full_solutions() {
     let (mut steps, mut held) = (0, 0);
     let points = random_points(&spec.range, ContactKind::Line, 30, 77);
     for (k, own) in points.iter().enumerate() {
-        // Of another τ₀ the product with E′ is the same, and Λ over it lies among the trained.
+        // For another τ₀ its product with E′ is the same, and the limit's slope divided by τ₀ is in the trained range.
         let stresses = [1.0, 0.5, 2.0][k % 3];
         let slope = stresses * [0.03, 0.06, 0.1][k / 3 % 3];
         let (point, lubricant) = (equal_but(own, stresses), limited(eyring(5e6 * stresses), 2e6, slope));
@@ -131,7 +131,8 @@ fn traction_does_not_jump_between_windows_and_knows_its_limits() {
         let solved = online.solve(&at(f64::from(step) / 200.0), laws).unwrap();
         blended += usize::from(!solved.beside.is_empty());
         let fields = online.reconstruct(&solved).unwrap().traction_coefficient();
-        // A line's rule is that of the whole grid; a blend of tractions is near that of the blend.
+        // The quadrature of a line contact is that of the whole grid; a blend of tractions is close to the traction
+        // of the blend.
         let near = if solved.beside.is_empty() { 1e-9 } else { 1e-4 };
         assert!((solved.traction.unwrap() / fields - 1.0).abs() < near);
         tractions.push(solved.traction.unwrap().ln());
@@ -143,7 +144,7 @@ fn traction_does_not_jump_between_windows_and_knows_its_limits() {
     }
     let known = |laws: Lubricant, online: &mut Online| online.solve(&at(0.0), laws).unwrap().traction.is_some();
     assert!(known(spec.lubricant, &mut online) && known(limited(spec.lubricant, 0.0, 0.149), &mut online));
-    // Whoever wants it takes it from the fields.
+    // Outside the range of the quadrature the traction can be computed from the fields.
     assert!(!known(limited(spec.lubricant, 5e6, 0.2), &mut online));
 }
 
@@ -161,7 +162,7 @@ fn the_share_of_a_traction_that_a_limit_takes_is_told() {
             online.forget();
             let solved = online.solve(&point, limited(spec.lubricant, 0.0, slope)).unwrap();
             let cut = solved.cut.unwrap();
-            // A limit cuts traction only: the state is the same one.
+            // A limiting stress reduces the traction only: the state is the same.
             if let (Some(own), Some(free), true) = (solved.traction, free.traction, solved.beside.is_empty()) {
                 assert!((cut - (1.0 - own / free)).abs() < 1e-7, "{cut} {own} {free}");
             }

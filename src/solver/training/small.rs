@@ -1,4 +1,4 @@
-//! Small trainings, which tests make of many things.
+//! Small trainings for tests.
 
 use super::spec::{Plan, TrainingSpec, WindowSpec, Windows};
 use super::state::TrainingState;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::sync::{Arc, Mutex, OnceLock};
 
-/// Values that are made once for all tests of this program, by what they are made from.
+/// Values that are computed once for all tests of this program, by a key.
 pub(crate) struct Made<T>(Mutex<BTreeMap<String, Arc<OnceLock<Arc<T>>>>>);
 
 impl<T> Made<T> {
@@ -19,21 +19,21 @@ impl<T> Made<T> {
         Self(Mutex::new(BTreeMap::new()))
     }
 
-    /// The value made from `what`. A second test that needs it waits for the first one.
+    /// Returns the value for the key `what`. A second test that needs it waits for the first one.
     pub(crate) fn of(&self, what: &impl Debug, make: impl FnOnce() -> T) -> Arc<T> {
         let once = Arc::clone(self.0.lock().unwrap().entry(format!("{what:?}")).or_default());
         Arc::clone(once.get_or_init(|| Arc::new(make())))
     }
 }
 
-/// The model of a specification.
+/// Returns the model of a specification.
 pub(crate) fn trained(spec: &TrainingSpec) -> Arc<ReducedModel> {
     static MODELS: Made<ReducedModel> = Made::new();
     MODELS.of(spec, || trained_with_state(spec).0)
 }
 
-/// The same with the state at the end of the training. Trainings that differ only in what follows the full solutions share
-/// these.
+/// Returns the model with the state at the end of the training. Trainings that differ only after the full solutions
+/// share these.
 pub(crate) fn trained_with_state(spec: &TrainingSpec) -> (ReducedModel, TrainingState) {
     static SOLVED: Made<TrainingState> = Made::new();
     let mut alike = spec.clone();
@@ -53,10 +53,10 @@ pub(crate) fn trained_with_state(spec: &TrainingSpec) -> (ReducedModel, Training
     (model.unwrap_or_else(|| train_resumable(&mut state, &()).unwrap()), state)
 }
 
-/// A grid of point contacts on which a full solve takes milliseconds.
+/// Grid of point contacts on which a full solve takes milliseconds.
 pub(crate) const POINT_GRID: PointGridSpec = PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5));
 
-/// A registered graded grid of few nodes.
+/// Registered graded grid of few nodes.
 pub(crate) fn line_grid(nodes: usize) -> GridSpec {
     GridSpec::Graded { nodes, domain: (-6.0, 1.9), registered: true }
 }
@@ -85,7 +85,7 @@ pub(crate) fn point(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     }
 }
 
-/// Ellipses of two windows.
+/// Elliptical contacts with two local models.
 pub(crate) fn ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let mut range = moes_as_realised((15.0, 60.0), (4.0, 8.0), 3.2e9);
     range.axes.push(Axis::new(Quantity::RadiusRatio, (0.5, 4.0)));
@@ -104,7 +104,7 @@ pub(crate) fn ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     }
 }
 
-/// A space of M, L, α and η₀ between p_H \[Pa\], of Roelands' exponents 0.4…0.8.
+/// Space of M, L, α and η₀ with limits of the Hertzian pressure p_H \[Pa\] and of Roelands' exponent (0.4…0.8).
 pub(crate) fn lubricants([m, l, alpha, viscosity]: [(f64, f64); 4], hertz_pressure: (f64, f64)) -> ParameterSpace {
     ParameterSpace::of([
         Axis::new(Quantity::M, m),
@@ -115,12 +115,12 @@ pub(crate) fn lubricants([m, l, alpha, viscosity]: [(f64, f64); 4], hertz_pressu
     .limited([(Quantity::HertzPressure, hertz_pressure), (Quantity::RoelandsExponent, (0.4, 0.8))])
 }
 
-/// Windows around anchors on a grid.
+/// Local models around anchors on a grid.
 fn anchored(count: usize, modes: usize, grid: GridSpec, shared: usize) -> Windows {
     Windows::Anchored { count, modes, grid, shared, missing: 0.0, missing_of_any: 0.0, divided_by: 0 }
 }
 
-/// Gives a space SRR, E′ and the limits of Eyring lubricants.
+/// Adds slide-to-roll ratio, reduced modulus E′ and the limits of Eyring lubricants to a space.
 fn with_eyring(mut range: ParameterSpace) -> ParameterSpace {
     range
         .axes
@@ -130,7 +130,7 @@ fn with_eyring(mut range: ParameterSpace) -> ParameterSpace {
     range.limited([(Quantity::GradientStress, (0.0, 5e6))])
 }
 
-/// Line contacts of many oils, in three windows.
+/// Line contacts of varying lubricants, with three local models.
 pub(crate) fn oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let m = (15.0, 60.0);
     let range = lubricants([m, (5.0, 10.0), (12e-9, 24e-9), (0.01, 0.1)], (0.4e9, 1.6e9));
@@ -139,7 +139,7 @@ pub(crate) fn oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     TrainingSpec { windows, pressure_loss: 1e-9, deformation_loss: 0.1, sampling, evidence: 0, seed: 5, ..spec }
 }
 
-/// Sliding line contacts of Eyring lubricants, in two windows.
+/// Sliding line contacts of Eyring lubricants, with two local models.
 pub(crate) fn sliding_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let range = lubricants([(15.0, 30.0), (6.0, 10.0), (14e-9, 22e-9), (0.01, 0.1)], (0.4e9, 1.6e9));
     TrainingSpec {
@@ -150,7 +150,7 @@ pub(crate) fn sliding_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec
     }
 }
 
-/// Circular contacts of many oils, in two windows whose modes are made of one basis.
+/// Circular contacts of varying lubricants, with two local models that share a basis.
 pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
     let m = (20.0, 60.0);
     let range = lubricants([m, (4.0, 8.0), (12e-9, 24e-9), (0.01, 0.1)], (0.3e9, 1.6e9))
@@ -169,7 +169,7 @@ pub(crate) fn oils_of_points(snapshots: usize) -> TrainingSpec {
     }
 }
 
-/// Circular contacts of Eyring lubricants, in two such windows.
+/// Circular contacts of Eyring lubricants, with two such local models.
 pub(crate) fn sliding_oils_of_points(snapshots: usize) -> TrainingSpec {
     let (spec, sliding) = (oils_of_points(snapshots), sliding_oils(Sampling::Cubature, snapshots));
     TrainingSpec {
@@ -181,10 +181,10 @@ pub(crate) fn sliding_oils_of_points(snapshots: usize) -> TrainingSpec {
 
 const HEATED_GRID: GridSpec = GridSpec::Graded { nodes: 240, domain: (-10.0, 2.0), registered: true };
 
-/// A grid of circular contacts with heat, whose full solves take longest.
+/// Grid of thermal circular contacts, whose full solves take longest.
 const HEATED_BALLS_GRID: PointGridSpec = PointGridSpec::uniform(0.08, 0.13, (-2.7, 1.5, -1.5));
 
-/// Line contacts with heat of an oil whose stress is limited, between steel bodies.
+/// Thermal line contacts of a lubricant with a limiting stress, between steel bodies.
 pub(crate) fn heated(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let range = one_heated((15.0, 30.0), (8.0, 11.0), (0.0, 0.6));
     let plan = Plan::FarthestPoint { snapshots };
@@ -195,7 +195,7 @@ pub(crate) fn heated(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     TrainingSpec { lubricant, positive_modes: true, penalty: 1e5, sampling, rows_per_mode: 3.0, evidence: 0, ..spec }
 }
 
-/// Thermal contacts of one oil between steel bodies.
+/// Thermal contacts of one lubricant between steel bodies.
 pub(crate) fn one_heated(m: (f64, f64), l: (f64, f64), srr: (f64, f64)) -> ParameterSpace {
     ParameterSpace::of([
         Axis::new(Quantity::M, m),
@@ -211,7 +211,7 @@ pub(crate) fn one_heated(m: (f64, f64), l: (f64, f64), srr: (f64, f64)) -> Param
     ])
 }
 
-/// Line contacts with heat of many such oils, in two windows.
+/// Thermal line contacts of varying lubricants, with two local models.
 pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     TrainingSpec {
         range: many_heated((15.0, 30.0), (7.0, 10.0)),
@@ -223,7 +223,7 @@ pub(crate) fn heated_oils(sampling: Sampling, snapshots: usize) -> TrainingSpec 
     }
 }
 
-/// Thermal contacts of many oils between bodies of many materials.
+/// Thermal contacts of varying lubricants between bodies of varying materials.
 fn many_heated(m: (f64, f64), l: (f64, f64)) -> ParameterSpace {
     let mut range = lubricants([m, l, (14e-9, 22e-9), (0.01, 0.05)], (0.5e9, 1.4e9));
     range.axes.extend([
@@ -247,7 +247,7 @@ fn many_heated(m: (f64, f64), l: (f64, f64)) -> ParameterSpace {
     range.limited([(Quantity::Speed, (0.2, 10.0)), (Quantity::SlidingSpeed, (0.0, 3.0))])
 }
 
-/// Circular contacts with heat of one such oil.
+/// Thermal circular contacts of one lubricant.
 pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let m = (25.0, 40.0);
     TrainingSpec {
@@ -259,7 +259,7 @@ pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec
     }
 }
 
-/// Elliptical contacts with heat of many such oils.
+/// Thermal elliptical contacts of varying lubricants.
 pub(crate) fn heated_ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let mut range = many_heated((25.0, 40.0), (6.0, 8.0));
     range.axes.push(Axis::new(Quantity::RadiusRatio, (0.7, 3.0)));
@@ -267,27 +267,28 @@ pub(crate) fn heated_ellipses(sampling: Sampling, snapshots: usize) -> TrainingS
     TrainingSpec { range, windows, pressure_loss: 1e-7, ..heated_oils(sampling, snapshots) }
 }
 
-/// Line contacts with heat whose model has error bounds. Most tests of heat share this model, as training it is expensive.
+/// Thermal line contacts whose model has error bounds. Most thermal tests share this model, as training it is
+/// expensive.
 pub(crate) fn heated_bounded() -> TrainingSpec {
     TrainingSpec { evidence: 110, ..heated(Sampling::Cubature, 30) }
 }
 
-/// The same of many oils.
+/// The same for varying lubricants.
 pub(crate) fn heated_oils_bounded() -> TrainingSpec {
     TrainingSpec { evidence: 60, ..heated_oils(Sampling::Cubature, 100) }
 }
 
-/// The same of elliptical contacts.
+/// The same for elliptical contacts.
 pub(crate) fn heated_ellipses_bounded() -> TrainingSpec {
     TrainingSpec { evidence: 100, ..heated_ellipses(Sampling::Cubature, 90) }
 }
 
-/// Contacts with these numbers up to a pressure, at an α of 5…20 1/GPa.
+/// Contacts with these M and L up to a Hertzian pressure, with α of 5…20 1/GPa.
 pub(crate) fn moes(m: (f64, f64), l: (f64, f64), max_hertz_pressure: f64) -> ParameterSpace {
     moes_with(m, l, (5e-9, 20e-9), max_hertz_pressure)
 }
 
-/// The same at another α.
+/// The same with another α.
 pub(crate) fn moes_with(m: (f64, f64), l: (f64, f64), alpha: (f64, f64), max_hertz_pressure: f64) -> ParameterSpace {
     let mut space = moes_as_realised(m, l, max_hertz_pressure).fixing([(Quantity::Viscosity, 0.01)]);
     space.axes.push(Axis::new(Quantity::Alpha, alpha));
@@ -300,7 +301,7 @@ pub(crate) fn moes_as_realised(m: (f64, f64), l: (f64, f64), max_hertz_pressure:
         .limited([(Quantity::HertzPressure, (0.0, max_hertz_pressure))])
 }
 
-/// A space with another interval of a quantity that it varies or limits, as a constant where it is one.
+/// Replaces the interval of a quantity that a space varies, limits or has as a constant.
 pub(crate) fn with_ends(space: &ParameterSpace, quantity: Quantity, ends: (f64, f64)) -> ParameterSpace {
     let mut space = space.clone();
     let varied = space.axes.iter_mut().chain(&mut space.constants).find(|axis| axis.quantity == quantity);

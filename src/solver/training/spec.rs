@@ -1,4 +1,4 @@
-//! What a training is asked for: contacts, solutions, windows, bases and rows.
+//! Specification of a training: contacts, solutions, local models, bases and sampled equations.
 
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::discrete::reynolds::PENALTY;
@@ -9,84 +9,85 @@ use crate::solver::reduced::{Domain, ReducedModel, Sampling, Scheme, Window};
 use fastrand::Rng;
 use serde::{Deserialize, Serialize};
 
-/// Measured points of a window unless a specification says otherwise.
+/// Default number of points per local model at which errors are measured.
 pub const EVIDENCE: usize = 1000;
 
-/// By what a training judges an approximation.
+/// Error indicator of a training.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum Indicator {
-    /// e_f^I of (3.15), the dissertation's: no large-scale work at all.
+    /// Residual e_f^I of (3.15), the dissertation's indicator, without large-scale work.
     #[default]
     Residual,
-    /// e_f^I of (3.15) as the dissertation has it: in the Euclidean norm, of its own online scheme (δ̃ in the state,
-    /// the nearest snapshot as the only start). Its tolerances 100 … 0.1 mean this.
+    /// e_f^I of (3.15) exactly as in the dissertation: in the Euclidean norm, with its own online scheme (δ̃ in the
+    /// state, the nearest snapshot as the only initial guess). Its tolerances 100 … 0.1 refer to this indicator.
     Dissertation,
-    /// By how much three Newton steps of the full system, taken from the reduced solution, change it: the largest of
-    /// |ΔH_c/H_c|, ½|ΔH_min/H_min| and e_z of (3.10). A tolerance on it is one on what people read off, and the state
-    /// keeps the spike in place.
+    /// Change of the reduced solution by three Newton steps of the full system: the largest of |ΔH_c/H_c|,
+    /// ½|ΔH_min/H_min| (central and minimum film thickness) and the state error e_z of (3.10). A tolerance for it
+    /// refers to quantities of interest, and the state includes the position of the pressure spike.
     Correction,
 }
 
-/// Where the training solutions are taken.
+/// Selection of the training points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Plan {
-    /// Farthest point by (3.16) with the distance (3.20).
+    /// Farthest-point sampling (3.16) with the distance (3.20).
     FarthestPoint {
-        /// Number of full solutions (per window).
+        /// Number of full solutions (per local model).
         snapshots: usize,
     },
-    /// A tensor grid over the box, Table 3.2: nodes of R, u_m, w (logarithmic), α.
+    /// Tensor grid over the box, Table 3.2: nodes of R, u_m, w (logarithmic), α.
     Grid {
-        /// Nodes along radius, speed, load and alpha.
+        /// Numbers of nodes for radius, speed, load and alpha.
         nodes: [usize; 4],
     },
-    /// The automatic algorithm of section 3.1.3, Fig. 3.2 (numbers of full solutions are per window).
+    /// Automatic algorithm of section 3.1.3, Fig. 3.2 (numbers of full solutions are per local model).
     Adaptive {
-        /// Pre-computed solutions by (3.16).
+        /// Number of initial solutions by (3.16).
         start: usize,
-        /// What an approximation is judged by.
+        /// Error indicator.
         #[serde(default)]
         indicator: Indicator,
-        /// Ladder of tolerances on the indicator, descending.
+        /// Tolerances of the indicator, descending.
         tolerances: Vec<f64>,
-        /// Good approximations in a row, global search (3.17), that end a rung of the ladder.
+        /// Number of good approximations in a row of the global search (3.17) that ends a tolerance.
         successes: usize,
         /// σ of the local search (3.18), in widths of the range.
         local_sigma: f64,
-        /// Good approximations in a row that end a local search; 0 leaves it out.
+        /// Number of good approximations in a row that ends a local search; 0 omits it.
         local_successes: usize,
-        /// Candidates in the close vicinity (σ/2) of a bad point of which the worst is solved in full; 0 takes the
-        /// point itself.
+        /// Number of candidates in the vicinity (σ/2) of a bad point, of which the worst is solved in full; 0 uses
+        /// the point itself.
         vicinity: usize,
-        /// Full solutions at most.
+        /// Maximum number of full solutions.
         limit: usize,
     },
-    /// Greedy: the worst of a pool that is drawn afresh by (3.17) in every round (numbers are per window).
+    /// Greedy algorithm: the worst of a pool that is drawn again by (3.17) in every round (numbers are per local
+    /// model).
     WorstOfPool {
-        /// Pre-computed solutions by (3.16).
+        /// Number of initial solutions by (3.16).
         start: usize,
-        /// What an approximation is judged by.
+        /// Error indicator.
         #[serde(default)]
         indicator: Indicator,
-        /// Random points judged per round.
+        /// Number of random points judged per round.
         pool: usize,
-        /// The worst that are solved in full per round.
+        /// Number of worst points that are solved in full per round.
         per_round: usize,
-        /// The training ends with a pool that has no worse point.
+        /// The training ends if no point of a pool exceeds this value.
         tolerance: f64,
-        /// Full solutions at most.
+        /// Maximum number of full solutions.
         limit: usize,
     },
 }
 
 impl Plan {
-    /// Whether it searches for bad approximations.
+    /// Returns true if the plan searches for bad approximations.
     pub fn searches(&self) -> bool {
         matches!(self, Self::Adaptive { .. } | Self::WorstOfPool { .. })
     }
 
-    /// Full solutions per window by (3.16) before any search; none of a grid.
+    /// Returns the number of full solutions per local model by (3.16) before any search; `None` for a tensor grid.
     pub(super) fn first_solutions(&self) -> Option<usize> {
         match *self {
             Self::FarthestPoint { snapshots: first }
@@ -97,48 +98,48 @@ impl Plan {
     }
 }
 
-/// One in that many full solutions of a line contact, and of a point contact, has the training's own constants and is a
-/// starting value online: a solution of a point contact takes seconds.
+/// One in that many full solutions, of a line contact and of a point contact, has the training's own constants and is
+/// a starting value online.
 const OWN: [u64; 2] = [4, 2];
 
-/// Everything that determines a reduced model: the same specification gives the same model.
+/// Complete specification of a reduced model: the same specification gives the same model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrainingSpec {
-    /// Title the model carries.
+    /// Title of the model.
     pub title: String,
-    /// What it is for.
+    /// Parameter space.
     pub range: ParameterSpace,
     /// Laws of the lubricant.
     #[serde(default)]
     pub lubricant: Lubricant,
-    /// Where the solutions are taken.
+    /// Selection of the training points.
     pub plan: Plan,
-    /// Windows of M with the grid of each.
+    /// Local models with their grids.
     pub windows: Windows,
-    /// Loss of information that pressure modes may neglect, (2.92).
+    /// Loss of information of the pressure modes, (2.92).
     pub pressure_loss: f64,
-    /// Loss of information that deformation modes may neglect, (2.93).
+    /// Loss of information of the deformation modes, (2.93).
     pub deformation_loss: f64,
-    /// How rows are sampled.
+    /// Sampling method of the equations.
     #[serde(default)]
     pub sampling: Sampling,
-    /// By what the online step is found: rows tested by V, or residual minimisation.
+    /// Scheme of the online step: rows tested by V, or residual minimisation.
     #[serde(default)]
     pub scheme: Scheme,
-    /// Sampled rows per pressure mode.
+    /// Number of sampled equations per pressure mode.
     pub rows_per_mode: f64,
     /// Penalty factor γ̄ of (2.36) in the reduced equations; the full solutions keep their own.
     #[serde(default = "penalty")]
     pub penalty: f64,
-    /// Whether modes are made of max(P, 0). What a penalty leaves of negative pressures goes with 1/γ̄: the full
-    /// solutions' own contradict a softer one, and the film takes the difference.
+    /// True to build modes from max(P, 0). Negative pressures of a penalty are proportional to 1/γ̄. Those of the full
+    /// solutions contradict a softer penalty of the reduced equations and would cause an error of the film thickness.
     #[serde(default)]
     pub positive_modes: bool,
-    /// Random points per window at which its errors are measured for the calibrated bound; 0 leaves the bound out.
+    /// Number of random points per local model at which errors are measured for the error bound; 0 omits the bound.
     #[serde(default = "evidence")]
     pub evidence: usize,
-    /// Seed of everything random.
+    /// Seed of all random numbers.
     pub seed: u64,
 }
 
@@ -151,8 +152,8 @@ fn evidence() -> usize {
 }
 
 impl TrainingSpec {
-    /// A training of Newtonian contacts on one grid, with everything else as a scene has it that leaves it out, losses
-    /// of information of 1e-6 and two rows per mode.
+    /// Creates a training of Newtonian contacts on one grid, with losses of information of 1e-6, two rows per mode,
+    /// and the defaults of a scene.
     pub fn new(range: ParameterSpace, m: (f64, f64), grid: GridSpec, plan: Plan) -> Self {
         Self {
             title: String::new(),
@@ -172,24 +173,24 @@ impl TrainingSpec {
         }
     }
 
-    /// The same of films that rupture so.
+    /// Returns the same training with another cavitation model.
     pub fn under(self, cavitation: Cavitation) -> Self {
         Self { lubricant: Lubricant { cavitation, ..self.lubricant }, ..self }
     }
 
-    /// The same of films that warm themselves.
+    /// Returns the same training with other thermal laws; `None` for isothermal contacts.
     pub fn heated(self, heat: Option<Heat>) -> Self {
         Self { lubricant: Lubricant { heat, ..self.lubricant }, ..self }
     }
 
-    /// Whether a model is of the contacts that it is about.
+    /// Returns true if a model is of the same kind of contacts.
     pub fn is_of(&self, model: &ReducedModel) -> bool {
         model.contact() == self.contact()
             && model.of_ellipses() == self.range.of_ellipses()
             && model.domain.heats() == self.heats()
     }
 
-    /// The kind of contact it is about: that of its grids; windows chosen by the training are of line contacts.
+    /// Returns the kind of contact: that of the grids; automatic local models are of line contacts.
     pub fn contact(&self) -> ContactKind {
         match &self.windows {
             Windows::Given(windows) => windows.first().map_or_else(ContactKind::default, |window| window.grid.kind()),
@@ -198,29 +199,29 @@ impl TrainingSpec {
         }
     }
 
-    /// Whether its model tells what the grid costs: over the range of many oils that differs much.
+    /// Returns true if the model stores the discretisation error, which varies strongly over lubricant ranges.
     pub fn tells_grid_costs(&self) -> bool {
         self.range.varies_lubricant() && !self.heats()
     }
 
-    /// Whether reduced solutions have temperatures along the lines of a plane, of which all rows take as long as a hundred
-    /// others.
+    /// Returns true if reduced solutions have temperatures along the lines of a plane, for which a solve with all
+    /// rows is a hundred times as expensive.
     pub(super) fn warms_a_plane(&self) -> bool {
         self.heats() && self.contact() == ContactKind::Point
     }
 
-    /// Whether reduced solutions have temperatures along a line.
+    /// Returns true if reduced solutions have temperatures along a line.
     pub(super) fn warms_a_line(&self) -> bool {
         self.heats() && self.contact() == ContactKind::Line
     }
 
-    /// True for films with heat.
+    /// Returns true for thermal contacts.
     pub fn heats(&self) -> bool {
         self.lubricant.heat.is_some()
     }
 
-    /// Returns the domain that the model will declare. Where the viscosity law determines α, that α counts, and L goes with
-    /// it.
+    /// Returns the domain that the model will declare. If the viscosity law determines α, the domain contains this α
+    /// and the corresponding L.
     pub fn domain(&self) -> Domain {
         let contact = self.contact();
         let mut space = self.range.clone();
@@ -235,9 +236,9 @@ impl TrainingSpec {
         Domain { contact, space: space.with_followers(contact), lubricant: self.lubricant }
     }
 
-    /// Returns the lubricant for the full solution of a contact. Of a space with varying constants most contacts of a
-    /// farthest-point plan, by the last digits of their loads, have random ones: the basis is made of all, starting values
-    /// are those of the training's own lubricant.
+    /// Returns the lubricant for the full solution of a contact. In a space with varying constants, most contacts of
+    /// a farthest-point plan have random ones, selected by the last digits of their loads. The basis includes all
+    /// solutions; starting values are only those of the training's own lubricant.
     pub fn lubricant_of(&self, point: &OperatingPoint) -> Lubricant {
         let digits = point.load.to_bits();
         let planned = matches!(self.plan, Plan::FarthestPoint { .. });
@@ -248,86 +249,87 @@ impl TrainingSpec {
         self.range.with_random_heat(self.lubricant, &mut Rng::with_seed(self.seed ^ digits))
     }
 
-    /// Returns the lubricant of a reduced solution that traction is fitted to, or errors are measured at: with random
-    /// constants of the space.
+    /// Returns a lubricant with random constants of the space, for the traction quadrature and the measurement of
+    /// errors.
     pub(super) fn random_lubricant(&self, rng: &mut Rng) -> Lubricant {
         self.range.with_random_constants(self.lubricant, rng)
     }
 
-    /// Returns R_y/R of a window.
+    /// Returns the interval of R_y/R of a local model.
     pub(super) fn shapes_of(&self, window: &WindowSpec) -> (f64, f64) {
         window.radius_ratio.unwrap_or(self.range.radius_ratio())
     }
 
-    /// Returns a model of one window only.
+    /// Returns a model with one local model only.
     pub(super) fn model_of(&self, window: &Window) -> ReducedModel {
         let (windows, domain) = (vec![window.clone()], self.domain());
         ReducedModel { title: String::new(), domain, windows, scene: String::new(), log: Vec::new() }
     }
 }
 
-/// Where the windows of a model come from.
+/// Definition of the local models of a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Windows {
-    /// As listed, by ascending M.
+    /// The listed ones, by ascending M.
     Given(Vec<WindowSpec>),
-    /// Of a line contact, chosen by the training from its range: inlet and registration of the grid by trial, edges by
-    /// splitting.
+    /// Line contacts only: selected by the training from its range. Inlet and registration of the grid by trial,
+    /// edges by splitting.
     Automatic {
-        /// Pressure modes beyond which a window is split: what a reduced solve costs grows with their cube.
+        /// Number of pressure modes above which a local model is split: the cost of a reduced solve grows with their
+        /// cube.
         modes: usize,
     },
-    /// Cells around anchors in (ln M, ln L) on one grid, chosen by the training among its solutions. Numbers of full
-    /// solutions of the plan are per window, as everywhere.
+    /// Cells around anchors in (ln M, ln L), with the Moes parameters M and L, on one grid, selected by the training
+    /// from its solutions. Numbers of full solutions of the plan are per local model.
     Anchored {
-        /// How many.
+        /// Number of local models.
         count: usize,
-        /// Pressure modes at most, of each.
+        /// Maximum number of pressure modes of each.
         modes: usize,
-        /// The grid of all.
+        /// Common grid.
         grid: GridSpec,
-        /// Modes of a basis that the pressure modes of all are combinations of, which keeps files of point contacts
-        /// small; 0 where each window has modes of its own.
+        /// Number of modes of a shared basis of which all pressure modes are combinations, to keep files of point
+        /// contacts small; 0 for separate modes.
         #[serde(default)]
         shared: usize,
-        /// What the modes of a window may miss of its pressures, root mean square over its solutions, over their films as
-        /// far as these are thin: it has no more modes than this asks for, and all where it is 0.
+        /// Permitted root mean square error of the modes over the solutions of a local model, relative to the film
+        /// thickness where that is small. It limits the number of modes; 0 permits all.
         #[serde(default)]
         missing: f64,
-        /// The same of any one of its solutions: it has no more modes than the stricter of the two asks for.
+        /// The same for each single solution. The larger number of modes of the two limits is used.
         #[serde(default)]
         missing_of_any: f64,
-        /// Pressure modes by what these miss the range is divided; 0 takes `modes`. Cells that hold hardly more solutions
-        /// than that are divided no further.
+        /// Number of pressure modes for whose error the range is divided; 0 uses `modes`. Cells with hardly more
+        /// solutions than that are not divided further.
         #[serde(default)]
         divided_by: usize,
     },
 }
 
-/// One window of a model.
+/// Specification of one local model.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WindowSpec {
-    /// Range of M it serves (training reaches beyond by an overlap).
+    /// Interval of M (training points extend beyond it by an overlap).
     pub m: (f64, f64),
-    /// Its grid.
+    /// Grid.
     pub grid: GridSpec,
-    /// Range of R_y/R it serves, of a model of ellipses; all of the model's where it is left out.
+    /// Interval of R_y/R, for a model of elliptical contacts; `None` for the whole interval of the model.
     #[serde(default)]
     pub radius_ratio: Option<(f64, f64)>,
-    /// M and L of its anchor, where the training chose windows around anchors.
+    /// M and L of its anchor, if the training selects anchors.
     #[serde(default)]
     pub anchor: Option<(f64, f64)>,
 }
 
 impl WindowSpec {
-    /// A window of circles or lines.
+    /// Creates a local model of line or circular contacts.
     pub fn new(m: (f64, f64), grid: GridSpec) -> Self {
         Self { m, grid, radius_ratio: None, anchor: None }
     }
 
-    /// True if it serves the same shapes as another window.
+    /// Returns true if another local model has the same radius ratios.
     pub(super) fn has_shapes_of(&self, other: &Self) -> bool {
         self.radius_ratio == other.radius_ratio
     }

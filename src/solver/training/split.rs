@@ -1,9 +1,9 @@
-//! Splitting a window of M that needs more pressure modes than it may have. Both halves inherit its full solutions:
+//! Split of a local model over M that needs too many pressure modes. Both parts inherit its full solutions, since
 //! they share one grid.
 //!
-//! The edge lies where both halves need equally many modes. The cost of a reduced solve grows with the cube of the
-//! modes, the size of the model with the number of windows; modes as many as there are solutions make a bad model, so
-//! that the first solutions (`start`) should outnumber the modes of a window clearly.
+//! The edge lies where both parts need the same number of modes. The cost of a reduced solve grows with the cube of
+//! the number of modes, the size of the model with the number of local models. A basis with as many modes as
+//! solutions is poor, so the number of initial solutions (`start`) should clearly exceed the number of modes.
 
 use super::error::TrainingError;
 use super::observer::TrainingObserver;
@@ -15,23 +15,23 @@ use crate::solver::reduced::PodBasis;
 use faer::Mat;
 use fastrand::Rng;
 
-/// Largest number of windows.
+/// Maximum number of local models.
 const MOST_WINDOWS: usize = 16;
-/// Narrowest window, as the ratio of its ends.
+/// Narrowest interval of M, as the ratio of its ends.
 const NARROWEST: f64 = 1.4;
-/// Halvings of the interval in which the edge is sought.
+/// Number of bisections for the edge.
 const HALVINGS: usize = 8;
 
-/// Whether window `k` can be split.
+/// Returns true if local model `k` can be split.
 pub(super) fn may_split(state: &TrainingState, k: usize) -> bool {
     let (low, high) = state.windows[k].window.m;
     state.windows.len() < MOST_WINDOWS && high > low * NARROWEST * NARROWEST
 }
 
-/// Puts two windows in place of window `k`, with the edge where the solutions of both need equally many modes.
+/// Replaces local model `k` by two, with the edge where the solutions of both need the same number of modes.
 ///
 /// # Errors
-/// When the solutions cannot be decomposed, or the observer cancels.
+/// [`TrainingError`] if the solutions cannot be decomposed, or if the observer cancels.
 pub(super) fn split(state: &mut TrainingState, k: usize, observer: &dyn TrainingObserver) -> Result<(), TrainingError> {
     let own = &state.windows[k];
     let (from, to) = own.window.m;
@@ -54,17 +54,18 @@ pub(super) fn split(state: &mut TrainingState, k: usize, observer: &dyn Training
     Ok(())
 }
 
-/// Whether a part of a window is trained with a solution of the whole: beyond its inner edge by the overlap.
+/// Returns true if a part is trained with a solution of the whole: within the part, or beyond its inner edge by the
+/// overlap.
 fn reached(part: (f64, f64), whole: (f64, f64), solved: &Solved) -> bool {
     let m = solved.point.moes().m;
     (part.0 == whole.0 || m >= part.0 / OVERLAP) && (part.1 == whole.1 || m <= part.1 * OVERLAP)
 }
 
-/// The M, to two digits, at which both sides need equally many modes at a loss of information; `None` when the whole
-/// cannot be decomposed.
+/// Returns the M, to two digits, at which both sides need the same number of modes for a loss of information; `None`
+/// if the whole cannot be decomposed.
 ///
-/// The loss is the one that three quarters of as many modes as there are solutions leave: a smaller one needs nearly as
-/// many modes as there are solutions on either side, and would compare their numbers only.
+/// The loss is that of three quarters as many modes as solutions. A smaller loss would need nearly as many modes as
+/// solutions on either side, and would compare their numbers only.
 fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ContactGrid) -> Option<f64> {
     let basis = |part: (f64, f64), loss: f64| {
         let inside: Vec<&Solved> = solved.iter().filter(|s| reached(part, whole, s)).collect();
@@ -72,7 +73,7 @@ fn balanced_edge(solved: &[Solved], whole: (f64, f64), grid: &ContactGrid) -> Op
         if inside.is_empty() { None } else { PodBasis::new(pressures.as_ref(), grid.weights(), loss) }
     };
     let loss = basis(whole, 0.0)?.loss(solved.len() * 3 / 4);
-    // A side without any solution needs no mode.
+    // A side without solutions needs no mode.
     let modes = |part| basis(part, loss).map_or(0, |basis| basis.modes.ncols());
     let (mut low, mut high) = (whole.0 * NARROWEST, whole.1 / NARROWEST);
     for _ in 0..HALVINGS {
@@ -94,7 +95,7 @@ mod tests {
     use crate::solver::training::plan::Within;
     use crate::solver::training::small::moes;
 
-    /// Solutions whose pressures have nothing in common: every one needs a mode.
+    /// Solutions whose pressures have nothing in common: each needs its own mode.
     fn solutions(grid: &ContactGrid) -> Vec<Solved> {
         let range = moes((2.0, 500.0), (2.0, 8.0), 6e9);
         let points = Within::all(&range, ContactKind::Line, false).farthest_points(&[], 60, &mut Rng::with_seed(1));

@@ -1,4 +1,4 @@
-//! What a training has done so far: enough to stop after any full solution, go on later, and arrive at the same model.
+//! State of a training: sufficient to stop after any full solution, continue later, and obtain the same model.
 
 use super::search::Search;
 use super::spec::{TrainingSpec, WindowSpec};
@@ -7,72 +7,72 @@ use crate::solver::full::{GridCost, Solution};
 use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
-/// Training reaches beyond a window's ends by this factor in M, so that its edge is not a corner.
+/// Factor in M by which training points extend beyond the ends of a local model, so that its edge is not a corner.
 pub(super) const OVERLAP: f64 = 1.221_402_758_160_17;
 
-/// Fewest full solutions that make a window.
+/// Minimum number of full solutions for a local model.
 pub(super) const FEWEST: usize = 4;
 
-/// A training with everything it has computed; full solutions are never computed twice.
+/// Training with all its results; full solutions are never computed twice.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingState {
-    /// What is being trained.
+    /// Specification of the training.
     pub spec: TrainingSpec,
-    /// Grids under trial for automatic windows; none once a grid was chosen.
+    /// Grids on trial for automatic local models; empty after the grid is selected.
     pub trials: Vec<WindowState>,
-    /// The windows by ascending M; automatic ones are split as the training goes on.
+    /// Local models by ascending M; automatic ones are split during the training.
     pub windows: Vec<WindowState>,
-    /// What was decided on grid and windows, for the model's log.
+    /// Decisions on grid and local models, for the model's log.
     pub decisions: Vec<String>,
-    /// Full solutions computed so far; windows that overlap may share them.
+    /// Number of full solutions computed so far; overlapping local models may share them.
     pub solves: usize,
 }
 
-/// How far one window, or one trial, is.
+/// State of one local model, or of one trial.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WindowState {
-    /// Its range of M and its grid.
+    /// Specification: interval of M and grid.
     pub window: WindowSpec,
-    /// Seed of everything random in it.
+    /// Seed of its random numbers.
     pub seed: u64,
-    /// How many of its solutions were there before its own were planned.
+    /// Number of inherited solutions.
     pub inherited: usize,
-    /// Full solutions, by their place in the order in which they were decided on.
+    /// Full solutions, in the order of planning.
     pub solved: Vec<Solved>,
-    /// Decided on, not yet solved.
+    /// Planned points that are not solved yet, with their places.
     pub pending: Vec<(usize, OperatingPoint)>,
-    /// Whether the first points were decided on.
+    /// True after the first points are planned.
     pub planned: bool,
-    /// Where the search for bad approximations is.
+    /// State of the search for bad approximations.
     pub search: Search,
 }
 
-/// What full solutions are computed for.
+/// Owner of full solutions.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Part {
     Trial(usize),
     Window(usize),
 }
 
-/// A full solution as a training keeps it.
+/// Full solution stored by a training.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solved {
-    /// Its place in the order.
+    /// Place in the order of planning.
     pub place: usize,
-    /// The operating point.
+    /// Operating point.
     pub point: OperatingPoint,
     /// P over the node array.
     pub pressure: Vec<f64>,
-    /// H₀.
+    /// Rigid-body separation H₀.
     pub h_0: f64,
-    /// Central film.
+    /// Central film thickness H_c.
     pub h_c: f64,
-    /// What the grid costs it, where that was asked for.
+    /// Discretisation error, if requested.
     pub grid_cost: Option<GridCost>,
 }
 
 impl Solved {
-    /// Keeps what a training needs of a solution.
+    /// Extracts the data that a training needs.
     pub fn new(place: usize, solution: Solution) -> Self {
         let Solution { problem, pressure, scalars, grid_cost, .. } = solution;
         Self { place, point: problem.point, pressure, h_0: scalars.h_0, h_c: scalars.h_c, grid_cost }
@@ -80,18 +80,18 @@ impl Solved {
 }
 
 impl TrainingState {
-    /// A training that has not begun.
+    /// Creates a training that has not started.
     pub fn new(spec: TrainingSpec) -> Self {
         Self { spec, trials: Vec::new(), windows: Vec::new(), decisions: Vec::new(), solves: 0 }
     }
 
-    /// Full solutions so far.
+    /// Returns the number of full solutions so far.
     pub fn solutions(&self) -> usize {
         self.solves
     }
 
-    /// The contacts that are to be solved in full before anything else, each with its place in the order, and their
-    /// grid; none of a training that has not planned any.
+    /// Returns the contacts that must be solved in full next, with their places and their grid; `None` if none are
+    /// planned.
     pub fn awaited(&self) -> Option<(GridSpec, &[(usize, OperatingPoint)])> {
         let part = self.trials.iter().chain(&self.windows).find(|part| !part.pending.is_empty())?;
         Some((part.window.grid, &part.pending))
@@ -106,7 +106,7 @@ impl TrainingState {
 }
 
 impl WindowState {
-    /// A window of which nothing was computed but the solutions `inherited`.
+    /// Creates a local model with inherited solutions only.
     pub(super) fn new(window: WindowSpec, seed: u64, inherited: impl IntoIterator<Item = Solved>) -> Self {
         let renumbered = inherited.into_iter().enumerate().map(|(place, solved)| Solved { place, ..solved });
         let solved: Vec<Solved> = renumbered.collect();
@@ -114,13 +114,13 @@ impl WindowState {
         Self { window, seed, inherited: solved.len(), solved, pending, planned, search }
     }
 
-    /// Decides on further points.
+    /// Plans further points.
     pub(super) fn decide(&mut self, points: impl IntoIterator<Item = OperatingPoint>) {
         let from = self.solved.len() + self.pending.len();
         self.pending.extend(points.into_iter().enumerate().map(|(i, p)| (from + i, p)));
     }
 
-    /// Gives up contacts without a full solution; those decided on behind them move up.
+    /// Removes contacts without a full solution; later places move up.
     pub(super) fn give_up(&mut self, places: impl IntoIterator<Item = usize>) {
         let mut given_up: Vec<usize> = places.into_iter().collect();
         given_up.sort_unstable();
@@ -130,7 +130,7 @@ impl WindowState {
         self.solved.iter_mut().for_each(|solved| moved(&mut solved.place));
     }
 
-    /// Keeps finished solutions in their order.
+    /// Adds finished solutions and sorts by place.
     pub(super) fn keep(&mut self, finished: Vec<Solved>) {
         self.pending.retain(|(place, _)| finished.iter().all(|s| s.place != *place));
         self.solved.extend(finished);

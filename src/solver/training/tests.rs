@@ -1,5 +1,5 @@
-//! Behaviour of training: the same specification gives the same model, models reproduce what they were trained on, bad
-//! requests are refused.
+//! Tests of training: the same specification gives the same model, models reproduce their training solutions, and
+//! invalid requests are refused.
 
 use super::small::{line, trained};
 use super::*;
@@ -39,8 +39,8 @@ fn every_sampling_reproduces_the_training_solutions() {
             let solved = online.solve(&snapshot.point, Lubricant::default()).unwrap();
             let h_c = online.scalars(&solved).unwrap().h_c;
             let error = (h_c / snapshot.h_c - 1.0).abs();
-            // What the greedy lacks are quadrature weights: it reproduces less exactly, as the dissertation's tables
-            // show.
+            // The greedy algorithm has no quadrature weights: it reproduces less exactly, as the dissertation's
+            // tables show.
             let bar = if sampling == Sampling::Greedy { 2e-2 } else { 2e-3 };
             assert!(error < bar, "{sampling:?}: {error:.1e} at {:?}", snapshot.point.moes());
         }
@@ -113,7 +113,7 @@ fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
     assert!(held >= 196, "{held} of 200");
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[100] < 10.0, "{}", ratios[100]);
-    // A truncated model is another one: nothing is known of its errors.
+    // A truncated model is a different one: its errors are unknown.
     let fewer = model.windows[0].pressure.count() - 2;
     let options = ReducedOptions { pressure_modes: Some(fewer), ..ReducedOptions::default() };
     let truncated = Online::new(model, options).solve(&points[0], Lubricant::default()).unwrap();

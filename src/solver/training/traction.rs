@@ -1,4 +1,4 @@
-//! The rule by which a finished window knows its traction without large-scale work.
+//! Fit of the traction quadrature of a finished local model.
 
 use super::error::TrainingError;
 use super::observer::TrainingObserver;
@@ -11,17 +11,17 @@ use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, TractionRule}
 use fastrand::Rng;
 use std::sync::Arc;
 
-/// Reduced solutions that a rule is fitted to, several per node.
+/// Number of reduced solutions for the fit, several per node.
 const SOLUTIONS: usize = 1000;
-/// Every second of them slides more slowly, down to this share of its SRR: there the stress gathers in the middle of
-/// the contact.
+/// Every second solution slides more slowly, down to this share of its SRR. The stress is then concentrated in the
+/// middle of the contact.
 const SLOWEST: f64 = 1e-3;
 
-/// Fits the rule of a window to reduced solutions of the contacts that it serves, `model` being the model of it alone; `None`
-/// where the fit fails. That of a line without heat is the whole grid's.
+/// Fits the quadrature of a local model to reduced solutions of contacts that it covers; `model` contains this local
+/// model only. `None` if the fit fails. For isothermal line contacts it is the whole grid's trapezoidal rule.
 ///
 /// # Errors
-/// When the observer cancels.
+/// [`TrainingError`] if the observer cancels.
 pub(super) fn traction_rule(
     spec: &TrainingSpec,
     model: &Arc<ReducedModel>,

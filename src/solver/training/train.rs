@@ -1,4 +1,4 @@
-//! The course of a training: windows one after the other, from full solutions to a calibrated model.
+//! Sequence of a training: local models one after the other, from full solutions to a calibrated model.
 
 use super::adaptive::search;
 use super::anchors;
@@ -25,15 +25,15 @@ use std::sync::Arc;
 /// Trains a model: full solutions on all cores, then bases, sampling and operators.
 ///
 /// # Errors
-/// When the specification is refused, a full solve fails, or the observer cancels.
+/// [`TrainingError`] if the specification is refused, a full solve fails, or the observer cancels.
 pub fn train(spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     train_resumable(&mut TrainingState::new(spec.clone()), observer)
 }
 
-/// Trains on from a state, which holds whatever was finished also when this ends with an error.
+/// Continues a training from a state. The state contains all finished work, also after an error.
 ///
 /// # Errors
-/// When the specification is refused, a full solve fails, or the observer cancels.
+/// [`TrainingError`] if the specification is refused, a full solve fails, or the observer cancels.
 pub fn train_resumable(
     state: &mut TrainingState,
     observer: &dyn TrainingObserver,
@@ -54,11 +54,11 @@ pub fn train_resumable(
 }
 
 impl TrainingState {
-    /// The model of what there is, without another full solution: what a stopped training is worth. Its domain ends
-    /// where the windows do that have solutions enough.
+    /// Builds the model from the current state without further full solutions, for a stopped training. Its domain
+    /// includes only the local models with enough solutions.
     ///
     /// # Errors
-    /// When the first window has fewer than four solutions, or the observer cancels.
+    /// [`TrainingError`] if the first local model has fewer than four solutions, or if the observer cancels.
     pub fn model(&self, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
         check(&self.spec)?;
         let mut rest = self.clone();
@@ -84,10 +84,10 @@ impl TrainingState {
     }
 }
 
-/// A window whose grid is expected to cost more than this share of H_c is told so.
+/// Expected relative discretisation error of the central film thickness above which the log contains a note.
 const TOO_COSTLY: f64 = 0.1;
 
-/// Trains every window; `ended` takes them as they are.
+/// Trains every local model; if `ended`, from the existing solutions only.
 fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -> Result<ReducedModel, TrainingError> {
     let spec = state.spec.clone();
     let mut windows = Vec::with_capacity(state.windows.len());
@@ -151,12 +151,12 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
     Ok(ReducedModel { title: spec.title, domain, windows, scene: String::new(), log })
 }
 
-/// The cell of a window around an anchor.
+/// Returns the cell of a local model around an anchor.
 fn cell(windows: &[WindowState], k: usize) -> Option<Cell> {
     Cell::of(windows.iter().map(|state| anchor(&state.window)), k)
 }
 
-/// The range of M from which a window is trained.
+/// Returns the interval of M of a local model's training points.
 fn reach(windows: &[WindowState], k: usize) -> (f64, f64) {
     if windows[k].window.anchor.is_some() {
         return (0.0, f64::INFINITY);
@@ -165,7 +165,7 @@ fn reach(windows: &[WindowState], k: usize) -> (f64, f64) {
     (if first { 0.0 } else { low / OVERLAP }, if last { f64::INFINITY } else { high * OVERLAP })
 }
 
-/// Whether a window has the lowest and the highest M of all of its shapes.
+/// Returns whether a local model has the lowest and the highest M among those with its radius ratios.
 fn ends(windows: &[WindowState], k: usize) -> (bool, bool) {
     let own = &windows[k].window;
     let beside = |other: &&WindowState| other.window.has_shapes_of(own);
@@ -173,7 +173,7 @@ fn ends(windows: &[WindowState], k: usize) -> (bool, bool) {
     (first, windows[k + 1..].iter().filter(beside).count() == 0)
 }
 
-/// Trains window `k` to the end; `None` when it is to be split.
+/// Trains local model `k` to the end; `None` if it must be split.
 fn train_window(
     spec: &TrainingSpec,
     k: usize,
@@ -195,7 +195,7 @@ fn train_window(
     if own.solved.iter().any(|s| s.pressure.len() != work.grid.len()) {
         return Err(TrainingError::Specification("the stored full solutions belong to another grid".to_owned()));
     }
-    // Drawn again when resumed, so that the random numbers behind it are the same.
+    // Drawn again after a resume, so that the following random numbers are the same.
     let points = match spec.plan {
         Plan::Grid { nodes } => {
             let mut points = spec.range.grid_points(spec.contact(), nodes);
@@ -227,7 +227,7 @@ fn train_window(
         let window = work.assemble(&state.windows[k].solved)?;
         return window.map(|window| work.sample(window, &mut rng)).transpose();
     }
-    // Two seeds from the common sequence; the rows are sampled at the same random points in every round.
+    // Two seeds from the common sequence; the equations are sampled at the same random points in every round.
     let (search_seed, row_seed) = (rng.u64(..), rng.u64(..));
     state.windows[k].search.begin(search_seed);
     search(&mut work, state, k, row_seed)

@@ -1,6 +1,6 @@
-//! Training of a reduced model of contacts in time: bases from the steps of full trajectories, rows by a cubature that
-//! carries the steps which the all-rows model takes along the same inputs. Both know how strongly each row answers to
-//! its pressure.
+//! Training of a transient reduced model. The bases are built from full trajectories. The equations are sampled by a
+//! cubature of the steps that the model with all rows takes along the same inputs. Both account for the sensitivity
+//! of each row to its pressure.
 
 use super::check;
 use super::error::TrainingError;
@@ -20,51 +20,51 @@ use crate::solver::reduced::{
 use faer::Mat;
 use std::sync::Arc;
 
-/// Settings of such a training.
+/// Settings of a transient training.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrajectoryTraining {
     /// Loss of information of both bases, (2.90).
     pub loss: f64,
-    /// Sampled rows per pressure mode.
+    /// Number of sampled equations per pressure mode.
     pub rows_per_mode: f64,
     /// Seed of the cubature's random functionals.
     pub seed: u64,
-    /// By what a step is found.
+    /// Scheme that determines a step.
     pub scheme: Scheme,
-    /// How rows are sampled; residual minimisation knows no cubature.
+    /// Sampling method; residual minimisation does not support the cubature.
     pub sampling: Sampling,
-    /// Local bases in place of one that serves all states.
+    /// Local bases instead of one basis for all states.
     pub local: Option<LocalBases>,
 }
 
 impl Default for TrajectoryTraining {
-    /// A loss of 1e-6 and two rows per mode, Galerkin's scheme with a cubature.
+    /// Loss of 1e-6, two rows per mode, Galerkin's scheme with a cubature.
     fn default() -> Self {
         let (scheme, sampling) = (Scheme::Galerkin, Sampling::Cubature);
         Self { loss: 1e-6, rows_per_mode: 2.0, seed: 1, scheme, sampling, local: None }
     }
 }
 
-/// What trajectories must be to learn from them.
+/// Message: requirements on the trajectories.
 const NONE: &str = "a training needs trajectories of one frame on one unregistered grid that kept their fields, each \
                     with at least its start";
-/// What their films must do.
+/// Message: requirements on their cavitation models.
 const RUPTURE: &str = "a training in time needs trajectories whose films all rupture by the penalty or all by \
                        complementarity; full solutions in time know mass-conserving rupture too";
-/// What of them must be the same.
+/// Message: requirements on their lubricants.
 const LUBRICANT: &str =
     "a training in time needs trajectories of one lubricant, with one viscosity at ambient pressure";
-/// What may help where trajectories teach nothing.
+/// Message: advice for trajectories that are not sufficient.
 const DEGENERATE: &str = "the trajectories could not be decomposed, or no rule of few rows carries their steps; try a \
                           larger loss of information or more rows per mode";
-/// Most states that enter the bases: of longer trajectories every n-th one.
+/// Maximum number of states for the bases; of longer trajectories every n-th state is used.
 const MOST_SNAPSHOTS: usize = 900;
 
-/// Trains a model of one frame from full trajectories that kept their states.
+/// Trains a model of one frame from full trajectories with stored states.
 ///
 /// # Errors
-/// When the trajectories hold no states or are of different frames or grids, when the linear algebra gives up, or the
-/// observer cancels.
+/// [`TrainingError`] if the trajectories have no states or are of different frames or grids, if the linear algebra
+/// fails, or if the observer cancels.
 pub fn train_trajectories(
     grid: &Arc<ReferenceGrid>,
     trajectories: &[Trajectory],
@@ -89,7 +89,7 @@ pub fn train_trajectories(
         return Err(TrainingError::Trajectories(LUBRICANT));
     }
     check::scheme(training.scheme, training.sampling, training.rows_per_mode)?;
-    // Behind a rupture boundary there are no rows.
+    // There are no rows behind a cavitation boundary.
     let penalty = if cavitation == Cavitation::Penalty { PENALTY } else { 0.0 };
     let sizes = mean_diagonals(&grid.scaled(1.0), &trajectories.iter().collect::<Vec<_>>(), penalty);
     let mut exact = bases(grid, trajectories, (&sizes, training), frame, observer)?;
@@ -110,7 +110,7 @@ pub fn train_trajectories(
     for (window, rows) in serving.into_iter().zip(sampled) {
         match rows {
             Some(rows) => window.set_rows(training.sampling, rows),
-            // A basis that few steps were taken in keeps its rows.
+            // A basis in which few steps were taken keeps all its rows.
             None if training.local.is_some() => {}
             None => return Err(TrainingError::Trajectories(DEGENERATE)),
         }
@@ -118,11 +118,11 @@ pub fn train_trajectories(
     Ok(model)
 }
 
-/// What the rows are tested with: V, each row by its cell's size over the fourth root of its own size. With the
-/// emphasis of [`emphasis`] on the other side, rows and modes meet halfway: the far inlet and the nodes that the
-/// rupture passes, whose rows answer up to 10⁸ times as strongly as those under the contact, no longer decide over the
-/// film by the little that modes miss there. Residual minimisation weighs rows by D of (D.10) alone: with both it is a
-/// hundred times worse.
+/// Returns the test space: V, with each row weighted by its cell size divided by the fourth root of the row's own
+/// size. Together with the weights of [`emphasis`] for the modes, this balances rows and modes. The rows in the far
+/// inlet and at the nodes that the cavitation boundary passes are up to 10⁸ times as sensitive as those in the
+/// contact. Without the weights, small errors of the modes there would dominate the film thickness. Residual
+/// minimisation uses the weights D of (D.10) only; both together would give much larger errors.
 pub(super) fn test_space(basis: &PodBasis, grid: &ContactGrid, sizes: &[f64], scheme: Scheme) -> TestSpace {
     let mut test = TestSpace::new(basis, grid);
     if scheme == Scheme::Galerkin {
@@ -131,8 +131,7 @@ pub(super) fn test_space(basis: &PodBasis, grid: &ContactGrid, sizes: &[f64], sc
     test
 }
 
-/// The weights under which modes are chosen: cell sizes times the root of the rows' sizes, where pressures are to be
-/// met best.
+/// Returns the weights for the selection of modes: cell sizes times the square root of the rows' sizes.
 fn emphasis(grid: &ReferenceGrid, sizes: &[f64]) -> Vec<f64> {
     let mut weights = grid.weights.clone();
     let unknowns = weights[FIRST_UNKNOWN..].iter_mut();
@@ -140,7 +139,7 @@ fn emphasis(grid: &ReferenceGrid, sizes: &[f64]) -> Vec<f64> {
     weights
 }
 
-/// The model with all rows, whose sizes are given.
+/// Builds the model with all rows, whose sizes are given.
 fn bases(
     grid: &Arc<ReferenceGrid>,
     trajectories: &[Trajectory],
@@ -202,7 +201,7 @@ fn bases(
     Ok(TrajectoryModel { title, frame, window, locals, starts, domain, scene, log })
 }
 
-/// A state for each place that the rupture boundary had in states of trajectories.
+/// Returns one state for each position of the cavitation boundary along trajectories.
 pub(super) fn boundaries<'a>(
     states: impl Iterator<Item = (&'a Trajectory, &'a State)>,
     grid: &ContactGrid,

@@ -1,5 +1,4 @@
-//! Reduced models in time: they reproduce what they were trained with, follow what they never saw, and are the same
-//! again.
+//! Tests of transient reduced models: they reproduce their training, follow unseen inputs, and are reproducible.
 
 use super::small::Made;
 use super::{LocalBases, TrajectoryTraining, train_trajectories};
@@ -75,7 +74,7 @@ fn under_complementarity_it_follows_full_complementarity_with_the_boundary_where
         assert!(model.window.sampled_rows.len() <= 2 * model.window.pressure.count());
         let unseen = transient(frame, Signal::TriangleToSquare { amplitude: 0.1, period: 0.5, s: 0.0 });
         let unseen = full(&under(Cavitation::Complementarity, unseen));
-        // 5e-6 seen, of H_min 7e-6.
+        // Typical values: 5e-6, for H_min 7e-6.
         for (wanted, bound) in [(&trainings[0], 2e-5), (&trainings[1], 2e-5), (&unseen, 3e-5)] {
             let seen = reduced(&model, &wanted.transient);
             assert!(off(&seen, wanted) < bound, "{frame:?}: {:e}", off(&seen, wanted));
@@ -109,9 +108,9 @@ fn local_bases_with_few_modes_each_go_a_long_way_in_every_frame() {
         assert!(model.window.pressure.count() > 25 && model.rows() <= 75, "{frame:?}: {} rows", model.rows());
         let seen = reduced(&model, &training.transient);
         assert_eq!(seen.rejected_steps, 0, "{frame:?}");
-        // 5e-6 seen.
+        // Typical value: 5e-6.
         assert!(off(&seen, &training) < 5e-5, "{frame:?}, {cavitation:?}: {:e}", off(&seen, &training));
-        // As many modes that serve all states alike.
+        // The same number of modes for all states together.
         let single = TrajectoryTraining { local: Some(LocalBases { clusters: 1, modes: 25 }), ..settings };
         let single = Arc::new(train_trajectories(&grid(), trainings, &single, &()).unwrap());
         let single = reduced(&single, &training.transient);
@@ -148,7 +147,7 @@ fn every_scheme_follows_an_unseen_load_under_complementarity() {
 
 #[test]
 fn a_boundary_that_finds_no_place_gives_way_to_the_penalty() {
-    // A load that jumps within a step, of which the trainings know nothing: the outlet fills beyond all modes.
+    // A load that jumps within a step, outside the trained range: the outlet fills beyond all modes.
     let (_, model) = trained(Cavitation::Complementarity, Frame::Fixed);
     let steep = transient(Frame::Fixed, Signal::TriangleToSquare { amplitude: 0.1, period: 0.5, s: 0.9 });
     let steep = full(&under(Cavitation::Complementarity, steep));
@@ -174,8 +173,8 @@ fn films_that_rupture_otherwise_are_refused() {
 
 #[test]
 fn rows_and_modes_that_meet_halfway_reproduce_a_heavy_contact() {
-    // Case 2 of Table 4.5: the rupture passes nodes whose penalty answers 10⁵ times as strongly as the rows under the
-    // contact. Cell sizes alone, for rows and modes alike, leave 1.4e-4 here.
+    // Case 2 of Table 4.5: the cavitation boundary passes nodes whose penalty is 10⁵ times as sensitive as the rows
+    // in the contact. With cell sizes alone as weights, the error would be 1.4e-4.
     let heavy = OperatingPoint { load: 12e5, ..OperatingPoint::TABLE_4_5 };
     let load = Signal::Harmonic { amplitude: 0.1, period: 0.5 };
     let training = full(&Transient { point: heavy, ..transient(Frame::Fixed, load) });

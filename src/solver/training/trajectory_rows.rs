@@ -1,4 +1,5 @@
-//! Rows of a reduced model in time: what the steps of the all-rows model along the trainings show decides which stay.
+//! Sampled equations of a transient reduced model, selected by the steps that the model with all rows takes along the
+//! training trajectories.
 
 use super::error::TrainingError;
 use super::one_thread::on_one_thread;
@@ -15,19 +16,19 @@ use fastrand::Rng;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Iterates that the rows of one basis have to satisfy, and those of each local one.
+/// Number of iterates for the sampling of one basis, and of each local one.
 const ITERATES: usize = 600;
 const LOCAL_ITERATES: usize = 300;
 
-/// What one march contributes.
+/// Contribution of one march.
 #[derive(Clone)]
 struct Evidence {
     goals: GoalEquations,
     rows: RowSnapshots,
 }
 
-/// The rows that a training asks for, of each basis of a model with all of them; `None` where the linear algebra gives up,
-/// or no rule of few rows carries the steps.
+/// Samples the equations of each basis of a model with all rows. An entry is `None` if the linear algebra fails, or
+/// if no rule of few rows reproduces the steps.
 pub(super) fn sampled_rows(
     exact: &Arc<TrajectoryModel>,
     sizes: &[f64],
@@ -61,14 +62,14 @@ pub(super) fn sampled_rows(
     tests.into_iter().zip(seen).enumerate().map(sample).collect()
 }
 
-/// Nothing seen of any basis yet. Candidate rows are those where something happens, whatever they count.
+/// Returns empty evidence for each basis. Candidates are the rows that matter, whatever their weight.
 fn no_evidence(exact: &TrajectoryModel) -> Vec<Evidence> {
     let goals = |window: &Window| GoalEquations::over(&TestSpace::new(window.pressure.basis(), &window.grid));
     exact.serving().map(|window| Evidence { goals: goals(window), rows: RowSnapshots::default() }).collect()
 }
 
-/// Marches the all-rows model along the trainings and collects what its iterates demand of the rules, or what they are: of
-/// each training what was seen in each basis.
+/// Marches the model with all rows along the training trajectories and collects goal equations or snapshots from its
+/// iterates. Returns the evidence of each trajectory for each basis.
 fn evidence(
     exact: &Arc<TrajectoryModel>,
     tests: &[TestSpace],
@@ -79,7 +80,7 @@ fn evidence(
     let none = no_evidence(exact);
     let factors: Vec<Vec<f64>> = tests.iter().map(|test| training.scheme.factors(test)).collect();
     let scaled = |v: &[f64], factors: &[f64]| -> Vec<f64> { v.iter().zip(factors).map(|(v, by)| v * by).collect() };
-    // About three iterates in a step, of which every n-th is kept.
+    // About three iterates per step, of which every n-th is kept.
     let steps: usize = trajectories.iter().map(|t| t.moments.len()).sum();
     let wanted = if exact.locals.is_empty() { ITERATES } else { LOCAL_ITERATES * exact.locals.len() };
     let every = (3 * steps).div_ceil(wanted).max(1);
@@ -89,7 +90,7 @@ fn evidence(
         let mut seen = 0;
         let mut model = ReducedMarch::new(exact, &trajectory.transient)?;
         model.observe(Box::new(|number, iterate: &Iterate<'_>| {
-            // The whole basis, beside local ones, keeps all rows.
+            // The whole basis keeps all rows if there are local ones.
             let of = if exact.locals.is_empty() { Some(number) } else { number.checked_sub(1) };
             if let (Some(of), 0) = (of, seen % every) {
                 let Evidence { goals, rows } = &mut evidence[of];

@@ -1,15 +1,15 @@
-//! Fast convolution with a kernel that is even along X: zero-padded transforms of a length that suits them.
+//! Fast convolution with a kernel that is even along X. Signals are zero-padded to a length with small prime factors.
 
 use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
-/// Why an elastic kernel cannot be made.
+/// Failure to build an elastic kernel, with the reason.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("the elastic kernel cannot be transformed: {0}")]
 pub struct KernelError(String);
 
-/// The transforms of one length, there and back.
+/// Forward and inverse transforms of one length.
 #[derive(Clone)]
 pub(super) struct Convolution {
     forward: Arc<dyn RealToComplex<f64>>,
@@ -17,33 +17,33 @@ pub(super) struct Convolution {
 }
 
 impl Convolution {
-    /// Transforms of signals with at least `entries` entries.
+    /// Plans transforms for signals with at least `entries` entries.
     pub fn new(entries: usize) -> Self {
         let length = fft_length(entries);
         let mut planner = RealFftPlanner::new();
         Self { forward: planner.plan_fft_forward(length), inverse: planner.plan_fft_inverse(length) }
     }
 
-    /// Entries of a padded signal.
+    /// Number of entries of a padded signal.
     pub fn len(&self) -> usize {
         self.forward.len()
     }
 
-    /// Entries of its spectrum.
+    /// Number of entries of its spectrum.
     pub fn frequencies(&self) -> usize {
         self.len() / 2 + 1
     }
 
-    /// Entries of the work space.
+    /// Number of entries of the work space.
     pub fn work(&self) -> usize {
         self.forward.get_scratch_len().max(self.inverse.get_scratch_len()).max(1)
     }
 
-    /// The spectrum of an even kernel, which is real, given by its circular signal; scaled so that going there and back
-    /// changes nothing.
+    /// Returns the spectrum of an even kernel, which is real. `signal` is the circular kernel. The spectrum is scaled
+    /// such that a forward and an inverse transform together are the identity.
     ///
     /// # Errors
-    /// When the signal has not the length of the transforms.
+    /// [`KernelError`] if `signal` does not have the length of the transforms.
     pub fn kernel(&self, signal: &mut [f64]) -> Result<Vec<f64>, KernelError> {
         let scale = self.len() as f64;
         signal.iter_mut().for_each(|value| *value /= scale);
@@ -53,16 +53,17 @@ impl Convolution {
         Ok(spectrum.iter().map(|value| value.re).collect())
     }
 
-    /// The spectrum of a padded signal, which is used up. All lengths must be this one's own: others leave no number.
+    /// Computes the spectrum of a padded signal and overwrites the signal. All slices must have the lengths of this
+    /// convolution; otherwise the spectrum is filled with NaN.
     pub fn forward(&self, signal: &mut [f64], spectrum: &mut [Complex64], work: &mut [Complex64]) {
         if self.forward.process_with_scratch(signal, spectrum, work).is_err() {
             spectrum.fill(Complex64::new(f64::NAN, f64::NAN));
         }
     }
 
-    /// The signal of a spectrum, which is used up; lengths as in [`Convolution::forward`].
+    /// Computes the signal of a spectrum and overwrites the spectrum. Lengths as in [`Convolution::forward`].
     pub fn inverse(&self, spectrum: &mut [Complex64], signal: &mut [f64], work: &mut [Complex64]) {
-        // The end bins of a real signal's spectrum are real; rounding must not make the inverse refuse them.
+        // The first and last bin of a real signal's spectrum are real. Rounding must not make the inverse refuse them.
         if let [first, .., last] = spectrum {
             (first.im, last.im) = (0.0, 0.0);
         }
@@ -72,7 +73,7 @@ impl Convolution {
     }
 }
 
-/// Smallest even length ≥ n whose prime factors are 2, 3 and 5.
+/// Returns the smallest even length ≥ n whose prime factors are 2, 3 and 5.
 fn fft_length(n: usize) -> usize {
     let smooth = |mut m: usize| {
         for p in [2, 3, 5] {

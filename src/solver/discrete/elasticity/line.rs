@@ -1,7 +1,8 @@
-//! Elastic deformation of the half-space under line loads: δ = K P with the logarithmic kernel (2.27).
+//! Elastic deformation δ = K P of the half-space under line loads, with pressure P and the logarithmic kernel (2.27).
 //!
-//! On a uniform grid K is Toeplitz, with the exact integral (2.39) of a constant pressure per cell, and is applied by
-//! FFT. On a graded grid K is the exact integral of hat functions, stored dense.
+//! On a uniform grid the flexibility matrix K is Toeplitz, with the exact integral (2.39) of a constant pressure per
+//! cell. It is applied by FFT. On a graded grid K is the exact integral of hat functions and is stored as a dense
+//! matrix.
 
 use super::convolution::{Convolution, KernelError};
 use faer::linalg::matmul::matmul;
@@ -9,12 +10,12 @@ use faer::{Accum, ColMut, ColRef, Mat, Par};
 use realfft::num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// The flexibility matrix K of a grid, over node arrays (leading outside node included).
+/// Flexibility matrix K of a grid over node arrays, which include the node outside the inlet.
 #[derive(Clone)]
 pub enum Flexibility {
     /// Equidistant nodes: one column, applied by fast convolution.
     Toeplitz(Toeplitz),
-    /// Any nodes: the whole matrix; columns of nodes without pressure are zero.
+    /// Arbitrary nodes: the full matrix. Columns of nodes without pressure are zero.
     Dense(Mat<f64>),
 }
 
@@ -27,7 +28,7 @@ impl std::fmt::Debug for Flexibility {
     }
 }
 
-/// A symmetric Toeplitz matrix and its transform.
+/// Symmetric Toeplitz matrix with its transform.
 #[derive(Clone)]
 pub struct Toeplitz {
     column: Vec<f64>,
@@ -35,7 +36,7 @@ pub struct Toeplitz {
     convolution: Convolution,
 }
 
-/// Buffers of the fast convolution; grow on first use, then nothing is allocated.
+/// Buffers of the fast convolution. They grow on first use; later calls allocate nothing.
 #[derive(Default, Clone, Debug)]
 pub struct Scratch {
     real: Vec<f64>,
@@ -44,10 +45,10 @@ pub struct Scratch {
 }
 
 impl Flexibility {
-    /// Kernel (2.39) of `nodes` equidistant nodes with spacing `h`.
+    /// Builds the kernel (2.39) of `nodes` equidistant nodes with spacing `h`.
     ///
     /// # Errors
-    /// When it cannot be transformed.
+    /// [`KernelError`] if the kernel cannot be transformed.
     pub fn uniform(h: f64, nodes: usize) -> Result<Self, KernelError> {
         let column: Vec<f64> = (0..nodes).map(|d| cell_kernel(d as f64 * h, h)).collect();
         let convolution = Convolution::new(2 * nodes);
@@ -60,8 +61,8 @@ impl Flexibility {
         Ok(Self::Toeplitz(Toeplitz { column, spectrum, convolution }))
     }
 
-    /// Kernel of hat functions on the nodes `x` (leading outside node included); the first two and the last carry no
-    /// pressure.
+    /// Builds the kernel of hat functions on the nodes `x`, which include the node outside the inlet. The first two
+    /// nodes and the last one carry no pressure.
     pub fn graded(x: &[f64]) -> Self {
         let n = x.len();
         Self::Dense(Mat::from_fn(n, n, |i, j| {
@@ -69,7 +70,7 @@ impl Flexibility {
         }))
     }
 
-    /// Deformation of node `i` by unit pressure at node `j`.
+    /// Returns the deformation of node `i` by unit pressure at node `j`.
     #[inline]
     pub fn entry(&self, i: usize, j: usize) -> f64 {
         match self {
@@ -78,7 +79,7 @@ impl Flexibility {
         }
     }
 
-    /// δ = K P over node arrays.
+    /// Computes δ = K P; both slices are node arrays.
     pub fn apply(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Scratch) {
         match self {
             Self::Toeplitz(t) => t.apply(pressure, deformation, scratch),
@@ -111,18 +112,19 @@ impl Toeplitz {
     }
 }
 
-/// −(1/π) ∫ ln|x − s| ds over a cell of width h around the origin, (2.39).
+/// Returns −(1/π) ∫ ln|x − s| ds over a cell of width h around the origin, (2.39).
 fn cell_kernel(x: f64, h: f64) -> f64 {
     let antiderivative = |u: f64| if u == 0.0 { 0.0 } else { u * (u.abs().ln() - 1.0) };
     -(antiderivative(x + 0.5 * h) - antiderivative(x - 0.5 * h)) / PI
 }
 
-/// −(1/π) ∫ hat(s) ln|x − s| ds for the hat function on a < b < c.
+/// Returns −(1/π) ∫ hat(s) ln|x − s| ds for the hat function on a < b < c.
 fn hat_kernel(x: f64, a: f64, b: f64, c: f64) -> f64 {
     let (left, right) = (b - a, c - b);
     let distance = (x - b).abs();
     if distance > 12.0 * left.max(right) {
-        // Far away the second difference below would cancel; Gauss' rule is exact to rounding instead.
+        // Far from the hat, the second difference below suffers from cancellation. Gauss's rule is exact to rounding
+        // there.
         let mut sum = 0.0;
         for (node, weight) in GAUSS_5 {
             let t = 0.5 * (1.0 + node);
@@ -149,7 +151,7 @@ const GAUSS_5: [(f64, f64); 5] = [
 mod tests {
     use super::*;
 
-    /// Composite midpoint rule with graded panels towards the singularity.
+    /// Composite midpoint rule with equal panels.
     fn quadrature(f: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
         let n = 400_000;
         let h = (to - from) / n as f64;
@@ -172,7 +174,7 @@ mod tests {
 
     #[test]
     fn near_and_far_forms_of_the_hat_kernel_meet() {
-        // Just inside and outside the switching distance the kernel must be smooth.
+        // The kernel must be smooth across the switching distance.
         let (inside, outside) = (hat_kernel(0.1 + 1.199, 0.0, 0.1, 0.2), hat_kernel(0.1 + 1.201, 0.0, 0.1, 0.2));
         let slope = -0.1 / (PI * 1.2);
         assert!((outside - inside - 0.002 * slope).abs() < 1e-7);

@@ -1,9 +1,9 @@
-//! Elastic deformation of the half-space under a pressure that is constant on rectangles, and its mirror image: Δ = K
-//! P, (2.38).
+//! Elastic deformation Δ = K P of the half-space under a pressure P that is constant on rectangles, and under its
+//! mirror image, (2.38).
 //!
-//! Along X the nodes are equidistant and K is Toeplitz: it is applied by FFT, zero-padded. Across there are few nodes,
-//! so each frequency has a small dense matrix of its own, with the mirror at Y = 0 included. That costs as much as a
-//! second FFT over the mirrored domain would, halves the number of transforms, and leaves the spacing across free.
+//! Along X the nodes are equidistant and the flexibility matrix K is Toeplitz. It is applied by zero-padded FFT. Across
+//! there are few nodes, so each frequency has a small dense matrix that includes the mirror image at Y = 0. This costs
+//! as much as a second FFT over the mirrored domain, halves the number of transforms, and allows any spacing across.
 
 use super::convolution::{Convolution, KernelError};
 use crate::host::pool::{self, on_all_cores};
@@ -12,23 +12,23 @@ use rayon::prelude::*;
 use realfft::num_complex::Complex64;
 use std::sync::OnceLock;
 
-/// The kernel of a half domain: deformation of every node by the pressure of every cell and of its mirror image.
+/// Kernel of a half domain: deformation of every node by the pressure on every cell and on its mirror image.
 #[derive(Clone)]
 pub struct PointFlexibility {
     nx: usize,
     ny: usize,
     hx: f64,
-    /// c_K: what (2/π²) is for a circle.
+    /// Kernel factor c_K; (2/π²) for a circular contact.
     factor: f64,
     /// Ordinates of the nodes.
     y: Vec<f64>,
     /// Upper edge of each node's cell; 0 on the axis.
     edges: Vec<f64>,
-    /// Per frequency a matrix of n_y rows and n_y − 1 columns (cell j + 1), column after column; real, since K is even
-    /// in X.
+    /// One matrix per frequency with n_y rows and n_y − 1 columns (cell j + 1), column by column. It is real, since K
+    /// is even in X.
     spectrum: Vec<f64>,
     convolution: Convolution,
-    /// [`Self::column_block`] of every distance, once it was asked for.
+    /// [`Self::column_block`] of every distance, stored at the first request.
     blocks: OnceLock<Vec<Vec<f64>>>,
 }
 
@@ -38,51 +38,50 @@ impl std::fmt::Debug for PointFlexibility {
     }
 }
 
-/// Buffers of the fast convolution; grow on first use, then nothing is allocated.
+/// Buffers of the fast convolution. They grow on first use; later calls allocate nothing.
 #[derive(Default, Clone, Debug)]
 pub struct PointScratch {
     /// One padded signal along X per ordinate.
     real: Vec<f64>,
     /// One spectrum per ordinate.
     pressure: Vec<Complex64>,
-    /// Per frequency the spectra of the deformation at all ordinates.
+    /// Spectra of the deformation at all ordinates, frequency by frequency.
     deformation: Vec<Complex64>,
     /// Work space of the transforms, one per ordinate.
     work: Vec<Complex64>,
 }
 
-/// Deformation at distance (x, y) from the centre of a rectangle of size `hx` × `hy` under unit pressure, (2.40):
-/// (2/π²) ∫∫ dX dY / r in closed form.
+/// Returns the deformation at distance (x, y) from the centre of a rectangle of size `hx` × `hy` under unit pressure,
+/// (2.40): (2/π²) ∫∫ dX dY / r in closed form.
 pub fn rectangle_kernel(x: f64, y: f64, hx: f64, hy: f64) -> f64 {
     let factor = Ellipse::CIRCLE.kernel_factor();
     strip(x, y + 0.5 * hy, hx, factor) - strip(x, y - 0.5 * hy, hx, factor)
 }
 
-/// `factor` times the integral of 1/r over the strip of width `hx` around x and from 0 to v across; odd in v.
+/// Returns `factor` times the integral of 1/r over a strip: of width `hx` around x, and from 0 to v across. Odd in v.
 fn strip(x: f64, v: f64, hx: f64, factor: f64) -> f64 {
     factor * (corner(x + 0.5 * hx, v) - corner(x - 0.5 * hx, v))
 }
 
-/// The integral of 1/r from (0, 0) to (u, v); odd in both. u asinh(v/|u|) + v asinh(u/|v|) differs from the usual
-/// u ln(v + r) + v ln(u + r) by terms that cancel between the corners of a rectangle.
+/// Returns the integral of 1/r from (0, 0) to (u, v), odd in both. The form u asinh(v/|u|) + v asinh(u/|v|) differs
+/// from the usual u ln(v + r) + v ln(u + r) by terms that cancel between the corners of a rectangle.
 fn corner(u: f64, v: f64) -> f64 {
     let along = if u == 0.0 { 0.0 } else { u * (v / u.abs()).asinh() };
     let across = if v == 0.0 { 0.0 } else { v * (u / v.abs()).asinh() };
     along + across
 }
 
-/// All strips that the kernel is made of, each integrated once: equidistant ordinates need the same ones again and
-/// again.
+/// All strips that the kernel consists of, each integrated once. Equidistant ordinates use the same strips repeatedly.
 struct Strips {
-    /// Their heights v ≥ 0, ascending.
+    /// Heights v ≥ 0 of the strips, ascending.
     heights: Vec<f64>,
-    /// Of each height the integrals around x = 0, hx, 2hx …
+    /// Number of integrals per height: around x = 0, hx, 2hx …
     columns: usize,
     values: Vec<f64>,
 }
 
 impl Strips {
-    /// Heights that differ by less are the same but for rounding.
+    /// Heights that differ by less than this differ only by rounding.
     const SAME: f64 = 1e-13;
 
     fn new(PointFlexibility { nx, hx, factor, y, edges, .. }: &PointFlexibility) -> Self {
@@ -94,7 +93,7 @@ impl Strips {
         let mut values = vec![0.0; heights.len() * columns];
         pool::each_chunk(&mut values, columns, 1, |place, values| {
             let v = heights[place];
-            // The corner before the first strip is that behind it, mirrored.
+            // The corner before the first strip is the mirrored corner behind it.
             let mut before = -corner(0.5 * hx, v);
             for (d, value) in values.iter_mut().enumerate() {
                 let behind = corner((d as f64 + 0.5) * hx, v);
@@ -105,7 +104,7 @@ impl Strips {
         Self { heights, columns, values }
     }
 
-    /// The sign and the integrals of the strip up to v.
+    /// Returns the sign of v and the integrals of the strips from 0 to |v|.
     fn up_to(&self, v: f64) -> (f64, &[f64]) {
         let place = self.heights.partition_point(|height| *height < v.abs() - Self::SAME);
         (v.signum(), &self.values[place * self.columns..(place + 1) * self.columns])
@@ -113,12 +112,12 @@ impl Strips {
 }
 
 impl PointFlexibility {
-    /// The kernel of `nx` nodes with spacing `hx` along X and nodes at the ordinates `y` across, whose cells end at
-    /// `edges` (upper edge of each; the first node carries no pressure), all in units of a: K is `factor` ∬ 1/r. Pressures
-    /// at both ends along X are taken as zero.
+    /// Builds the kernel `factor` ∬ 1/r. Along X there are `nx` nodes with spacing `hx`; both end nodes carry no
+    /// pressure. Across, the nodes lie at the ordinates `y`, and `edges` holds the upper edge of each node's cell;
+    /// the first node carries no pressure. All lengths are in units of the half-width a.
     ///
     /// # Errors
-    /// When it cannot be transformed.
+    /// [`KernelError`] if the kernel cannot be transformed.
     pub fn new(hx: f64, nx: usize, y: &[f64], edges: &[f64], factor: f64) -> Result<Self, KernelError> {
         let (ny, m) = (y.len(), y.len() - 1);
         let convolution = Convolution::new(2 * nx - 3);
@@ -127,7 +126,7 @@ impl PointFlexibility {
         let blocks = OnceLock::new();
         let mut kernel = Self { nx, ny, hx, factor, y, edges, spectrum, convolution, blocks };
         let strips = Strips::new(&kernel);
-        // Spectra of the kernels of one ordinate j against all cells, in parallel over j.
+        // Spectra of the kernels of one ordinate j with respect to all cells, in parallel over j.
         let row = |j: usize| {
             let mut out = vec![0.0; frequencies * m];
             let mut circular = vec![0.0; length * m];
@@ -162,8 +161,8 @@ impl PointFlexibility {
         Ok(kernel)
     }
 
-    /// Hands out the deformation of a node of ordinate `j` by unit pressure on each cell and its mirror image, `d`
-    /// columns away. Cell c belongs to ordinate c + 1.
+    /// Passes to `put` the deformation of a node at ordinate `j` by unit pressure on each cell and its mirror image,
+    /// `d` columns away. Cell c belongs to ordinate c + 1.
     fn row_entries(&self, d: usize, j: usize, mut put: impl FnMut(usize, f64)) {
         let (x, y) = (d as f64 * self.hx, self.y[j]);
         let near = |edge: f64| strip(x, y - edge, self.hx, self.factor);
@@ -176,8 +175,8 @@ impl PointFlexibility {
         }
     }
 
-    /// Deformations of all ordinates by the cells of all unknowns, `d` columns away: a matrix of n_y rows and n_y − 1
-    /// columns, column after column, as the preconditioner needs it for small d.
+    /// Returns the deformations of all ordinates by the cells of all unknowns, `d` columns away. The matrix has n_y
+    /// rows and n_y − 1 columns, column by column. The preconditioner uses it for small d.
     pub fn column_block(&self, d: usize) -> Vec<f64> {
         let mut block = vec![0.0; self.ny * (self.ny - 1)];
         for j in 0..self.ny {
@@ -186,17 +185,18 @@ impl PointFlexibility {
         block
     }
 
-    /// The former of every distance; computed once, as many entries take more than they.
+    /// Returns [`Self::column_block`] of every distance. The blocks are computed once, because single calls of
+    /// [`Self::entry`] for many entries take longer.
     pub fn column_blocks(&self) -> &[Vec<f64>] {
         if let Some(blocks) = self.blocks.get() {
             return blocks;
         }
-        // Computed before it is stored: a thread that waits for its share may come here again.
+        // Computed before it is stored: a waiting thread may enter this function again while it shares work.
         let blocks = on_all_cores(|| (0..self.nx).into_par_iter().map(|d| self.column_block(d)).collect());
         self.blocks.get_or_init(|| blocks)
     }
 
-    /// One entry of K: deformation of a node by unit pressure at another; both are indices of node arrays.
+    /// Returns one entry of K: the deformation of `node` by unit pressure at `other`. Both are indices of node arrays.
     pub fn entry(&self, node: usize, other: usize) -> f64 {
         let (i, j) = (node / self.ny, node % self.ny);
         let (k, l) = (other / self.ny, other % self.ny);
@@ -209,7 +209,7 @@ impl PointFlexibility {
         (at(y - lower) - at(y - upper)) + (at(y + upper) - at(y + lower))
     }
 
-    /// Δ = K P over node arrays.
+    /// Computes Δ = K P; both slices are node arrays.
     pub fn apply(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut PointScratch) {
         on_all_cores(|| self.apply_in_pool(pressure, deformation, scratch));
     }
@@ -247,7 +247,7 @@ impl PointFlexibility {
             .for_each(|(k, (out, matrix))| {
                 out.fill(Complex64::default());
                 let value = |cell: usize| spectra[(cell + 1) * frequencies + k];
-                // Four cells at once: sums are read and written a quarter as often.
+                // Four cells at once: the sums are read and written a quarter as often.
                 let mut cell = 0;
                 let mut fours = matrix.chunks_exact(4 * ny);
                 for four in fours.by_ref() {
@@ -298,7 +298,7 @@ mod tests {
     use crate::solver::discrete::grid::PointGridSpec;
     use std::f64::consts::PI;
 
-    /// ∫∫ 1/r over a rectangle by a composite midpoint rule fine enough for 1e-5.
+    /// ∫∫ 1/r over a rectangle by a composite midpoint rule, accurate to 1e-5.
     fn quadrature(x: f64, y: f64, hx: f64, hy: f64) -> f64 {
         let n = 1000;
         let mut sum = 0.0;
@@ -373,7 +373,7 @@ mod tests {
         for (node, got) in deformation.iter().enumerate() {
             let (x, y) = at(node);
             let r = x.hypot(y);
-            // Hertz's half-space: 1 − r²/2 inside, (1/π)((2 − r²) asin(1/r) + √(r² − 1)) outside.
+            // Hertz: 1 − r²/2 inside the contact, (1/π)((2 − r²) asin(1/r) + √(r² − 1)) outside.
             let want = if r <= 1.0 {
                 1.0 - 0.5 * r * r
             } else {

@@ -1,9 +1,13 @@
-//! The film at one place with a temperature across it: the shear stress, and the moments that make it a node of the
-//! Reynolds equation.
+//! Film at one position with a temperature profile across it: shear stress, and the moments that define the node of
+//! the Reynolds equation.
 //!
-//! τ̄ = τ̄_m + κH P_X c with c = ζ − ½, and f = η₀/η(P, θ, |τ|), such that H∫τ̄f = ū₂ − ū₁. With R = ∫_ζ¹ρ̄, g₀ = ∫f, g₁ =
-//! ∫cf, s₀ = ∫fR, s₁ = ∫cfR and r₀ = ∫ρ̄ the mobility is κH³ (s₀g₁/g₀ − s₁) and the flow r₀ū₁ + (ū₂ − ū₁) s₀/g₀. Where the
-//! density is constant across the film these are the moments of a film without heat.
+//! Symbols (dimensionless): pressure P, film thickness H, height ζ, temperature rise θ, shear stress τ̄, mid-film
+//! stress τ̄_m, surface speeds ū₁ and ū₂, density ρ̄, viscosity η.
+//!
+//! The stress is τ̄ = τ̄_m + κH P_X c with c = ζ − ½, and the fluidity f = η₀/η(P, θ, |τ|). The mid-film stress
+//! follows from H∫τ̄f = ū₂ − ū₁. With R = ∫_ζ¹ρ̄, g₀ = ∫f, g₁ = ∫cf, s₀ = ∫fR, s₁ = ∫cfR and r₀ = ∫ρ̄ the mobility is
+//! κH³ (s₀g₁/g₀ − s₁) and the flow r₀ū₁ + (ū₂ − ū₁) s₀/g₀. If the density is constant across the film, these are the
+//! moments of an isothermal film.
 
 use super::across::{ACROSS, POINTS, Profile, RULE, apply};
 use crate::solver::discrete::grid::cubic;
@@ -12,18 +16,18 @@ use crate::solver::discrete::reynolds::film_integrals::PRODUCTION_RULE;
 use crate::solver::discrete::reynolds::generalized::{NodeState, ShearNode};
 use crate::solver::physics::lubricant::{Across, Fluidity, ScaledHeat, ScaledShear};
 
-/// A shear-thinning law for stresses over η₀u_mR/a².
+/// Shear-thinning law for stresses in units of η₀u_mR/a².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StressLaw {
     law: Fluidity,
-    /// What makes a stress one in the law's own scale.
+    /// Factor that converts a stress to the law's own scale.
     per_scale: f64,
 }
 
-/// Fluidities at points across the film under stress.
+/// Fluidities under stress at points across the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sheared<const N: usize> {
-    /// τ̄ along X, the direction of rolling.
+    /// τ̄ along X, the rolling direction.
     pub stress: [f64; N],
     /// τ̄ along Y.
     pub aside: [f64; N],
@@ -31,7 +35,7 @@ pub struct Sheared<const N: usize> {
     pub fluidity: [f64; N],
     /// ∂f/∂τ̄ along X.
     pub slope: [f64; N],
-    /// The same along Y.
+    /// ∂f/∂τ̄ along Y.
     pub slope_aside: [f64; N],
 }
 
@@ -41,7 +45,7 @@ impl<const N: usize> Default for Sheared<N> {
     }
 }
 
-/// What drives a film: κH(P_X, P_Y), by which its stress changes across, and (ū₂ − ū₁)/H.
+/// Driving quantities of a film: κH(P_X, P_Y), the change of stress across it, and (ū₂ − ū₁)/H.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     /// κH P_X.
@@ -52,21 +56,22 @@ pub struct Drive {
     pub rate: f64,
 }
 
-/// Iterations for the stress at mid-film at most.
+/// Maximum number of iterations for the mid-film stress.
 const MOST_ITERATIONS: usize = 40;
 
-/// A step relative to the stress at which its iteration ends.
+/// The iteration ends when the step is smaller than this, relative to the stress.
 const LAST_STEP: f64 = 1e-11;
 
 impl StressLaw {
-    /// The law in the scale of a contact with heat.
+    /// Converts the shear law to the stress scale of a thermal contact.
     pub fn new(shear: &ScaledShear, heat: &ScaledHeat) -> Self {
         Self { law: shear.fluidity, per_scale: heat.stress_scale_pa / shear.stress_scale_pa }
     }
 }
 
 impl<const N: usize> Sheared<N> {
-    /// Fluidities at rest under the stresses τ̄_m + a c along X and b (c − c₀) along Y.
+    /// Evaluates the film under the stresses τ̄_m + a c along X and b (c − c₀) along Y. `rest` holds the fluidities
+    /// without stress.
     fn at(
         law: Option<&StressLaw>,
         rest: &[f64; N],
@@ -95,14 +100,14 @@ impl<const N: usize> Sheared<N> {
         out
     }
 
-    /// |τ̄| at a point.
+    /// Returns |τ̄| at point `i`.
     #[inline]
     pub fn size(&self, i: usize) -> f64 {
         let (along, aside) = (self.stress[i], self.aside[i]);
         if aside == 0.0 { along.abs() } else { along.hypot(aside) }
     }
 
-    /// c₀ = ∫cf/∫f, where the stress along Y vanishes: nothing slides that way.
+    /// Returns c₀ = ∫cf/∫f, the height at which the stress along Y vanishes: the surfaces do not slide along Y.
     fn centre(&self, (offsets, weights): (&[f64; N], &[f64; N])) -> f64 {
         let (mut g_0, mut g_1) = (0.0, 0.0);
         for i in 0..N {
@@ -112,7 +117,8 @@ impl<const N: usize> Sheared<N> {
         g_1 / g_0
     }
 
-    /// The film that is driven so; `near` is a stress at mid-film to begin with. Returns the stress at mid-film beside it.
+    /// Solves for the mid-film stress of a film with the given driving quantities, and returns this stress and the
+    /// film. `near` is the initial guess; 0 or a value that is not finite means none.
     pub fn sliding(
         law: Option<&StressLaw>,
         rest: &[f64; N],
@@ -138,7 +144,7 @@ impl<const N: usize> Sheared<N> {
         let mut mid = if near.is_finite() && near != 0.0 {
             near
         } else {
-            // As if nothing but sliding sheared it.
+            // Initial guess: the stress of pure sliding.
             let mean: f64 = rest.iter().zip(weights).map(|(f, w)| f * w).sum();
             (thinning.law.stress_near(thinning.per_scale * rate.abs() / mean) / thinning.per_scale).copysign(rate)
         };
@@ -149,7 +155,7 @@ impl<const N: usize> Sheared<N> {
             let longest = (3.0 / thinning.per_scale).max(0.5 * mid.abs());
             let step = (-excess / stiffness).clamp(-longest, longest);
             mid += step;
-            // Along Y the stress hardly moves: its centre follows the film that was found last.
+            // The stress along Y hardly changes: its zero c₀ is taken from the previous iterate.
             let moved = if b == 0.0 { 0.0 } else { film.centre((offsets, weights)) - centre };
             centre += moved;
             film = Self::at(law, rest, offsets, (mid, a), (centre, b));
@@ -161,33 +167,34 @@ impl<const N: usize> Sheared<N> {
     }
 }
 
-/// Offsets c and weights of the rule.
+/// Returns the offsets c and the weights of the quadrature rule.
 fn rule() -> ([f64; RULE], [f64; RULE]) {
     (PRODUCTION_RULE.map(|(c, _)| c), PRODUCTION_RULE.map(|(_, w)| w))
 }
 
-/// A film with temperatures as a node of the Reynolds equation.
+/// Laws that make a film with temperatures a node of the Reynolds equation.
 #[derive(Clone, Copy, Debug)]
 pub struct WarmLaws<'a> {
     /// Heat in the contact.
     pub heat: &'a ScaledHeat,
-    /// How the lubricant thins; none where it does not.
+    /// Shear-thinning law; `None` for a Newtonian lubricant.
     pub shear: Option<StressLaw>,
 }
 
 impl WarmLaws<'_> {
-    /// ū₂ − ū₁.
+    /// Returns the sliding speed ū₂ − ū₁.
     pub fn slip(&self) -> f64 {
         self.heat.speeds[1] - self.heat.speeds[0]
     }
 
-    /// η₀/η at P, θ and τ̄.
+    /// Returns the fluidity η₀/η at P, θ and τ̄.
     pub fn fluidity(&self, pressure: f64, theta: f64, stress: f64) -> f64 {
         let rest = self.heat.fluid.at(pressure, &[theta]).fluidity;
         Sheared::at(self.shear.as_ref(), &rest, &[0.0], (stress, 0.0), (0.0, 0.0)).fluidity[0]
     }
 
-    /// τ̄ at mid-film at θ, given at the points of the rule; none where surfaces overlap.
+    /// Returns τ̄ at mid-film. `theta` holds θ at the points of the quadrature rule. Returns 0 where the surfaces
+    /// overlap (H ≤ 0).
     pub fn mid_stress(&self, state: NodeState, theta: &[f64; RULE]) -> f64 {
         if state.film <= 0.0 {
             return 0.0;
@@ -195,7 +202,8 @@ impl WarmLaws<'_> {
         self.sheared(state, &self.heat.fluid.at(state.pressure, theta).fluidity, 0.0).0
     }
 
-    /// τ̄ at mid-film, from one nearby on, and the film that is driven so, given what it is at rest.
+    /// Returns τ̄ at mid-film and the sheared film, given the fluidities without stress and an initial guess of the
+    /// stress.
     fn sheared(&self, state: NodeState, rest: &[f64; RULE], near: f64) -> (f64, Sheared<RULE>) {
         let NodeState { gradient, film, .. } = state;
         let (offsets, weights) = rule();
@@ -204,13 +212,14 @@ impl WarmLaws<'_> {
         Sheared::sliding(self.shear.as_ref(), rest, (&offsets, &weights), drive, near)
     }
 
-    /// The node at θ, given at the points of the rule. `stress` is the stress at mid-film, to begin with and found.
+    /// Evaluates the node with its derivatives. `theta` holds θ at the points of the quadrature rule. `stress` is the
+    /// initial guess of the mid-film stress on entry and the solution on return.
     pub fn node(&self, state: NodeState, theta: &[f64; RULE], stress: &mut f64) -> ShearNode {
         let NodeState { pressure, gradient: [gradient, gradient_y], film } = state;
         let kappa = self.heat.gradient;
         let fluid = self.heat.fluid.at(pressure, theta);
         if film <= 0.0 {
-            // Surfaces that overlap are a passing iterate: as a film without heat has it.
+            // Overlapping surfaces occur only in intermediate iterates. They are treated as in an isothermal film.
             return ShearNode { node: overlapping(&fluid, kappa / 12.0, pressure, film), ..ShearNode::default() };
         }
         let (offsets, weights) = rule();
@@ -219,11 +228,11 @@ impl WarmLaws<'_> {
         *stress = mid;
         let (rest, rest_p) =
             (apply(&ACROSS.rest_on_rule, &fluid.density), apply(&ACROSS.rest_on_rule, &fluid.density_p));
-        // Moments g₀, g₁, s₀, s₁: values, and derivatives by τ̄_m, a and P at the same τ̄_m and a.
+        // Moments g₀, g₁, s₀, s₁ with their derivatives by τ̄_m, a and P; the other two are held constant each time.
         let (mut value, mut by_stress, mut by_a, mut by_p) = ([0.0; 4], [0.0; 4], [0.0; 4], [0.0; 4]);
         let (mut density, mut density_p) = (0.0, 0.0);
         let (mut stiffness, mut across, mut excess_p) = (0.0, 0.0, 0.0);
-        // The same by b, where c₀ stays, and what that adds to the sliding.
+        // Derivatives by b at constant c₀, and the contribution of b to the sliding.
         let (mut by_b, mut excess_b) = ([0.0; 4], 0.0);
         let aside = if gradient_y == 0.0 { 0.0 } else { sheared.centre((&offsets, &weights)) };
         for i in 0..RULE {
@@ -249,12 +258,12 @@ impl WarmLaws<'_> {
                 by_b.iter_mut().zip(kinds).for_each(|(sum, kind)| *sum += answer * kind);
             }
         }
-        // Through the stress at mid-film as well.
+        // Add the derivatives through the mid-film stress.
         let (stress_a, stress_p, stress_rate) = (-across / stiffness, -excess_p / stiffness, 1.0 / stiffness);
         let [g_0, g_1, s_0, s_1] = value;
         let shift = g_1 / g_0;
         let (moment, carried) = (shift * s_0 - s_1, s_0 / g_0);
-        // Derivatives of `moment` and `carried` by those of g₀, g₁, s₀, s₁.
+        // Derivatives of `moment` and `carried`, from those of g₀, g₁, s₀, s₁.
         let chain =
             |d: [f64; 4]| [(d[1] - shift * d[0]) / g_0 * s_0 + shift * d[2] - d[3], (d[2] - carried * d[0]) / g_0];
         let [of_stress, of_a, of_p] = [by_stress, by_a, by_p].map(chain);
@@ -283,7 +292,7 @@ impl WarmLaws<'_> {
     }
 }
 
-/// A node as a film without shear thinning has it, at the mean of its temperatures.
+/// Returns the node of a film without shear-thinning, at the mean of its temperatures.
 fn overlapping(fluid: &Across<RULE>, inverse_lambda: f64, pressure: f64, film: f64) -> Node {
     let middle = RULE / 2;
     let per_cube = fluid.density[middle] * fluid.fluidity[middle] * inverse_lambda;
@@ -300,22 +309,24 @@ fn overlapping(fluid: &Across<RULE>, inverse_lambda: f64, pressure: f64, film: f
     }
 }
 
-/// Temperatures at every node of a contact, and the stress at mid-film that was found there last.
+/// Temperatures at every node of a contact, with the last mid-film stress at each node.
 #[derive(Clone, Debug, Default)]
 pub struct WarmFilm {
-    /// θ at the points of the rule.
+    /// θ at the points of the quadrature rule.
     pub theta: Vec<[f64; RULE]>,
     /// τ̄_m.
     pub stress: Vec<f64>,
 }
 
 impl WarmFilm {
-    /// Takes over θ from stations at increasing abscissae, cubic between them, at nodes.
+    /// Interpolates θ from stations to nodes, cubically along X. Both abscissae increase; nodes before the first
+    /// station take its value.
     pub fn spread(&mut self, nodes: &[f64], stations: &[f64], theta: impl Fn(usize) -> Profile) {
         self.spread_lines(nodes, stations, 1, |_, station| theta(station));
     }
 
-    /// The same of several lines along X, whose nodes lie beside each other; `theta` is told the line and the station.
+    /// Does the same for several lines along X, whose nodes are adjacent in the arrays. `theta` receives the line and
+    /// the station.
     pub fn spread_lines(
         &mut self,
         nodes: &[f64],

@@ -1,4 +1,5 @@
-//! The lines along X whose temperatures are marched: several of a plane beside each other, or the one of a line contact.
+//! Lines along X on which the temperatures are marched: several parallel lines of a plane, or the single line of a
+//! line contact.
 
 use super::across::Profile;
 use super::march::{Aside, Beside, Course, HeatBalance, March};
@@ -10,28 +11,29 @@ use crate::solver::discrete::reynolds::generalized::NodeState;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// A line along X.
+/// Line along X.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// Its stations.
+    /// Stations of the line with their temperatures.
     pub march: March,
-    /// P, its gradient and H at these.
+    /// Pressure P, its gradient and film thickness H at the stations.
     pub states: Vec<NodeState>,
 }
 
-/// Lines beside each other, with equal abscissae.
+/// Parallel lines with equal abscissae.
 #[derive(Clone, Debug)]
 pub struct Lines {
-    /// From the edge of a plane to its axis; at least one.
+    /// Lines from the edge of a plane to its axis; at least one.
     pub lines: Vec<Line>,
-    /// Their ordinates in units of a.
+    /// Ordinates of the lines in units of the half-width a.
     pub y: Vec<f64>,
-    /// What flows from line to line, at the temperatures before the last march; empty where there is one line only.
+    /// Flow from line to line at the temperatures before the last march; empty for a single line.
     asides: Vec<Aside>,
 }
 
 impl Lines {
-    /// Cold lines at increasing ordinates, the last of them on the axis, with stations at given abscissae.
+    /// Creates cold lines (temperature rise θ = 0) at increasing ordinates, the last of them on the axis, with the
+    /// given abscissae of stations.
     pub fn new(y: Vec<f64>, stations: &[f64], source: &Arc<MovingSource>) -> Self {
         let line = |_: &f64| Line {
             march: March::with(stations.to_vec(), Arc::clone(source)),
@@ -47,30 +49,30 @@ impl Lines {
         self.lines.last().map_or(&[], |axis| &axis.march.x)
     }
 
-    /// How surfaces warm at the stations.
+    /// Influence of the heat fluxes on the surface temperatures at the stations.
     pub fn source(&self) -> Arc<MovingSource> {
         self.lines.last().map(|axis| Arc::clone(&axis.march.source)).unwrap_or_default()
     }
 
-    /// All stations, line after line.
+    /// Iterates over all stations, line by line.
     pub fn stations(&self) -> impl Iterator<Item = &Station> {
         self.lines.iter().flat_map(|line| &line.march.stations)
     }
 
-    /// The same to be changed.
+    /// Iterates over all stations, line by line, with mutable access.
     pub fn stations_mut(&mut self) -> impl Iterator<Item = &mut Station> {
         self.lines.iter_mut().flat_map(|line| &mut line.march.stations)
     }
 
-    /// Takes over θ of all stations, one value after the other.
+    /// Sets θ of all stations from one array, station by station.
     pub fn put(&mut self, theta: &[f64]) {
         for (station, theta) in self.stations_mut().zip(theta.chunks_exact(POINTS)) {
             station.theta.copy_from_slice(theta);
         }
     }
 
-    /// Marches once along every line through its states, of which the course knows none, and takes a share of the change
-    /// of θ; films beside each other are looked at on all threads where `parallel` says so. Returns the largest change.
+    /// Marches once along every line through its states and applies a share of the change of θ. The states in `course`
+    /// are ignored. If `parallel`, the films of all lines are evaluated on all threads. Returns the largest change.
     pub fn march(&mut self, course: &Course<'_>, (share, tolerance): (f64, f64), parallel: bool) -> f64 {
         let Self { lines, asides, y } = self;
         if let [line] = &mut lines[..] {
@@ -83,8 +85,8 @@ impl Lines {
             true => on_all_cores(|| lines.par_iter_mut().zip(&mut *asides).for_each(prepare)),
             false => lines.iter_mut().zip(&mut *asides).for_each(prepare),
         }
-        // From the axis to the edge, as what the pressure drives flows aside: in front of the contact, where the film turns
-        // and hardly moves along X, it comes from there.
+        // From the axis to the edge, the direction of the pressure-driven side flow. In front of the contact the film
+        // turns and hardly moves along X; the oil there comes from the axis.
         let mut changed = 0.0f64;
         for (own, line) in lines.iter_mut().enumerate().rev() {
             let beside = Beside { lines: asides, y, own };
@@ -94,7 +96,7 @@ impl Lines {
         changed
     }
 
-    /// Where the heat comes from and goes to, over the width of all lines; per width of the one of a line contact.
+    /// Returns the heat balance over the width of all lines, or per unit width for a line contact.
     pub fn balance(&self, course: &Course<'_>) -> HeatBalance {
         let beside = |own| (self.lines.len() > 1).then_some(Beside { lines: &self.asides, y: &self.y, own });
         let each = self.lines.iter().enumerate();
@@ -104,7 +106,7 @@ impl Lines {
     }
 }
 
-/// The width of the strip around a line, by the trapezoidal rule; 1 where there is but one line.
+/// Returns the width of the strip around a line by the trapezoidal rule; 1 for a single line.
 fn width(y: &[f64], own: usize) -> f64 {
     let at = |line: usize| y.get(line).copied().unwrap_or_default();
     match y.len() {
@@ -113,12 +115,12 @@ fn width(y: &[f64], own: usize) -> f64 {
     }
 }
 
-/// Lines at increasing ordinates, the last of them on the axis, between which values are interpolated that are even about
-/// that.
+/// Interpolation between lines at increasing ordinates, the last of them on the axis, for values that are even about
+/// the axis.
 struct Across {
-    /// With the ordinates of the lines next to the axis on its other side.
+    /// Ordinates, followed by those of the mirrored lines next to the axis.
     y: Vec<f64>,
-    /// The line on the axis.
+    /// Index of the line on the axis.
     axis: usize,
 }
 
@@ -128,7 +130,8 @@ impl Across {
         Self { y: y.iter().copied().chain(mirrored).collect(), axis: y.len() - 1 }
     }
 
-    /// Lines and weights at an ordinate Y ≤ 0: cubic, and beyond the outermost line this itself.
+    /// Returns lines and weights of the cubic interpolation at an ordinate Y ≤ 0. Beyond the outermost line its value
+    /// is used.
     fn at(&self, at: f64) -> [(usize, f64); 4] {
         let (axis, outermost) = (self.axis, self.y[0]);
         let at = at.max(outermost);
@@ -145,30 +148,31 @@ impl Across {
     }
 }
 
-/// Where a value between stations of lines comes from.
+/// Interpolation of a value between stations and lines.
 #[derive(Clone, Copy, Debug)]
 struct Between {
-    /// The first of four stations, and their weights.
+    /// First of four stations, and their weights.
     along: (usize, [f64; 4]),
     /// Lines and their weights.
     across: [(usize, f64); 4],
 }
 
-/// Where values at stations of lines are wanted: cubic along X, and across.
+/// Interpolation from the stations of lines to other places, cubic along X and across.
 #[derive(Clone, Debug, Default)]
 pub struct Spread {
     places: Vec<Between>,
 }
 
 impl Spread {
-    /// At places (ξ, Y), between stations at increasing ξ; before the first one it is that.
+    /// Prepares the interpolation to places (ξ, Y), with the abscissa ξ, from stations at increasing ξ. Places before
+    /// the first station take its value.
     pub fn new(stations: &[f64], y: &[f64], places: impl Iterator<Item = (f64, f64)>) -> Self {
         let lines = Across::new(y);
         let of = |(xi, at): (f64, f64)| Between { along: cubic(stations, xi.max(stations[0])), across: lines.at(at) };
         Self { places: places.map(of).collect() }
     }
 
-    /// The profiles at its places.
+    /// Returns the interpolated profiles at the places.
     pub fn profiles<'a>(&'a self, lines: &'a Lines) -> impl Iterator<Item = Profile> + 'a {
         self.places.iter().map(move |Between { along: (first, along), across }| {
             let mut here = [0.0; POINTS];

@@ -1,5 +1,5 @@
-//! Temperature across and along the film: films with temperatures as nodes of the Reynolds equation,
-//! and the march of the energy equation that makes the temperatures.
+//! Temperature across and along the film: nodes of the Reynolds equation with temperatures, and the march of the
+//! energy equation that computes them.
 
 mod across;
 mod film;

@@ -1,50 +1,53 @@
 //! Temperatures across the film at one abscissa: collocation of the energy equation, solved by Newton's method.
 //!
-//! Hρ̄ūθ_X − Ψ_Xθ_ζ = (C₁/H)θ_ζζ + HC₂τ̄²f + HC₃β̄(1 + θ)ūP_X between the surfaces, whose temperatures are those of moving
-//! sources.
+//! Hρ̄ūθ_X − Ψ_Xθ_ζ = (C₁/H)θ_ζζ + HC₂τ̄²f + HC₃β̄(1 + θ)ūP_X between the surfaces, whose temperatures are those of
+//! moving heat sources. Symbols: film thickness H, density ρ̄, velocity ū, temperature rise θ, stream function Ψ,
+//! height ζ, stress τ̄, fluidity f, expansion coefficient β̄, pressure P; C₁ to C₃ as in
+//! [`ScaledHeat`](crate::solver::physics::lubricant::ScaledHeat).
 
 use super::across::{ACROSS, POINTS, Profile, apply, inner};
 use super::film::{Drive, Sheared, StressLaw, WarmLaws};
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::physics::lubricant::{Across, LimitingStress};
 
-/// Bounds of the factor by which the pressure gradient follows a changed viscosity, such that the flow it drives stays.
+/// Bounds of the factor that adapts the pressure gradient to a changed viscosity, such that the pressure-driven flow
+/// stays constant.
 const GRADIENT_FACTOR: (f64, f64) = (0.2, 5.0);
 
 /// Largest change of θ in one step.
 const LARGEST_STEP: f64 = 0.1;
 
-/// Steps at most.
+/// Maximum number of steps.
 const MOST_STEPS: usize = 60;
 
-/// Least share of a step that is taken where they turn back and forth: beside a limit of the stress heat has a kink.
+/// Smallest share of a step if the steps oscillate. The heat source has a kink at a limiting stress.
 const LEAST_SHARE: f64 = 1.0 / 32.0;
 
-/// A step that turns back counts as one that does so when it is longer than this share of the one before.
+/// A step that reverses the previous one counts as an oscillation if it is longer than this share of it.
 const SHORTER: f64 = 0.3;
 
-/// A step over the square of the one before it, at most.
+/// Largest expected ratio of a step to the square of the previous one.
 const BEND: f64 = 30.0;
 
-/// A film at one abscissa: its temperatures, and what flows under them.
+/// Film at one abscissa: its temperatures and the resulting flow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Station {
     /// θ.
     pub theta: Profile,
-    /// What flows, within a last step of Newton's method.
+    /// Flow, accurate to within the last Newton step.
     pub flowing: Flowing,
-    /// Fluxes q̄ into both bodies.
+    /// Heat fluxes q̄ into both bodies.
     pub flux: [f64; 2],
-    /// Steps of Newton's method that it took last.
+    /// Number of Newton steps of the last solve.
     pub steps: usize,
-    /// The last of them where they did not come to an end, else 0.
+    /// Size of the last step if the iteration did not converge, otherwise 0.
     pub open: f64,
 }
 
-/// The two stations next to one side of a station, for points at which the film flows here from there.
+/// Upwind data from the two next stations on one side, for points at which the film flows in from there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Side {
-    /// Weights w_k of the quotient: (Gθ)_X − G_Xθ is ±Σ w_k G_k (θ − θ_k), where G = Hρ̄ū.
+    /// Weights w_k of the difference quotient: (Gθ)_X − G_Xθ is ±Σ w_k G_k (θ − θ_k), where G = Hρ̄ū.
     pub weights: [Profile; 2],
     /// θ there.
     pub theta: [Profile; 2],
@@ -53,8 +56,9 @@ pub struct Side {
 }
 
 impl Side {
-    /// Of two places so far away in front of it, the second farther or the same; of first order where the film `leaves` for
-    /// one of them. Nothing where the first one is the place itself.
+    /// Builds the data of two places at the given distances. The second place is farther, or equal to the first. The
+    /// quotient is of first order where the film `leaves` towards one of them. All weights are zero if the first
+    /// distance is zero.
     pub fn of(
         [near, far]: [f64; 2],
         theta: [Profile; 2],
@@ -76,8 +80,8 @@ impl Side {
         out
     }
 
-    /// What the film carries here at a point, and its derivative by θ. Where the film turns between the stations its own
-    /// flow stands for the other.
+    /// Returns the heat convected to point `j`, and its derivative by θ. If the flow changes its direction between
+    /// the stations, the flow of the point itself is used.
     #[inline]
     pub(super) fn carried(&self, j: usize, flow: f64, theta: f64) -> (f64, f64) {
         let (mut sum, mut slope) = (0.0, 0.0);
@@ -91,64 +95,64 @@ impl Side {
     }
 }
 
-/// What a station has from its neighbours along the film.
+/// Data that a station receives from its neighbours along the film.
 #[derive(Clone, Copy, Debug)]
 pub struct Neighbours {
     /// Upstream and downstream.
     pub sides: [Side; 2],
-    /// Farther from the axis and nearer to it, in a plane: for flow that goes towards the axis and away from it.
+    /// Lines farther from the axis and nearer to it, in a plane: for flow towards the axis and away from it.
     pub beside: Option<[Side; 2]>,
-    /// −Ψ_X at the faces between the points, in a plane with what flows along Y there.
+    /// −Ψ_X at the faces between the points; in a plane including the flow along Y.
     pub across: [f64; POINTS - 1],
-    /// What warms either surface but for the flux here, and how much that warms it.
+    /// Influence of the fluxes at other stations on each surface temperature, and the weight of the station's own flux.
     pub surfaces: [(f64, f64); 2],
 }
 
-/// What a film carries at most, and p_H \[Pa\].
+/// Limiting shear stress of the film, and Hertzian pressure p_H \[Pa\].
 pub type Limit = (LimitingStress, f64);
 
-/// What stays while a station is solved.
+/// Quantities that stay constant while a station is solved.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
-    /// Heat and shear in the contact.
+    /// Heat and shear laws of the contact.
     pub laws: WarmLaws<'a>,
-    /// What limits the stress.
+    /// Limiting shear stress, if any.
     pub limit: Option<Limit>,
-    /// P, P_X and H.
+    /// P, its gradient and H.
     pub state: NodeState,
-    /// The mobility by which P was found; 0 where that is the film's own.
+    /// Mobility with which P was computed; 0 to use the film's own.
     pub mobility: f64,
 }
 
-/// What a film at given temperatures does.
+/// Flow of a film at given temperatures.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Flowing {
     /// ū.
     pub velocity: Profile,
     /// G = Hρ̄ū.
     pub flow: Profile,
-    /// Hρ̄v̄, with the velocity along Y.
+    /// Hρ̄v̄, with the velocity v̄ along Y.
     pub aside: Profile,
-    /// τ̄_m.
+    /// Mid-film stress τ̄_m.
     pub stress: f64,
-    /// (s₀g₁/g₀ − s₁) κH³, the mobility.
+    /// Mobility (s₀g₁/g₀ − s₁) κH³, with the moments of the film.
     pub mobility: f64,
     fluid: Across<POINTS>,
     film: Sheared<POINTS>,
 }
 
-/// Heat made at every point of a film.
+/// Heat generated at every point of a film.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Made {
-    /// By shear, HC₂τ̄²f, cut where the stress is limited.
+    /// Heat by shear, HC₂τ̄²f, reduced where the stress is limited.
     pub sheared: Profile,
-    /// By compression, HC₃β̄(1 + θ)ūP_X.
+    /// Heat by compression, HC₃β̄(1 + θ)ūP_X.
     pub compressed: Profile,
 }
 
 impl Place<'_> {
-    /// The film at temperatures. The pressure gradient in it is such that the flow which it drives stays: where the
-    /// viscosity does not hang on stress that is told by the temperatures alone, elsewhere `factor` times P_X.
+    /// Evaluates the film at the given temperatures. The pressure gradient is scaled such that the pressure-driven flow
+    /// stays constant. For a Newtonian lubricant the scale follows from the temperatures; otherwise it is `factor`.
     fn flowing(&self, theta: &Profile, stress: f64, factor: f64) -> Flowing {
         let across = &*ACROSS;
         let NodeState { pressure, gradient: [gradient, gradient_y], film } = self.state;
@@ -184,8 +188,9 @@ impl Place<'_> {
         Flowing { velocity, flow, aside, stress, mobility: mobility(&sheared.fluidity), fluid, film: sheared }
     }
 
-    /// What the gradient is multiplied with so that the flow it drives stays under another mobility; of a film that
-    /// thins, which answers to the gradient itself, half of the way.
+    /// Returns the factor on the pressure gradient that keeps the pressure-driven flow constant at another mobility.
+    /// For a shear-thinning lubricant, whose mobility depends on the gradient, half of the change in the logarithm is
+    /// applied.
     fn factor(&self, mobility: f64) -> f64 {
         if self.mobility == 0.0 {
             return 1.0;
@@ -194,12 +199,12 @@ impl Place<'_> {
         if self.laws.shear.is_some() { ratio.sqrt() } else { ratio }
     }
 
-    /// Fills a station with what its temperatures make of the film.
+    /// Updates the flow of a station from its temperatures.
     pub fn evaluate(&self, station: &mut Station) {
         station.flowing = self.flowing(&station.theta, station.flowing.stress, 1.0);
     }
 
-    /// The heat that is made at a station.
+    /// Returns the heat generated at a station.
     pub fn made(&self, station: &Station) -> Made {
         let flowing = self.flowing(&station.theta, station.flowing.stress, 1.0);
         Made {
@@ -208,7 +213,7 @@ impl Place<'_> {
         }
     }
 
-    /// Heat by shear at a point, and its derivatives by ln f at a constant stress and by τ̄ along X.
+    /// Returns the heat by shear at a point, and its derivatives by ln f at constant stress and by τ̄ along X.
     fn shear_heat(&self, flowing: &Flowing, j: usize) -> (f64, f64, f64) {
         let film = &flowing.film;
         let (stress, fluidity, slope) = (film.stress[j], film.fluidity[j], film.slope[j]);
@@ -225,7 +230,7 @@ impl Place<'_> {
         if carried >= felt {
             return free;
         }
-        // What slips or yields carries the limit over the whole rate.
+        // A film that slips or yields carries the limiting stress at the full shear rate.
         let cut = carried / pascal;
         let value = scale * cut * size * fluidity;
         let by_stress = if aside == 0.0 {
@@ -236,7 +241,7 @@ impl Place<'_> {
         (value, value, scale * cut * by_stress)
     }
 
-    /// Heat by compression at a point over 1 + θ.
+    /// Returns the heat by compression at a point, divided by 1 + θ.
     fn compression_heat(&self, Flowing { fluid, velocity, aside, .. }: &Flowing, j: usize) -> f64 {
         let expansion = -fluid.density_t[j] / fluid.density[j];
         let [gradient, gradient_y] = self.state.gradient;
@@ -247,7 +252,7 @@ impl Place<'_> {
         along + self.laws.heat.compression * expansion * aside[j] / fluid.density[j] * gradient_y
     }
 
-    /// Solves the station from what it has, until θ is within `tolerance`.
+    /// Solves the station, starting from its current values, until the step in θ is smaller than `tolerance`.
     pub fn solve(&self, station: &mut Station, from: &Neighbours, tolerance: f64) {
         let across = &*ACROSS;
         let (heat, film) = (self.laws.heat, self.state.film);
@@ -301,7 +306,7 @@ impl Place<'_> {
                     right[j] -= above * (theta[j + 1] - theta[j]);
                 }
             }
-            // Into a body goes what is conducted to its surface and what is left of the heat in the cell beside it.
+            // Heat flux into a body: conduction to its surface plus the balance of the heat in the adjacent cell.
             for (wall, sign, side) in [(0, 1.0, 0), (POINTS - 1, -1.0, 1)] {
                 let (before, own) = from.surfaces[side];
                 let cell = across.weights[wall] / heat.conduction;
@@ -339,10 +344,10 @@ impl Place<'_> {
             flowing = self.flowing(&station.theta, stress, factor);
             let wanted = self.factor(flowing.mobility);
             let moved = (wanted / factor - 1.0).abs();
-            // The mobility of a film that thins answers to the factor itself, and the two may turn each other back and forth.
+            // The mobility of a shear-thinning film depends on the factor itself, so that the two may oscillate.
             let follows = taken < 1.0 && self.laws.shear.is_some();
             factor = if follows { factor * (wanted / factor).powf(taken) } else { wanted };
-            // The next step is the square of this one.
+            // The next step is proportional to the square of this one.
             if taken == 1.0 && BEND * largest * largest < tolerance && moved < tolerance.max(1e-3) {
                 break;
             }
@@ -351,7 +356,7 @@ impl Place<'_> {
     }
 }
 
-/// Solves a small dense system in place, with row pivoting.
+/// Solves a small dense system in place by Gaussian elimination with row pivoting.
 fn eliminate(matrix: &mut [Profile; POINTS], right: &mut Profile) {
     for k in 0..POINTS {
         let pivot = (k..POINTS).max_by(|&i, &j| matrix[i][k].abs().total_cmp(&matrix[j][k].abs())).unwrap_or(k);
@@ -382,7 +387,7 @@ mod tests {
     use crate::solver::physics::contact::{OperatingPoint, Sliding};
     use crate::solver::physics::lubricant::{Heat, Lubricant, OilHeat};
 
-    /// A film without gradients whose viscosity does not hang on temperature, between surfaces that stay cold or warm.
+    /// Film without gradients whose viscosity does not depend on temperature, between surfaces of constant temperature.
     fn conducted(lower: f64, upper: f64) -> (Station, Made, f64) {
         let sliding = Sliding { slide_to_roll_ratio: 0.4, newtonian_plateau_ratio: None };
         let point = OperatingPoint { sliding, viscosity_pa_s: 0.02, ..OperatingPoint::TABLE_2_1 };

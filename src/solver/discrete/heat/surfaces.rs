@@ -1,15 +1,15 @@
-//! How surfaces warm under the fluxes into them: θ_i(X) = D_i ∫ q̄_i(S)/√(X − S) dS of a moving half-space (Carslaw &
-//! Jaeger 1959, 10.7), by product integration of fluxes that are linear between stations.
+//! Surface temperatures under the heat fluxes q̄_i into the bodies: θ_i(X) = D_i ∫ q̄_i(S)/√(X − S) dS of a moving
+//! half-space (Carslaw & Jaeger 1959, 10.7). Product integration of fluxes that are linear between stations.
 
-/// Weights of ∫ q(S)/√(X − S) dS at every station, for stations at given abscissae.
+/// Weights of ∫ q(S)/√(X − S) dS at every station, for given abscissae of the stations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MovingSource {
-    /// Row i has i + 1 weights, of the stations 0…i.
+    /// Row i has i + 1 weights, for the stations 0…i.
     weights: Vec<f64>,
 }
 
 impl MovingSource {
-    /// For increasing abscissae.
+    /// Computes the weights for increasing abscissae.
     pub fn new(x: &[f64]) -> Self {
         let mut weights = vec![0.0; x.len() * (x.len() + 1) / 2];
         for i in 1..x.len() {
@@ -31,7 +31,7 @@ impl MovingSource {
         Self { weights }
     }
 
-    /// The integral at station i but for what its own flux adds, and the weight of that.
+    /// Returns the integral at station i without the contribution of its own flux, and the weight of that flux.
     #[inline]
     pub fn before(&self, i: usize, flux: &[f64]) -> (f64, f64) {
         let row = &self.weights[i * (i + 1) / 2..][..=i];
@@ -62,8 +62,8 @@ mod tests {
         }
     }
 
-    /// Blok 1937: a source of uniform strength q over 2b on a fast body warms its surface by 2q/√(πρck) √(2b/u) at its
-    /// trailing edge.
+    /// Blok 1937: a source of uniform strength q over 2b on a fast body raises its surface temperature by 2q/√(πρck)
+    /// √(2b/u) at the trailing edge.
     #[test]
     fn a_uniform_source_makes_bloks_flash_temperature() {
         let (q, half, speed): (f64, f64, f64) = (3e8, 1.5e-4, 4.0);

@@ -1,12 +1,14 @@
-//! The integrals (3.24) of a generalized-Newtonian fluid across the film, with their derivatives: the inner problem of
+//! Integrals (3.24) of a generalized-Newtonian fluid across the film, with their derivatives: the inner problem of
 //! (3.23).
 //!
-//! Across the film the shear stress is linear, τ(ζ) = τ_m + (a, b) ζ with ζ = Z − ½: the pressure gradient makes its
-//! difference between the surfaces, and the stress τ_m at mid-film is such that the shear rates add up to the sliding
-//! speed, ∫ τ g(|τ|) dζ = (S, 0). All stresses are in units of the law's own scale, g = μ/η is the law's fluidity. So
-//! everything depends on three scalars only: a = κ₁H P_X, b = κ₁H P_Y and S = κ₂ μ̄/H. This is (3.29)–(3.36) with τ_m
-//! instead of χ̄₀ and χ̄₁ as the unknown of the inner Newton iteration; for a line contact (b = 0) it is one monotone
-//! scalar equation, without sliding τ_m = 0 needs none.
+//! Across the film the shear stress is linear: τ(ζ) = τ_m + (a, b) ζ with ζ = Z − ½. The pressure gradient determines
+//! the difference (a, b) between the surfaces. The stress τ_m at mid-film is such that the shear rates add up to the
+//! sliding speed, ∫ τ g(|τ|) dζ = (S, 0). All stresses are in units of the law's own scale; g = μ/η is the law's
+//! fluidity.
+//!
+//! So everything depends on three scalars: a = κ₁H P_X, b = κ₁H P_Y and S = κ₂ μ̄/H. This is (3.29)–(3.36) with τ_m
+//! instead of χ̄₀ and χ̄₁ as the unknown of the inner Newton iteration. For a line contact (b = 0) it is one monotone
+//! scalar equation. Without sliding τ_m = 0, and no iteration is needed.
 
 mod known;
 mod moments;
@@ -19,18 +21,18 @@ pub use moments::{FilmRule, PRODUCTION_RULE};
 use crate::solver::physics::lubricant::Fluidity;
 use moments::{Moments, shortened};
 
-/// The three scalars that the integrals depend on, in units of the law's stress scale.
+/// Three scalars that the integrals depend on, in units of the law's stress scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FilmLoad {
     /// a: difference of τ_zx between the surfaces.
     pub a: f64,
-    /// b: difference of τ_zy; zero for a line contact.
+    /// b: difference of τ_zy between the surfaces; zero for a line contact.
     pub b: f64,
-    /// S: stress that sliding would make in a Newtonian film.
+    /// S: stress that sliding would cause in a Newtonian film.
     pub sliding: f64,
 }
 
-/// What the generalized Reynolds equation needs of the film, and the stress in it.
+/// Film integrals of the generalized Reynolds equation, and the stress in the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmIntegrals {
     /// φ = 12 μ̄ (χ̄₂ − χ̄₁²/χ̄₀), the factor on the Newtonian mobility; 1 for a Newtonian film.
@@ -39,31 +41,32 @@ pub struct FilmIntegrals {
     pub d_mobility: [f64; 3],
     /// χ̄₁/χ̄₀ − ½, the shift of the plane in which the fluid moves with the mean of both surfaces.
     pub shift: f64,
-    /// Its derivatives with respect to a, b, S.
+    /// Derivatives of the shift by a, b and S.
     pub d_shift: [f64; 3],
-    /// τ_m: the shear stress (zx, zy) at mid-film.
+    /// τ_m: shear stress (zx, zy) at mid-film.
     pub mid_stress: [f64; 2],
     /// ∂τ_m/∂(a, b, S).
     pub d_mid_stress: [[f64; 2]; 3],
-    /// Iterations of the inner Newton method.
+    /// Number of iterations of the inner Newton method.
     pub iterations: usize,
 }
 
-/// Iterations of the inner Newton method at most. The named lubricants need five; a power law with n = 0.2 needs eight,
-/// and so does a hyperbolic sine at ten times its scale.
+/// Maximum number of iterations of the inner Newton method. The named lubricants need five. A power law with n = 0.2
+/// and a hyperbolic sine at ten times its scale need eight.
 const MOST_ITERATIONS: usize = 12;
 
-/// How many times as fluid as sliding the pressure gradient must make the film for a start that counts on the gradient.
+/// The initial guess uses the fluidity under the pressure gradient if that fluidity exceeds the one under sliding by
+/// this factor.
 const MUCH_MORE_FLUID: f64 = 10.0;
 
-/// A step, relative to τ_m, below which the next one, its square, would be below rounding: the integrals then follow it
-/// to first order.
+/// Step, relative to τ_m, after which the next step would be below rounding, because it is the square of this one.
+/// The integrals then follow the step to first order.
 pub const LAST_STEP: f64 = 1e-7;
 
-/// The share of it relative to a and b that counts as well, where τ_m is so much smaller that rounding hides it.
+/// Share of [`LAST_STEP`] relative to a and b that is accepted as well, for τ_m so small that rounding hides it.
 const ACROSS: f64 = 1e-2;
 
-/// Stresses are far from overflowing: `hypot` would take longer than a sum over the rule.
+/// Stresses are far from overflowing; `hypot` would take longer than a sum over the rule.
 #[inline]
 fn length(v: [f64; 2]) -> f64 {
     (v[0] * v[0] + v[1] * v[1]).sqrt()
@@ -78,28 +81,29 @@ pub fn film_integrals(law: &Fluidity, rule: &FilmRule, load: FilmLoad) -> FilmIn
     alone(law, rule, load, LAST_STEP)
 }
 
-/// The same until a step is as small as `last`.
+/// Does the same until a step is as small as `last`.
 fn alone(law: &Fluidity, rule: &FilmRule, load: FilmLoad, last: f64) -> FilmIntegrals {
     let rule = shortened(law, rule, &load);
     let (start, iterations) = cold_start(law, rule, &load);
     solve(law, rule, load, (start, last), iterations).1
 }
 
-/// A first τ_m, and the evaluations of the film that it took.
+/// Returns an initial guess of τ_m, and the number of evaluations of the film that it took.
 fn cold_start(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> ([f64; 2], usize) {
     let FilmLoad { a, b, sliding } = *load;
-    // The rates of a film under a pressure gradient lie above those of the stress at mid-film alone: this start is
+    // A film under a pressure gradient has higher shear rates than the mid-film stress alone causes: this guess is
     // never too small.
     let mid = [law.stress_near(sliding.abs()).copysign(sliding), 0.0];
     let edge = 0.5 * length([a, b]);
     if sliding != 0.0 && edge > mid[0].abs() && law.at(edge).0 > MUCH_MORE_FLUID * law.at(mid[0].abs()).0 {
-        // Nor is the one that takes the fluidity from the gradient alone, and here it is much closer.
+        // The guess with the fluidity of the gradient alone is not too small either, and much closer here.
         return (times(Moments::of(law, rule, load, [0.0; 2]).inverse(), [sliding, 0.0]), 1);
     }
     (mid, 0)
 }
 
-/// Newton's method from a τ_m until a step is as small as `last`; returns the size of its first step as well.
+/// Applies Newton's method to τ_m until a step is as small as `last`. Returns the size of its first step, and the
+/// integrals.
 fn solve(
     law: &Fluidity,
     rule: &FilmRule,
@@ -139,7 +143,7 @@ fn solve(
         d_mid_stress: [[0.0; 2]; 3],
         iterations,
     };
-    // (3.33)–(3.36): how τ_m answers to each scalar, then the integrals directly and through τ_m.
+    // (3.33)–(3.36): derivatives of τ_m by each scalar, then of the integrals directly and through τ_m.
     let [xx, xy, yy] = moments.stiffness[1];
     let answers = [times(inverse, [-(g_1 + xx), -xy]), times(inverse, [-xy, -(g_1 + yy)]), [inverse[0], inverse[1]]];
     out.d_mid_stress = answers;

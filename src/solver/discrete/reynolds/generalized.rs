@@ -1,41 +1,44 @@
-//! The generalized Reynolds row (3.23): what shear-thinning adds to the nodes of the row, and to its derivatives.
+//! Generalized Reynolds row (3.23): contribution of shear-thinning to the nodes of the row, and to its derivatives.
 //!
-//! A shear-thinning node is a Newtonian one whose mobility is multiplied by φ and whose flow by 1 + SRR (½ − Z₀), with
-//! the film integrals of the gradient at the node itself. The row then is the Newtonian row. Only the derivatives grow
-//! by two more kinds: with respect to the nodal gradients P_X and P_Y, which are central differences. So the row
-//! reaches from X −3 to +2, across to Y ±2 and to the diagonals, as ∂f/∂P + (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y with the
-//! fixed difference operators of [`NodalGradient`].
+//! A shear-thinning node is a Newtonian one with the mobility multiplied by φ and the flow multiplied by
+//! 1 + SRR (½ − Z₀), with the slide-to-roll ratio SRR. φ and Z₀ follow from the film integrals at the node's own
+//! pressure gradient. The row itself is the Newtonian row.
+//!
+//! The derivatives have two additional parts, with respect to the nodal gradients P_X and P_Y, which are central
+//! differences. So the row extends from X −3 to +2, across to Y ±2 and to the diagonals: ∂f/∂P + (∂f/∂P_X) G_X +
+//! (∂f/∂P_Y) G_Y with the constant difference operators of [`NodalGradient`].
 
 use super::film_integrals::{FilmLoad, FilmRule, KnownFilm, LAST_STEP, PRODUCTION_RULE, film_integrals_near};
 use super::{CENTER, EAST, NORTH, Node, RowGeometry, SOUTH, STENCIL, WEST};
 use crate::host::pool;
 use crate::solver::physics::lubricant::{ScaledFluid, ScaledShear};
 
-/// Gradients taken by one task.
+/// Number of gradients computed by one task.
 const SHARE: usize = 2048;
 
-/// A shear-thinning node: what the row needs of it, and how that answers to its pressure gradient.
+/// Shear-thinning node as the row uses it, and its derivatives by the pressure gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ShearNode {
-    /// The node as the row sees it.
+    /// Node as the row uses it.
     pub node: Node,
     /// ∂(flow)/∂(P_X, P_Y).
     pub flow_gradient: [f64; 2],
-    /// ∂ξ/∂(P_X, P_Y).
+    /// ∂ξ/∂(P_X, P_Y), with the mobility ξ.
     pub mobility_gradient: [f64; 2],
-    /// Its film, in units of the law's scale.
+    /// Solved film, in units of the law's scale.
     pub known: KnownFilm,
 }
 
-/// How the film integrals are taken.
+/// Numerical treatment of the film integrals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmTreatment {
-    /// The rule across the film.
+    /// Quadrature rule across the film.
     pub rule: &'static FilmRule,
-    /// Whether they count as constants in the Jacobian: cheaper, and as good within rounding of the answer, but no
-    /// longer quadratic.
+    /// True to treat the integrals as constants in the Jacobian. This is cheaper and gives the same solution within
+    /// rounding, but convergence is no longer quadratic.
     pub frozen: bool,
-    /// The step of the stress at mid-film, relative to it, that ends its iteration: the integrals miss the square of it.
+    /// Step of the mid-film stress, relative to it, that ends its iteration. The error of the integrals is the square
+    /// of it.
     pub last_step: f64,
 }
 
@@ -45,7 +48,7 @@ impl Default for FilmTreatment {
     }
 }
 
-/// What the film integrals of a node depend on.
+/// State of a node that its film integrals depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NodeState {
     /// P.
@@ -57,7 +60,7 @@ pub struct NodeState {
 }
 
 impl ShearNode {
-    /// The node's quantities.
+    /// Evaluates the node.
     #[inline]
     pub fn new(
         fluid: &ScaledFluid,
@@ -69,7 +72,7 @@ impl ShearNode {
         Self::near(&KnownFilm::default(), fluid, shear, inverse_lambda, state, treatment)
     }
 
-    /// The same beside a film that is known, of a former iterate for instance.
+    /// Evaluates the node, starting from a nearby solved film, for example that of the previous iterate.
     #[inline]
     pub fn near(
         known: &KnownFilm,
@@ -83,7 +86,7 @@ impl ShearNode {
         let node = Node::of_state(&state, inverse_lambda, pressure, film);
         let newtonian = Self { node, ..Self::default() };
         if film <= 0.0 {
-            // Surfaces that overlap are a passing iterate: there is no film to integrate over.
+            // Overlapping surfaces occur only in intermediate iterates: there is no film to integrate over.
             return newtonian;
         }
         let load = shear.film_load(gradient, film, state.viscosity);
@@ -126,7 +129,7 @@ impl ShearNode {
 }
 
 impl ScaledShear {
-    /// The scalars of the film integrals at a gradient (P_X, P_Y), a film H > 0 and a viscosity μ̄.
+    /// Returns the scalars of the film integrals at a gradient (P_X, P_Y), a film thickness H > 0 and a viscosity μ̄.
     #[inline]
     pub fn film_load(&self, gradient: [f64; 2], film: f64, viscosity: f64) -> FilmLoad {
         let across = self.gradient * film;
@@ -134,7 +137,8 @@ impl ScaledShear {
     }
 }
 
-/// ∂f/∂P_X (`axis` 0) or ∂f/∂P_Y (1) at the nodes of a row, the nodal gradients counted as variables of their own.
+/// Returns ∂f/∂P_X (`axis` 0) or ∂f/∂P_Y (`axis` 1) at the nodes of a row; the nodal gradients count as separate
+/// variables.
 #[inline]
 pub fn gradient_slopes(geometry: &RowGeometry, nodes: [&ShearNode; STENCIL], axis: usize) -> [f64; STENCIL] {
     let center = nodes[CENTER];
@@ -151,16 +155,16 @@ pub fn gradient_slopes(geometry: &RowGeometry, nodes: [&ShearNode; STENCIL], axi
     out
 }
 
-/// The operators G_X and G_Y: central differences of P along one axis, of second order also where the spacing varies.
-/// Beyond both ends P vanishes, unless the last entry lies on an axis of symmetry.
+/// Operator G_X or G_Y: central differences of P along one axis, of second order for variable spacing too. P vanishes
+/// beyond both ends, unless the last entry lies on an axis of symmetry.
 #[derive(Clone, Debug, Default)]
 pub struct NodalGradient {
-    /// Weights of the neighbour upstream, the node itself and the neighbour downstream.
+    /// Weights of the upstream neighbour, the node itself and the downstream neighbour.
     pub weights: Vec<[f64; 3]>,
 }
 
 impl NodalGradient {
-    /// The operator on increasing abscissae, at least two.
+    /// Builds the operator on at least two increasing abscissae.
     pub fn new(x: &[f64]) -> Self {
         let last = x.len() - 1;
         let weights = (0..=last).map(|i| {
@@ -173,8 +177,8 @@ impl NodalGradient {
         Self { weights: weights.collect() }
     }
 
-    /// The same where the last abscissa is an axis of symmetry: the gradient vanishes there, and so it does where there
-    /// is no other.
+    /// Builds the operator for a last abscissa on an axis of symmetry, where the gradient vanishes. A single abscissa
+    /// has gradient zero.
     pub fn up_to_axis(x: &[f64]) -> Self {
         if x.len() < 2 {
             return Self { weights: vec![[0.0; 3]; x.len()] };
@@ -186,7 +190,7 @@ impl NodalGradient {
         out
     }
 
-    /// The gradient at entry i of a node array.
+    /// Returns the gradient at entry i of a node array.
     #[inline]
     pub fn at(&self, values: &[f64], i: usize) -> f64 {
         let [west, own, east] = self.weights[i];
@@ -195,7 +199,7 @@ impl NodalGradient {
     }
 }
 
-/// Nodal gradients (P_X, P_Y) of node arrays over X and, fastest, Y; of a line contact's where there is but one Y.
+/// Nodal gradients (P_X, P_Y) of node arrays over X and, fastest, Y. A single Y is a line contact.
 #[derive(Clone, Debug, Default)]
 pub struct PlaneGradient {
     along: NodalGradient,
@@ -203,12 +207,12 @@ pub struct PlaneGradient {
 }
 
 impl PlaneGradient {
-    /// On a grid with these abscissae and ordinates, the last of which is the axis of symmetry.
+    /// Builds the operators on a grid with these abscissae and ordinates; the last ordinate is the axis of symmetry.
     pub fn new(x: &[f64], y: &[f64]) -> Self {
         Self { along: NodalGradient::new(x), across: NodalGradient::up_to_axis(y) }
     }
 
-    /// On the abscissae of a line contact.
+    /// Builds the operators on the abscissae of a line contact.
     pub fn along_line(x: &[f64]) -> Self {
         Self::new(x, &[0.0])
     }
@@ -218,7 +222,7 @@ impl PlaneGradient {
         &self.along
     }
 
-    /// The gradients at all nodes, on all threads where `parallel` says so.
+    /// Computes the gradients at all nodes, on all threads if `parallel`.
     pub fn field(&self, values: &[f64], out: &mut [[f64; 2]], parallel: bool) {
         let ny = self.across().max(1);
         let least = if parallel { SHARE.div_ceil(ny) } else { usize::MAX };
@@ -227,20 +231,20 @@ impl PlaneGradient {
         });
     }
 
-    /// The gradient at a node, given by its index.
+    /// Returns the gradient at a node, given by its index.
     #[inline]
     pub fn at_node(&self, values: &[f64], node: usize) -> [f64; 2] {
         let ny = self.across();
         self.at(values, node / ny, node % ny)
     }
 
-    /// Nodes across.
+    /// Number of nodes across.
     #[inline]
     pub fn across(&self) -> usize {
         self.across.weights.len()
     }
 
-    /// The gradient at node (i, j).
+    /// Returns the gradient at node (i, j).
     #[inline]
     pub fn at(&self, values: &[f64], i: usize, j: usize) -> [f64; 2] {
         let ny = self.across();
@@ -252,8 +256,8 @@ impl PlaneGradient {
         [upstream + own * values[node] + downstream, across]
     }
 
-    /// What the gradient at a node is made of, along and across: neighbours upstream, the node itself and neighbours
-    /// downstream, with their weights; those that the node lacks have weight zero and its own index.
+    /// Returns the terms of the gradient at a node, along and across: upstream neighbour, node itself and downstream
+    /// neighbour, with their weights. A missing neighbour has the node's own index and weight zero.
     pub fn parts(&self, node: usize) -> [[(usize, f64); 3]; 2] {
         let ny = self.across();
         let (i, j) = (node / ny, node % ny);
@@ -280,7 +284,7 @@ mod tests {
     const PRESSURES: [f64; 8] = [0.01, 0.012, 0.02, 0.03, 0.05, 0.06, 0.08, 0.07];
     const CARREAU: ShearLaw = ShearLaw::Carreau { critical_stress: 1e6, beta: 2.198, n: 0.6, npr: 0.1 };
 
-    /// The row at entry 4 with its derivatives by all eight P and H.
+    /// Row at entry 4 with its derivatives by all eight P and H.
     fn evaluate(shear: &ScaledShear, p: &[f64; 8], h: &[f64; 8]) -> (f64, [f64; 8], [f64; 8]) {
         let fluid = Lubricant::default().scaled(&OperatingPoint::TABLE_2_1).unwrap();
         let gradient = NodalGradient::new(&X);

@@ -1,24 +1,24 @@
-//! The nodes of a line contact's row: four neighbours, upwind from whichever side the flow comes.
+//! Nodes of a line contact's row: four neighbours, upwind from the side the flow comes from.
 //!
-//! A row whose flow comes from the outlet is the row of the mirrored contact: the same function, with its nodes in the
-//! opposite order.
+//! A row with flow from the outlet is the row of the mirrored contact: the same function, with its nodes in reverse
+//! order.
 
 use super::{CENTER, RowGeometry, STENCIL};
 
-/// The side a row's flow comes from, relative to the grid.
+/// Side from which the flow of a row comes, relative to the grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Upstream {
-    /// The inlet: nodes two upstream to one downstream. A stationary contact has only such rows.
+    /// Inlet: two nodes upstream, one downstream. A steady contact has only such rows.
     #[default]
     Inlet,
-    /// The outlet: nodes one to the inlet's side, two to the outlet's.
+    /// Outlet: one node on the inlet side, two on the outlet side.
     Outlet,
-    /// The outlet, at the last unknown, behind which there is one node only: the quotient is of first order there.
+    /// Outlet, at the last unknown, which has a single node behind it: the difference quotient is of first order.
     Edge,
 }
 
 impl Upstream {
-    /// The side for row `unknown` of `unknowns` when the flow passes with `velocity` relative to the grid.
+    /// Returns the side for row `unknown` of `unknowns` if the flow passes with `velocity` relative to the grid.
     pub fn of(velocity: f64, unknown: usize, unknowns: usize) -> Self {
         match (velocity < 0.0, unknown + 1 == unknowns) {
             (false, _) => Self::Inlet,
@@ -27,7 +27,7 @@ impl Upstream {
         }
     }
 
-    /// The nodes of row `unknown` in a node array; those that it lacks have weight zero.
+    /// Returns the nodes of row `unknown` in a node array; missing nodes have weight zero.
     #[inline]
     pub fn stencil(self, unknown: usize) -> [usize; STENCIL] {
         let own = unknown + CENTER;
@@ -38,7 +38,7 @@ impl Upstream {
         }
     }
 
-    /// Coefficients of row `unknown` on the abscissae `x` of a node array.
+    /// Returns the coefficients of row `unknown` on the abscissae `x` of a node array.
     pub fn geometry(self, x: &[f64], unknown: usize) -> RowGeometry {
         let [west_2, west, own, east, ..] = self.stencil(unknown).map(|node| x[node]);
         match self {
@@ -105,7 +105,7 @@ mod tests {
                 };
                 let d_p = (at(step, 0.0) - at(-step, 0.0)) / (2.0 * step);
                 let d_h = (at(0.0, step) - at(0.0, -step)) / (2.0 * step);
-                // Where a node stands for another, its derivatives are both places'.
+                // If a node replaces another, its derivatives belong to both places.
                 let whole =
                     |d: &[f64; STENCIL]| -> f64 { (0..4).filter(|&e| stencil[e] == stencil[m]).map(|e| d[e]).sum() };
                 assert!((d_p - whole(&exact.d_p)).abs() < 1e-6 * scale, "{upstream:?} dP {m}");

@@ -1,5 +1,5 @@
-//! The discrete Reynolds equation (2.31): one row at one node (`row`), the integrals across the film that a
-//! generalized row is made of, and what a line contact has upstream.
+//! Discrete Reynolds equation (2.31): one row at one node (`row`), the integrals across the film of a generalized
+//! row, and the upwind stencils of a line contact.
 
 pub mod film_integrals;
 pub mod generalized;

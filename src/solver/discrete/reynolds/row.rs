@@ -1,20 +1,21 @@
 //! ONE row of the discrete Reynolds equation (2.31) at one node: its value and exact derivatives.
 //!
-//! The row is a function of six nodes, in the order [`WEST2`], [`WEST`], [`CENTER`], [`EAST`], [`SOUTH`], [`NORTH`]; a
-//! line contact is a grid with one row of nodes in Y, whose Y coefficients are zero. The full system asks for all rows,
-//! a hyper-reduced model for its sampled ones. The spacing may vary along X: the upwind quotient is (B.4), which is
-//! (2.32) on a uniform grid, and the diffusion term is the flux difference over the cell, which is the dissertation's
-//! on a uniform grid.
+//! The row is a function of six nodes, in the order [`WEST2`], [`WEST`], [`CENTER`], [`EAST`], [`SOUTH`], [`NORTH`].
+//! A line contact is a grid with one row of nodes in Y, whose Y coefficients are zero. The full system uses all rows,
+//! a hyper-reduced model its sampled ones.
+//!
+//! The spacing may vary along X. The upwind quotient is (B.4), which is (2.32) on a uniform grid. The diffusion term
+//! is the flux difference over the cell, as in the dissertation on a uniform grid.
 
 use crate::solver::physics::lubricant::{FluidState, ScaledFluid};
 
-/// Nodes a row depends on.
+/// Number of nodes that a row depends on.
 pub const STENCIL: usize = 6;
 /// Second node upstream.
 pub const WEST2: usize = 0;
 /// First node upstream.
 pub const WEST: usize = 1;
-/// The row's own node.
+/// Node of the row itself.
 pub const CENTER: usize = 2;
 /// First node downstream.
 pub const EAST: usize = 3;
@@ -23,10 +24,11 @@ pub const SOUTH: usize = 4;
 /// Neighbour at larger Y.
 pub const NORTH: usize = 5;
 
-/// The dissertation's dimensionless penalty factor γ̄, (2.36).
+/// Dimensionless penalty factor γ̄ of the dissertation, (2.36).
 pub const PENALTY: f64 = 1e6;
 
-/// What a row needs of one node: pressure, mass flow ρ̄H and mobility ξ = ρ̄H³/(η̄λ̄) with their derivatives.
+/// Quantities of one node that a row uses: pressure P, mass flow ρ̄H and mobility ξ = ρ̄H³/(η̄λ̄) with their
+/// derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Node {
     /// P.
@@ -46,13 +48,13 @@ pub struct Node {
 }
 
 impl Node {
-    /// The node's quantities at pressure P and film thickness H. `inverse_lambda` is 1/λ̄.
+    /// Evaluates the node at pressure P and film thickness H. `inverse_lambda` is 1/λ̄.
     #[inline]
     pub fn new(fluid: &ScaledFluid, inverse_lambda: f64, pressure: f64, film: f64) -> Self {
         Self::of_state(&fluid.at(pressure), inverse_lambda, pressure, film)
     }
 
-    /// The same where the fluid's state is known already.
+    /// Evaluates the node with the fluid's state already known.
     #[inline]
     pub fn of_state(state: &FluidState, inverse_lambda: f64, pressure: f64, film: f64) -> Self {
         let per_cube = state.density / state.viscosity * inverse_lambda;
@@ -70,8 +72,8 @@ impl Node {
     }
 }
 
-/// Coefficients of one row. Where nothing changes in time they are difference coefficients, which depend on the grid
-/// only; in time the storage of (2.31) is part of them, see [`RowGeometry::in_time`].
+/// Coefficients of one row. In a steady contact they are difference coefficients, which depend on the grid only. In a
+/// transient contact they include the storage term of (2.31), see [`RowGeometry::in_time`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RowGeometry {
     /// Weights of ρ̄H at [`WEST2`], [`WEST`], [`CENTER`] in ∂(ρ̄H)/∂X, (B.4).
@@ -84,13 +86,13 @@ pub struct RowGeometry {
     pub south: f64,
     /// 1/(h_n h_c): weight of the northern face; zero for a line contact and on the symmetry axis.
     pub north: f64,
-    /// What the time derivative draws from the former steps; zero where nothing changes in time.
+    /// Contribution of the previous steps to the time derivative; zero in a steady contact.
     pub history: f64,
 }
 
 impl RowGeometry {
-    /// Coefficients of the row at the third of four neighbouring abscissae x₋₂ < x₋₁ < x₀ < x₊₁, without diffusion
-    /// across.
+    /// Returns the coefficients of the row at the third of four adjacent abscissae x₋₂ < x₋₁ < x₀ < x₊₁, without
+    /// diffusion across.
     pub fn new(x: [f64; 4]) -> Self {
         let (h0, h1, h2) = (x[1] - x[0], x[2] - x[1], x[3] - x[2]);
         let r = h1 / h0;
@@ -103,51 +105,54 @@ impl RowGeometry {
         }
     }
 
-    /// Coefficients in the first column behind the inlet of a point contact, where the upwind quotient is of first
-    /// order. The abscissae are the inlet's, the column's own and the next one's; the node at [`WEST2`] has no weight.
+    /// Returns the coefficients in the first column behind the inlet of a point contact, where the upwind quotient is
+    /// of first order. `x` holds the abscissae of the inlet, the column itself and the next column. The node at
+    /// [`WEST2`] has weight zero.
     pub fn first_column(x: [f64; 3]) -> Self {
         let (h1, h2) = (x[1] - x[0], x[2] - x[1]);
         let cell = 0.5 * (h1 + h2);
         Self { upwind: [0.0, -1.0 / h1, 1.0 / h1], west: 1.0 / (h1 * cell), east: 1.0 / (h2 * cell), ..Self::default() }
     }
 
-    /// The row under the map X = −1 + (ξ + 1)s, given in ξ; what it has across and in time stays.
+    /// Returns the row under the map X = −1 + (ξ + 1)s, for coefficients given in ξ. Terms across and in time are
+    /// unchanged.
     #[inline]
     pub fn scaled(&self, scale: f64) -> Self {
         let (first, second) = (1.0 / scale, 1.0 / (scale * scale));
         Self { upwind: self.upwind.map(|w| w * first), west: self.west * second, east: self.east * second, ..*self }
     }
 
-    /// The same row with diffusion across: `south` and `north` are the distances to the neighbours in Y. On the
-    /// symmetry axis there is no northern one: the cell is then the southern half, through whose axis nothing flows.
+    /// Returns the same row with diffusion across; `south` and `north` are the distances to the neighbours in Y.
+    /// `north` is `None` on the symmetry axis: the cell is then its southern half, and no flow crosses the axis.
     pub fn across(self, south: f64, north: Option<f64>) -> Self {
         let cell = 0.5 * (south + north.unwrap_or(0.0));
         Self { south: 1.0 / (south * cell), north: north.map_or(0.0, |h| 1.0 / (h * cell)), ..self }
     }
 
-    /// Whether it depends on the nodes at [`SOUTH`] and [`NORTH`].
+    /// Returns true if the row depends on the nodes at [`SOUTH`] and [`NORTH`].
     #[inline]
     pub fn reaches_across(&self) -> bool {
         self.south != 0.0 || self.north != 0.0
     }
 
-    /// The row of a circle's grid on that of an ellipse with κ = b/a: distances across are κ times as long.
+    /// Converts the row of a circular contact's grid to that of an elliptical one with κ = b/a: distances across are
+    /// multiplied by κ.
     #[inline]
     pub fn across_by(&self, kappa: f64) -> Self {
         let square = 1.0 / (kappa * kappa);
         Self { south: self.south * square, north: self.north * square, ..*self }
     }
 
-    /// The same row in time: the flow passes the node at `speed` ≥ 0 instead of 1, and ∂(ρ̄H)/∂T is `storage` ρ̄H +
-    /// `history`. The storage joins the upwind weight of the row's own node, so a row in time costs what a stationary
-    /// one does.
+    /// Returns the transient row: the flow passes the node at `speed` ≥ 0 instead of 1, and ∂(ρ̄H)/∂T is `storage`
+    /// ρ̄H + `history`. The storage is added to the upwind weight of the row's own node, so that a transient row
+    /// costs no more than a steady one.
     pub fn in_time(self, speed: f64, storage: f64, history: f64) -> Self {
         let [west_2, west, center] = self.upwind.map(|weight| speed * weight);
         Self { upwind: [west_2, west, center + storage], history, ..self }
     }
 }
 
-/// A row's value and its derivatives with respect to P and H of the six nodes.
+/// Value of a row and its derivatives with respect to P and H of the six nodes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Row {
     /// f_p of (2.31).
@@ -252,7 +257,7 @@ mod tests {
 
     #[test]
     fn manufactured_solution_converges_with_second_order_on_a_graded_grid() {
-        // Incompressible Barus fluid with smooth P(x), H(x): compare the row with the analytic expression.
+        // Incompressible Barus fluid with smooth P(x), H(x): compares the row with the analytic expression.
         let point = OperatingPoint { alpha_per_pa: 1e-10, ..OperatingPoint::TABLE_2_1 };
         let fluid =
             Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() }
@@ -267,7 +272,7 @@ mod tests {
             dxi * dp(x) + xi * ddp(x) - dh(x)
         };
         let error = |step: f64| {
-            // A smooth mapping of an equidistant grid.
+            // Smooth mapping of an equidistant grid.
             let map = |t: f64| t + 0.2 * t * t;
             let t0 = 0.4;
             let x: [f64; 4] = std::array::from_fn(|k| map(t0 + step * (k as f64 - 2.0)));

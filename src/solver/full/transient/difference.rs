@@ -1,28 +1,28 @@
-//! The backward difference quotient in time, (2.34), and the extrapolation its solutions are compared with.
+//! Backward difference quotient in time, (2.34), and the linear extrapolation from which each step starts.
 
-/// Weights of the newest value and the two former ones in ∂/∂T, divided by the step already.
+/// Weights of the newest value and the two previous ones in ∂/∂T, already divided by the step length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BackwardDifference {
-    /// Of the value at the end of the step.
+    /// Weight of the value at the end of the step.
     pub now: f64,
-    /// Of the value one step before and the one two steps before.
+    /// Weights of the values one step and two steps before.
     pub former: [f64; 2],
 }
 
 impl BackwardDifference {
-    /// Second order, (2.34): the present step and the one before it.
+    /// Returns the second-order quotient (2.34) for the current step and the one before it.
     pub fn second_order(step: f64, step_before: f64) -> Self {
         let r = step / step_before;
         Self { now: (1.0 + 2.0 * r) / (1.0 + r) / step, former: [-(1.0 + r) / step, r * r / (1.0 + r) / step] }
     }
 
-    /// The quotient of three values, the newest first.
+    /// Returns the quotient of three values, the newest first.
     pub fn of(&self, [now, former, before]: [f64; 3]) -> f64 {
         self.now * now + self.former[0] * former + self.former[1] * before
     }
 }
 
-/// Continues the straight line through two former values over `ratio` = step / former step.
+/// Extrapolates the straight line through two previous values; `ratio` = step / previous step.
 #[inline]
 pub fn extrapolated(ratio: f64, former: f64, before: f64) -> f64 {
     former + ratio * (former - before)

@@ -1,4 +1,4 @@
-//! The three frames of section 4.1, and what the equations become in each at one time.
+//! The three frames of section 4.1, and the equations in each of them at one time.
 
 use super::signal::Input;
 use super::spline::Interpolation;
@@ -6,50 +6,50 @@ use crate::solver::full::{Problem, SolveError};
 use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
-/// How the computational domain follows the contact.
+/// Frame: motion of the computational domain with the contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Frame {
-    /// Not at all: scales of the reference contact, (2.22), (2.23).
+    /// No motion: scales of the reference contact, (2.22), (2.23).
     #[default]
     Fixed,
-    /// The nodes move with the dry contact: (4.9) with the growth of the scale of H, and upwind from wherever the flow
-    /// comes.
+    /// The nodes move with the dry contact: (4.9) with the growth of the scale of H, upwinded by the local flow
+    /// direction.
     ArbitraryLagrangianEulerian,
-    /// Every step has a grid of its own, onto which the former steps are carried: (4.10), (4.11).
+    /// Every step has a new grid, to which the previous steps are interpolated: (4.10), (4.11).
     Remeshed(Interpolation),
 }
 
-/// Scales of the dry contact of the moment over those of the reference; all 1 in the fixed frame.
+/// Scales of the dry contact at one time, relative to those of the reference contact. All are 1 in the fixed frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scales {
-    /// a/a_ref.
+    /// Hertzian half-width a/a_ref.
     pub half_width: f64,
-    /// p_H/p_H,ref.
+    /// Hertzian pressure p_H/p_H,ref.
     pub pressure: f64,
-    /// (a²/R)/(a²/R)_ref.
+    /// Scale of the film thickness H, (a²/R)/(a²/R)_ref, with the radius R.
     pub film: f64,
 }
 
-/// The equations at one time: everything but the time derivative.
+/// Equations at one time, without the time derivative.
 #[derive(Clone, Copy, Debug)]
 pub struct Conditions {
-    /// When.
+    /// Dimensionless time T.
     pub time: f64,
-    /// The inputs.
+    /// Inputs at this time.
     pub input: Input,
-    /// The frame's scales.
+    /// Scales of the frame.
     pub scales: Scales,
     /// Load, λ̄ and fluid in these scales.
     pub problem: Problem,
-    /// 1/R̄ of (2.24), or 1 where the frame follows the contact.
+    /// 1/R̄ of (2.24), or 1 if the frame follows the contact.
     pub curvature: f64,
-    /// Speed of the flow, U of (4.10), or ū in the fixed frame.
+    /// Speed of the flow: U of (4.10), or ū in the fixed frame.
     pub speed: f64,
 }
 
 impl Frame {
-    /// All of them, the one that the others are compared with first.
+    /// All frames; the first is the reference of comparisons.
     pub const ALL: [Self; 4] = [
         Self::Fixed,
         Self::ArbitraryLagrangianEulerian,
@@ -57,7 +57,7 @@ impl Frame {
         Self::Remeshed(Interpolation::Linear),
     ];
 
-    /// The word that stands for it in results.
+    /// Returns the name used in results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
@@ -67,7 +67,7 @@ impl Frame {
         }
     }
 
-    /// The frame's scales under the given inputs, (4.1).
+    /// Returns the frame's scales for the given inputs, (4.1).
     pub fn scales(self, input: Input) -> Scales {
         match self {
             Self::Fixed => Scales { half_width: 1.0, pressure: 1.0, film: 1.0 },
@@ -79,20 +79,20 @@ impl Frame {
         }
     }
 
-    /// The equations at one time for a contact whose reference is `reference`.
+    /// Returns the equations at one time for a contact with the reference problem `reference`.
     ///
     /// # Errors
-    /// When the contact of the moment is outside any sense.
+    /// [`SolveError`] if the inputs lead to a contact outside the accepted ranges.
     pub fn conditions(self, reference: &Problem, time: f64, input: Input) -> Result<Conditions, SolveError> {
         let scales = self.scales(input);
         let point = point_at(&reference.point, input);
-        // Refuses what no contact can be, in every frame alike. A contact that rests for a moment is one.
+        // All frames refuse the same contacts. A speed of zero for a moment is accepted.
         OperatingPoint { speed_m_per_s: reference.point.speed_m_per_s, ..point }.check()?;
         let (problem, curvature) = match self {
             Self::Fixed => (Problem { load: reference.load * input.load, ..*reference }, 1.0 / input.radius),
             Self::ArbitraryLagrangianEulerian | Self::Remeshed(_) => {
                 let fluid = reference.lubricant.scaled(&point)?;
-                // λ̄ = 12 η₀R²/(p_H a² t_ref) of (4.9), over that of (2.23).
+                // λ̄ = 12 η₀R²/(p_H a² t_ref) of (4.9), relative to that of (2.23).
                 let growth = input.radius * input.radius / (scales.pressure * scales.half_width.powi(2));
                 let inverse_lambda = reference.inverse_lambda / growth;
                 let supply = reference.supply.map(|supply| supply / scales.film);
@@ -103,7 +103,7 @@ impl Frame {
     }
 }
 
-/// The operating point of the moment.
+/// Returns the operating point at one time.
 pub fn point_at(reference: &OperatingPoint, input: Input) -> OperatingPoint {
     OperatingPoint {
         radius_m: reference.radius_m * input.radius,
@@ -128,7 +128,7 @@ mod tests {
         close(here.scales.half_width, own.hertz().half_width_m / at_rest.hertz().half_width_m);
         close(here.scales.pressure, own.hertz().pressure_pa / at_rest.hertz().pressure_pa);
         close(here.scales.film, own.film_scale_m() / at_rest.film_scale_m());
-        // Dividing (4.10) by U gives the stationary equation with its own λ̄.
+        // (4.10) divided by U is the steady equation with its λ̄.
         close(here.problem.inverse_lambda / here.speed, 1.0 / own.lambda_bar());
     }
 

@@ -1,4 +1,4 @@
-//! How far the grid lets a full march be trusted: what it costs contacts at rest under the inputs of some moments.
+//! Discretisation error of a full march, estimated from steady contacts under the inputs of selected times.
 
 use super::frame::Conditions;
 use super::march::Marching;
@@ -8,9 +8,9 @@ use crate::solver::full::{GridCost, Problem, SolveOptions};
 use crate::solver::observer::Observer;
 
 impl Trajectory {
-    /// What the grid costs the central film at rest under the inputs of the start, of the thinnest and of the thickest
-    /// film: the worst of them and its time. A thin film wants fine grids, a thick one long domains. None where no
-    /// contact rests under any of them.
+    /// Estimates the discretisation error of the central film thickness for steady contacts under the inputs of the
+    /// start, of the thinnest and of the thickest film. Thin films need fine grids, thick films long domains. Returns
+    /// the largest error and its time; `None` if no steady solve converges.
     pub fn grid_cost(&self, model: &mut FullMarch, observer: &dyn Observer) -> Option<(f64, GridCost)> {
         let by_film = |a: &&Moment, b: &&Moment| a.h_c.total_cmp(&b.h_c);
         let [start, thinnest, thickest] =
@@ -26,10 +26,10 @@ impl Trajectory {
 }
 
 impl FullMarch {
-    /// What the grid costs the central film of a contact at rest; the present state is lost.
+    /// Estimates the discretisation error of a steady contact. The current state is lost.
     fn grid_cost(&mut self, at: &Conditions, observer: &dyn Observer) -> Option<GridCost> {
         self.rest(at, observer).ok()?;
-        // At another speed a contact at rest is that of another λ̄.
+        // A steady contact at another speed equals one with another λ̄.
         let problem = Problem { inverse_lambda: at.problem.inverse_lambda / at.speed, ..at.problem };
         let space = &mut self.system.space;
         space.rows.copy_from_slice(&space.grid.rows);
@@ -46,7 +46,7 @@ mod tests {
     use crate::solver::physics::contact::OperatingPoint;
     use crate::solver::physics::lubricant::Lubricant;
 
-    /// In a frame that follows the contact its grid is that of a stationary solve of the contact of the moment.
+    /// In a frame that follows the contact, its grid is that of a steady solve at the same inputs.
     #[test]
     fn a_march_costs_what_its_worst_contact_at_rest_costs() {
         let spec = GridSpec::Uniform { dx: 0.03, domain: (-4.0, 2.0) };
@@ -67,7 +67,7 @@ mod tests {
         let wanted = solver.judged(solution).grid_cost.unwrap();
         assert!(wanted.total() > 0.02, "{wanted:?}");
         assert!((told.total() / wanted.total() - 1.0).abs() < 1e-2, "{told:?} against {wanted:?}");
-        // In a fixed frame it is the same contact on the same grid.
+        // In the fixed frame it is the same contact on the same grid.
         let fixed = Transient { frame: Frame::Fixed, ..transient };
         let mut model = FullMarch::new(spec.line().unwrap(), &fixed).unwrap();
         let trajectory = march(&mut model, &fixed, &()).unwrap();

@@ -1,4 +1,4 @@
-//! The two former states of a march, and what the time derivative of its rows draws from them.
+//! The two previous states of a march, and their contribution to the time derivative of its rows.
 
 use super::difference::extrapolated;
 use super::frame::Frame;
@@ -6,7 +6,7 @@ use super::march::Step;
 use super::spline::{Interpolated, Interpolation};
 use serde::{Deserialize, Serialize};
 
-/// The former states, the nearer one first, and their ρ̄H where the rows' nodes are now.
+/// Previous states, the nearer one first, and their mass flow ρ̄H interpolated to the current nodes of the rows.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct History {
     former: [Past; 2],
@@ -14,15 +14,15 @@ pub struct History {
     carried: [Vec<f64>; 2],
 }
 
-/// A former state.
+/// Previous state.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Past {
-    /// Pressures or coefficients.
+    /// Pressures P, or the coefficients of a reduced model.
     state: Vec<f64>,
     h_0: f64,
-    /// ρ̄H where the rows' nodes were.
+    /// ρ̄H at the nodes of the rows at that time.
     flow: Vec<f64>,
-    /// The same between the nodes, where the frame is remeshed.
+    /// Interpolation of ρ̄H between the nodes, in the remeshed frame.
     between: Interpolated,
 }
 
@@ -36,13 +36,14 @@ impl Past {
 }
 
 impl History {
-    /// Without states, with room for so many entries and rows.
+    /// Creates an empty history with capacity for the given numbers of entries and rows.
     pub fn with_room(entries: usize, rows: usize) -> Self {
         let past = || Past { state: Vec::with_capacity(entries), flow: Vec::with_capacity(rows), ..Past::default() };
         Self { former: [past(), past()], carried: [Vec::with_capacity(rows), Vec::with_capacity(rows)] }
     }
 
-    /// Makes a state with its H₀ and its ρ̄H at the rows' nodes the nearer of the former ones.
+    /// Stores a state with its H₀ (rigid-body separation) and its ρ̄H at the rows' nodes as the nearer previous one.
+    /// The previously nearer state becomes the farther one.
     pub fn remember(&mut self, state: &[f64], h_0: f64, flow: impl Iterator<Item = f64>) {
         self.former.swap(0, 1);
         let past = &mut self.former[0];
@@ -54,13 +55,12 @@ impl History {
         past.flow.extend(flow);
     }
 
-    /// Takes over the states of another one, in the room there is.
+    /// Copies the states of another history without allocating, if the capacity suffices.
     pub fn copy_from(&mut self, other: &Self) {
         self.former.iter_mut().zip(&other.former).for_each(|(own, other)| own.copy_from(other));
     }
 
-    /// Whether both states have so many entries, so many rows, and so many nodes between which they are carried; all of
-    /// them finite.
+    /// Returns true if both states have the given numbers of entries, rows and interpolation nodes, all finite.
     pub fn is_of(&self, entries: usize, rows: usize, nodes: usize) -> bool {
         let finite = |values: &[f64], length: usize| values.len() == length && values.iter().all(|v| v.is_finite());
         let fits = |past: &Past| {
@@ -70,18 +70,19 @@ impl History {
         self.former.iter().all(fits)
     }
 
-    /// Adds the ρ̄H of the nearer state at all nodes `x`, from which a remeshed frame carries it on.
+    /// Stores ρ̄H of the nearer state at all nodes `x`, from which a remeshed frame interpolates it.
     pub fn remember_between(&mut self, interpolation: Interpolation, x: &[f64], flow: impl Iterator<Item = f64>) {
         self.former[0].between.set(interpolation, x, flow);
     }
 
-    /// Makes the nearer state both of the former ones: the contact has rested.
+    /// Sets both previous states to the nearer one: the contact was steady.
     pub fn rest(&mut self) {
         let [nearer, farther] = &mut self.former;
         farther.copy_from(nearer);
     }
 
-    /// Continues the straight line through both states over `ratio` = step / former step; returns H₀.
+    /// Extrapolates the straight line through both states to `start` and returns the extrapolated H₀; `ratio` = step
+    /// / previous step.
     pub fn extrapolate(&self, ratio: f64, start: &mut [f64]) -> f64 {
         let [near, far] = &self.former;
         for (start, (near, far)) in start.iter_mut().zip(near.state.iter().zip(&far.state)) {
@@ -90,31 +91,32 @@ impl History {
         extrapolated(ratio, near.h_0, far.h_0)
     }
 
-    /// The nearer state and its H₀.
+    /// Returns the nearer state and its H₀.
     pub fn nearer(&self) -> (&[f64], f64) {
         (&self.former[0].state, self.former[0].h_0)
     }
 
-    /// A former state and its H₀, the nearer one for 0.
+    /// Returns a previous state and its H₀; 0 is the nearer one.
     pub fn former(&self, which: usize) -> (&[f64], f64) {
         (&self.former[which].state, self.former[which].h_0)
     }
 
-    /// Gives a former state by other entries.
+    /// Replaces the entries of a previous state.
     pub fn give_state(&mut self, which: usize, state: &[f64]) {
         let own = &mut self.former[which].state;
         own.clear();
         own.extend_from_slice(state);
     }
 
-    /// Gives ρ̄H of a former state at the nodes of other rows.
+    /// Replaces ρ̄H of a previous state, at the nodes of other rows.
     pub fn give_flow(&mut self, which: usize, flow: impl Iterator<Item = f64>) {
         let own = &mut self.former[which].flow;
         own.clear();
         own.extend(flow);
     }
 
-    /// Carries the former ρ̄H to where the rows' nodes, at `rows` among the grid's `nodes`, are at the end of a step.
+    /// Interpolates the previous ρ̄H to the positions of the rows' nodes at the end of a step. `rows` are the
+    /// abscissae of these nodes, `nodes` those of the grid.
     pub fn carry(&mut self, frame: Frame, step: &Step, nodes: &[f64], rows: &[f64]) {
         for ((carried, past), scales) in self.carried.iter_mut().zip(&self.former).zip(step.former) {
             carried.resize(past.flow.len(), 0.0);
@@ -128,7 +130,8 @@ impl History {
         }
     }
 
-    /// What the time derivative of row `row` draws from the former states, given [`Step::history_weights`].
+    /// Returns the contribution of the previous states to the time derivative of row `row`, given
+    /// [`Step::history_weights`].
     #[inline]
     pub fn at(&self, [near, far]: [f64; 2], row: usize) -> f64 {
         near * self.carried[0][row] + far * self.carried[1][row]

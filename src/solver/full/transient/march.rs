@@ -1,4 +1,4 @@
-//! The march through time: which steps are taken, which are discarded, and what is kept.
+//! March in time: sequence of the steps, rejection of failed ones, and recording of the trajectory.
 
 use super::difference::BackwardDifference;
 use super::frame::{Conditions, Frame, Scales};
@@ -15,37 +15,37 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use serde::{Deserialize, Serialize};
 
-/// A contact to be taken through time.
+/// Definition of a transient simulation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Transient {
-    /// The reference contact.
+    /// Reference contact.
     pub point: OperatingPoint,
-    /// Its lubricant.
+    /// Lubricant of the contact.
     #[serde(with = "WholeLubricant")]
     pub lubricant: Lubricant,
-    /// What varies.
+    /// Inputs that vary in time.
     pub inputs: Inputs,
-    /// How the domain follows.
+    /// Motion of the domain.
     pub frame: Frame,
-    /// The last T.
+    /// Last dimensionless time T.
     pub duration: f64,
     /// Lengths of the steps.
     pub time_step: TimeStep,
-    /// Which fields are kept.
+    /// Fields to be kept.
     pub keep: Keep,
 }
 
-/// Which fields a trajectory keeps; scalars are always kept.
+/// Fields that a trajectory keeps. Scalars are always kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Keep {
-    /// None.
+    /// No fields.
     #[default]
     Scalars,
-    /// Those of the start and of every n-th step after it; n is at least 1.
+    /// Fields of the start and of every n-th step after it; n is at least 1.
     Every(usize),
 }
 
-/// Why a march cannot begin.
+/// Error that prevents the start of a march.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TransientError {
     /// The contact or its grid is refused.
@@ -54,37 +54,37 @@ pub enum TransientError {
     /// The inputs are refused.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The duration or a step is no positive number, or there would be too many steps: a sentence.
+    /// The duration or a step is not a positive number, or there are too many steps. Contains a sentence.
     #[error("{0}")]
     Time(String),
-    /// Transient runs do not cover such contacts.
+    /// Transient simulations do not support this contact.
     #[error(transparent)]
     Unsupported(#[from] Unsupported),
 }
 
-/// Watches a march.
+/// Observer of a march.
 pub trait TransientObserver: Observer {
-    /// Called after the start and after every step taken.
+    /// Called after the start and after every accepted step.
     fn moment(&self, _moment: &Moment) {}
 
-    /// Asked after each moment: whether its fields are wanted too.
+    /// Returns true to receive the fields of this moment as well. Called after each moment.
     fn wants_state(&self) -> bool {
         false
     }
 
-    /// The fields of the moment reported last, where they were wanted.
+    /// Called with the fields of the last reported moment, if [`Self::wants_state`] returned true.
     fn state(&self, _state: &State) {}
 }
 
 impl TransientObserver for () {}
 
-/// Tells how far a march is, in thousandths of its duration, as a stage of a longer work.
+/// Reports the progress of a march, in thousandths of its duration, as a stage of a longer computation.
 pub struct MarchProgress<'a> {
-    /// Who is told, and may stop it.
+    /// Observer that receives the progress and may stop the march.
     pub observer: &'a dyn Observer,
-    /// What the march is part of, for people.
+    /// Name of the stage, for display.
     pub stage: String,
-    /// Its duration.
+    /// Duration of the march.
     pub duration: f64,
 }
 
@@ -101,70 +101,71 @@ impl TransientObserver for MarchProgress<'_> {
     }
 }
 
-/// One step: what the rows of any model need to know of it.
+/// Data of one step that the rows of any model use.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
-    /// The equations at its end.
+    /// Equations at the end of the step.
     pub now: Conditions,
-    /// Scales at its beginning and one step before.
+    /// Scales at the beginning of the step and one step before.
     pub former: [Scales; 2],
-    /// Its difference quotient.
+    /// Difference quotient.
     pub quotient: BackwardDifference,
-    /// Its length over that of the former step.
+    /// Length of the step relative to the previous one.
     pub ratio: f64,
-    /// ȧ/a of the moving nodes by the same quotient as everything else, so that nodes in motion alone change no field;
-    /// 0 in the other frames.
+    /// ȧ/a of the moving nodes, by the same quotient as all other time derivatives, so that moving nodes alone change
+    /// no field. 0 in the other frames.
     pub growth: f64,
 }
 
-/// A model of the contact that can be taken through time. It holds its present state, two former ones, and the one
+/// Model of a contact that a march can advance in time. It holds its current state, two previous ones, and the step
 /// under trial.
 pub trait Marching {
-    /// The grid its fields live on.
+    /// Returns the grid of the model's fields.
     fn grid(&self) -> &LineGrid;
 
-    /// Finds the stationary state at the start, where the contact has rested for ever.
+    /// Computes the steady state at the start, which is also its whole history.
     ///
     /// # Errors
-    /// With the reason why the iteration stopped.
+    /// [`Termination`]: the reason why the iteration stopped.
     fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination>;
 
-    /// Solves for the end of a step, from the extrapolation of the former states.
+    /// Solves the end of a step, starting from the extrapolation of the previous states.
     ///
     /// # Errors
-    /// With the reason why the iteration stopped; the former states are as before.
+    /// [`Termination`]: the reason why the iteration stopped. The previous states are unchanged.
     fn step(&mut self, step: &Step, observer: &dyn Observer) -> Result<Effort, Termination>;
 
-    /// ‖P − extrapolation‖/‖P‖ of the step under trial.
+    /// Returns ‖P − extrapolation‖/‖P‖ of the step under trial, with the pressure P.
     fn deviation(&self) -> f64;
 
-    /// Makes the step under trial, which led to `at`, a former one.
+    /// Accepts the step under trial, which led to `at`, as a previous state.
     fn accept(&mut self, at: &Conditions);
 
-    /// Scalars of the state found last.
+    /// Returns the scalars of the last state.
     fn moment(&self, at: &Conditions, step: f64, effort: Effort) -> Moment;
 
-    /// Fields of the state found last.
+    /// Returns the fields of the last state.
     fn state(&self, at: &Conditions) -> State;
 }
 
-/// Most steps of one march.
+/// Maximum number of steps of one march.
 const MOST_STEPS: f64 = 2e6;
-/// Shares of H_c that steps can be controlled by: rounding and Newton's tolerance are felt below.
+/// Range of the tolerances, relative to the central film thickness H_c, of controlled steps. Below it, rounding and
+/// Newton's tolerance dominate.
 const FINEST_CONTROL: f64 = 1e-5;
 const COARSEST_CONTROL: f64 = 0.3;
 
 impl Transient {
-    /// A contact with the lubricant laws of the default, in the fixed frame, with equal steps; no fields are kept.
+    /// Creates a march with the default lubricant, in the fixed frame and with equal steps; no fields are kept.
     pub fn new(point: OperatingPoint, inputs: Inputs, duration: f64, step: f64) -> Self {
         let (lubricant, time_step) = (Lubricant::default(), TimeStep::Fixed(step));
         Self { point, lubricant, inputs, frame: Frame::Fixed, duration, time_step, keep: Keep::Scalars }
     }
 
-    /// Refuses inputs and times without sense.
+    /// Checks inputs, duration and time step.
     ///
     /// # Errors
-    /// With what is wrong.
+    /// [`TransientError`] that states what is wrong and what is accepted.
     pub fn check(&self) -> Result<(), TransientError> {
         let refuse = |quantity: &str, value: f64, accepted: &str| {
             let value = Number(value);
@@ -193,10 +194,10 @@ impl Transient {
         Ok(self.inputs.check(self.duration)?)
     }
 
-    /// The reference problem.
+    /// Returns the reference problem.
     ///
     /// # Errors
-    /// When the contact, the inputs, the times or the lubricant is refused.
+    /// [`TransientError`] if the contact, the inputs, the times or the lubricant are refused.
     pub fn problem(&self) -> Result<Problem, TransientError> {
         self.check()?;
         Unsupported::check(self.point.kind, &self.lubricant)?;
@@ -205,8 +206,8 @@ impl Transient {
 }
 
 impl Step {
-    /// The step to `now` after the states at `former` conditions. The first step of a march has no former one: its
-    /// `step_before` is its own.
+    /// Creates the step to `now` after the states with the `former` scales. The first step of a march has no previous
+    /// one; its `step_before` is its own length.
     pub fn new(frame: Frame, now: Conditions, former: [Scales; 2], step: f64, step_before: f64) -> Self {
         let quotient = BackwardDifference::second_order(step, step_before);
         let growth = match frame {
@@ -218,24 +219,24 @@ impl Step {
         Self { now, former, quotient, ratio: step / step_before, growth }
     }
 
-    /// Velocity of the flow relative to the node at X.
+    /// Returns the velocity of the flow relative to the node at X.
     #[inline]
     pub fn velocity(&self, x: f64) -> f64 {
         self.now.speed - self.growth * x
     }
 
-    /// Weights of the former ρ̄H, the nearer one first: (R/a²) ∂/∂T of (a²/R) ρ̄H, which is ∂(ρ̄H)/∂T with the growth
-    /// of the scale of H.
+    /// Returns the weights of the previous mass flow ρ̄H, the nearer one first: (R/a²) ∂/∂T of (a²/R) ρ̄H, which is
+    /// ∂(ρ̄H)/∂T with the growth of the scale of H.
     pub fn history_weights(&self) -> [f64; 2] {
         std::array::from_fn(|i| self.quotient.former[i] * self.former[i].film / self.now.scales.film)
     }
 }
 
-/// Takes a model through time.
+/// Advances a model in time.
 ///
 /// # Errors
-/// When the contact, the inputs, the times or the lubricant is refused. A march that ends early is an answer: it says
-/// when and why.
+/// [`TransientError`] if the contact, the inputs, the times or the lubricant are refused. A march that ends early is
+/// not an error: its trajectory states when and why it ended.
 pub fn march(
     model: &mut dyn Marching,
     transient: &Transient,
@@ -249,7 +250,7 @@ pub fn march(
     }
 }
 
-/// Takes a model through time with steps by a rule.
+/// Advances a model in time with steps by one rule.
 pub(super) fn march_once(
     model: &mut dyn Marching,
     transient: &Transient,
@@ -290,7 +291,7 @@ fn walk(
         if observer.cancelled() {
             return Err(Ended::Cancelled { time: at.time });
         }
-        // Adaptive steps may become shorter than the longest.
+        // Adaptive steps may become shorter than the longest step.
         if trajectory.moments.len() as f64 > MOST_STEPS + 1.0 {
             let (time, step, termination) = (at.time, pace.length, Termination::Effort);
             return Err(Ended::StepRefused { time, step, termination });
@@ -325,10 +326,10 @@ fn walk(
 }
 
 impl Trajectory {
-    /// The trajectory of a contact on a grid before its first moment.
+    /// Creates the trajectory of a contact on a grid before its first moment.
     ///
     /// # Errors
-    /// When the contact, the inputs, the times or the lubricant is refused.
+    /// [`TransientError`] if the contact, the inputs, the times or the lubricant are refused.
     pub fn begun(transient: &Transient, grid: &LineGrid) -> Result<Self, TransientError> {
         Ok(Self {
             transient: transient.clone(),
@@ -344,7 +345,7 @@ impl Trajectory {
         })
     }
 
-    /// Adds the state found last, and tells of it.
+    /// Adds the last state to the trajectory and reports it to the observer.
     fn record(
         &mut self,
         model: &dyn Marching,

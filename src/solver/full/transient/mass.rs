@@ -1,4 +1,4 @@
-//! Mass in a piece of the film: what flows in minus what flows out must be what is stored.
+//! Mass balance of a part of the film: inflow minus outflow must equal the change of the stored mass.
 
 use super::frame::Conditions;
 use super::trajectory::{State, Trajectory};
@@ -6,31 +6,31 @@ use crate::solver::discrete::grid::{FIRST_UNKNOWN, cubic};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 
-/// Mass between two places that rest, over the kept states of a trajectory; in units of ρ₀ (a³/R)_ref.
+/// Mass balance between two fixed places over the kept states of a trajectory, in units of ρ₀ (a³/R)_ref.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MassBalance {
-    /// Mass at the end less mass at the beginning.
+    /// Mass at the end minus mass at the beginning.
     pub stored: f64,
     /// ∫(inflow − outflow) dT.
     pub carried: f64,
-    /// ∫|inflow − outflow| dT, with which a defect is compared.
+    /// ∫|inflow − outflow| dT, the reference of a defect.
     pub exchanged: f64,
 }
 
 impl MassBalance {
-    /// |stored − carried| over what was exchanged.
+    /// Returns |stored − carried| relative to the exchanged mass.
     pub fn defect(&self) -> f64 {
         (self.stored - self.carried).abs() / self.exchanged
     }
 }
 
-/// Cells of Simpson's rule between the two places.
+/// Number of cells of Simpson's rule between the two places.
 const CELLS: usize = 2000;
 
 impl Trajectory {
-    /// The balance between `from` and `to`, in units of a_ref: by quadrature of the kept fields and the fluxes through
-    /// both ends, with no use of the discrete equations. The film must be full between them. `None` with fewer than two
-    /// states, or where a place leaves the domain.
+    /// Computes the balance between `from` and `to`, in units of a_ref. It uses quadrature of the kept fields and the
+    /// fluxes through both ends, but not the discrete equations. The film must be full between the two places. `None`
+    /// with fewer than two states, or if a place leaves the domain.
     pub fn mass_balance(&self, (from, to): (f64, f64)) -> Option<MassBalance> {
         let mut balance = MassBalance::default();
         let mut former: Option<(f64, f64, f64)> = None;
@@ -68,7 +68,7 @@ impl<'a> Film<'a> {
         Self { x, pressure: &state.pressure, nodes, at }
     }
 
-    /// A nodal quantity at a place, given in units of a_ref.
+    /// Returns a nodal quantity at a place given in units of a_ref; `None` outside the domain.
     fn value(&self, place: f64, of: impl Fn(usize) -> f64) -> Option<f64> {
         let x = place / self.at.scales.half_width;
         let inside = x > self.x[FIRST_UNKNOWN] && x < self.x[self.x.len() - 2];
@@ -76,7 +76,7 @@ impl<'a> Film<'a> {
         inside.then(|| weights.iter().enumerate().map(|(m, w)| w * of(first + m)).sum())
     }
 
-    /// ∫ρ̄H dX between two places.
+    /// Returns ∫ρ̄H dX between two places (density ρ̄, film thickness H).
     fn mass(&self, from: f64, to: f64) -> Option<f64> {
         let h = (to - from) / CELLS as f64;
         let mut sum = 0.0;
@@ -91,7 +91,7 @@ impl<'a> Film<'a> {
         Some(sum * h / 3.0 * self.at.scales.film)
     }
 
-    /// U ρ̄H − ξ ∂P/∂X at a place.
+    /// Returns the flux U ρ̄H − ξ ∂P/∂X at a place (speed U, mobility ξ, pressure P).
     fn flux(&self, place: f64) -> Option<f64> {
         let slope = |i: usize| (self.pressure[i + 1] - self.pressure[i - 1]) / (self.x[i + 1] - self.x[i - 1]);
         let flux = self.value(place, |i| self.at.speed * self.nodes[i].flow - self.nodes[i].mobility * slope(i))?;

@@ -1,9 +1,9 @@
-//! Line contacts in time: inputs that vary, second-order time integration, three frames, and the trajectory that comes
-//! of it.
+//! Transient line contacts: inputs that vary in time, second-order time integration, three frames, and the resulting
+//! trajectory.
 //!
-//! [`march()`] takes any [`Marching`] model through time and knows nothing of how a step is solved; [`solve`] does so
-//! with the full system. All scalars of a [`Trajectory`] are in the scales of the reference contact, whatever the
-//! frame, so that trajectories can be compared; its fields are in the frame's own.
+//! [`march()`] advances any [`Marching`] model in time, independent of how a step is solved. [`solve`] does so with
+//! the full system. All scalars of a [`Trajectory`] are in the scales of the reference contact in every frame, so
+//! that trajectories can be compared. Its fields are in the frame's own scales.
 
 mod difference;
 mod frame;

@@ -1,50 +1,50 @@
-//! How long the steps of a march are, and at which times it is recorded.
+//! Lengths of the steps of a march, and times at which it is recorded.
 
 use serde::{Deserialize, Serialize};
 
-/// How long steps are.
+/// Rule for the lengths of the steps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum TimeStep {
-    /// All the same; the duration is divided evenly. A step that cannot be taken at once is taken in smaller ones, down
-    /// to a 64th, and only its end is recorded.
+    /// Equal steps; they divide the duration evenly. A step whose iteration fails is divided into up to 64 smaller
+    /// ones, and only its end is recorded.
     Fixed(f64),
-    /// As long as the solution stays near the straight line through the two former ones.
+    /// Step lengths such that the solution stays near the straight line through the two previous ones.
     Adaptive {
-        /// ‖P − extrapolation‖/‖P‖ aimed at.
+        /// Target value of ‖P − extrapolation‖/‖P‖, with the pressure P.
         tolerance: f64,
-        /// The longest step, and the first.
+        /// Length of the longest step, which is also the first.
         longest: f64,
     },
-    /// So short that the estimated error of the steps is at most this share of H_c: adaptive marches are repeated with
-    /// shorter steps until two of them agree.
+    /// Step lengths such that the estimated time-step error is at most this share of the central film thickness H_c.
+    /// Adaptive marches are repeated with shorter steps until two of them agree.
     Controlled(f64),
 }
 
-/// A step may be this much longer than the former one; (2.34) is stable up to 2.4.
+/// Largest ratio of a step to the previous one; (2.34) is stable up to 2.4.
 pub(crate) const GREATEST_RATIO: f64 = 1.8;
-/// An adaptive step is not made shorter than this part of the longest.
+/// Shortest adaptive step, relative to the longest.
 const SHORTEST_PART: f64 = 1e-5;
-/// A step is repeated when it should have been shorter than this part of its length.
+/// A step is repeated if it should have been shorter than this part of its length.
 const TOO_FAR: f64 = 0.5;
-/// Part of its length that a failed step is tried with again: adaptive ones were too long by much, fixed ones by
-/// little.
+/// Part of its length with which a failed step is tried again, adaptive and fixed. A failed adaptive step was much
+/// too long, a fixed one only slightly.
 const RETRIED: [f64; 2] = [0.25, 0.5];
-/// A fixed step is not divided into more.
+/// Maximum number of parts of a fixed step.
 pub(crate) const MOST_PARTS: f64 = 64.0;
-/// Parts of a fixed step may double from one to the next.
+/// Largest growth of the parts of a fixed step from one to the next.
 const DOUBLED: f64 = 2.0;
-/// The longest step of controlled marches: the flow crosses the contact in twenty of them.
+/// Longest step of controlled marches: the flow crosses the contact in twenty such steps.
 const LONGEST: f64 = 0.1;
-/// They have at least as many steps.
+/// Minimum number of steps of controlled marches.
 const FEWEST_STEPS: f64 = 20.0;
-/// ‖P − extrapolation‖/‖P‖ of the first march of a controlled one, over its tolerance for H_c.
+/// Target ‖P − extrapolation‖/‖P‖ of the first march of a controlled one, relative to its tolerance for H_c.
 const FIRST_DEVIATION: f64 = 40.0;
-/// What rounding leaves of a step is no step of its own.
+/// A remainder of a step below this share is rounding, not a separate step.
 pub(crate) const ROUNDING: f64 = 1e-6;
 
 impl TimeStep {
-    /// Returns the rule of a march over a duration; of controlled steps the rule of the first march.
+    /// Returns the rule of a march over a duration; for controlled steps the rule of the first march.
     pub(super) fn rule(self, duration: f64) -> Rule {
         match self {
             Self::Fixed(step) => Rule::Fixed(step),
@@ -55,7 +55,7 @@ impl TimeStep {
         }
     }
 
-    /// The longest step over a duration.
+    /// Returns the longest step over a duration.
     pub fn longest(self, duration: f64) -> f64 {
         match self {
             Self::Fixed(step) => step,
@@ -65,22 +65,22 @@ impl TimeStep {
     }
 }
 
-/// How the length of the next step in one march follows from the previous one.
+/// Rule that determines the next step of one march from the previous one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Rule {
     /// All steps have this length, up to an even division of the duration.
     Fixed(f64),
     /// As in [`TimeStep::Adaptive`].
     Adaptive {
-        /// ‖P − extrapolation‖/‖P‖ aimed at.
+        /// Target value of ‖P − extrapolation‖/‖P‖.
         tolerance: f64,
-        /// The longest step, and the first.
+        /// Length of the longest step, which is also the first.
         longest: f64,
     },
 }
 
 impl Rule {
-    /// Returns the rule of steps that are shorter by `factor` where they resolve the same.
+    /// Returns the rule of steps that are shorter by `factor`.
     pub(super) fn shorter(self, factor: f64) -> Self {
         match self {
             Self::Fixed(step) => Self::Fixed(step / factor),
@@ -91,22 +91,22 @@ impl Rule {
     }
 }
 
-/// Lengths of the next and of the former step.
+/// Lengths of the next and of the previous step.
 pub struct Pace {
     rule: Rule,
     duration: f64,
-    /// The time that steps have to meet: the end of a fixed step or of the march.
+    /// Time that the steps must meet: the end of a fixed step or of the march.
     due: f64,
-    /// How many fixed steps end there: a sum of steps would drift by 1e-11 over ten thousand.
+    /// Number of fixed steps up to that time. A sum of steps would drift by 1e-11 over ten thousand.
     steps: f64,
     /// Length of the next step.
     pub length: f64,
-    /// Length of the former one; of the first step its own.
+    /// Length of the previous step; for the first step its own length.
     pub before: f64,
 }
 
 impl Pace {
-    /// At T = 0.
+    /// Creates the state at T = 0.
     pub(crate) fn new(rule: Rule, duration: f64) -> Self {
         let (rule, length) = match rule {
             Rule::Fixed(step) => {
@@ -128,12 +128,12 @@ impl Pace {
         };
     }
 
-    /// End of the next step from `time`, whose length is fitted to the time that is due.
+    /// Returns the end of the next step from `time`, and adapts its length to the time that must be met.
     pub fn aim(&mut self, time: f64) -> f64 {
         let left = self.due - time;
         let parts = (left / self.length - ROUNDING).ceil();
         if parts <= 1.0 {
-            // Late in a march the rounding of T is a part of a step that the solution feels.
+            // Late in a march the rounding of T is a noticeable part of a step.
             self.length = match self.rule {
                 Rule::Fixed(step) if (left / step - 1.0).abs() < ROUNDING => step,
                 _ => left,
@@ -146,8 +146,8 @@ impl Pace {
         time + self.length
     }
 
-    /// Whether the step just solved is short enough, by its deviation from the extrapolation, which is of second order
-    /// in its length. If it is not, the next one will be shorter, else the next one follows on it.
+    /// Returns true if the last step is short enough. Its deviation from the extrapolation, which is of second order
+    /// in its length, decides. Sets the length of the next step, or of the repetition of this one.
     pub fn accepts(&mut self, deviation: impl FnOnce() -> f64) -> bool {
         let wanted = match self.rule {
             Rule::Fixed(step) => (DOUBLED * self.length).min(step),
@@ -164,7 +164,7 @@ impl Pace {
         accepted
     }
 
-    /// Whether the moment `time`, which a step led to, is recorded.
+    /// Returns true if the moment `time` at the end of a step is recorded.
     pub fn records(&mut self, time: f64) -> bool {
         let met = time >= self.due;
         if met {
@@ -173,7 +173,7 @@ impl Pace {
         met || matches!(self.rule, Rule::Adaptive { .. })
     }
 
-    /// Makes the next step shorter in place of one that could not be taken; false where that is not allowed.
+    /// Shortens the next step after a failed one. Returns false if the step is already the shortest.
     pub fn shorten(&mut self) -> bool {
         let (part, shortest) = match self.rule {
             Rule::Adaptive { longest, .. } => (RETRIED[0], SHORTEST_PART * longest),
@@ -191,7 +191,7 @@ impl Pace {
 mod tests {
     use super::*;
 
-    /// Ends of the steps tried, and times recorded, where steps longer than `longest(T)` fail.
+    /// Ends of the steps, and recorded times, if steps longer than `longest(T)` fail.
     fn walked(rule: Rule, duration: f64, longest: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>, bool) {
         let mut pace = Pace::new(rule, duration);
         let (mut time, mut ends, mut recorded) = (0.0, Vec::new(), Vec::new());

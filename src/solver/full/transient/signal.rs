@@ -1,10 +1,10 @@
-//! What drives a contact in time: R̄(T), ū(T) and w̄(T) of (2.18) to (2.20).
+//! Inputs of a transient contact: R̄(T), ū(T) and w̄(T) of (2.18) to (2.20).
 
 use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// A dimensionless function of time. Before T = 0 it rests at its value there.
+/// Dimensionless function of the time T. Before T = 0 it is constant.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Signal {
@@ -13,73 +13,73 @@ pub enum Signal {
     Constant,
     /// 1 + A sin(2π T/T_ex), (2.49), (4.12).
     Harmonic {
-        /// A.
+        /// Amplitude A.
         amplitude: f64,
-        /// T_ex.
+        /// Period T_ex.
         period: f64,
     },
     /// 1 + A₁ sin(2π T/T₁) + A₂ sin(2π T/T₂), (4.33).
     TwoScale {
-        /// A₁ and A₂.
+        /// Amplitudes A₁ and A₂.
         amplitudes: (f64, f64),
-        /// T₁ and T₂.
+        /// Periods T₁ and T₂.
         periods: (f64, f64),
     },
-    /// Between a triangle wave (s = 0) and a square wave (s = 1) around 1, Fig. 4.16: a triangle 1/(1 − s) times as
-    /// high, cut at ±A.
+    /// Wave between a triangle (s = 0) and a square (s = 1) around 1, Fig. 4.16: a triangle 1/(1 − s) times as high,
+    /// cut at ±A.
     TriangleToSquare {
-        /// A.
+        /// Amplitude A.
         amplitude: f64,
-        /// T_ex.
+        /// Period T_ex.
         period: f64,
-        /// s, 0 ≤ s < 1.
+        /// Steepness s, 0 ≤ s < 1.
         s: f64,
     },
-    /// Given values, joined by straight lines; after the last one it rests.
+    /// Given values, interpolated linearly; constant after the last one.
     Sampled {
-        /// T, rising.
+        /// Times T, increasing.
         times: Vec<f64>,
-        /// The value at each.
+        /// Value at each time.
         values: Vec<f64>,
     },
 }
 
-/// The three inputs as functions of time.
+/// The three inputs as functions of time, relative to the reference contact.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Inputs {
-    /// R̄(T).
+    /// Radius R̄(T).
     #[serde(default)]
     pub radius: Signal,
-    /// ū(T).
+    /// Entrainment speed ū(T).
     #[serde(default)]
     pub speed: Signal,
-    /// w̄(T).
+    /// Load w̄(T).
     #[serde(default)]
     pub load: Signal,
 }
 
-/// The three inputs at one time.
+/// The three inputs at one time, relative to the reference contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Input {
-    /// R̄.
+    /// Radius R̄.
     pub radius: f64,
-    /// ū.
+    /// Entrainment speed ū.
     pub speed: f64,
-    /// w̄.
+    /// Load w̄.
     pub load: f64,
 }
 
-/// Why inputs are refused: a sentence that names the input and, where there is one, the time.
+/// Refusal of inputs: a sentence that names the input and, where applicable, the time.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct InputError(String);
 
-/// Samples over which inputs are watched for a passage through zero, beside their own knots.
+/// Number of samples at which inputs are checked for a sign change, in addition to their own knots.
 const WATCHED: usize = 20_000;
 
 impl Signal {
-    /// Its value at T.
+    /// Returns the value at T.
     pub fn at(&self, time: f64) -> f64 {
         let time = time.max(0.0);
         match self {
@@ -89,7 +89,7 @@ impl Signal {
                 1.0 + amplitudes.0 * (TAU * time / periods.0).sin() + amplitudes.1 * (TAU * time / periods.1).sin()
             }
             Self::TriangleToSquare { amplitude, period, s } => {
-                // A triangle of height 1 that starts upwards at zero.
+                // Triangle of height 1 that starts upwards at zero.
                 let phase = (time / period + 0.25).fract();
                 let triangle = 1.0 - 4.0 * (phase - 0.5).abs();
                 1.0 + amplitude * (triangle / (1.0 - s)).clamp(-1.0, 1.0)
@@ -108,7 +108,7 @@ impl Signal {
         }
     }
 
-    /// What it never falls below, by its constants; no finite number where one of these is none.
+    /// Returns a lower bound that follows from the constants; not finite if a constant is not.
     fn floor(&self) -> f64 {
         match self {
             Self::Constant => 1.0,
@@ -166,10 +166,10 @@ impl Signal {
 }
 
 impl Input {
-    /// What rests at its reference.
+    /// Inputs of the reference contact.
     pub const REFERENCE: Self = Self { radius: 1.0, speed: 1.0, load: 1.0 };
 
-    /// The inputs on the straight line to others, at a share of the way.
+    /// Interpolates linearly to other inputs; `share` is the part of the way.
     pub fn towards(self, other: Self, share: f64) -> Self {
         let between = |own: f64, other: f64| if share < 1.0 { own + share * (other - own) } else { other };
         Self {
@@ -181,26 +181,26 @@ impl Input {
 }
 
 impl Inputs {
-    /// Only the load varies.
+    /// Returns inputs of which only the load varies.
     pub fn load(load: Signal) -> Self {
         Self { load, ..Self::default() }
     }
 
-    /// All three follow the same function, (4.34).
+    /// Returns inputs that all follow the same function, (4.34).
     pub fn all(signal: Signal) -> Self {
         Self { radius: signal.clone(), speed: signal.clone(), load: signal }
     }
 
-    /// The inputs at T.
+    /// Returns the inputs at T.
     pub fn at(&self, time: f64) -> Input {
         Input { radius: self.radius.at(time), speed: self.speed.at(time), load: self.load.at(time) }
     }
 
-    /// Refuses functions without sense, and a radius or a load that does not stay positive over 0 ≤ T ≤ `duration`. The
-    /// speed may turn round.
+    /// Checks the functions, and that radius and load stay positive over 0 ≤ T ≤ `duration`. The speed may change its
+    /// sign.
     ///
     /// # Errors
-    /// With the input and the first time at which it happens.
+    /// [`InputError`] with the input and the first time at which it is not accepted.
     pub fn check(&self, duration: f64) -> Result<(), InputError> {
         for (input, signal) in [("radius", &self.radius), ("speed", &self.speed), ("load", &self.load)] {
             signal.check_constants(input)?;

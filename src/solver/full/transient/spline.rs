@@ -1,18 +1,18 @@
-//! Carrying a nodal field over to other abscissae, the interpolation of (4.11).
+//! Interpolation of a nodal field to other abscissae, (4.11).
 
 use serde::{Deserialize, Serialize};
 
-/// How a field is interpolated between the nodes of its grid.
+/// Interpolation of a field between the nodes of its grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interpolation {
-    /// Cubic spline with parabolic ends, as a film has them: hardly damps.
+    /// Cubic spline with parabolic ends, which suit film thicknesses. Its damping is negligible.
     #[default]
     CubicSpline,
-    /// Straight lines: damps the faster motions, as the dissertation warns.
+    /// Linear interpolation. It damps fast motions, as the dissertation states.
     Linear,
 }
 
-/// A nodal field as a function between its nodes; keeps its work space.
+/// Nodal field as a function between its nodes. Keeps its work space.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Interpolated {
     values: Vec<f64>,
@@ -22,18 +22,18 @@ pub struct Interpolated {
 }
 
 impl Interpolated {
-    /// Takes over another one, in the room there is.
+    /// Copies another field without allocating, if the capacity suffices.
     pub fn copy_from(&mut self, other: &Self) {
         self.values.clone_from(&other.values);
         self.curvature.clone_from(&other.curvature);
     }
 
-    /// Whether it is a field of so many finite values.
+    /// Returns true if the field has the given number of values, all finite.
     pub fn is_of(&self, nodes: usize) -> bool {
         [&self.values, &self.curvature].iter().all(|own| own.len() == nodes && own.iter().all(|v| v.is_finite()))
     }
 
-    /// Takes another field's values at the increasing nodes `x`.
+    /// Sets the values at the increasing nodes `x`.
     pub fn set(&mut self, interpolation: Interpolation, x: &[f64], values: impl Iterator<Item = f64>) {
         self.values.clear();
         self.values.extend(values);
@@ -44,7 +44,8 @@ impl Interpolated {
         }
     }
 
-    /// Its values at `stretch` x, soonest for x that increase. Beyond the ends of its `nodes` the last piece continues.
+    /// Evaluates the field at `stretch` x and passes index and value to `out`; fastest for increasing x. The first
+    /// and the last piece are continued beyond the ends of the `nodes`.
     pub fn stretched(
         &self,
         nodes: &[f64],
@@ -69,8 +70,8 @@ impl Interpolated {
         }
     }
 
-    /// Second derivatives of the spline, constant over its first and last piece: Thomas' algorithm on a tridiagonal
-    /// system.
+    /// Computes the second derivatives of the spline, which are constant over its first and last piece, by Thomas's
+    /// algorithm.
     fn bend(&mut self, x: &[f64]) {
         let (n, values) = (x.len(), &self.values);
         self.work.clear();
@@ -96,7 +97,7 @@ mod tests {
     use super::*;
 
     fn error(interpolation: Interpolation, cells: usize) -> f64 {
-        // Graded on purpose; the cosine's curvature is level at both ends.
+        // Graded on purpose; the cosine's curvature has zero slope at both ends.
         let x: Vec<f64> = (0..=cells)
             .map(|i| i as f64 / cells as f64)
             .map(|t| std::f64::consts::PI * (t + 0.1 * (std::f64::consts::TAU * t).sin() / std::f64::consts::TAU))

@@ -1,5 +1,4 @@
-//! What the lengths of the steps leave in a march: estimated by a second march with other steps, and kept below a
-//! tolerance by repeated ones.
+//! Time-step error of a march: estimated by a second march with other steps, and controlled by repeated marches.
 
 use super::march::{Keep, MarchProgress, Marching, Transient, TransientError, TransientObserver, march_once};
 use super::pace::{Rule, TimeStep};
@@ -8,24 +7,25 @@ use super::trajectory::{Ended, Quantity, Trajectory};
 use crate::solver::observer::Observer;
 use crate::solver::warning::Warning;
 
-/// Inputs that bend by more than this share of their range over two steps are not resolved by steps twice as long.
+/// Inputs whose deviation from a straight line over two steps exceeds this share of their range are not resolved by
+/// steps twice as long.
 const BENT: f64 = 0.05;
-/// Inputs that bend by more than this are not resolved by the steps themselves.
+/// Inputs whose deviation exceeds this share are not resolved by the steps themselves.
 const BENT_TOO_FAR: f64 = 0.2;
-/// What a march errs by, over its difference from one with steps twice as long. Second order would give a third; inputs
-/// with kinks give up to 0.6.
+/// Error of a march, relative to its difference from one with steps twice as long. Second order would give a third;
+/// inputs with kinks give up to 0.6.
 const OF_DOUBLED: f64 = 0.5;
-/// What a march errs by, over its difference from one with steps half as long, by second order.
+/// Error of a march, relative to its difference from one with steps half as long, by second order.
 const OF_HALVED: f64 = 4.0 / 3.0;
-/// Each march of a controlled one has steps shorter by this.
+/// Factor by which each march of a controlled one shortens the steps.
 const SHORTER: f64 = 2.0;
-/// Most marches that are compared with each other.
+/// Maximum number of marches that are compared with each other.
 const MOST_MARCHES: usize = 8;
 
 impl Trajectory {
-    /// Estimates the greatest relative error that the lengths of the steps leave in H_c, by marching the same model with
-    /// other steps: twice as long where those still resolve the inputs, else half as long. The model's state is lost.
-    /// A march that has its estimate already keeps it.
+    /// Estimates the largest relative time-step error of the central film thickness H_c by another march of the same
+    /// model. Its steps are twice as long if these still resolve the inputs, otherwise half as long. The state of the
+    /// model is lost. An existing estimate is kept.
     pub fn estimate_step_error(&mut self, model: &mut dyn Marching, observer: &dyn Observer) {
         if self.step_error.is_some() || self.moments.len() < 2 || observer.cancelled() {
             return;
@@ -38,7 +38,7 @@ impl Trajectory {
         }
     }
 
-    /// The warning of the estimated error of its steps, if that is notable.
+    /// Returns a warning if the estimated time-step error is too large.
     pub fn step_warning(&self) -> Option<Warning> {
         let tolerance = match self.transient.time_step {
             TimeStep::Controlled(tolerance) => Some(tolerance),
@@ -47,13 +47,13 @@ impl Trajectory {
         Warning::of_time_step(self.step_error?, tolerance)
     }
 
-    /// Greatest relative difference of H_c from a march with steps shorter by `factor`; none where that does not come
-    /// as far.
+    /// Returns the largest relative difference of H_c from a march with steps shorter by `factor`; `None` if that
+    /// march stops before.
     fn marched_again(&self, factor: f64, model: &mut dyn Marching, observer: &dyn Observer) -> Option<f64> {
         let mut transient = Transient { keep: Keep::Scalars, ..self.transient.clone() };
         transient.duration = self.reached();
         if let (Rule::Fixed(step), true) = (self.rule, factor < 1.0) {
-            // Both marches have their moments in common.
+            // Both marches then have common times.
             let steps = (transient.duration / step).round();
             transient.duration = (2.0 * (0.5 * steps).floor() * step).min(transient.duration);
         }
@@ -64,7 +64,7 @@ impl Trajectory {
         Some(coarse.difference(fine, Quantity::CentralFilm, (0.0, transient.duration))?.0)
     }
 
-    /// Whether the inputs bend by at most this share of their range over any two steps.
+    /// Returns true if the inputs deviate from a straight line by at most this share of their range over any two steps.
     fn resolves_inputs_to(&self, share: f64) -> bool {
         let values = |input: Input| [input.radius, input.speed, input.load];
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
@@ -85,8 +85,8 @@ impl Trajectory {
     }
 }
 
-/// Repeats an adaptive march with shorter steps until it differs from the former one by the tolerance at most, and
-/// then tells of it.
+/// Repeats an adaptive march with shorter steps until its difference from the previous one is within the tolerance.
+/// The final march reports its moments to the observer.
 pub(super) fn controlled(
     model: &mut dyn Marching,
     transient: &Transient,
@@ -97,7 +97,7 @@ pub(super) fn controlled(
     let mut rule = transient.time_step.rule(transient.duration);
     let mut former: Option<Trajectory> = None;
     let mut step_error = None;
-    // Moments of these marches are nobody's: only how far they are is told.
+    // The moments of these marches are not reported, only their progress.
     let stage = "lengths of the time steps".to_owned();
     let told = MarchProgress { observer, stage, duration: transient.duration };
     for count in 1..=MOST_MARCHES {
@@ -108,7 +108,7 @@ pub(super) fn controlled(
             former.difference(&marched, Quantity::CentralFilm, (0.0, transient.duration)).map(|(greatest, _)| greatest)
         };
         step_error = both.and_then(difference);
-        // Steps that miss a part of the inputs agree with each other too.
+        // Marches that miss a part of the inputs agree with each other too.
         let met = step_error.is_some_and(|error| error <= tolerance) && marched.resolves_inputs_to(BENT_TOO_FAR);
         if met || count == MOST_MARCHES || matches!(marched.ended, Ended::Cancelled { .. }) {
             break;

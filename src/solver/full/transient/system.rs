@@ -1,4 +1,4 @@
-//! The full system in time: every step a Newton solve from the extrapolation of the two former ones.
+//! March of the full system: every step is a Newton solve from the extrapolation of the two previous ones.
 
 use super::frame::{Conditions, Frame, point_at};
 use super::history::History;
@@ -15,30 +15,31 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::lubricant::Cavitation;
 use std::sync::Arc;
 
-/// The full system, ready to march.
+/// Full system prepared for a march.
 pub struct FullMarch {
     pub(super) system: System<LineSpace>,
-    /// The stationary start, which needs other settings than a step.
+    /// Solver of the steady start, which needs other settings than a step.
     solver: FullSolver,
     reference: Problem,
     frame: Frame,
     history: History,
     start: Vec<f64>,
-    /// θ of the nearer of the former states; empty where there is none.
+    /// Fill fraction θ of the nearer previous state; empty if cavitation does not conserve mass.
     fraction: Vec<f64>,
 }
 
-/// Stop of a step's Newton iteration on ‖Δz‖/‖z‖. It converges quadratically, so the error left is far below that.
+/// Stopping tolerance of a step's Newton iteration for ‖Δz‖/‖z‖, with the unknowns z. Convergence is quadratic, so
+/// the remaining error is far smaller.
 const STEP_TOLERANCE: f64 = 1e-6;
-/// The same where a ruptured set follows, and the coarsest linear solves with it: a step is over when the set is at rest,
-/// so that accuracy costs Krylov iterations only, and mass is kept to 1e-9 of the flow.
+/// Stopping tolerance for cavitation by active sets, with the bounds of the tolerance of its linear solves. A step ends
+/// when the set is steady, so that accuracy costs only Krylov iterations, and mass is conserved to 1e-9 of the flow.
 const HELD_TOLERANCE: f64 = 1e-8;
 const HELD_FORCING: (f64, f64) = (1e-12, 1e-5);
 
-/// Takes a contact through time with the full system on a grid.
+/// Simulates a contact in time with the full system on a grid.
 ///
 /// # Errors
-/// When the contact, the grid, the inputs, the times or the lubricant is refused.
+/// [`TransientError`] if the contact, the grid, the inputs, the times or the lubricant are refused.
 pub fn solve(
     spec: GridSpec,
     transient: &Transient,
@@ -49,10 +50,10 @@ pub fn solve(
 }
 
 impl FullMarch {
-    /// The system on a reference grid for one contact and frame.
+    /// Creates the system on a reference grid for one contact and frame.
     ///
     /// # Errors
-    /// When the contact, the inputs, the times or the lubricant is refused.
+    /// [`TransientError`] if the contact, the inputs, the times or the lubricant are refused.
     pub fn new(reference: Arc<ReferenceGrid>, transient: &Transient) -> Result<Self, TransientError> {
         let problem = transient.problem()?;
         let grid = reference.for_contact(problem.moes);
@@ -68,7 +69,7 @@ impl FullMarch {
         })
     }
 
-    /// Gives the rows their place in time.
+    /// Sets the coefficients of the rows for a step.
     fn set_rows(&mut self, step: &Step) {
         let LineSpace { grid, rows, upstream, .. } = &mut self.system.space;
         self.history.carry(self.frame, step, &grid.x, &grid.x);
@@ -85,7 +86,7 @@ impl FullMarch {
         }
     }
 
-    /// Newton from the state that is set.
+    /// Runs Newton's method from the current state.
     fn newton(&mut self, at: &Conditions, options: &SolveOptions<Backtracking>, observer: &dyn Observer) -> Report {
         let mut report = Report::empty();
         self.system.newton(&at.problem, options, observer, &mut report);
@@ -99,7 +100,7 @@ impl FullMarch {
         self.system.fraction.clone_from(&self.fraction);
     }
 
-    /// Makes the present state the nearer of the former ones.
+    /// Stores the current state as the nearer previous one.
     fn remember(&mut self) {
         let system = &self.system;
         self.fraction.clone_from(&system.fraction);
@@ -174,7 +175,7 @@ impl Marching for FullMarch {
         let (nearer, h_0) = self.history.nearer();
         self.start.copy_from_slice(nearer);
         self.set_state(&step.now, h_0);
-        // The former state lies farther off: damped as from anywhere.
+        // The previous state is farther away: damped as from any initial guess.
         let second = self.newton(&step.now, &farther, observer);
         self.start = extrapolation;
         Ok(converged(&second)?.and(effort_of(&first)))

@@ -1,4 +1,5 @@
-//! Marches of the full system: against an independent solution, in the time step, between frames, and what ends them.
+//! Tests of marches of the full system: comparison with an independent solution, convergence in the time step,
+//! agreement of the frames, and early ends.
 
 use super::*;
 use crate::solver::discrete::grid::GridSpec;
@@ -75,7 +76,7 @@ fn the_frames_agree() {
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.5, period: 0.5 }),
         ..case_1(0.5, 1.0 / 400.0)
     };
-    // A period of each; the scenes of Figure 4.4 take several.
+    // One period of each; the scenes of Figure 4.4 use several.
     for (transient, bar) in [(case_1(0.35, 1.0 / 400.0), 2e-3), (case_2, 5e-3)] {
         let fixed = finished(MIDDLE, &transient);
         for frame in [Frame::ArbitraryLagrangianEulerian, REMESHED] {
@@ -100,19 +101,19 @@ fn radius_and_speed_vary_alike_in_all_frames() {
 
 #[test]
 fn constant_inputs_keep_the_stationary_contact() {
-    // Also where they rest at other values than the reference's.
+    // Also for constant values other than the reference.
     let rest = |value| Signal::Sampled { times: vec![0.0], values: vec![value] };
     let others = Inputs { radius: rest(1.2), speed: rest(0.8), load: rest(1.5) };
     for inputs in [Inputs::default(), others] {
         let at = inputs.at(0.0);
         let point = point_at(&OperatingPoint::TABLE_4_2, at);
         let want = FullSolver::new(MIDDLE).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
-        // Its own scales are not the reference's.
+        // The scales of the contact differ from those of the reference.
         let (film, pressure) = (at.load * want.scalars.h_c, (at.load / at.radius).sqrt() * want.scalars.p_c);
         for frame in FRAMES {
             let trajectory = finished(MIDDLE, &Transient { frame, inputs: inputs.clone(), ..case_1(0.05, 0.01) });
             for moment in &trajectory.moments {
-                // The fixed frame resolves another contact's size with another number of nodes.
+                // The fixed frame resolves a contact of another size with another number of nodes.
                 let bar = if frame == Frame::Fixed && at.load != 1.0 { 5e-3 } else { 1e-7 };
                 assert!((moment.h_c / film - 1.0).abs() < bar, "{frame:?}: {} against {film}", moment.h_c);
                 assert!((moment.p_c / pressure - 1.0).abs() < bar, "{frame:?}");
@@ -155,7 +156,7 @@ fn what_was_computed_before_an_end_is_kept() {
     assert_eq!((trajectory.moments.len(), trajectory.states.len()), (6, 3));
     assert_eq!(trajectory.ended, Ended::Cancelled { time: trajectory.moments[5].time });
 
-    // A load that makes a contact beyond all sense.
+    // A load that leads to a contact outside the accepted range.
     let jump = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-3] };
     let trajectory = solve(COARSE, &Transient { inputs: Inputs::load(jump), ..case_1(0.5, 0.01) }, &()).unwrap();
     let sentence = trajectory.ended.describe();
@@ -163,7 +164,7 @@ fn what_was_computed_before_an_end_is_kept() {
     assert_eq!(trajectory.moments.len(), 11);
 }
 
-/// A load that changes by a factor within 0.01 from T = 0.1 on.
+/// Load that changes by a factor within 0.01 from T = 0.1 on.
 fn jump(factor: f64) -> Inputs {
     Inputs::load(Signal::Sampled { times: vec![0.0, 0.1, 0.11], values: vec![1.0, 1.0, factor] })
 }

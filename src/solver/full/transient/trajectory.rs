@@ -1,4 +1,4 @@
-//! What comes of a march: a value that knows its inputs, its frame and how it ended.
+//! Result of a march: a value with its inputs, its frame and the reason why it ended.
 
 use super::frame::{Conditions, Scales, point_at};
 use super::march::Transient;
@@ -12,14 +12,14 @@ use serde::{Deserialize, Serialize};
 /// Work of one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Effort {
-    /// Newton steps.
+    /// Number of Newton steps.
     pub newton_iterations: usize,
-    /// Krylov iterations of a full model.
+    /// Number of Krylov iterations of a full model.
     pub linear_iterations: usize,
 }
 
 impl Effort {
-    /// The work of this and another step.
+    /// Returns the sum of two efforts.
     pub(crate) fn and(self, other: Self) -> Self {
         Self {
             newton_iterations: self.newton_iterations + other.newton_iterations,
@@ -28,121 +28,121 @@ impl Effort {
     }
 }
 
-/// The contact at one time: scalars in the scales of the reference contact, (2.22).
+/// Contact at one time: scalars in the scales of the reference contact, (2.22).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moment {
-    /// T.
+    /// Dimensionless time T.
     pub time: f64,
     /// Length of the step that led here; 0 at the start.
     pub step: f64,
-    /// R̄, ū, w̄.
+    /// Inputs R̄, ū, w̄.
     pub input: Input,
-    /// The frame's scales, which its fields are in.
+    /// Scales of the frame, used by its fields.
     pub scales: Scales,
-    /// Film at X = 0.
+    /// Central film thickness H_c, at X = 0.
     pub h_c: f64,
-    /// Smallest nodal film under the contact.
+    /// Minimum nodal film thickness H_min in the contact.
     pub h_min: f64,
-    /// Its position.
+    /// Position of H_min.
     pub x_h_min: f64,
-    /// Pressure at X = 0.
+    /// Pressure P_c at X = 0.
     pub p_c: f64,
-    /// Largest nodal pressure.
+    /// Largest nodal pressure P_max.
     pub p_max: f64,
-    /// Its position.
+    /// Position of P_max.
     pub x_p_max: f64,
-    /// What it cost.
+    /// Work of the step.
     pub effort: Effort,
 }
 
-/// Fields at one time in the frame's own scales; node arrays as everywhere, the first entry lies outside the inlet.
+/// Fields at one time in the frame's own scales. Node arrays; the first entry lies outside the inlet.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// T.
+    /// Dimensionless time T.
     pub time: f64,
-    /// The frame's scales.
+    /// Scales of the frame.
     pub scales: Scales,
-    /// P.
+    /// Pressure P.
     pub pressure: Vec<f64>,
-    /// H.
+    /// Film thickness H.
     pub film: Vec<f64>,
-    /// λ, zero where the film is whole; empty where a penalty ruptures it, and of reduced models.
+    /// Cavitation multiplier λ, zero in the full film; empty for cavitation by the penalty and for reduced models.
     pub multiplier: Vec<f64>,
-    /// θ, the share of the gap that is filled; empty where rupture does not conserve mass.
+    /// Fill fraction θ of the gap; empty if cavitation does not conserve mass.
     pub fraction: Vec<f64>,
-    /// H₀ with the kernel of (2.27).
+    /// Rigid-body separation H₀ with the kernel of (2.27).
     pub h_0: f64,
 }
 
-/// How a march ended.
+/// Reason why a march ended.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ended {
-    /// At the end of its duration.
+    /// It reached the end of its duration.
     Finished,
-    /// The observer asked to stop.
+    /// The observer stopped it.
     Cancelled {
-        /// The last time reached.
+        /// Last time reached.
         time: f64,
     },
-    /// A step could not be taken.
+    /// A step failed.
     StepRefused {
-        /// Where it was to lead.
+        /// Time at the end of the step.
         time: f64,
-        /// Its length.
+        /// Length of the step.
         step: f64,
-        /// Why its Newton iteration stopped.
+        /// Reason why its Newton iteration stopped.
         termination: Termination,
     },
-    /// The inputs led to a contact outside any sense.
+    /// The inputs led to a contact outside the accepted ranges.
     ContactRefused {
-        /// When.
+        /// Time of that contact.
         time: f64,
-        /// What is wrong with it, a sentence.
+        /// What is wrong with the contact, as a sentence.
         reason: String,
     },
 }
 
-/// A quantity of a [`Moment`].
+/// Quantity of a [`Moment`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// H_c.
+    /// Central film thickness H_c.
     CentralFilm,
-    /// H_min.
+    /// Minimum film thickness H_min.
     MinimumFilm,
-    /// P_c.
+    /// Central pressure P_c.
     CentralPressure,
-    /// P_max.
+    /// Maximum pressure P_max.
     MaximumPressure,
 }
 
-/// A contact taken through time.
+/// Result of a transient simulation.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trajectory {
-    /// What was asked.
+    /// Definition of the simulation.
     pub transient: Transient,
-    /// Rule by which its steps were taken.
+    /// Rule of its step lengths.
     pub(crate) rule: Rule,
-    /// The reference problem.
+    /// Reference problem.
     pub problem: Problem,
     /// Grid of the fields.
     pub mesh: Mesh,
-    /// Abscissae X of the fields, in units of the frame's half width.
+    /// Abscissae X of the fields, in units of the frame's half-width.
     pub x: Vec<f64>,
-    /// All times from the stationary start on; empty where even that failed.
+    /// Scalars at all times from the steady start on; empty if the start failed.
     pub moments: Vec<Moment>,
-    /// Fields, where they were to be kept.
+    /// Kept fields.
     pub states: Vec<State>,
-    /// Steps that were begun and discarded.
+    /// Number of rejected steps.
     pub rejected_steps: usize,
-    /// Greatest relative error that the lengths of the steps leave in H_c, where it was estimated.
+    /// Largest relative time-step error of H_c, if estimated.
     pub step_error: Option<f64>,
-    /// How it ended.
+    /// Reason why the march ended.
     pub ended: Ended,
 }
 
 impl Ended {
-    /// One sentence for people.
+    /// Returns one sentence for display.
     pub fn describe(&self) -> String {
         match self {
             Self::Finished => "finished".to_owned(),
@@ -171,7 +171,7 @@ impl Ended {
 }
 
 impl Moment {
-    /// The scalars of fields in the frame's scales.
+    /// Computes the scalars from fields in the frame's scales.
     pub fn of_fields(
         at: &Conditions,
         step: f64,
@@ -183,7 +183,7 @@ impl Moment {
         Self::of_scalars(at, step, &scalars_of(grid, &at.problem, pressure, film, 0.0), effort)
     }
 
-    /// Scalars in the frame's scales, in those of the reference contact.
+    /// Converts scalars from the frame's scales to those of the reference contact.
     pub fn of_scalars(at: &Conditions, step: f64, own: &Scalars, effort: Effort) -> Self {
         let Scales { half_width, pressure, film } = at.scales;
         Self {
@@ -201,7 +201,7 @@ impl Moment {
         }
     }
 
-    /// One of its quantities.
+    /// Returns one of the quantities.
     pub fn value(&self, quantity: Quantity) -> f64 {
         match quantity {
             Quantity::CentralFilm => self.h_c,
@@ -213,7 +213,7 @@ impl Moment {
 }
 
 impl Trajectory {
-    /// Whether it reached the end.
+    /// Returns true if the march reached its end.
     pub fn finished(&self) -> bool {
         self.ended == Ended::Finished
     }
@@ -223,24 +223,24 @@ impl Trajectory {
         (!self.finished()).then(|| Warning::MarchStopped { reached: self.reached(), ended: self.ended.clone() })
     }
 
-    /// Returns the warning of its largest Hertzian pressure.
+    /// Returns the warning about its largest Hertzian pressure.
     fn hertz_warning(&self) -> Option<Warning> {
         let inputs = self.moments.iter().map(|moment| moment.input).chain([self.transient.inputs.at(0.0)]);
         let pressures = inputs.map(|input| point_at(&self.problem.point, input).hertz().pressure_pa);
         Warning::of_hertz_pressure(pressures.fold(0.0, f64::max))
     }
 
-    /// Returns what a reader must know of it: that it stopped early, the error of its steps, its Hertzian pressure.
+    /// Returns all warnings: early stop, time-step error, Hertzian pressure.
     pub fn warnings(&self) -> impl Iterator<Item = Warning> {
         self.stopped().into_iter().chain(self.step_warning()).chain(self.hertz_warning())
     }
 
-    /// The last T reached; 0 where not even the start was found.
+    /// Returns the last T reached; 0 if the start failed.
     pub fn reached(&self) -> f64 {
         self.moments.last().map_or(0.0, |moment| moment.time)
     }
 
-    /// A quantity at T, on the straight line between the neighbouring times; `None` outside what was computed.
+    /// Returns a quantity at T, interpolated linearly in time; `None` outside the computed range.
     pub fn at(&self, quantity: Quantity, time: f64) -> Option<f64> {
         let next = self.moments.partition_point(|moment| moment.time < time);
         let after = self.moments.get(next)?;
@@ -252,7 +252,8 @@ impl Trajectory {
         Some((1.0 - share) * before.value(quantity) + share * after.value(quantity))
     }
 
-    /// Mean of a quantity over a window of time, by the trapezoidal rule; `None` where the window was not reached.
+    /// Returns the mean of a quantity over a time window by the trapezoidal rule; `None` if the march did not cover
+    /// the window.
     pub fn mean(&self, quantity: Quantity, (from, to): (f64, f64)) -> Option<f64> {
         let inside = self.moments.iter().filter(|moment| moment.time > from && moment.time < to);
         let mut points = vec![(from, self.at(quantity, from)?)];
@@ -262,8 +263,8 @@ impl Trajectory {
         (to > from).then(|| area / (to - from))
     }
 
-    /// Half the distance between largest and smallest value over a window of time; `None` where the window was not
-    /// reached.
+    /// Returns half the difference between the largest and the smallest value in a time window; `None` if the march
+    /// did not cover the window.
     pub fn amplitude(&self, quantity: Quantity, (from, to): (f64, f64)) -> Option<f64> {
         let ends = [self.at(quantity, from)?, self.at(quantity, to)?];
         let inside = self.moments.iter().filter(|moment| moment.time > from && moment.time < to);
@@ -272,8 +273,8 @@ impl Trajectory {
         Some(0.5 * (high - low))
     }
 
-    /// Greatest relative difference and relative L2 difference of a quantity from another trajectory, at the times of
-    /// this one in a window, as far as both have come.
+    /// Returns the largest relative difference and the relative L2 difference of a quantity from another trajectory.
+    /// Uses the times of this trajectory within the window that both have reached.
     pub fn difference(&self, other: &Self, quantity: Quantity, (from, to): (f64, f64)) -> Option<(f64, f64)> {
         let inside = self.moments.iter().filter(|moment| (from..=to).contains(&moment.time));
         let pairs = inside.filter_map(|moment| {

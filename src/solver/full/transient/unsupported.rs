@@ -1,30 +1,30 @@
-//! Which contacts transient runs cover.
+//! Contacts that transient simulations support.
 
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 
-/// Why a contact cannot be taken through time, as a sentence. Interfaces add what they accept, in their own words.
+/// Reason why a contact is not supported, as a sentence. The interfaces add what they accept, in their own terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Unsupported {
-    /// A point contact.
+    /// Point contact.
     #[error("transient runs cover line contacts only")]
     PointContact,
-    /// A lubricant whose viscosity depends on the shear stress.
+    /// Lubricant whose viscosity depends on the shear stress.
     #[error("transient runs cover Newtonian lubricants only, not shear-thinning ones")]
     ShearThinning,
-    /// Temperatures.
+    /// Thermal contact.
     #[error("transient runs cover isothermal contacts only")]
     Heat,
-    /// Mass-conserving cavitation of a reduced or linearised model.
+    /// Mass-conserving cavitation in a reduced or linearised model.
     #[error("transient models cover cavitation by the penalty and by complementarity, not mass-conserving cavitation")]
     MassConservingModel,
 }
 
 impl Unsupported {
-    /// Refuses contacts that transient runs do not cover.
+    /// Checks that transient simulations support a contact.
     ///
     /// # Errors
-    /// With the first reason.
+    /// The first reason why they do not.
     pub fn check(kind: ContactKind, lubricant: &Lubricant) -> Result<(), Self> {
         if kind == ContactKind::Point {
             Err(Self::PointContact)
@@ -37,10 +37,10 @@ impl Unsupported {
         }
     }
 
-    /// Refuses lubricants that reduced and linearised transient models do not cover.
+    /// Checks that reduced and linearised transient models support a lubricant.
     ///
     /// # Errors
-    /// With the reason.
+    /// The reason why they do not.
     pub fn check_model(lubricant: &Lubricant) -> Result<(), Self> {
         match lubricant.cavitation {
             Cavitation::Penalty | Cavitation::Complementarity => Ok(()),

@@ -1,34 +1,34 @@
-//! What is known of a reduced solution, and what was measured of it.
+//! Features of a reduced solution, and its measured errors.
 
 use crate::solver::parameters::{Quantity, Scale};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::{Domain, ReducedSolution};
 
-/// Features of every reduced solution: ln M, L, ln α, ln e_f^I, and the logarithm of the last modes' share.
+/// Number of features of every reduced solution: ln M, L, ln α, ln e_f^I (Moes parameters M and L, pressure–viscosity
+/// coefficient α, residual e_f^I), and the logarithm of the last modes' share.
 pub(super) const FEATURES: usize = 5;
-/// Most features.
+/// Maximum number of features.
 pub(super) const MOST_FEATURES: usize = FEATURES + MOST_FURTHER;
-/// Most features beside these.
+/// Maximum number of features in addition to these.
 const MOST_FURTHER: usize = 6;
-/// Errors of every reduced solution: of H_c, H_min and the state.
+/// Number of errors of every reduced solution: of the film thicknesses H_c and H_min and of the state.
 pub(super) const ERRORS: usize = 3;
-/// The two features among them that are no place but a sign of the error.
+/// The two features that indicate the error directly and are not part of the position.
 pub(super) const SIGNS: std::ops::Range<usize> = 3..5;
-/// Modes at the end of the basis whose share is a sign of what it lacks.
+/// Number of modes at the end of the basis whose share indicates what the basis lacks.
 const LAST_MODES: usize = 3;
-/// Sliding below this is told apart no further: relative errors of a traction that is next to nothing are larger than
-/// those of others.
+/// Value added to |SRR| before the logarithm. Tractions of nearly zero sliding have larger relative errors.
 const SLOW: f64 = 0.01;
-/// A share of the traction that is cut is told apart no further than this: what is cut everywhere goes with the load, which
-/// is met exactly, and what is cut nowhere with the film.
+/// Value added to the share of traction that a limiting stress removes, before the logarithm. A fully limited
+/// traction follows the load, which is met exactly, and an unlimited one the film.
 const LITTLE: f64 = 1e-3;
-/// Nor is a rise of temperature \[K\].
+/// Temperature rise \[K\] added before the logarithm.
 const COOL_K: f64 = 1.0;
 
 /// One measured case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evidence {
-    /// What was known of the reduced solution.
+    /// Features of the reduced solution.
     pub features: Features,
     /// Measured relative errors.
     pub errors: Measured,
@@ -37,51 +37,51 @@ pub struct Evidence {
 /// Measured relative errors of a reduced solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// Of H_c.
+    /// Error of the central film thickness H_c.
     pub h_c: f64,
-    /// Of H_min.
+    /// Error of the minimum film thickness H_min.
     pub h_min: f64,
-    /// Of the state, e_z.
+    /// Error of the state, e_z.
     pub state: f64,
-    /// Of the traction coefficient; not where nothing slides, the traction has no meaning, or the model has no rule for
-    /// it.
+    /// Error of the traction coefficient. `None` without sliding, if the traction is unphysical, or if the model has
+    /// no traction quadrature.
     pub traction: Option<f64>,
-    /// Of the rise of temperature at mid-film, X = 0, of contacts with heat.
+    /// Error of the mid-film temperature rise at X = 0 of thermal contacts.
     pub rise: Option<f64>,
 }
 
 impl Measured {
-    /// The first errors: of H_c, H_min, state, traction, and the temperature rise.
+    /// Returns the first `count` errors: of H_c, H_min, state, traction, and temperature rise; NaN if not measured.
     pub(super) fn values(&self, count: usize) -> impl Iterator<Item = f64> {
         let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
         [self.h_c, self.h_min, self.state, known(self.traction), known(self.rise)].into_iter().take(count)
     }
 }
 
-/// A feature that some models have beside those of every one.
+/// Feature of some models in addition to those of all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Feature {
     /// ln(|SRR| + 0.01).
     Sliding,
-    /// NPR, or another quantity as it is.
+    /// NPR (Newtonian plateau ratio), or another quantity as it is.
     Linear(Quantity),
-    /// The logarithm of a quantity.
+    /// Logarithm of a quantity.
     Log(Quantity),
-    /// The logarithm of the temperature rise at mid-film.
+    /// Logarithm of the mid-film temperature rise.
     Rise,
-    /// The logarithm of the share of traction that a limiting stress cuts.
+    /// Logarithm of the share of traction that a limiting stress removes.
     Cut,
 }
 
-/// The features and errors of a model's calibration.
+/// Features and errors of a model's calibration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeatureSet {
     further: [Option<Feature>; MOST_FURTHER],
-    /// Errors that are estimated: of H_c, H_min, state, then traction, then the temperature rise.
+    /// Number of estimated errors: of H_c, H_min, state, then traction, then temperature rise.
     pub(super) errors: usize,
 }
 
-/// Quantities whose features are named below, or are among those of every solution.
+/// Quantities that are listed below, or are features of every solution.
 const NAMED: [Quantity; 9] = [
     Quantity::M,
     Quantity::L,
@@ -95,7 +95,7 @@ const NAMED: [Quantity; 9] = [
 ];
 
 impl FeatureSet {
-    /// Those of a model's domain.
+    /// Returns the features of a model with this domain.
     pub fn of(domain: &Domain) -> Self {
         let (space, heat, slides) = (&domain.space, domain.heats(), domain.slides());
         let lubricants = space.varies_lubricant() && !heat;
@@ -128,8 +128,8 @@ impl FeatureSet {
     }
 }
 
-/// What is cheap to know of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, and what the model's
-/// [`FeatureSet`] adds.
+/// Features of a reduced solution: ln M, L, ln α, ln e_f^I, the last modes' share, and those of the model's
+/// [`FeatureSet`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features {
     pub(super) values: [f64; MOST_FEATURES],
@@ -138,12 +138,12 @@ pub struct Features {
 }
 
 impl Features {
-    /// Returns the features of a reduced solution, given the contact that it is to the model.
+    /// Returns the features of a reduced solution. `point` is the contact as the model solves it.
     pub fn of(solution: &ReducedSolution, point: &OperatingPoint, set: &FeatureSet) -> Self {
         let ReducedSolution { coefficients, residual_estimate: residual, .. } = solution;
         let Moes { m, l } = point.moes();
         let norm = |c: &[f64]| c.iter().map(|v| v * v).sum::<f64>().sqrt();
-        // Modes that an iteration was tried without are no sign.
+        // Modes that the iteration did not use are ignored.
         let used = coefficients.iter().rposition(|c| *c != 0.0).map_or(0, |last| last + 1);
         let last = norm(&coefficients[used.saturating_sub(LAST_MODES)..used]) / norm(coefficients);
         let (residual, last) = (residual.max(1e-300).ln(), last.max(1e-300).ln());

@@ -1,16 +1,16 @@
-//! The evidence around a place.
+//! Evidence in the neighbourhood of a position.
 
-/// Nearest evidence that says how large errors are here.
+/// Number of nearest pieces of evidence that determine the local size of errors.
 pub(super) const AROUND: usize = 48;
 
-/// The nearest evidence, by squared distance.
+/// Nearest evidence, sorted by squared distance.
 pub(super) struct Neighbours {
     pub(super) nearest: [(f32, usize); AROUND],
     pub(super) count: usize,
 }
 
 impl Neighbours {
-    /// Nobody so far.
+    /// Creates an empty list.
     pub fn none() -> Self {
         Self { nearest: [(f32::INFINITY, 0); AROUND], count: 0 }
     }
@@ -26,7 +26,7 @@ impl Neighbours {
         self.nearest[at] = (distance, index);
     }
 
-    /// Mean of what is known of the first `count`, near ones counting more.
+    /// Returns the mean of the finite values of the first `count` neighbours, weighted by inverse squared distance.
     pub fn mean(&self, count: usize, values: &[f32]) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for &(distance, index) in &self.nearest[..self.count.min(count)] {

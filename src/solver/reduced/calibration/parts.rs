@@ -1,24 +1,24 @@
-//! The numbers that a calibration is made of, as files store them.
+//! Numbers of a calibration, as stored in files.
 
 use super::Calibration;
 use super::quantity::Quantity;
 
-/// Everything from which a calibration can be made again.
+/// All numbers needed to rebuild a calibration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CalibrationParts {
     /// Smallest and largest value of each feature in the evidence.
     pub ranges: Vec<(f64, f64)>,
-    /// Places of the evidence, each coordinate in −1…1, one after the other.
+    /// Positions of the evidence, one after the other; each coordinate is scaled to −1…1.
     pub places: Vec<f32>,
-    /// Coefficients of the law of each quantity, then its mean square and its quantile.
+    /// Coefficients of the law of each quantity, followed by its mean square and its quantile.
     pub laws: Vec<Vec<f64>>,
-    /// By how much the logarithm of each error of the evidence exceeds the law of each quantity; NaN if the error was not
-    /// measured.
+    /// Difference between the logarithm of each error of the evidence and the law of each quantity; NaN if the error
+    /// was not measured.
     pub surplus: Vec<Vec<f32>>,
 }
 
 impl Calibration {
-    /// Its numbers.
+    /// Returns the numbers of the calibration.
     pub fn parts(&self) -> CalibrationParts {
         let law = |own: &Quantity| own.law.iter().copied().chain([own.mean_square, own.quantile]).collect();
         CalibrationParts {
@@ -29,7 +29,7 @@ impl Calibration {
         }
     }
 
-    /// The calibration of some numbers; `None` if they make no sense.
+    /// Builds a calibration from its numbers; `None` if they are invalid.
     pub fn from_parts(parts: CalibrationParts) -> Option<Self> {
         let CalibrationParts { ranges, places, laws, surplus } = parts;
         if laws.len() != surplus.len() {

@@ -1,10 +1,10 @@
-//! Calibrated bounds on synthetic evidence: they cover fresh cases, follow what exceeds the evidence, and survive being
-//! stored.
+//! Calibrated bounds on synthetic evidence: they cover new cases, follow indicators beyond the evidence, and survive
+//! storage.
 
 use super::*;
 use fastrand::Rng;
 
-/// Errors that follow e_f^I and a bump in the place, with a scatter that is larger on one side.
+/// Errors that follow e_f^I and a bump in the position, with a scatter that is larger on one side.
 fn synthetic(count: usize, seed: u64) -> Vec<Evidence> {
     let mut rng = Rng::with_seed(seed);
     let mut normal = move || {
@@ -52,8 +52,8 @@ fn the_bound_covers_fresh_cases_and_is_not_idle() {
     assert!((1800..2200).contains(&medians), "the likely error is the median: {medians} of 4000 below");
 }
 
-/// Errors of H_c that change their sign, normally distributed with a size that follows the place: the logarithm scatters
-/// by 1.1 everywhere.
+/// Errors of H_c that change their sign: normally distributed with a size that depends on the position. The standard
+/// deviation of the logarithm is 1.1 everywhere.
 fn signed(count: usize, seed: u64) -> Vec<Evidence> {
     let mut rng = Rng::with_seed(seed);
     let mut cases = synthetic(count, seed);
@@ -72,13 +72,13 @@ fn errors_that_change_their_sign_do_not_loosen_the_bound() {
     let mut ratios: Vec<f64> = signed(4000, 9).iter().map(ratio).collect();
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[40] >= 1.0, "the bound covers 99 %: {}", ratios[40]);
-    // The best there is has 4.3.
+    // The best possible value is 4.3.
     assert!(ratios[2000] < 5.2, "{}", ratios[2000]);
 }
 
 #[test]
 fn windows_with_little_evidence_each_learn_together() {
-    // Windows are unlike in how large their errors are.
+    // The local models differ in the size of their errors.
     let window = |k: usize, count: usize, seed: u64| -> Vec<Evidence> {
         let mut cases = signed(count, seed);
         cases.iter_mut().for_each(|case| case.errors.h_c *= [1.0, 2.0, 4.0][k % 3]);
@@ -98,7 +98,7 @@ fn windows_with_little_evidence_each_learn_together() {
     assert_eq!(ratios.len(), 2300);
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[23] >= 1.0, "the bound covers 99 %: {}", ratios[23]);
-    // The best there is has 4.3.
+    // The best possible value is 4.3.
     assert!(ratios[1150] < 6.0, "{}", ratios[1150]);
     assert!(Calibration::fit_together(&slices[..2]).iter().all(Option::is_none), "80 are too few together");
 }
@@ -120,7 +120,7 @@ fn windows_whose_errors_grow_in_other_directions_have_laws_of_their_own() {
     }
     ratios.sort_by(f64::total_cmp);
     assert!(ratios[24] >= 1.0, "the bound covers 99 %: {}", ratios[24]);
-    // One law for all has 8; the best there is has 4.3.
+    // A single law for all gives 8; the best possible value is 4.3.
     assert!(ratios[1200] < 5.5, "{}", ratios[1200]);
 }
 
@@ -143,7 +143,7 @@ fn too_little_or_broken_evidence_gives_no_calibration() {
     assert!(Calibration::fit(&broken).is_none());
 }
 
-/// The same under sliding: traction errs most where SRR is small, and some cases do not slide.
+/// Synthetic evidence with sliding: the traction error is largest at small SRR, and some cases do not slide.
 fn sliding(count: usize, seed: u64) -> Vec<Evidence> {
     let mut rng = Rng::with_seed(seed ^ 77);
     let mut cases = synthetic(count, seed);
@@ -187,7 +187,7 @@ fn the_rise_has_a_bound_of_its_own_where_a_model_knows_heat() {
     assert!(estimate.traction.is_some());
 }
 
-/// Contacts of oils that thin: tractions err by a hundredth where a limit cuts them everywhere.
+/// Contacts with shear-thinning lubricants: traction errors are a hundredth where a limiting stress acts everywhere.
 fn cut(count: usize, seed: u64) -> Vec<Evidence> {
     let mut rng = Rng::with_seed(seed ^ 99);
     let mut cases = signed(count, seed);
@@ -225,7 +225,7 @@ fn bounds_of_tractions_follow_what_a_limit_cuts() {
 
 #[test]
 fn a_calibration_is_its_numbers_and_missing_ones_are_noticed() {
-    // What was not measured is no number, and equals nothing.
+    // Missing measurements are NaN, which equals nothing.
     let text = |calibration: &Calibration| format!("{calibration:?}");
     for evidence in [synthetic(300, 6), sliding(300, 6)] {
         let calibration = Calibration::fit(&evidence).unwrap();

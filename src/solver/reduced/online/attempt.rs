@@ -1,4 +1,4 @@
-//! One run of the online iteration, from a guess or along a path from a known contact.
+//! One run of the online iteration, from an initial guess or along a path from a known contact.
 
 use super::{ReducedError, ReducedOptions, Starts};
 use crate::solver::discrete::heat::Profile;
@@ -10,7 +10,7 @@ use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObser
 use crate::solver::reduced::start::{Guess, film_number};
 use crate::solver::reduced::warmth::Warmth;
 
-/// A converged online iteration.
+/// Converged online iteration.
 pub(super) struct Found {
     pub coefficients: Vec<f64>,
     pub h_0: f64,
@@ -23,45 +23,45 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// θ at the stations; empty without heat.
+    /// Returns the temperature rise θ at the stations; empty for an isothermal contact.
     pub fn theta(&self) -> &[Profile] {
         self.heat.as_ref().map_or(&[], |heat| &heat.theta)
     }
 }
 
-/// A film of so much and more ends with the tolerance that is asked for. What a step leaves goes with the square of the step
-/// over the film: at M = 1000 H is 3e-4, and steps of 1e-5 missed H_min by up to 4e-4, twenty times what the modes miss,
-/// in one contact of many, so that bounds had to allow for it in all. A tenth of that step costs half a step more.
+/// Film thickness H above which the iteration ends with the requested tolerance. The remaining error is proportional to
+/// the squared step divided by the film thickness, so thinner films need a smaller tolerance. At M = 1000, H is 3e-4.
 const THICK: f64 = 0.01;
-/// No share of the tolerance is smaller: rounding would be in its way.
+/// Smallest share of the tolerance; below it rounding dominates.
 const LEAST_SHARE: f64 = 0.01;
 
-/// The share of the tolerance with which an iteration towards a film of about so much ends. Films of oils that thin end with
-/// all of it, as do turns, which temperatures end, and the dissertation's iteration.
+/// Returns the share of the tolerance for a film of about thickness `h_c`. It is 1 for shear-thinning and thermal
+/// contacts and for the dissertation's iteration.
 fn share_of_tolerance(problem: &Problem, h_c: f64, options: &ReducedOptions) -> f64 {
     let newtonian = problem.shear.is_none() && problem.heat.is_none();
     if newtonian && options.starts == Starts::Explorer { (h_c / THICK).clamp(LEAST_SHARE, 1.0) } else { 1.0 }
 }
 
-/// Who looks on: every iterate's sampled rows are shown to `rows`, and `wish` is asked before each attempt.
+/// Observers of an attempt: `rows` receives the sampled equations of every iterate, and `wish` is checked for
+/// cancellation before each attempt.
 pub(super) struct Watch<'a> {
     pub rows: Option<RowObserver<'a>>,
     pub wish: &'a dyn Observer,
 }
 
 impl<'a> Watch<'a> {
-    /// Nobody sees the iterates.
+    /// Creates a watch without an observer of iterates.
     pub fn of(wish: &'a dyn Observer) -> Self {
         Self { rows: None, wish }
     }
 
-    /// The observer of rows for one iteration.
+    /// Returns the observer of rows for one iteration.
     fn rows(&mut self) -> Option<RowObserver<'_>> {
         self.rows.as_mut().map(|rows| &mut **rows as RowObserver<'_>)
     }
 }
 
-/// Newton from a guess, within `limit` steps and the options' own limit.
+/// Runs Newton's method from an initial guess, within `limit` steps and the options' own limit.
 pub(super) fn attempt(
     window: &Window,
     operators: &mut Operators,
@@ -77,7 +77,7 @@ pub(super) fn attempt(
     let scale = window.grid.scale(problem.moes);
     let mut coefficients = vec![0.0; operators.modes()];
     coefficients.iter_mut().zip(&start.coefficients).for_each(|(c, known)| *c = *known);
-    // The boundary alone ruptures the film.
+    // With complementarity the boundary alone determines the cavitated region.
     let penalty = match window.cavitation {
         Cavitation::Penalty => options.penalty.unwrap_or(window.penalty),
         Cavitation::Complementarity | Cavitation::MassConserving { .. } => 0.0,
@@ -105,7 +105,8 @@ pub(super) fn attempt(
     }
 }
 
-/// Continuation in the logarithms of the SI quantities from a snapshot's point, with steps that shrink on failure.
+/// Continues in the logarithms of the SI quantities from a snapshot's point to the target, with steps that shrink on
+/// failure. `None` if the steps become too small, or on cancellation.
 pub(super) fn walk(
     window: &Window,
     operators: &mut Operators,
@@ -172,7 +173,7 @@ mod tests {
         assert_eq!(share_of_tolerance(&thin, 3e-4, &ReducedOptions::dissertation()), 1.0);
     }
 
-    /// Wishes to stop when it has been asked so often.
+    /// Observer that cancels after a number of checks.
     struct AskedOften(AtomicUsize, usize);
 
     impl Observer for AskedOften {
@@ -186,7 +187,7 @@ mod tests {
         let spec = oils(Sampling::QDeim, 60);
         let model = trained(&spec);
         let online = || Online::new(Arc::clone(&model), ReducedOptions::default());
-        // Far outside: no start leads there, nor does a walk.
+        // Far outside the trained range: no initial guess and no continuation leads there.
         let far = si_from_moes(&MoesRequest::new(ContactKind::Line, 900.0, 24.0)).unwrap();
         let never = AskedOften(AtomicUsize::new(0), usize::MAX);
         assert!(online().solve_watched(&far, spec.lubricant, &never).is_err());
@@ -233,7 +234,7 @@ mod tests {
 
     #[test]
     fn iterations_of_heavy_lines_begin_near_the_solutions_that_are_kept() {
-        // The heaviest corner of Table 3.1, α p_H up to 44.
+        // The most heavily loaded corner of Table 3.1, α p_H up to 44.
         let corner = [(3e-3, 4e-3), (6.0, 10.0), (3e5, 5e5), (1.4e-8, 2e-8)];
         let corner = ParameterSpace::si_box(corner, 231e9, 0.01);
         let plan = Plan::Grid { nodes: [2, 3, 3, 3] };

@@ -1,4 +1,4 @@
-//! From a reduced solution back to fields: the only large-scale work online, on request.
+//! Reconstruction of fields from a reduced solution: the only large-scale online work, done on request.
 
 use super::{Online, ReducedError, operators_of};
 use crate::host::pool;
@@ -15,11 +15,11 @@ use crate::solver::reduced::operators::{Stations, carried, cut_off};
 use std::sync::Arc;
 
 impl Online {
-    /// Fields and scalars of a reduced solution, on the window's grid; `report.newton_iterations` holds the online
-    /// iterations.
+    /// Reconstructs fields and scalars of a reduced solution on the grid of its local model.
+    /// `report.newton_iterations` holds the online iterations.
     ///
     /// # Errors
-    /// When the solution's point is refused or it belongs to another model.
+    /// [`ReducedError`] if the solution's point is refused or if it belongs to another model.
     pub fn reconstruct(&self, solution: &ReducedSolution) -> Result<Solution, ReducedError> {
         let fields = self.fields(solution)?;
         let scalars = fields.scalars(solution.h_0);
@@ -55,21 +55,21 @@ impl Online {
         })
     }
 
-    /// Scalars only.
+    /// Reconstructs the scalars only.
     ///
     /// # Errors
-    /// When the solution's point is refused or it belongs to another model.
+    /// [`ReducedError`] if the solution's point is refused or if it belongs to another model.
     pub fn scalars(&self, solution: &ReducedSolution) -> Result<Scalars, ReducedError> {
         Ok(self.fields(solution)?.scalars(solution.h_0))
     }
 
-    /// The smallest film at any node.
+    /// Returns the minimum film thickness over all nodes.
     pub(super) fn lowest_film(&self, solution: &ReducedSolution) -> Result<f64, ReducedError> {
         let lower = |a: f64, b: &f64| if b.is_nan() { *b } else { a.min(*b) };
         Ok(self.fields(solution)?.film.iter().fold(f64::INFINITY, lower))
     }
 
-    /// Fields of a solution, blended with those beside it.
+    /// Reconstructs the fields of a solution, blended with those of its neighbouring local models.
     fn fields(&self, solution: &ReducedSolution) -> Result<Fields, ReducedError> {
         let mut blend = self.fields_of_window(solution, solution.own_h_0())?;
         let own = solution.own_share();
@@ -102,14 +102,14 @@ impl Online {
         }
         let scale = window.grid.scale(problem.moes);
         let (nodes, across) = (window.grid.len(), window.grid.nodes().1);
-        // What lies behind all of B is cut off.
+        // Pressures behind the last cavitation boundary are zero.
         let ahead = match solution.fronts.iter().max() {
             Some(last) if self.options.deformation_modes.is_none() && window.shapes.is_none() => {
                 (last * across).min(nodes)
             }
             _ => nodes,
         };
-        // Where there are many nodes none has a film so thin that a pressure's eighth digit shows.
+        // On grids of point contacts no film is so thin that the eighth digit of a pressure matters.
         let single = window.grid.kind() == ContactKind::Point;
         let mut pressure = vec![0.0; nodes];
         window.pressure.field(&solution.coefficients, single, &mut pressure[..ahead]);
@@ -121,7 +121,7 @@ impl Online {
                 shapes.add_deformation(&ellipse, &solution.coefficients, &mut film);
                 film
             }
-            // What is cut off makes K P another one than that of the modes.
+            // With pressures cut off, K P differs from that of the modes.
             None if ruptures && self.options.deformation_modes.is_none() => Vec::new(),
             None => {
                 let mut film = vec![0.0; nodes];
@@ -138,7 +138,7 @@ impl Online {
                 let missing: Vec<f64> = whole.iter().zip(&pressure).map(|(whole, kept)| whole - kept).collect();
                 film.iter_mut().zip(window.grid.deformation(&missing)).for_each(|(film, bent)| *film -= bent);
             }
-            // What modes leave before B.
+            // Remainders of the modes in front of the boundary.
             pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         }
         let (offset, curvature) = (h_0 - 0.5 * scale.ln(), ellipse.gap_curvature());
@@ -154,10 +154,10 @@ impl Online {
     }
 }
 
-/// Accuracy of the march that tells where heat goes.
+/// Tolerance of the march that computes the heat balance.
 const MARCHED: f64 = 1e-7;
 
-/// Nodes whose stress is found by one task.
+/// Number of nodes whose stress is computed by one task.
 const SHARE: usize = 256;
 
 /// Reconstructed node arrays.
@@ -167,17 +167,17 @@ struct Fields {
     scale: f64,
     pressure: Vec<f64>,
     film: Vec<f64>,
-    /// The first ruptured column of each line along X; empty under a penalty.
+    /// First cavitated column of each line along X; empty with a penalty.
     fronts: Vec<usize>,
 }
 
 impl Fields {
-    /// X of the columns of nodes.
+    /// Returns X of the columns of nodes.
     fn x(&self) -> Vec<f64> {
         self.grid.abscissae().0.iter().map(|xi| stretched(*xi, self.scale)).collect()
     }
 
-    /// λ behind the rupture boundary, node array; empty where there is none.
+    /// Returns the multiplier λ behind the cavitation boundary as a node array; empty without a boundary.
     fn multiplier(&self) -> Vec<f64> {
         let Self { problem, grid, scale, pressure, film, fronts } = self;
         if fronts.is_empty() {
@@ -199,7 +199,8 @@ impl Fields {
         let newtonian = Laws { shear: None, ..laws };
         nodes.evaluate_part(&newtonian, reached..pressure.len(), state, gradient, treatment);
         if let Some(law) = laws.shear {
-            // Where no pressure is near, thinning moves nothing, and most rows behind the boundary are there.
+            // Shear-thinning has no effect without pressure nearby, which is the case for most rows behind the
+            // boundary.
             let near = |node: &usize| pressure[*node] != 0.0 || gradient(*node) != [0.0; 2];
             let asked = rows.iter().filter(|(stencil, _)| stencil.iter().any(near));
             let mut wanted: Vec<usize> = asked.flat_map(|(stencil, _)| *stencil).collect();
@@ -213,7 +214,7 @@ impl Fields {
         multiplier
     }
 
-    /// Temperatures by those at the stations of the march; none without heat.
+    /// Returns the temperature fields from the profiles at the stations; `None` for an isothermal contact.
     fn temperatures(&self, theta: &[Profile]) -> Option<Temperatures> {
         let Self { problem, grid, scale, pressure, film, .. } = self;
         let (heat, laws) = (problem.heat.as_ref()?, problem.warm_laws()?);
@@ -226,7 +227,7 @@ impl Fields {
         let state = |node: usize| {
             let mut slopes = gradient.at_node(pressure, node);
             if node / across == first {
-                // At the inlet the node outside knows nothing of the pressure.
+                // At the inlet the pressure of the outside node is not defined.
                 slopes[0] = one_sided(&x[first..], [0, 1, 2].map(|k| pressure[node + k * across]));
             }
             NodeState { pressure: pressure[node], gradient: slopes, film: film[node] }
@@ -241,7 +242,7 @@ impl Fields {
             line.states.iter_mut().zip(nodes).for_each(|(known, node)| *known = state(node));
         }
         lines.stations_mut().zip(theta).for_each(|(station, theta)| station.theta = *theta);
-        // What flows and where the heat goes, at the temperatures as they are.
+        // Flow and heat balance at the given temperatures.
         lines.march(&problem.course(&[])?, (0.0, MARCHED), true);
         let places = x.iter().flat_map(|x| y.iter().map(|y| (*x, *y)));
         let profiles = Spread::new(&at, &lines.y, places).profiles(&lines).collect::<Vec<Profile>>();

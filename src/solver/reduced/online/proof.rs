@@ -1,4 +1,4 @@
-//! Whether the parts of a window belong together: at its own snapshots it must give what they hold.
+//! Consistency check of a local model: it must reproduce its own snapshots.
 
 use super::attempt::{Watch, attempt};
 use super::operators_of;
@@ -10,25 +10,26 @@ use crate::solver::reduced::model::{ReducedModel, Snapshot};
 use crate::solver::reduced::start::{self, Guess};
 use std::cell::OnceCell;
 
-/// How far H_c of a snapshot may lie from the one it was trained from, relative to it. Models differ there by less than
-/// one in a hundred; a window with parts of another one does not come near.
+/// Largest accepted relative deviation of the central film thickness H_c from a snapshot. Consistent models deviate by
+/// less than 1 %; parts of different local models by far more.
 const WITHIN: f64 = 0.1;
 
-/// So many snapshots have to be given; a single one may lie where iterations from afar end nowhere.
+/// Number of snapshots that must be reproduced. A single one may lie where iterations do not converge.
 const GIVEN: usize = 2;
-/// So many are tried.
+/// Number of snapshots that are tried.
 const TRIED: usize = 4;
 
 impl ReducedModel {
-    /// Solves the contacts of a window's first and last snapshots from these, until two are given; of a window around an
-    /// anchor those that it serves: others may lie far outside.
+    /// Solves the contacts of a local model's first and last snapshots, starting from the snapshots. Returns true as
+    /// soon as two are reproduced. For a local model around an anchor only contacts of its own cell are tried; others
+    /// may be far outside.
     pub fn reproduces_snapshots(&self, window: usize) -> bool {
         let Some(served) = self.windows.get(window) else { return false };
         let own = |snapshot: &&Snapshot| served.anchor.is_none() || self.window_for(&snapshot.point) == window;
         let snapshots: Vec<&Snapshot> = served.snapshots.iter().filter(own).collect();
         let options = ReducedOptions::default();
         let mut operators = operators_of(self, served, &options);
-        // Kriging takes as long as all the rest, and hardly any window needs it.
+        // Kriging takes as long as everything else and is rarely needed.
         let kriging = OnceCell::new();
         let kriged = |problem: &Problem| {
             kriging

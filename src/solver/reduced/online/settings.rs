@@ -1,60 +1,60 @@
-//! How the online phase is run, and why it may give no result.
+//! Settings of the online phase, and its errors.
 
 use crate::solver::full::SolveError;
 use crate::solver::parameters::CIRCLES;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
 
-/// Why a reduced solve gives no result.
+/// Error of a reduced solve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReducedError {
-    /// The problem itself is refused.
+    /// The problem is refused.
     #[error(transparent)]
     Problem(#[from] SolveError),
-    /// The lubricant is none the reduced equations describe.
+    /// The lubricant is shear-thinning, and the model is Newtonian.
     #[error(
         "the reduced model was trained for a lubricant that does not thin under shear; use the full solver, or a model of this lubricant"
     )]
     ShearThinning,
-    /// The contact is one with heat, of which the model knows nothing.
+    /// The contact is thermal, and the model is isothermal.
     #[error("the reduced model knows no heat; leave heat out, solve in full, or train a model with heat and name it")]
     Heat,
     /// The model is of the other kind of contact.
     #[error("the reduced model is of {} contacts, but the operating point is that of a {} contact", model.name(), given.name())]
     OtherContact {
-        /// What the model is of.
+        /// Kind of the model.
         model: ContactKind,
-        /// What it was given.
+        /// Kind of the given contact.
         given: ContactKind,
     },
-    /// A model in time whose films rupture otherwise than was asked.
+    /// The cavitation model of a transient model differs from the requested one.
     #[error(
         "the reduced model in time was trained with films that rupture by {}, not by {}; train one with that law, or follow the full system",
         model.name(), given.name()
     )]
     OtherRupture {
-        /// What the model knows.
+        /// Cavitation model of the model.
         model: Cavitation,
-        /// What was asked.
+        /// Requested cavitation model.
         given: Cavitation,
     },
-    /// The model holds no window.
+    /// The model has no local model.
     #[error("the reduced model holds no bases")]
     Empty,
-    /// Newton's iteration did not converge.
+    /// Newton's method did not converge.
     #[error(
         "the reduced model did not converge in {iterations} iterations (last step {step:.1e}); use the full solver here"
     )]
     NotConverged {
-        /// Steps taken.
+        /// Number of steps.
         iterations: usize,
         /// Last relative step.
         step: f64,
     },
-    /// It was asked to stop.
+    /// The solve was cancelled.
     #[error("the reduced solve was stopped")]
     Cancelled,
-    /// The contact is an ellipse of which the model knows nothing.
+    /// The contact is elliptical with a radius ratio outside the model's.
     #[error("the reduced model knows {}; use the full solver for a ratio of radii of {given}", known_shapes(*known))]
     Ellipse {
         /// R_y/R of the contact.
@@ -62,7 +62,7 @@ pub enum ReducedError {
         /// R_y/R of the model.
         known: (f64, f64),
     },
-    /// Newton's iteration ended where the model was not trained, in what no contact can be.
+    /// Outside the trained range the iteration ended in a state that is not a solution of a contact.
     #[error("the reduced solution is none, {0}; use the full solver here")]
     Implausible(String),
 }
@@ -75,7 +75,8 @@ fn known_shapes(known: (f64, f64)) -> String {
 }
 
 impl ReducedError {
-    /// The Newton steps of an iteration that was run and gave no solution; none where the request itself is refused.
+    /// Returns the number of Newton steps of an iteration that gave no solution; `None` if the request itself was
+    /// refused.
     pub fn without_solution(&self) -> Option<usize> {
         match self {
             Self::NotConverged { iterations, .. } => Some(*iterations),
@@ -85,32 +86,31 @@ impl ReducedError {
     }
 }
 
-/// From where an online iteration is started.
+/// Initial guess of an online iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Starts {
-    /// The line through the last two solutions where the contact continues it, the last one where it is near, an
-    /// interpolation between snapshots, the nearest snapshot, continuation from it.
+    /// All initial guesses of [`Online::solve`](super::Online::solve), one after the other.
     #[default]
     Explorer,
-    /// The nearest snapshot by (3.20) as it is, and nothing else: the dissertation's.
+    /// The nearest snapshot by (3.20) as it is, and no other: the dissertation's choice.
     Nearest,
 }
 
-/// Settings of the online phase; changing them does not retrain.
+/// Settings of the online phase. They do not require new training.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReducedOptions {
-    /// Keep only this many pressure modes.
+    /// Number of pressure modes; `None` for all.
     pub pressure_modes: Option<usize>,
-    /// Use the dissertation's V_δ V_δᵀ K V_p with this many deformation modes instead of the exact K V_p.
+    /// Number of deformation modes of the dissertation's V_δ V_δᵀ K V_p; `None` for the exact K V_p.
     pub deformation_modes: Option<usize>,
-    /// Stop on ‖Δp̃‖/‖p̃‖ below this, where films are thin below a share of it. Newton converges quadratically: the error left
-    /// is the square of it.
+    /// Stopping tolerance for ‖Δp̃‖/‖p̃‖, with the pressure coefficients p̃; thin films use a share of it. Newton's
+    /// method converges quadratically: the remaining error is the square of it.
     pub tolerance: f64,
-    /// Newton steps at most.
+    /// Maximum number of Newton steps.
     pub max_newton: usize,
-    /// Penalty factor γ̄ of (2.36) in place of the window's own.
+    /// Penalty factor γ̄ of (2.36); `None` for the local model's own.
     pub penalty: Option<f64>,
-    /// From where it starts.
+    /// Initial guess.
     pub starts: Starts,
 }
 
@@ -128,8 +128,8 @@ impl Default for ReducedOptions {
 }
 
 impl ReducedOptions {
-    /// The dissertation's scheme: the state holds δ̃ with all modes that were kept, and starts from the nearest
-    /// snapshot only.
+    /// Returns the dissertation's scheme: the state contains δ̃ with all stored modes, and the iteration starts from
+    /// the nearest snapshot only.
     pub fn dissertation() -> Self {
         Self { deformation_modes: Some(usize::MAX), starts: Starts::Nearest, ..Self::default() }
     }

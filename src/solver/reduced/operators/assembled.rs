@@ -1,4 +1,4 @@
-//! The reduced operators of one window for a chosen truncation. Nothing in them is of large scale.
+//! Reduced operators of one local model for chosen numbers of modes. Nothing in them is of large scale.
 
 use super::case::{Case, Start, State};
 use super::deformation::Deformation;
@@ -14,20 +14,21 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::model::Window;
 use faer::MatRef;
 
-/// What Newton's iteration needs of a window, and its work space.
+/// Data and work space of Newton's iteration for one local model.
 pub(crate) struct Operators {
     pub(super) system: SampledSystem,
     pub(super) deformation: Deformation,
     pub(super) equations: Equations,
     pub(super) parts: Vec<Box<dyn Part>>,
-    /// The scale at which the lift of whole modes is known, and that lift.
+    /// Scale for which the lift of whole modes is computed, and that lift.
     lifted_at: f64,
     whole_lift: Vec<f64>,
     readings: Readings,
 }
 
 impl Operators {
-    /// Operators with the first `modes` pressure modes and, if given, the first `deformation_modes` deformation modes.
+    /// Builds the operators with the first `modes` pressure modes and, if given, the first `deformation_modes`
+    /// deformation modes.
     pub fn new(window: &Window, modes: usize, deformation_modes: Option<usize>, flow: Flow<'_>) -> Self {
         let modes = modes.clamp(1, window.pressure.count());
         let axes = match (flow, window.grid.kind()) {
@@ -53,28 +54,28 @@ impl Operators {
         self.system.modes
     }
 
-    /// The place of a node in the support.
+    /// Returns the place of a node in the support.
     pub fn place(&self, node: usize) -> usize {
         self.system.support.place(node)
     }
 
-    /// Gives row `r` of the sampled ones, and behind them of those that the cavitation boundary may pass, other
-    /// coefficients and other nodes: places in the support.
+    /// Sets the stencil (places in the support) and the coefficients of row `r`. The sampled equations come first,
+    /// followed by the rows that the cavitation boundary may pass.
     pub fn set_row(&mut self, r: usize, stencil: [usize; STENCIL], geometry: RowGeometry) {
         (self.system.stencils[r], self.system.geometry[r]) = (stencil, geometry);
     }
 
-    /// ρ̄H at the own nodes of the rows of [`Self::set_row`], of the state evaluated last.
+    /// Returns ρ̄H at the own nodes of all rows of [`Self::set_row`], for the last evaluated state.
     pub fn flow(&self) -> impl Iterator<Item = f64> + '_ {
         self.system.flow()
     }
 
-    /// K V_p or V_δ V_δᵀ W K V_p over the whole node array of the window these operators are of.
+    /// Returns K V_p or V_δ V_δᵀ W K V_p over the whole node array of the local model.
     pub fn deformation<'a>(&'a self, window: &'a Window) -> MatRef<'a, f64> {
         self.deformation.whole(window, self.system.modes)
     }
 
-    /// Prepares all parts for a contact and for where its iteration begins.
+    /// Prepares all parts for a contact and its initial guess.
     pub fn begin(&mut self, case: &Case<'_>, start: &Start<'_>) {
         let Self { system, parts, .. } = self;
         system.active = start.modes.clamp(1, system.modes);
@@ -82,7 +83,7 @@ impl Operators {
         parts.iter_mut().for_each(|part| part.begin(system, case, start));
     }
 
-    /// Finds what the film at X = 0 (and Y = 0) gains per unit of each coefficient, after [`Self::begin`].
+    /// Computes the contribution of each coefficient to the film thickness at X = 0 (and Y = 0), after [`Self::begin`].
     pub fn aim(&mut self, window: &Window, scale: f64) {
         let Self { system, parts, deformation, lifted_at, whole_lift, .. } = self;
         let nodes = &window.grid.at_zero(scale);
@@ -96,12 +97,12 @@ impl Operators {
         parts.iter_mut().for_each(|part| part.aim(system, Centre { window, nodes, scale }));
     }
 
-    /// The film at X = 0 (and Y = 0) over what H₀ gives it, since [`Self::aim`].
+    /// Returns the film thickness at X = 0 (and Y = 0) without the rigid-body separation H₀, after [`Self::aim`].
     pub fn lifted(&self, coefficients: &[f64]) -> f64 {
         dot(&self.system.lift, coefficients)
     }
 
-    /// Scales coefficients so that they carry the load on a grid of scale s.
+    /// Scales the coefficients such that they carry the load on a grid of scale s.
     pub fn carry_load(&self, problem: &Problem, scale: f64, coefficients: &mut [f64]) {
         let carried: f64 = self.system.load_row.iter().zip(coefficients.iter()).map(|(l, c)| l * c).sum();
         let factor = problem.load / (scale * carried);
@@ -110,7 +111,7 @@ impl Operators {
         }
     }
 
-    /// What all parts report of a state, the one that the last iteration ended with.
+    /// Returns the reports of all parts about a state, which must be the one that the last iteration ended with.
     pub fn read(&mut self, case: &Case<'_>, coefficients: &[f64], h_0: f64) -> &mut Readings {
         let Self { system, parts, readings, .. } = self;
         readings.fronts.clear();

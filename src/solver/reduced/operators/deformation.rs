@@ -1,24 +1,24 @@
-//! The deformation operator of reduced contacts.
+//! Deformation operator of reduced contacts.
 
 use crate::solver::reduced::dense::{self, quadratic_form};
 use crate::solver::reduced::model::{Window, deformation_weights};
 use faer::{Mat, MatRef};
 
-/// K V_p, exact or projected on a basis of deformations.
+/// K V_p, exact or projected onto a basis of deformations.
 pub(super) enum Deformation {
-    /// K V_p, which the window has.
+    /// K V_p of the local model.
     Exact,
     /// V_δ V_δᵀ W K V_p.
     Projected {
-        /// It over the whole node array.
+        /// Projected operator over the whole node array.
         operator: Mat<f64>,
-        /// E_δ of (3.13) with δ̃ condensed: what V_δ cannot represent of K V_p, as a quadratic form.
+        /// E_δ of (3.13) with δ̃ condensed: the part of K V_p that V_δ does not represent, as a quadratic form.
         missing: Mat<f64>,
     },
 }
 
 impl Deformation {
-    /// That of the first modes of a window, projected on that many deformation modes if a number is given.
+    /// Returns the operator for the first modes of a local model, projected onto `deformation_modes` modes if given.
     pub fn of(window: &Window, modes: usize, deformation_modes: Option<usize>) -> Self {
         let Some(k) = deformation_modes else { return Self::Exact };
         let exact = window.pressure.flexed().get(.., ..modes);
@@ -32,7 +32,7 @@ impl Deformation {
         Self::Projected { operator, missing }
     }
 
-    /// It at some nodes, nodes × modes.
+    /// Returns the operator at some nodes, nodes × modes.
     pub fn at(&self, window: &Window, nodes: &[usize], modes: usize) -> Mat<f64> {
         match self {
             Self::Exact => window.pressure.flexed_at(nodes, modes),
@@ -40,7 +40,7 @@ impl Deformation {
         }
     }
 
-    /// It over the whole node array.
+    /// Returns the operator over the whole node array.
     pub fn whole<'a>(&'a self, window: &'a Window, modes: usize) -> MatRef<'a, f64> {
         match self {
             Self::Exact => window.pressure.flexed().get(.., ..modes),
@@ -48,7 +48,7 @@ impl Deformation {
         }
     }
 
-    /// The square of what it misses of the deformation by coefficients, per unit of the scale.
+    /// Returns the square of the projection error of the deformation for the given coefficients, per unit of the scale.
     pub fn missed(&self, coefficients: &[f64]) -> f64 {
         match self {
             Self::Exact => 0.0,

@@ -1,4 +1,4 @@
-//! The equations of a step: Galerkin's, or those of residual minimisation.
+//! Equations of a Newton step: Galerkin's, or those of residual minimisation.
 
 use super::case::Case;
 use super::least_squares::LeastSquares;
@@ -9,18 +9,18 @@ use crate::solver::reduced::model::Window;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par};
 
-/// What is made of the values of the sampled rows.
+/// Combination of the sampled equations.
 pub(super) enum Equations {
     /// As many equations as modes: G with Vᵀ W f ≈ G f_I, modes × rows.
     Galerkin(Mat<f64>),
-    /// The sum of the squares of the rows is least, each row by its factor, 1 × rows, (2.69).
+    /// Least squares of the rows, each with its factor, 1 × rows, (2.69).
     LeastSquares { factors: Mat<f64>, least: LeastSquares },
-    /// The sum of the squares of what two bases make of the rows is least, equations × rows each, (2.80)–(2.82).
+    /// Least squares of the reconstructions by two bases, equations × rows each, (2.80)–(2.82).
     Gnat { of_jacobian: Mat<f64>, of_residual: Mat<f64>, least: LeastSquares },
 }
 
 impl Equations {
-    /// Those of a window for its first modes.
+    /// Returns the equations of a local model for its first modes.
     pub fn of(window: &Window, modes: usize) -> Self {
         let own = &window.reconstruction;
         match (window.scheme, &window.residual_reconstruction) {
@@ -36,13 +36,13 @@ impl Equations {
         }
     }
 
-    /// Whether the factors of one step can serve for another.
+    /// Returns true if the factors of one step can be used for another.
     pub fn have_factors(&self) -> bool {
         matches!(self, Self::Galerkin(_))
     }
 
-    /// Solves for the step and leaves it in `system.step.rhs`. False when the equations are singular. `keep` keeps a copy
-    /// of Galerkin's matrix for an observer.
+    /// Solves for the step, which is stored in `system.step.rhs`. Returns false if the equations are singular. If
+    /// `keep`, a copy of Galerkin's matrix is kept for an observer.
     pub fn step(
         &mut self,
         system: &mut SampledSystem,
@@ -69,7 +69,7 @@ impl Equations {
                 if keep {
                     jacobian.copy_from(&step.matrix);
                 }
-                // The coefficients of modes that are left out do not change.
+                // The coefficients of omitted modes do not change.
                 for k in *active..modes {
                     step.matrix.row_mut(k).fill(0.0);
                     step.matrix.col_mut(k).fill(0.0);
@@ -100,8 +100,8 @@ impl Equations {
         step.rhs.iter().all(|v| v.is_finite())
     }
 
-    /// Solves for the step by the present values and the factors of the last [`Self::step`]. False when they are singular
-    /// or when the equations have no factors.
+    /// Solves for the step with the current values and the factors of the last [`Self::step`]. Returns false if they
+    /// are singular or if the equations have no factors.
     pub fn step_again(
         &self,
         system: &mut SampledSystem,
@@ -126,7 +126,8 @@ impl Equations {
     }
 }
 
-/// What two bases make of the rows' derivatives by coefficients and by H₀, and of their values with the opposite sign.
+/// Applies two bases to the rows: to their derivatives by coefficients and by the rigid-body separation H₀, and to
+/// their values with opposite sign.
 fn reduce(
     (of_jacobian, of_residual): (MatRef<'_, f64>, MatRef<'_, f64>),
     (jacobian, films, values): (MatRef<'_, f64>, ColRef<'_, f64>, ColRef<'_, f64>),
@@ -139,7 +140,7 @@ fn reduce(
     matmul(right.as_mat_mut(), Accum::Replace, of_residual, values.as_mat(), -1.0, Par::Seq);
 }
 
-/// Row `last` of the equations: the pressures carry the load.
+/// Writes row `last` of the equations: the pressures carry the load.
 fn carry(
     (load_row, scale, load): (&[f64], f64, f64),
     coefficients: &[f64],

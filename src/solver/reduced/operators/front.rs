@@ -1,13 +1,13 @@
-//! The rupture boundary B of reduced contacts under complementarity, (D.14)–(D.22): behind it P = 0 and no row is asked
-//! for, before it λ = 0.
+//! Cavitation boundary B of reduced contacts with complementarity, (D.14)–(D.22). Behind it P = 0 and no row is
+//! required; in front of it the multiplier λ is 0.
 //!
-//! A state is the sum of the modes, cut off at B. V, the load's row, P and K P change by single nodes when B moves,
-//! (D.21) and (D.22), so nothing is of large scale. K V of the Jacobian stays that of a place of B nearby: what the few
-//! nodes between bend is in the fields, and its derivative is too small to slow Newton's method. Of the nodes that B may
-//! pass only those near it are looked at.
+//! A state is the sum of the modes, cut off at B. If B moves, single nodes are added to or removed from V, the load
+//! row, P and K P, (D.21) and (D.22), so nothing is of large scale. K V of the Jacobian stays that of a nearby
+//! position of B. The deformation by the few nodes in between is included in the fields; its derivative is too small
+//! to slow Newton's method. Only nodes near B are evaluated.
 //!
-//! B moves up along a line where one of the nodes before it has a negative pressure, (D.17), else down where λ is
-//! negative at its first ruptured node. (D.18) as printed has the opposite sign: B would go back and forth.
+//! B moves up along a line if one of the nodes in front of it has a negative pressure, (D.17), otherwise down if λ is
+//! negative at its first cavitated node. (D.18) as printed has the opposite sign, with which B would oscillate.
 
 mod bending;
 mod following;
@@ -29,7 +29,7 @@ use faer::linalg::matmul::matmul;
 use faer::reborrow::ReborrowMut;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
-/// Operators of a window with complementarity have it.
+/// Part of the operators of local models with complementarity.
 pub(super) const KIND: Kind = Kind {
     nodes: |window, _, nodes| {
         if window.cavitation == Cavitation::Complementarity {
@@ -42,98 +42,98 @@ pub(super) const KIND: Kind = Kind {
     },
 };
 
-/// How much modes are held at zero behind the cavitation boundary, relative to the equations' own size.
+/// Factor by which modes are restrained to zero behind the cavitation boundary, relative to the size of the equations.
 const RESTRAINED: f64 = 1e-6;
 
-/// The pressure that counts as negative in (D.17), of a line and of a plane: smaller ones are what the basis leaves. Of
-/// lines it leaves so little that B one node too far, with a pressure of −1e-4 there, is by far their largest error of
-/// H_min.
+/// Pressure that counts as negative in (D.17), for a line and for a plane. Smaller negative pressures are errors of
+/// the basis. For lines these are small: a boundary one node too far, with a pressure of −1e-4 there, is by far their
+/// largest error of the minimum film thickness.
 const NEGATIVE: [f64; 2] = [-1e-6, -1e-4];
-/// So many turns between up and down leave B of a line where it is: its place is known to one node.
+/// Number of direction changes after which B of a line stays where it is: its position is then known to one node.
 const TURNS: u8 = 4;
-/// The same of planes of thinning lubricants. Half of their contacts have a line or two whose B would go to and fro: bases
-/// of more numbers leave more behind it. Left where it turns first, one node of one line changes little there (1e-4 of H_c
-/// at most in 95 of 100, and less than models are off by), and most of these contacts take half as many steps. Newtonian
-/// ones would save one in thirty, and a few of their films would be off by a hundredth.
+/// The same for planes with shear-thinning lubricants. In half of these contacts B of one or two lines would
+/// oscillate, because the bases have larger errors behind B. Stopping at the first change hardly affects the result
+/// (H_c by 1e-4 at most in 95 of 100 contacts, less than the model error) and halves the number of steps. For
+/// Newtonian contacts it saves few steps and causes larger errors.
 const TURNS_THINNING: u8 = 1;
-/// Nodes that B may pass at once where it strides, at first.
+/// Initial number of nodes that B may pass at once in a transient contact.
 const STRIDE: usize = 4;
 
-/// The boundary, with what it changes.
+/// Boundary with the quantities that it changes.
 struct Front {
     lines: Vec<Line>,
-    /// The nodes that it may pass, line after line.
+    /// Nodes that it may pass, line by line.
     nodes: Vec<Passed>,
     /// V at these nodes, row-major nodes × modes.
     modes: Vec<f64>,
-    /// Deformation of the support by unit pressure at each of these nodes, row-major nodes × support. It is multiplied by
-    /// small pressures only.
+    /// Deformation of the support by unit pressure at each of these nodes, row-major nodes × support. It is
+    /// multiplied by small pressures only.
     bends: Vec<f32>,
-    /// Which places of the support lie behind B.
+    /// True for the places of the support behind B.
     cut: Vec<bool>,
-    /// How many places of the support the sampled rows ask for themselves, and of each further one the line of nodes.
+    /// Number of places of the support that the sampled equations use; and the line of each further place.
     own: usize,
     asked: Vec<usize>,
     kept: Vec<Kept>,
-    /// The pressure that counts as negative.
+    /// Pressure that counts as negative.
     negative: f64,
-    /// How often B of a line may turn.
+    /// Maximum number of direction changes of B per line.
     turns: u8,
-    /// Whether modes are held at zero behind B: in windows of many oils it lies at places far apart. By how much they are
-    /// in the matrix solved last.
+    /// Whether modes are restrained to zero behind B, as in local models around anchors, where the positions of B
+    /// differ widely. And the factor of the restraint in the last matrix.
     restrains: bool,
     restraint: f64,
-    /// Σ v vᵀ over the nodes behind B, modes × modes, where they are.
+    /// Σ v vᵀ over the nodes behind B, modes × modes, if modes are restrained.
     behind: Mat<f64>,
-    /// Whether B is out of force: a penalty holds all pressures, as far as there are modes.
+    /// True if B is inactive: a penalty acts on all pressures, as far as there are modes.
     idle: bool,
-    /// Which of them is in the Jacobian.
+    /// Index of the stored K V in the Jacobian.
     loaded: usize,
-    /// Line and column of each sampled row.
+    /// Line and column of each sampled equation.
     rows: Vec<(usize, usize)>,
-    /// The scale at which deformations at X = 0 are known.
+    /// Scale for which the deformations at X = 0 are computed.
     aimed: Option<f64>,
-    /// Work space: nodes that pass, and whether they carry pressure again.
+    /// Work space: nodes that are passed, and whether they carry pressure afterwards.
     passing: Vec<(usize, bool)>,
-    /// Work space: nodes between B and its place in K V, and the pressures there that K V does not know.
+    /// Work space: nodes between B and its position in K V, and the pressures there that K V does not include.
     bending: Vec<(usize, f64)>,
     bent: Bent,
 }
 
-/// A line of unknowns along X with its part of B.
+/// Line of unknowns along X with its part of B.
 struct Line {
-    /// The first column that B may have, its place among the nodes, and how many it may pass.
+    /// First column that B may have, its index among the nodes, and the number of nodes that it may pass.
     column: usize,
     first: usize,
     count: usize,
-    /// How many of them carry pressure: the next one is B.
+    /// Number of these nodes that carry pressure; the next one is B.
     front: usize,
-    /// How many do in K V.
+    /// Number of these nodes that carry pressure in K V.
     kept: usize,
-    /// How many lie before those that are held at zero.
+    /// Number of these nodes in front of the restrained ones.
     restrained: usize,
-    /// Which way B moved last, and how often it turned.
+    /// Last direction of B, and number of direction changes.
     down: Option<bool>,
     turns: u8,
-    /// How many nodes it may pass at once.
+    /// Number of nodes that B may pass at once.
     stride: usize,
 }
 
-/// A node that B may pass.
+/// Node that B may pass.
 struct Passed {
-    /// Its place in the support.
+    /// Place in the support.
     place: usize,
     node: usize,
-    /// Its weight in the load.
+    /// Weight in the load.
     weight: f64,
-    /// Whether a sampled row is its own.
+    /// True if a sampled equation belongs to it.
     sampled: bool,
-    /// Deformation at X = 0 (and Y = 0) by unit pressure here, in ξ.
+    /// Deformation at X = 0 (and Y = 0) by unit pressure at this node, in ξ.
     zero: f64,
 }
 
 impl Front {
-    /// The boundary of a window over its rows; adds to them those that it may pass.
+    /// Creates the boundary of a local model over its rows, and adds the rows that it may pass.
     fn new(window: &Window, system: &mut SampledSystem) -> Self {
         let (grid, weights, modes) = (&window.grid, window.grid.weights(), system.modes);
         let SampledSystem { support, stencils, geometry, basis, .. } = system;
@@ -153,7 +153,7 @@ impl Front {
         });
         let line = |(line, (column, highest)): (usize, (usize, usize))| {
             let first = owners.partition_point(|&owner| owner < line);
-            // The last one is never passed: its row says whether B must move on to where no training has been.
+            // The last node is never passed. Its row shows whether B must move beyond the range of the training.
             let count = highest - column;
             Line {
                 column,
@@ -199,7 +199,7 @@ impl Front {
         front
     }
 
-    /// The first ruptured column of each line; where B is out of force, the first one behind the pressures.
+    /// Returns the first cavitated column of each line; for an inactive B, the first column behind the pressures.
     pub fn fronts<'a>(&'a self, pressure: &'a [f64]) -> impl Iterator<Item = usize> + 'a {
         self.lines.iter().map(move |line| {
             let carries = |k: &usize| !self.idle || pressure[self.nodes[line.first + k].place] > 0.0;
@@ -207,14 +207,14 @@ impl Front {
         })
     }
 
-    /// Nodes behind B, and the pressures of the modes there.
+    /// Returns the nodes behind B, and the pressures of the modes there.
     pub fn cut<'a>(&'a self, coefficients: &'a [f64]) -> impl Iterator<Item = (usize, f64)> + 'a {
         let modes = coefficients.len();
         let behind = self.lines.iter().flat_map(|line| line.first + line.front..line.first + line.count);
         behind.map(move |k| (self.nodes[k].node, dot(&self.modes[k * modes..][..modes], coefficients)))
     }
 
-    /// Puts B somewhere before an iteration begins; without a place it is behind all modes, and out of force.
+    /// Sets the position of B before an iteration. Without positions B is behind all modes and inactive.
     fn put(&mut self, system: &mut SampledSystem, fronts: Option<&[usize]>) {
         self.idle = fronts.is_none();
         for (number, line) in self.lines.iter_mut().enumerate() {
@@ -278,7 +278,7 @@ impl Part for Front {
         self.cut_and_bend(system, coefficients, fields);
     }
 
-    /// Behind the boundary modes are no part of P.
+    /// Sets derivatives by P to zero behind the boundary, where modes are not part of P.
     fn slopes(&mut self, system: &mut SampledSystem) {
         for (slopes, stencil) in system.by_pressure.iter_mut().zip(&system.stencils) {
             for (slope, place) in slopes.iter_mut().zip(stencil) {
@@ -293,9 +293,9 @@ impl Part for Front {
         self.bend(system, scale, exact);
     }
 
-    /// Adds, by a factor, that modes are zero behind B: of modes that differ there alone nothing else tells the
-    /// coefficients, and Newton's steps would go astray. Solutions are zero there, so that this changes them by no more than
-    /// the basis misses.
+    /// Restrains the modes to zero behind B. The coefficients of modes that differ only there would otherwise be
+    /// undetermined, and Newton's method would diverge. Solutions are zero there, so that the restraint changes them
+    /// by no more than the error of the basis.
     fn equations(&mut self, coefficients: &[f64], matrix: Option<MatMut<'_, f64>>, rhs: &mut [f64]) {
         if self.idle || !self.restrains {
             return;
@@ -326,7 +326,7 @@ impl Part for Front {
 }
 
 impl Line {
-    /// How many of the nodes that B may pass carry pressure where it has this column.
+    /// Returns the number of nodes that carry pressure if B has the column `front`.
     fn place_of(&self, front: usize) -> usize {
         front.saturating_sub(self.column).clamp(1, self.count.max(1))
     }

@@ -1,6 +1,6 @@
-//! Contacts with heat on reduced operators: each Newton step for (p̃, H₀) follows a march of the temperatures along every
-//! few nodes of a line, or of a few lines of a plane, with pressure and film held, until neither changes anything.
-//! Temperatures need no basis.
+//! Thermal contacts with reduced operators. Each Newton step for the pressure coefficients p̃ and the rigid-body
+//! separation H₀ follows a march of the temperatures at constant pressure and film thickness, until neither changes.
+//! The march visits every few nodes of a line, or of a few lines of a plane. Temperatures need no basis.
 
 mod stations;
 
@@ -18,20 +18,20 @@ use crate::solver::full::heat::{Mixing, Rises, mid_stress_pa, one_sided};
 use crate::solver::reduced::warmth::Warmth;
 use std::sync::Arc;
 
-/// What ends an iteration over what ends Newton's steps alone: a relative step of pressure and film, and a change of θ. A
-/// kelvin is 3e-3.
+/// Stopping tolerances of the coupled iteration, relative to that of Newton's method alone: for the relative step of
+/// pressure and film thickness, and for the change of the temperature rise θ. A kelvin is 3e-3.
 const TOLERANCES: (f64, f64) = (10.0, 10.0);
 
-/// Turns of march and step that a contact with heat may take per Newton step of one without.
+/// Maximum number of coupled iterations, relative to the maximum number of isothermal Newton steps.
 const TURNS_PER_STEP: usize = 4;
 
-/// A step of pressure and film and a change of θ below which states are mixed.
+/// States are mixed below this step of pressure and film thickness and this change of θ.
 const NEAR: f64 = 0.1;
 
-/// Least share of a change of temperatures that is taken.
+/// Smallest share of a temperature change that is applied.
 const LEAST_SHARE: f64 = 0.06;
 
-/// Operators of thermal contacts have it.
+/// Part of the operators of thermal contacts.
 pub(super) const KIND: Kind = Kind {
     nodes: |window, flow, nodes| {
         if flow == Flow::Thermal {
@@ -47,29 +47,29 @@ pub(super) const KIND: Kind = Kind {
     },
 };
 
-/// Where one line has its states from.
+/// Sources of one line's states.
 struct Looked {
     /// Places of its stations in the support, and of its first three nodes.
     stations: Vec<usize>,
     inlet: [usize; 3],
 }
 
-/// How some nodes have their temperatures from the lines that are marched.
+/// Interpolation of the temperatures at some nodes from the marched lines.
 pub(super) struct Interpolation {
     /// (ξ, Y) of the nodes.
     places: Vec<(f64, f64)>,
-    /// The scale of the last contact, and where values come from at that one.
+    /// Scale of the last contact, and the interpolation for it.
     scale: f64,
     spread: Spread,
 }
 
 impl Interpolation {
-    /// Of nodes at these (ξ, Y).
+    /// Creates the interpolation for nodes at these (ξ, Y).
     pub fn new(places: impl Iterator<Item = (f64, f64)>) -> Self {
         Self { places: places.collect(), scale: f64::NAN, spread: Spread::default() }
     }
 
-    /// Finds out where values come from at a scale: line contacts alone are stretched.
+    /// Updates the interpolation for a scale; only line contacts are stretched.
     fn follow(&mut self, lines: &Lines, ordinates: &[f64], scale: f64) {
         if self.scale != scale {
             let places = self.places.iter().map(|&(xi, y)| (stretched(xi, scale), y));
@@ -77,29 +77,29 @@ impl Interpolation {
         }
     }
 
-    /// θ at the nodes, at the points of the rule across the film.
+    /// Returns θ at the nodes, at the points of the quadrature rule across the film.
     fn theta<'a>(&'a self, lines: &'a Lines) -> impl Iterator<Item = [f64; RULE]> + 'a {
         self.spread.profiles(lines).map(|profile| apply(&ACROSS.to_rule, &profile))
     }
 }
 
-/// How fast temperatures follow the pressure.
+/// Control of the temperature change per iteration.
 struct Pace {
-    /// The share of their change that is taken.
+    /// Share of the change that is applied.
     share: f64,
-    /// Their largest change in this turn and in the one before.
+    /// Largest change in this iteration and in the one before.
     changed: f64,
     before: f64,
 }
 
 impl Pace {
-    /// That of a first turn.
+    /// State of the first iteration.
     const FIRST: Self = Self { share: 1.0, changed: 1e-3, before: f64::INFINITY };
 }
 
-/// Temperatures in reduced operators, and what marches them.
+/// Temperatures in reduced operators, and their march.
 struct Heated {
-    /// Whether the contact is thermal: an isothermal one has them not marched.
+    /// True for a thermal contact. For an isothermal one the temperatures are not marched.
     heats: bool,
     looked: Vec<Looked>,
     /// ξ of the stations, and Y of the lines in units of b.
@@ -108,22 +108,22 @@ struct Heated {
     lines: Lines,
     /// X of the support.
     x: Vec<f64>,
-    /// Places in the support at which rows want a film.
+    /// Places in the support whose film the rows use.
     films: Vec<usize>,
-    /// How these have their temperatures, and the film's temperatures on the support.
+    /// Interpolation of the temperatures at these places, and the temperatures on the support.
     interpolation: Interpolation,
     film: WarmFilm,
     mixing: Mixing,
-    /// p̃, H₀ and θ before a turn and after it.
+    /// p̃, H₀ and θ before and after an iteration.
     from: Vec<f64>,
     image: Vec<f64>,
     pace: Pace,
-    /// The traction quadrature, and how its nodes have their temperatures; none of a window without one.
+    /// Traction quadrature, and interpolation of the temperatures at its nodes; `None` for a local model without one.
     rule: Option<(Rule, Interpolation)>,
 }
 
 impl Heated {
-    /// For the rows of a system.
+    /// Creates the part for the rows of a system.
     fn new(grid: &ContactGrid, system: &SampledSystem, rule: Option<Rule>) -> Self {
         let support = &system.support.places;
         let mut films: Vec<usize> = system.stencils.iter().flatten().copied().collect();
@@ -160,7 +160,8 @@ impl Heated {
         }
     }
 
-    /// P, its gradient and H at the stations, from P, K P, P_ξ and P_Y on the support and the films there.
+    /// Sets P, its gradient and H at the stations, from P, K P, P_ξ and P_Y on the support and the film thicknesses
+    /// there.
     fn look(&mut self, fields: &[f64], films: &[f64], scale: f64) {
         let count = films.len();
         for (line, looked) in self.lines.lines.iter_mut().zip(&self.looked) {
@@ -170,13 +171,13 @@ impl Heated {
             }
             let [x, pressure] = [&self.x, fields].map(|values| looked.inlet.map(|k| values[k]));
             if let Some(first) = line.states.first_mut() {
-                // At the inlet the node outside knows nothing of the pressure.
+                // At the inlet the pressure of the outside node is not defined.
                 first.gradient[0] = one_sided(&x, pressure);
             }
         }
     }
 
-    /// Writes p̃, H₀ and θ into one array.
+    /// Writes p̃, H₀ and θ to one array.
     fn state(lines: &Lines, (coefficients, h_0): (&[f64], f64), out: &mut Vec<f64>) {
         out.clear();
         out.extend_from_slice(coefficients);
@@ -184,7 +185,7 @@ impl Heated {
         out.extend(lines.stations().flat_map(|station| station.theta));
     }
 
-    /// Mixes the state that a turn led to with those before it.
+    /// Mixes the state after an iteration with previous ones.
     fn mix(&mut self, coefficients: &mut [f64], h_0: &mut f64) {
         Self::state(&self.lines, (coefficients, *h_0), &mut self.image);
         self.mixing.improve(&self.from, &mut self.image);
@@ -194,7 +195,7 @@ impl Heated {
         self.lines.put(&rest[1..]);
     }
 
-    /// Traction of a state by the rule with the present temperatures; `None` without a rule.
+    /// Returns the traction of a state by the quadrature with the current temperatures; `None` without a quadrature.
     fn traction(&mut self, case: &Case<'_>, state: State<'_>) -> Option<RuleTraction> {
         let Case { problem, scale, .. } = *case;
         let (laws, (rule, interpolation)) = (problem.warm_laws()?, self.rule.as_mut()?);
@@ -210,7 +211,7 @@ impl Heated {
 }
 
 impl Part for Heated {
-    /// Temperatures of a cold start come from the pressures of contacts with heat; no isothermal solution is in between.
+    /// A cold start begins at θ = 0 with the pressures of thermal contacts, without an isothermal solution in between.
     fn begin(&mut self, system: &mut SampledSystem, case: &Case<'_>, start: &Start<'_>) {
         if let Some((rule, _)) = &mut self.rule {
             rule.begin(system, case, start);
@@ -222,7 +223,7 @@ impl Part for Heated {
         system.stop.tolerance *= TOLERANCES.0;
         system.stop.max_newton *= TURNS_PER_STEP;
         system.stop.at_step = true;
-        // Lines lie as far apart as those of an ellipse.
+        // Distances between lines are those of the ellipse.
         let kappa = case.problem.point.ellipse().kappa;
         self.lines.y.iter_mut().zip(&self.ordinates).for_each(|(y, own)| *y = kappa * own);
         for line in &mut self.lines.lines {
@@ -240,7 +241,7 @@ impl Part for Heated {
         self.pace = Pace::FIRST;
     }
 
-    /// Marches once and takes a share of the change; then evaluates the nodes at these temperatures.
+    /// Marches once and applies a share of the change, then evaluates the nodes at these temperatures.
     fn nodes(&mut self, system: &mut SampledSystem, case: &Case<'_>, state: State<'_>) -> bool {
         let Some((laws, course)) = case.problem.warm_laws().zip(case.problem.course(&[])) else { return false };
         let (scale, tolerance) = (case.scale, case.stop.tolerance);
@@ -279,7 +280,7 @@ impl Part for Heated {
         }
         let mixes = size.max(*changed) < NEAR && omega == 1.0 && *changed > size;
         if !mixes {
-            // Temperatures that swing with the pressure come to rest when they follow it by less.
+            // Temperatures that oscillate with the pressure converge if a smaller share of their change is applied.
             let swings = *changed > 0.8 * *before;
             *share = if swings { (0.75 * *share).max(LEAST_SHARE) } else { (1.5 * *share).min(1.0) };
         }
@@ -288,7 +289,7 @@ impl Part for Heated {
             self.mixing.forget();
             return Moved::PastRows;
         }
-        // Newton's steps need no help; where these are small it is the temperatures that take their time.
+        // Mixing helps only where the temperatures converge more slowly than Newton's method.
         self.mix(coefficients, h_0);
         Moved::State
     }

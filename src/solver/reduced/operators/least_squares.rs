@@ -1,23 +1,23 @@
-//! The online step of residual minimisation, (2.69): the least squares of more equations than unknowns, by QR. Nothing
-//! is allocated in an iteration.
+//! Online step of residual minimisation, (2.69): least squares of more equations than unknowns, by QR. An iteration
+//! allocates nothing.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::qr::no_pivoting::factor::{qr_in_place, qr_in_place_scratch, recommended_block_size};
 use faer::linalg::qr::no_pivoting::solve::{solve_lstsq_in_place, solve_lstsq_in_place_scratch};
 use faer::{Mat, MatMut, Par, Spec};
 
-/// Equations, more than unknowns, with all work space.
+/// Overdetermined equations with all work space.
 pub(super) struct LeastSquares {
-    /// The matrix, equations × unknowns; what is left of it once it is solved.
+    /// Matrix, equations × unknowns; overwritten by a solve.
     pub matrix: Mat<f64>,
-    /// Right-hand side; its first entries are the solution, not finite where the columns are dependent.
+    /// Right-hand side; after a solve its first entries are the solution, not finite if the columns are dependent.
     pub rhs: Vec<f64>,
     coefficients: Mat<f64>,
     memory: MemBuffer,
 }
 
 impl LeastSquares {
-    /// Work space for so many equations and unknowns.
+    /// Allocates the work space for the given numbers of equations and unknowns.
     pub fn new(equations: usize, unknowns: usize) -> Self {
         let block = recommended_block_size::<f64>(equations, unknowns);
         let factor = qr_in_place_scratch::<f64>(equations, unknowns, block, Par::Seq, Spec::default());
@@ -30,7 +30,7 @@ impl LeastSquares {
         }
     }
 
-    /// Solves them.
+    /// Solves the equations.
     pub fn solve(&mut self) {
         let Self { matrix, rhs, coefficients, memory } = self;
         let stack = MemStack::new(memory);

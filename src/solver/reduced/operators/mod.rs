@@ -1,4 +1,5 @@
-//! The reduced operators of one window for a chosen truncation, composed of parts. Nothing in them is of large scale.
+//! Reduced operators of one local model for chosen numbers of modes, composed of parts. Nothing in them is of large
+//! scale.
 
 mod assembled;
 mod case;

@@ -1,5 +1,5 @@
-//! The Newton iteration on reduced operators. Nothing here is of large scale, and nothing is allocated inside an
-//! iteration.
+//! Newton iteration on reduced operators for the pressure coefficients p̃ and the rigid-body separation H₀. Nothing
+//! here is of large scale, and an iteration allocates nothing.
 
 use super::assembled::Operators;
 use super::case::{Case, State};
@@ -8,31 +8,31 @@ use super::sampled_system::SampledSystem;
 use crate::solver::discrete::reynolds::film_integrals::LAST_STEP;
 use faer::MatRef;
 
-/// Steps after which an iteration is slow: most take two to five.
+/// Number of steps after which an iteration is slow; most take two to five.
 const SWIFT: usize = 12;
 
-/// The relative step behind which derivatives serve again, and the share of it that the next one may have so that they
-/// go on doing so.
+/// Relative step below which derivatives are used again, and largest ratio of the next step for which this continues.
 const NEAR: f64 = 1e-2;
 const SHRINKS: f64 = 0.3;
 
-/// The step that ends the iteration of a thinning node's film, over the square of the one that ends the whole iteration.
-/// Either leaves the square of its own step: at 1e-3 both are alike, at 1e-5 films are exact to rounding.
+/// Last step of the film iteration at a shear-thinning node, divided by the squared tolerance of the whole iteration.
+/// Both iterations leave an error of the square of their last step. At a tolerance of 1e-3 both errors are equal; at 1e-5
+/// films are exact to rounding.
 const FILM_STEP: f64 = 1e3;
 
-/// What rows are evaluated for.
+/// Purpose of an evaluation of the rows.
 #[derive(Clone, Copy, PartialEq)]
 enum Wanted {
-    /// A step, by their derivatives. `exact` takes K V at the cavitation boundary's own place even where there are many
-    /// lines, not at a place nearby.
+    /// A step with new derivatives. With `exact`, the deformation K V of the modes is taken at the boundary's current
+    /// position even for many lines, instead of a nearby position.
     Step { exact: bool },
-    /// A step by former derivatives, and what the cavitation boundary looks at.
+    /// A step with previous derivatives, and the quantities that the cavitation boundary checks.
     StepAgain,
-    /// What is left of them where the iteration ended.
+    /// The residual at the end of the iteration.
     Rest,
 }
 
-/// How an online Newton iteration ended.
+/// Result of an online Newton iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct OnlineOutcome {
     pub converged: bool,
@@ -42,29 +42,29 @@ pub(crate) struct OnlineOutcome {
     pub residual: f64,
 }
 
-/// One online iterate, as the training sees it.
+/// Online iterate for the training.
 pub(crate) struct Iterate<'a> {
-    /// f_I on the sampled rows.
+    /// f_I: values of the sampled equations.
     pub residual: &'a [f64],
-    /// J V Δz̃ on the sampled rows.
+    /// J V Δz̃ on the sampled equations.
     pub jacobian_step: &'a [f64],
-    /// The reduced Jacobian, load row included.
+    /// Reduced Jacobian including the load row.
     pub jacobian: MatRef<'a, f64>,
     /// (Δp̃, ΔH₀).
     pub step: &'a [f64],
     /// p̃ before the step.
     pub coefficients: &'a [f64],
-    /// What the film at X = 0 gains per unit of each coefficient.
+    /// Film thickness at X = 0 per unit of each coefficient.
     pub lift: &'a [f64],
-    /// H_c before the step.
+    /// Central film thickness H_c before the step.
     pub h_c: f64,
 }
 
-/// Sees each iterate.
+/// Observer of all iterates.
 pub(crate) type RowObserver<'a> = &'a mut dyn FnMut(&Iterate<'_>);
 
 impl Operators {
-    /// Newton's method on (p̃, H₀) for one case, after [`Self::begin`], damped by the largest pressure change.
+    /// Runs Newton's method on (p̃, H₀) for one case, after [`Self::begin`], damped by the largest pressure change.
     pub fn newton(
         &mut self,
         case: &Case<'_>,
@@ -73,11 +73,11 @@ impl Operators {
     ) -> OnlineOutcome {
         let mut outcome = OnlineOutcome { converged: false, iterations: 0, step: f64::NAN, residual: f64::NAN };
         spread(&mut self.system, &mut self.parts, coefficients);
-        // The films of another contact are no start.
+        // Films of another contact are not suitable initial guesses.
         self.system.nodes.forget();
         let (stop, tolerance) = (self.system.stop, case.stop.tolerance);
         self.system.film_step = (FILM_STEP * tolerance * tolerance).min(tolerance).max(LAST_STEP);
-        // Whether the last derivatives are those of a place so near that their factors serve again.
+        // True if the factors of the last derivatives can be used again.
         let mut near = false;
         for iteration in 1..=stop.max_newton {
             let wanted = if near { Wanted::StepAgain } else { Wanted::Step { exact: iteration > SWIFT } };
@@ -111,7 +111,7 @@ impl Operators {
                 Moved::State => spread(system, parts, coefficients),
                 Moved::Still | Moved::BetweenRows | Moved::PastRows => {}
             }
-            // A penalty's derivatives jump where pressures change sign. Observers are shown what was solved.
+            // The derivatives of a penalty jump where pressures change sign. Observers need the solved equations.
             near = moved < Moved::PastRows
                 && omega == 1.0
                 && outcome.step < if near { SHRINKS * former } else { NEAR }
@@ -126,12 +126,12 @@ impl Operators {
         if !stop.at_step {
             outcome.residual = self.evaluate(case, State { coefficients, h_0: *h_0 }, Wanted::Rest);
         }
-        // What came to rest at an absurd residual has found garbage.
+        // An iteration that ends with a very large residual has not converged.
         outcome.converged &= outcome.residual.is_finite() && outcome.residual < 1e3;
         outcome
     }
 
-    /// Shows an iterate and the step that was solved for there.
+    /// Passes an iterate and its step to the observer.
     fn show(&mut self, case: &Case<'_>, (coefficients, h_0): (&[f64], f64), observer: &mut RowObserver<'_>) {
         self.system.times_step();
         let s = &self.system;
@@ -146,7 +146,7 @@ impl Operators {
         });
     }
 
-    /// Evaluates the sampled rows at the fields; returns e_f^I.
+    /// Evaluates the sampled equations at the fields; returns e_f^I.
     fn evaluate(&mut self, case: &Case<'_>, state: State<'_>, wanted: Wanted) -> f64 {
         let Self { system, parts, deformation, .. } = self;
         let scale = case.scale;
@@ -167,7 +167,7 @@ impl Operators {
     }
 }
 
-/// P, K P and the gradients of coefficients, one behind the other at the support.
+/// Computes P, K P and the gradients of coefficients at the support, one after the other.
 fn spread(system: &mut SampledSystem, parts: &mut [Box<dyn Part>], coefficients: &[f64]) {
     let mut fields = std::mem::take(&mut system.fields);
     system.basis.spread(system.support.own, coefficients, &mut fields);
@@ -175,7 +175,7 @@ fn spread(system: &mut SampledSystem, parts: &mut [Box<dyn Part>], coefficients:
     system.fields = fields;
 }
 
-/// The same of the step that was solved for.
+/// Does the same for the step.
 fn spread_step(system: &mut SampledSystem, parts: &mut [Box<dyn Part>]) {
     let mut fields = std::mem::take(&mut system.step_fields);
     let step = &system.step.rhs[..system.modes];

@@ -1,4 +1,4 @@
-//! The interface of the parts that reduced operators are composed of.
+//! Interface of the parts of reduced operators.
 
 use super::case::{Case, Start, State};
 use super::deformation::Deformation;
@@ -8,20 +8,20 @@ use super::support::Needed;
 use crate::solver::reduced::model::Window;
 use faer::MatMut;
 
-/// The equations that operators are made for.
+/// Type of flow that operators are built for.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Flow<'a> {
     /// Steady, Newtonian, isothermal.
     Newtonian,
     /// Steady, shear-thinning, isothermal.
     Thinning,
-    /// Steady, thermal; the lubricant may thin under shear.
+    /// Steady, thermal; the lubricant may be shear-thinning.
     Thermal,
-    /// Transient, Newtonian, isothermal. Rows may come to read these further nodes.
+    /// Transient, Newtonian, isothermal. Rows may later use these further nodes.
     Transient(&'a [usize]),
 }
 
-/// What operators are made for.
+/// Context in which operators are built.
 #[derive(Clone, Copy)]
 pub(super) struct Setting<'a> {
     pub window: &'a Window,
@@ -29,15 +29,15 @@ pub(super) struct Setting<'a> {
     pub deformation: &'a Deformation,
 }
 
-/// How a kind of part comes into operators.
+/// Kind of part: its nodes and its constructor.
 pub(super) struct Kind {
-    /// Adds the nodes that the part reads in addition to those of the sampled rows.
+    /// Adds the nodes that the part uses in addition to those of the sampled equations.
     pub nodes: fn(&Window, Flow<'_>, &mut Needed),
-    /// Makes the part; `None` if operators of this window need none.
+    /// Creates the part; `None` if operators of this local model do not need it.
     pub make: fn(Setting<'_>, &mut SampledSystem) -> Option<Box<dyn Part>>,
 }
 
-/// The film at X = 0 (and Y = 0), as an interpolation between nodes.
+/// Film at X = 0 (and Y = 0), as an interpolation between nodes.
 #[derive(Clone, Copy)]
 pub(super) struct Centre<'a> {
     pub window: &'a Window,
@@ -46,58 +46,61 @@ pub(super) struct Centre<'a> {
     pub scale: f64,
 }
 
-/// A step that was taken.
+/// Applied step.
 #[derive(Clone, Copy)]
 pub(super) struct Step {
-    /// The share of it that was taken, 0…1.
+    /// Share of the step that was applied, 0…1.
     pub omega: f64,
-    /// ‖Δp̃‖/‖p̃‖.
+    /// Relative step ‖Δp̃‖/‖p̃‖ of the pressure coefficients.
     pub size: f64,
 }
 
-/// What parts changed after a step.
+/// Change by a part after a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Moved {
     /// Nothing.
     Still,
-    /// Fields, but the derivatives of the rows still serve.
+    /// Fields, but the derivatives of the rows can be used again.
     BetweenRows,
-    /// Fields or laws, so that the derivatives serve no more.
+    /// Fields or laws, so that the derivatives must be computed again.
     PastRows,
-    /// p̃ and H₀ themselves.
+    /// Pressure coefficients p̃ and rigid-body separation H₀ themselves.
     State,
     /// The part has no finite state.
     Lost,
 }
 
-/// What one part of the physics or of the numerics adds to the sampled system. Each method is one phase of a solve; by
-/// default a part has nothing to do in it. Nothing may be allocated from `spread` to `settle`.
+/// One part of the physics or of the numerics of the sampled system. Each method is one phase of a solve; the default
+/// does nothing. Nothing may be allocated from `spread` to `settle`.
 pub(super) trait Part: Send {
-    /// Prepares for a contact before its iteration begins.
+    /// Prepares the part for a contact before its iteration starts.
     fn begin(&mut self, _system: &mut SampledSystem, _case: &Case<'_>, _start: &Start<'_>) {}
 
-    /// Amends `lift`: the film at X = 0 (and Y = 0) per unit of each coefficient, given for whole modes of a circle.
+    /// Modifies `lift`, the film thickness at X = 0 (and Y = 0) per unit of each coefficient. It is given for whole
+    /// modes of a circular contact.
     fn aim(&mut self, _system: &mut SampledSystem, _at: Centre<'_>) {}
 
-    /// Amends P, K P and the gradients of coefficients, one behind the other at the support.
+    /// Modifies pressure P, deformation K P and gradients of coefficients, which are stored one after the other at the
+    /// support.
     fn spread(&mut self, _system: &SampledSystem, _coefficients: &[f64], _fields: &mut [f64]) {}
 
-    /// Evaluates the nodes from fields and films by laws of its own; returns false if it leaves them to others.
+    /// Evaluates the nodes from fields and film thicknesses by the part's own laws; returns false to leave this to
+    /// others.
     fn nodes(&mut self, _system: &mut SampledSystem, _case: &Case<'_>, _state: State<'_>) -> bool {
         false
     }
 
-    /// Amends the derivatives of the rows with respect to P and H of their nodes.
+    /// Modifies the derivatives of the rows by P and H of their nodes.
     fn slopes(&mut self, _system: &mut SampledSystem) {}
 
-    /// Amends the derivatives of the rows with respect to the coefficients; `exact` in an iteration that turned out slow.
+    /// Modifies the derivatives of the rows by the coefficients; `exact` in a slow iteration.
     fn jacobian(&mut self, _system: &mut SampledSystem, _scale: f64, _exact: bool) {}
 
-    /// Amends Galerkin's equations for the step from `coefficients`; without a matrix the factors of the previous step
-    /// serve again, and only the right-hand side is new.
+    /// Modifies Galerkin's equations for the step from `coefficients`. Without a matrix the factors of the previous
+    /// step are used again, and only the right-hand side is new.
     fn equations(&mut self, _coefficients: &[f64], _matrix: Option<MatMut<'_, f64>>, _rhs: &mut [f64]) {}
 
-    /// Follows a step, and may change the state that it led to.
+    /// Updates the part after a step; may change the state that the step led to.
     fn settle(
         &mut self,
         _system: &mut SampledSystem,
@@ -108,6 +111,6 @@ pub(super) trait Part: Send {
         Moved::Still
     }
 
-    /// Reports what it found at the state that the iteration ended with.
+    /// Writes the part's results for the state that the iteration ended with.
     fn read(&mut self, _system: &SampledSystem, _case: &Case<'_>, _state: State<'_>, _readings: &mut Readings) {}
 }

@@ -1,5 +1,5 @@
-//! The sampled rows of a window over the nodes they depend on, with the state and the work space of an iteration: what
-//! all parts of the operators share. Nothing in it is of large scale.
+//! Sampled equations of a local model over the nodes they depend on, with the state and the work space of an
+//! iteration. All parts of the operators share it. Nothing in it is of large scale.
 
 use super::case::{Case, Stop};
 use super::deformation::Deformation;
@@ -14,69 +14,70 @@ use crate::solver::reduced::sums::{RowNode, add_columns, jacobian_row};
 use faer::Mat;
 use std::ops::Range;
 
-/// How a sampled row takes part in an iteration.
+/// Role of a sampled equation in an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RowState {
-    /// A penalty holds the pressure of its node.
+    /// A penalty acts on the pressure of its node.
     Penalised,
-    /// It holds as it is.
+    /// It holds without a penalty.
     Full,
-    /// It lies behind the cavitation boundary: λ balances it, whatever its value is.
+    /// It lies behind the cavitation boundary: the multiplier λ balances it, whatever its value.
     Cavitated,
 }
 
 /// Rows, state and work space.
 pub(super) struct SampledSystem {
     pub modes: usize,
-    /// Number of modes whose coefficients steps change; Galerkin's equations of the others are left out.
+    /// Number of modes whose coefficients the steps change; Galerkin's equations of the others are omitted.
     pub active: usize,
-    /// Number of axes along which the rows read gradients of the pressure: none for Newtonian contacts.
+    /// Number of axes along which the rows use pressure gradients: none for Newtonian contacts.
     pub axes: usize,
-    /// The nodes that the rows depend on.
+    /// Nodes that the rows depend on.
     pub support: Support,
-    /// Ranges of the support at which states are evaluated: first its own places, then those of parts.
+    /// Ranges of the support at which states are evaluated: first the own places, then those of parts.
     pub seen: Vec<Range<usize>>,
-    /// Evaluates all of them at the end of an iteration too, because the next time step reads ρ̄H there.
+    /// True to evaluate all of them at the end of an iteration too, because the next time step uses the mass flow ρ̄H
+    /// there.
     pub transient: bool,
-    /// The sampled rows, and behind them further ones that parts read: six places of the support each; those that a row
-    /// lacks have weight zero.
+    /// Sampled equations, followed by further rows that parts use: six places of the support each. Missing nodes have
+    /// weight zero.
     pub stencils: Vec<[usize; STENCIL]>,
     pub geometry: Vec<RowGeometry>,
-    /// Weights and states of the sampled rows.
+    /// Weights and states of the sampled equations.
     pub row_weights: Vec<f64>,
     pub row_states: Vec<RowState>,
-    /// The modes on the support.
+    /// Modes on the support.
     pub basis: StateRows,
     /// wᵀ V_p.
     pub load_row: Vec<f64>,
-    /// s K V_p at X = 0 (and Y = 0): what the film there gains per unit of each coefficient.
+    /// s K V_p at X = 0 (and Y = 0): film thickness there per unit of each coefficient.
     pub lift: Vec<f64>,
-    /// When the iteration stops.
+    /// Stopping criterion.
     pub stop: Stop,
-    /// P and K P on the support, and the gradients where there are any. They follow the steps, so that each iteration
-    /// multiplies once by the large `basis`.
+    /// P and K P on the support, and gradients if needed. They are updated with the steps, so that each iteration
+    /// multiplies by the large `basis` only once.
     pub fields: Vec<f64>,
     pub step_fields: Vec<f64>,
     pub films: Vec<f64>,
     pub nodes: Nodes,
-    /// The step that ends the iteration of the film integrals at a node of a shear-thinning lubricant.
+    /// Step that ends the iteration of the film integrals at a shear-thinning node.
     pub film_step: f64,
     pub values: Vec<f64>,
-    /// Derivatives of each row with respect to P and H of its nodes, and to H of all of them at once.
+    /// Derivatives of each row by P and by H of its nodes, and by H of all of them at once.
     pub by_pressure: Vec<[f64; STENCIL]>,
     pub by_film: Vec<[f64; STENCIL]>,
     pub film_column: Vec<f64>,
     pub jacobian_rows: Vec<f64>,
-    /// The reduced Jacobian, load row included, and the step.
+    /// Reduced Jacobian including the load row, and the step.
     pub step: SmallSystem,
-    /// What observers see of the former before it is factorised.
+    /// Copy of the Jacobian for observers, before factorisation.
     pub jacobian: Mat<f64>,
     pub product: Vec<f64>,
 }
 
 impl SampledSystem {
-    /// The sampled rows of a window with its first modes and gradients along so many axes, over their own nodes and those
-    /// that parts need.
+    /// Builds the sampled equations of a local model with its first modes and gradients along `axes` axes, over their
+    /// own nodes and those that parts need.
     pub fn new(window: &Window, (modes, axes): (usize, usize), deformation: &Deformation, needed: Needed) -> Self {
         let grid = &window.grid;
         let rows = &window.sampled_rows;
@@ -118,7 +119,7 @@ impl SampledSystem {
         }
     }
 
-    /// The films of the fields.
+    /// Computes the film thicknesses of the fields.
     pub fn lay_films(&mut self, case: &Case<'_>, h_0: f64) {
         let Case { scale, curvature, .. } = *case;
         let deformation = &self.fields[self.support.len()..];
@@ -131,8 +132,8 @@ impl SampledSystem {
         }
     }
 
-    /// The nodes of the fields, isothermal. At the `end` of an iteration those of the rows alone unless the contact is
-    /// transient, and without what shear-thinning adds to derivatives.
+    /// Evaluates the nodes of the fields, isothermal. At the `end` of an iteration only those of the rows, unless the
+    /// contact is transient, and without the derivatives of shear-thinning.
     pub fn evaluate_nodes(&mut self, case: &Case<'_>, end: bool) {
         let Case { problem, scale, .. } = *case;
         let count = self.support.len();
@@ -152,7 +153,7 @@ impl SampledSystem {
         }
     }
 
-    /// The sampled rows of the nodes, with their derivatives if `sloping`; returns the sum of their weighted squares.
+    /// Evaluates the sampled equations, with their derivatives if `sloping`. Returns the sum of their weighted squares.
     pub fn evaluate_rows(&mut self, case: &Case<'_>, sloping: bool) -> f64 {
         let Case { scale, penalty, .. } = *case;
         let mut sum = 0.0;
@@ -176,7 +177,7 @@ impl SampledSystem {
         sum
     }
 
-    /// The derivatives of the rows with respect to the coefficients and to H₀.
+    /// Computes the derivatives of the rows by the coefficients and by H₀.
     pub fn evaluate_jacobian(&mut self, scale: f64) {
         let (modes, count) = (self.modes, self.support.len());
         let StateRows { values, deformations, gradients, .. } = &self.basis;
@@ -214,7 +215,8 @@ impl SampledSystem {
         }
     }
 
-    /// ω = min(1, 0.3/max|ΔP|) for the step's fields, and smaller where a sampled film would lose more than 70 %.
+    /// Returns ω = min(1, 0.3/max|ΔP|) for the step's fields, or less if a sampled film thickness would decrease by
+    /// more than 70 %.
     pub fn damping(&self, scale: f64) -> f64 {
         let dh_0 = self.step.rhs[self.modes];
         let (pressure, deformation) = self.step_fields.split_at(self.support.len());
@@ -231,7 +233,7 @@ impl SampledSystem {
         if largest > 0.3 { omega.min(0.3 / largest) } else { omega }
     }
 
-    /// Takes a share of the step that was solved for, and of its fields; returns its size, relative.
+    /// Applies a share of the step to the state and its fields; returns the relative size of the step.
     pub fn take_step(&mut self, omega: f64, coefficients: &mut [f64], h_0: &mut f64) -> f64 {
         let count = self.support.len();
         for part in &self.seen {
@@ -252,7 +254,7 @@ impl SampledSystem {
         (change / size).sqrt()
     }
 
-    /// J V Δz̃ on the sampled rows, for the row snapshots.
+    /// Computes J V Δz̃ on the sampled equations, for the row snapshots.
     pub fn times_step(&mut self) {
         let dh_0 = self.step.rhs[self.modes];
         for (r, out) in self.product.iter_mut().enumerate() {
@@ -261,7 +263,7 @@ impl SampledSystem {
         }
     }
 
-    /// ρ̄H at the own nodes of all rows.
+    /// Returns ρ̄H at the own nodes of all rows.
     pub fn flow(&self) -> impl Iterator<Item = f64> + '_ {
         self.stencils.iter().map(|stencil| self.nodes[stencil[CENTER]].flow)
     }

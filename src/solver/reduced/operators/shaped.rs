@@ -1,5 +1,5 @@
-//! What in the operators of a window follows the shape of an ellipse: the deformation of the modes at the support, the
-//! distances across in rows and gradients, and the undeformed gap.
+//! Dependence of the operators on the shape of an ellipse: deformation of the modes at the support, distances across
+//! in rows and gradients, and undeformed gap.
 
 use super::case::{Case, Start};
 use super::part::{Centre, Kind, Part};
@@ -10,7 +10,7 @@ use crate::solver::physics::contact::Ellipse;
 use crate::solver::reduced::model::Window;
 use crate::solver::reduced::shapes::Shapes;
 
-/// Operators of a window that serves ellipses have it.
+/// Part of the operators of a local model of elliptical contacts.
 pub(super) const KIND: Kind = Kind {
     nodes: |_, _, _| {},
     make: |setting, system| {
@@ -20,23 +20,24 @@ pub(super) const KIND: Kind = Kind {
     },
 };
 
-/// What there is for every shape, and the one that the operators have.
+/// Data for all shapes, and the current shape.
 pub(super) struct Shaped {
     ellipse: Option<Ellipse>,
-    /// The weights by which its shape is made of the matrices.
+    /// Interpolation weights of the current shape.
     weights: Vec<f64>,
-    /// K(κ) V on the support, row-major, one after the other.
+    /// K(κ) V on the support, row-major, one matrix after the other.
     flexed: Vec<Vec<f64>>,
-    /// The rows of a circle.
+    /// Rows of a circular contact.
     geometry: Vec<RowGeometry>,
     /// Y²/2 of the support.
     across: Vec<f64>,
-    /// Gradients of a circle across; empty of Newtonian models.
+    /// Gradients across for a circular contact; empty for Newtonian models.
     gradients: Vec<f64>,
 }
 
 impl Shaped {
-    /// Of a window on a support, by the rows, places and modes of a circle; `None` where it knows circles or lines only.
+    /// Creates the part for a local model on a support, from the rows, places and modes of a circular contact. `None`
+    /// if the local model covers circular or line contacts only.
     pub fn of(
         window: &Window,
         (support, modes): (&[usize], usize),
@@ -56,7 +57,7 @@ impl Shaped {
         })
     }
 
-    /// Gives the operators a shape, unless they have it.
+    /// Sets the shape of the operators, if it differs from the current one.
     pub fn turn_to(
         &mut self,
         shapes: &Shapes,
@@ -88,7 +89,7 @@ impl Shaped {
         }
     }
 
-    /// The deformation by mode k at nodes with weights, of the shape it has.
+    /// Returns the deformation by mode k at weighted nodes, for the current shape.
     pub fn at(&self, shapes: &Shapes, nodes: &[(usize, f64)], k: usize) -> f64 {
         let of = |matrix: &faer::Mat<f32>| nodes.iter().map(|(node, w)| w * f64::from(matrix[(*node, k)])).sum::<f64>();
         self.weights.iter().zip(&shapes.flexed).map(|(weight, matrix)| weight * of(matrix)).sum()

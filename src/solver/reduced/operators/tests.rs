@@ -1,4 +1,4 @@
-//! Another part: pressure that follows from the film at each node, as between asperities.
+//! Test of an additional part: pressure that depends on the film thickness at each node, as between asperities.
 
 use super::part::{Moved, Part, Step};
 use super::readings::Readings;
@@ -11,7 +11,8 @@ use crate::solver::reduced::Sampling;
 use crate::solver::training::small::{line, trained};
 use std::sync::{Arc, Mutex};
 
-/// P_a = A exp(−H/h) at the support, its derivative, and the phases of solves that it took part in, in the order in which they first came.
+/// P_a = A exp(−H/h) at the support, its derivative, and the phases of solves in which it took part, in the order of
+/// their first call.
 struct Springs {
     amplitude: f64,
     height: f64,

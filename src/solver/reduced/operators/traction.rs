@@ -1,5 +1,5 @@
-//! The traction (3.41) by a window's rule, over nodes of its own: it is asked for once, when Newton's steps have ended, so
-//! that they know nothing of its nodes.
+//! Traction (3.41) by the traction quadrature of a local model, at separate nodes. It is evaluated once at the end of
+//! the iteration, so that Newton's steps do not depend on its nodes.
 
 use super::case::{Case, Start, State};
 use super::deformation::Deformation;
@@ -12,7 +12,8 @@ use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::mid_film_stresses;
 use crate::solver::reduced::model::Window;
 
-/// Operators of sliding isothermal contacts have it; those of thermal ones read the traction with their temperatures.
+/// Part of the operators of sliding isothermal contacts. Those of thermal contacts compute the traction with their
+/// temperatures.
 pub(super) const KIND: Kind = Kind {
     nodes: |_, _, _| {},
     make: |Setting { window, flow, deformation }, system| {
@@ -23,19 +24,19 @@ pub(super) const KIND: Kind = Kind {
     },
 };
 
-/// A rule with the modes at its nodes.
+/// Quadrature with the modes at its nodes.
 pub(super) struct Rule {
-    /// Of each node in ξ and Y.
+    /// Weight of each node in the reference coordinates ξ and Y.
     weights: Vec<f64>,
     support: Support,
     basis: StateRows,
-    /// What follows the shape of an ellipse; none of a window of circles or lines.
+    /// Dependence on the shape of an ellipse; `None` for circular and line contacts.
     shaped: Option<Shaped>,
-    /// Work space: P, K P and the gradients.
+    /// Work space: pressure P, deformation K P and gradients.
     fields: Vec<f64>,
 }
 
-/// A node of the rule at a state.
+/// Node of the quadrature at a state.
 pub(super) struct RuleNode {
     pub xi: f64,
     pub weight: f64,
@@ -43,7 +44,8 @@ pub(super) struct RuleNode {
 }
 
 impl Rule {
-    /// That of a window with one, of so many modes, where gradients along so many axes are known; `None` without a rule.
+    /// Creates the quadrature of a local model with `modes` modes and gradients along `axes` axes; `None` without
+    /// gradients or without a quadrature.
     pub fn of(window: &Window, (modes, axes): (usize, usize), deformation: &Deformation) -> Option<Self> {
         let rule = window.traction.as_ref().filter(|_| axes > 0)?;
         let (nodes, weights) = rule.over(&window.grid);
@@ -53,12 +55,12 @@ impl Rule {
         Some(Self { fields: vec![0.0; (2 + axes) * nodes.len()], weights, support, basis, shaped })
     }
 
-    /// Places of its nodes.
+    /// Returns the places of the nodes.
     pub fn places(&self) -> &[Place] {
         &self.support.places
     }
 
-    /// Its nodes at a state.
+    /// Returns the nodes at a state.
     pub fn states(&mut self, case: &Case<'_>, state: State<'_>) -> impl Iterator<Item = RuleNode> {
         let Case { scale, curvature, .. } = *case;
         let Self { weights, support, basis, fields, .. } = self;

@@ -1,5 +1,5 @@
-//! The reduced system functions of d/dT g = f in one state, (4.16) under (4.19), and their derivatives: what (4.21) to
-//! (4.26) are made of.
+//! Reduced system functions of d/dT g = f at one state, (4.16) under (4.19), and their derivatives, from which (4.21)
+//! to (4.26) are built.
 
 use super::space::{INPUTS, ReducedSpace, input_vector};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, dot};
@@ -14,31 +14,32 @@ use crate::solver::reduced::matrix_values;
 use faer::{Mat, MatRef};
 use serde::{Deserialize, Serialize};
 
-/// g and f at (ỹ, u), tested with weighted rows of Vᵀ, with their derivatives. The last equation is the load's, w̄ π/2
-/// − ∫P, which has no g.
+/// g and f at (ỹ, u), with the reduced state ỹ = (p̃, H₀) (pressure coefficients, rigid-body separation) and the inputs
+/// u, tested with weighted rows of Vᵀ, and their derivatives. The last equation is the load balance w̄ π/2 − ∫P, which
+/// has no g.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Linearisation {
-    /// g: ρ̄H.
+    /// g: ρ̄H, with the density ρ̄ and the film thickness H.
     pub storage: LinearFunction,
-    /// f: diffusion, convection, penalty; load.
+    /// f: diffusion, convection, penalty; load balance.
     pub flux: LinearFunction,
 }
 
-/// A system function with its derivatives. Those of g are the dissertation's B and C, those of f its E and F; A and D
+/// System function with its derivatives. Those of g are the dissertation's B and C, those of f its E and F. A and D
 /// follow from the values, see [`Linearisation::intercepts`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct LinearFunction {
-    /// Its value.
+    /// Value.
     pub value: Vec<f64>,
-    /// Its derivative by ỹ, (4.22) and (4.25).
+    /// Derivative by ỹ, (4.22) and (4.25).
     #[serde(with = "matrix_values")]
     pub by_state: Mat<f64>,
-    /// Its derivative by u, one column per input, (4.23) and (4.26).
+    /// Derivative by u, one column per input, (4.23) and (4.26).
     #[serde(with = "matrix_values")]
     pub by_input: Mat<f64>,
 }
 
-/// g and f alone.
+/// Values of g and f.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SystemFunctions {
     /// g.
@@ -47,20 +48,20 @@ pub struct SystemFunctions {
     pub flux: Vec<f64>,
 }
 
-/// Slope of the penalty Λ = −γ̄ min(P, 0) in the linearised systems. Its value is the full system's, with γ̄ = 10⁶; but
-/// with that slope, too, each system presses the pressures on its side of the moving rupture down to zero, also where
-/// its neighbours have none of it, and what modes miss behind the rupture outweighs all else that rows have to say.
-/// There the film needs no more than to be held.
+/// Slope of the penalty Λ = −γ̄ min(P, 0) in the linearised systems. The value of the penalty is that of the full
+/// system, with γ̄ = 10⁶. With that slope, however, each system would force the pressures on its side of the moving
+/// cavitation boundary to zero, even where its neighbours have none. The errors of the modes in the cavitated region
+/// would then dominate all other rows. There the film only needs a restraint.
 pub const PENALTY_SLOPE: f64 = 1e3;
 
 /// Fields of a contact at all nodes.
 #[derive(Clone, Copy)]
 pub struct Fields<'a> {
-    /// P.
+    /// Pressure P.
     pub pressure: &'a [f64],
-    /// H.
+    /// Film thickness H.
     pub film: &'a [f64],
-    /// Under these inputs.
+    /// Inputs.
     pub input: Input,
 }
 
@@ -69,14 +70,14 @@ impl Fields<'_> {
         Nodes::of(problem.laws(), &PlaneGradient::along_line(&space.grid.x), self.pressure, self.film)
     }
 
-    /// The load's equation: w̄ π/2 − ∫P.
+    /// Returns the load-balance residual w̄ π/2 − ∫P.
     fn load_defect(&self, space: &ReducedSpace, problem: &Problem) -> f64 {
         problem.load * self.input.load - dot(&space.grid.weights, self.pressure)
     }
 }
 
-/// The weighted rows tested with Vᵀ, the load's equation below; `rows` belong to the unknowns, one column per
-/// right-hand side.
+/// Tests weighted rows with Vᵀ and appends the load balance. `rows` belong to the unknowns, one column per right-hand
+/// side.
 fn tested(space: &ReducedSpace, rows: MatRef<'_, f64>) -> Mat<f64> {
     let (modes, unknowns) = (space.modes(), rows.nrows());
     let weighted = Mat::from_fn(unknowns, rows.ncols(), |i, j| space.row_weights[i] * rows[(i, j)]);
@@ -106,14 +107,14 @@ impl SystemFunctions {
 }
 
 impl Linearisation {
-    /// Evaluates the reduced system functions as the full system has them, and differentiates them with
-    /// `PENALTY_SLOPE`. The fields are the full system's and need not lie in the space, so that the values are free of
-    /// what its modes miss.
+    /// Evaluates the reduced system functions of the full system and differentiates them with `PENALTY_SLOPE`. The
+    /// fields are those of the full system and need not lie in the reduced space, so that the values have no
+    /// projection error.
     pub fn at(space: &ReducedSpace, problem: &Problem, fields: Fields<'_>) -> Self {
         let nodes = fields.nodes(space, problem);
         let (grid, modes, unknowns) = (&space.grid, space.modes(), space.grid.unknowns());
         let curvature_slope = |node: usize| 0.5 * grid.x[node] * grid.x[node];
-        // Columns: the state's, the inputs', the value.
+        // Columns: those of the state, those of the inputs, the value.
         let columns = modes + 1 + INPUTS + 1;
         let (first_input, value) = (modes + 1, columns - 1);
         let (mut storage, mut flux) = (Mat::zeros(unknowns, columns), Mat::zeros(unknowns, columns));
@@ -136,7 +137,7 @@ impl Linearisation {
             flux[(k, first_input + 1)] =
                 -grid.rows[k].upwind.iter().zip(&nodes[k..]).map(|(w, n)| w * n.flow).sum::<f64>();
             storage[(k, value)] = flow;
-            // The value's own penalty in place of the slope's.
+            // Replaces the penalty of the slope by that of the value.
             flux[(k, value)] = row.value - (PENALTY - PENALTY_SLOPE) * fields.pressure[own].min(0.0);
         }
         let (storage, mut flux) = (tested(space, storage.as_ref()), tested(space, flux.as_ref()));
@@ -153,7 +154,8 @@ impl Linearisation {
         Self { storage: function(&storage), flux: function(&flux) }
     }
 
-    /// What is subtracted from the values to give A and D, (4.21) and (4.24): B ỹ + C u and E ỹ + F u.
+    /// Returns the terms that are subtracted from the values to give A and D, (4.21) and (4.24): B ỹ + C u and E ỹ +
+    /// F u.
     pub fn intercepts(&self, state: &[f64], input: Input) -> SystemFunctions {
         let input = input_vector(input);
         let product = |LinearFunction { by_state, by_input, .. }: &LinearFunction| {

@@ -1,5 +1,5 @@
-//! The march of a trajectory-piecewise-linear model: weights, superposition, one linear system per step. Nothing in a
-//! step is of large scale, and nothing is allocated.
+//! March of a trajectory-piecewise-linear model: weights, superposition, and one linear system per step. A step has
+//! no large-scale work and allocates nothing.
 
 use super::model::{TpwlError, TpwlModel, check_frame};
 use super::record::{TpwlRecord, TpwlStep};
@@ -16,12 +16,12 @@ use crate::solver::observer::Observer;
 use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::dense::SmallSystem;
 
-/// A model in use for one contact.
+/// Model prepared for one contact.
 pub struct TpwlMarch<'a> {
     model: &'a TpwlModel,
-    /// The reference load \[N/m\].
+    /// Reference load \[N/m\].
     load: f64,
-    /// The two former states, the nearer one first.
+    /// Two previous states, the nearer one first.
     former: [Past; 2],
     trial: Past,
     start: Vec<f64>,
@@ -30,33 +30,33 @@ pub struct TpwlMarch<'a> {
     system: SmallSystem,
     step: TpwlStep,
     contact: ContactRows,
-    /// Scalars of the state found last.
+    /// Scalars of the last state.
     scalars: Scalars,
     record: TpwlRecord,
 }
 
-/// A reduced state and its g.
+/// Reduced state and its g.
 #[derive(Clone, Debug)]
 struct Past {
     state: Vec<f64>,
     storage: Vec<f64>,
 }
 
-/// Stop of the iteration for the stationary start, on ‖Δy‖/‖y‖.
+/// Stopping tolerance of the iteration for the steady start, for ‖Δy‖/‖y‖.
 const REST_TOLERANCE: f64 = 1e-9;
-/// After so many iterations for the stationary start, weights that change to and fro are averaged.
+/// Number of iterations for the steady start after which oscillating weights are averaged.
 const REST_PLAIN: usize = 15;
-/// Most iterations for the stationary start.
+/// Maximum number of iterations for the steady start.
 const REST_ITERATIONS: usize = 60;
-/// A stationary start that still moves by less than this between two sets of weights is one.
+/// Largest accepted change of the steady start between two sets of weights.
 const REST_ACCEPTED: f64 = 1e-3;
-/// Times at which the speed is watched.
+/// Number of times at which the speed is checked.
 const WATCHED: usize = 2000;
 
-/// Takes a contact through time with a model.
+/// Simulates a contact in time with a model.
 ///
 /// # Errors
-/// When the contact, the inputs or the times are refused, or the model was not made for them.
+/// [`TpwlError`] if the contact, the inputs or the times are refused, or if the model was not trained for them.
 pub fn solve(
     model: &TpwlModel,
     transient: &Transient,
@@ -69,10 +69,10 @@ pub fn solve(
 }
 
 impl<'a> TpwlMarch<'a> {
-    /// The model for one contact.
+    /// Prepares the model for one contact.
     ///
     /// # Errors
-    /// When the contact, the inputs or the times are refused, or the model was not made for them.
+    /// [`TpwlError`] if the contact, the inputs or the times are refused, or if the model was not trained for them.
     pub fn new(model: &'a TpwlModel, transient: &Transient, weighting: Weighting) -> Result<Self, TpwlError> {
         let problem = transient.problem()?;
         check_frame(transient.frame)?;
@@ -105,18 +105,18 @@ impl<'a> TpwlMarch<'a> {
         })
     }
 
-    /// What each step drew on so far.
+    /// Returns the operating points used in each step so far.
     pub fn record(&self) -> &TpwlRecord {
         &self.record
     }
 
-    /// Weights and superposition at `start`.
+    /// Computes weights and superposition at `start`.
     fn superpose(&mut self, time: f64) {
         self.search.weights(self.model, &self.start, &mut self.superposition.weights);
         self.assemble(time);
     }
 
-    /// Superposition with the weights there are.
+    /// Computes the superposition for the current weights.
     fn assemble(&mut self, time: f64) {
         self.superposition.assemble(self.model, self.load);
         let weights = self.superposition.weights.iter();
@@ -135,8 +135,8 @@ impl<'a> TpwlMarch<'a> {
         if solved { Ok(()) } else { Err(Termination::Diverged) }
     }
 
-    /// A first guess of the stationary state: of each set in use the point whose inputs are nearest. True where they
-    /// are the inputs themselves.
+    /// Sets an initial guess of the steady state: for each set, the operating point with the nearest inputs. Returns
+    /// true if the inputs are equal.
     fn guess(&mut self, input: [f64; INPUTS]) -> bool {
         self.start.fill(0.0);
         self.superposition.weights.clear();
@@ -153,7 +153,7 @@ impl<'a> TpwlMarch<'a> {
         met
     }
 
-    /// Keeps the state under trial as the newest, with its record and scalars.
+    /// Accepts the state under trial: stores its record and its scalars.
     fn keep(&mut self, at: &Conditions) {
         self.record.push(self.step, &self.superposition.weights, &self.trial.state);
         let (coefficients, h_0) = self.trial.state.split_at(self.model.space.modes());
@@ -161,7 +161,8 @@ impl<'a> TpwlMarch<'a> {
     }
 }
 
-/// ‖a − b‖/‖a‖ over the leading `modes` entries, which is that of the pressures: their modes are orthonormal.
+/// Returns ‖a − b‖/‖a‖ over the first `modes` entries. This is the norm of the pressures, since their modes are
+/// orthonormal.
 fn relative_change(a: &[f64], b: &[f64], modes: usize) -> f64 {
     let square = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>();
     (square_distance(&a[..modes], &b[..modes]) / square(&a[..modes])).sqrt()
@@ -176,8 +177,8 @@ impl Marching for TpwlMarch<'_> {
 
     fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination> {
         let (input, modes) = (input_vector(at.input), self.model.space.modes());
-        // Where training began with the same inputs, the stationary state is an operating point; else the weights
-        // follow the state.
+        // If a training started with the same inputs, the steady state is an operating point. Otherwise the weights
+        // are iterated with the state.
         let met = self.guess(input);
         self.assemble(at.time);
         self.advance(0.0, [0.0; 2], input)?;

@@ -1,4 +1,4 @@
-//! The model: operating points of training trajectories with their linearised systems.
+//! Trajectory-piecewise-linear model: operating points of training trajectories with their linearised systems.
 
 use super::linearisation::{Linearisation, PENALTY_SLOPE, SystemFunctions};
 use super::selection::{Selection, Selector, TrainedMoment, with_points};
@@ -16,33 +16,33 @@ use faer::Mat;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// How a model is made of its training trajectories.
+/// Settings for training a model from trajectories.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TpwlTraining {
-    /// Pressure modes.
+    /// Number of pressure modes.
     pub modes: usize,
-    /// Which moments become operating points.
+    /// Rule that selects moments as operating points.
     pub selection: Selection,
 }
 
-/// Why a model cannot be made, or not be used.
+/// Error in building or using a model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TpwlError {
     /// The contact, the inputs or the times are refused.
     #[error(transparent)]
     Transient(#[from] TransientError),
-    /// There is nothing to learn from.
+    /// There is no training trajectory.
     #[error("a trajectory-piecewise-linear model needs at least one training trajectory")]
     NoTraining,
-    /// The trajectories do not go together or are none that a model can be made of, the settings make no sense, or the
-    /// model was not made for the contact: a sentence.
+    /// The trajectories do not match each other or are not suitable, the settings are invalid, or the model was not
+    /// trained for the contact. Contains a sentence.
     #[error("{0}")]
     Refused(String),
 }
 
 impl TpwlError {
-    /// A speed that turns round.
+    /// Refuses a speed that changes its sign.
     pub(super) fn reversal(speed: f64, time: f64) -> Self {
         Self::Refused(format!(
             "the speed falls to {speed:.4} times its reference at T = {time:.4}; a trajectory-piecewise-linear model \
@@ -50,32 +50,32 @@ impl TpwlError {
         ))
     }
 
-    /// Contacts that differ in more than their load.
+    /// Refuses contacts that differ in more than their load.
     fn other(what: &str) -> Self {
         Self::Refused(format!("the {what} differs from the first training trajectory's; only the load may"))
     }
 
-    /// A setting without sense.
+    /// Refuses an invalid setting.
     fn setting(quantity: &str, value: f64, accepted: &str) -> Self {
         let value = Number(value);
         Self::Refused(format!("the {quantity} of the model is {value}, but must be {accepted}"))
     }
 }
 
-/// An operating point: a moment of a training trajectory with its linearised system, which is never changed.
+/// Operating point: a moment of a training trajectory with its linearised system, which is never changed.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TrainedPoint {
-    /// Which parameter set it belongs to.
+    /// Index of its parameter set.
     pub set: usize,
-    /// Which training trajectory it comes from, among all.
+    /// Index of its training trajectory.
     pub trajectory: usize,
-    /// Its moment.
+    /// Moment of the trajectory.
     pub moment: TrainedMoment,
-    /// Its input vector.
+    /// Input vector.
     pub input: [f64; INPUTS],
-    /// Distance to the nearest other point of its trajectory.
+    /// Distance to the nearest other operating point of its trajectory.
     pub spacing: f64,
-    /// Its linearised system.
+    /// Linearised system.
     pub system: Linearisation,
     /// B ỹ + C u and E ỹ + F u at the point itself.
     pub intercepts: SystemFunctions,
@@ -83,55 +83,55 @@ pub struct TrainedPoint {
     pub load_slope: SystemFunctions,
 }
 
-/// What was trained for one reference contact.
+/// Training data for one reference contact.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ParameterSet {
-    /// The reference contact.
+    /// Reference contact.
     pub problem: Problem,
-    /// Its trajectories, as numbers among all.
+    /// Indices of its trajectories.
     pub trajectories: Vec<usize>,
-    /// Its operating points, as numbers among all.
+    /// Indices of its operating points.
     pub points: Vec<usize>,
 }
 
-/// A trajectory-piecewise-linear model, (4.27), in the fixed frame.
+/// Trajectory-piecewise-linear model, (4.27), in the fixed frame.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TpwlModel {
     /// Basis and grid.
     pub space: ReducedSpace,
-    /// Singular values of the training's pressures.
+    /// Singular values of the training pressures.
     pub singular_values: Vec<f64>,
     /// One per reference load, the smallest first.
     pub sets: Vec<ParameterSet>,
     /// All operating points, in the order of sets, trajectories and time.
     pub points: Vec<TrainedPoint>,
-    /// The trajectories in the reduced space, every moment whose fields were kept.
+    /// Trajectories in the reduced space: all moments with stored fields.
     pub trajectories: Vec<Vec<TrainedMoment>>,
-    /// How it was made.
+    /// Settings of the training.
     pub training: TpwlTraining,
 }
 
-/// Most snapshots of all trajectories together the basis is made from; more would add work, not information.
+/// Maximum number of snapshots for the basis, from all trajectories together. More would not add information.
 const MOST_SNAPSHOTS: usize = 600;
-/// Why films that are filled in part are not linearised.
+/// Message for mass-conserving cavitation, which is not linearised.
 const FILLED: &str = "a trajectory-piecewise-linear model knows no film that is filled in part: its training must \
                       rupture by the penalty or by complementarity";
 /// Relative change of the reference load in the difference quotient of the load slopes.
 const LOAD_DIFFERENCE: f64 = 1e-3;
 
 impl TpwlModel {
-    /// Makes a model of training trajectories that kept their fields. They may differ in their inputs and in their
-    /// reference load.
+    /// Trains a model from trajectories with stored fields. They may differ in their inputs and in their reference
+    /// load.
     ///
     /// # Errors
-    /// When the trajectories do not go together, or keep no fields, or the settings make no sense.
+    /// [`TpwlError`] if the trajectories do not match each other or have no fields, or if the settings are invalid.
     pub fn train(trajectories: &[&Trajectory], training: TpwlTraining) -> Result<Self, TpwlError> {
         let mut model = Self::reduce(trajectories, training)?;
         model.choose_points()?;
         Ok(model)
     }
 
-    /// The same with a wanted number of operating points, at least 1, in place of the selection's tolerance.
+    /// Trains a model with a given number of operating points, at least 1, instead of the selection's tolerance.
     ///
     /// # Errors
     /// As [`Self::train`].
@@ -146,10 +146,10 @@ impl TpwlModel {
         Ok(model)
     }
 
-    /// The same trajectories in the same space with other operating points.
+    /// Returns the model of the same trajectories and space with other operating points.
     ///
     /// # Errors
-    /// When the tolerance makes no sense.
+    /// [`TpwlError`] if the tolerance is invalid.
     pub fn reselected(&self, selection: Selection) -> Result<Self, TpwlError> {
         let training = TpwlTraining { selection, ..self.training };
         check_settings(training)?;
@@ -166,7 +166,8 @@ impl TpwlModel {
         Ok(model)
     }
 
-    /// A rule with the tolerance by which it chooses about so many points of all trajectories together.
+    /// Returns a rule with the tolerance that selects about the given number of operating points from all
+    /// trajectories together.
     pub fn selection_of(&self, rule: Selection, points: usize) -> Selection {
         let mut selectors = Vec::with_capacity(self.trajectories.len());
         for set in &self.sets {
@@ -176,7 +177,7 @@ impl TpwlModel {
         with_points(rule, points, &mut selectors)
     }
 
-    /// The moments that a rule chooses of each trajectory.
+    /// Returns the indices of the moments that a rule selects from each trajectory.
     pub fn selected(&self, rule: Selection) -> Vec<Vec<usize>> {
         let mut chosen = vec![Vec::new(); self.trajectories.len()];
         for set in &self.sets {
@@ -188,7 +189,7 @@ impl TpwlModel {
         chosen
     }
 
-    /// Space, trajectories in it and their sets, without operating points.
+    /// Builds the space, the trajectories in it and their sets, without operating points.
     fn reduce(trajectories: &[&Trajectory], training: TpwlTraining) -> Result<Self, TpwlError> {
         let first = check(trajectories, training)?;
         let Mesh { spec, scale } = first.mesh;
@@ -226,7 +227,7 @@ impl TpwlModel {
         })
     }
 
-    /// Chooses and linearises the operating points of all sets, which have none yet.
+    /// Selects and linearises the operating points of all sets, which must have none yet.
     fn choose_points(&mut self) -> Result<(), TpwlError> {
         for number in 0..self.sets.len() {
             let set = &self.sets[number];
@@ -244,8 +245,8 @@ impl TpwlModel {
         Ok(())
     }
 
-    /// The operating points of one trajectory; `less` and `more` are its set's contact under a little less and more
-    /// load.
+    /// Returns the operating points of one trajectory. `less` and `more` are the contact of its set with slightly
+    /// smaller and larger load.
     fn points_of(&self, set: usize, trajectory: usize, (less, more): &(Problem, Problem)) -> Vec<TrainedPoint> {
         let problem = &self.sets[set].problem;
         let moments = &self.trajectories[trajectory];
@@ -278,11 +279,11 @@ impl TpwlModel {
         chosen.iter().map(|&i| point(i)).collect()
     }
 
-    /// The sets between which a reference contact lies, with their shares v of (4.27); one set where it is a trained
-    /// one.
+    /// Returns the sets between which a reference contact lies, with their shares v of (4.27); a single set if the
+    /// contact is a trained one.
     ///
     /// # Errors
-    /// When the contact differs in more than its load, or its load lies outside the trained ones.
+    /// [`TpwlError`] if the contact differs in more than its load, or if its load is outside the trained range.
     pub fn shares(&self, problem: &Problem) -> Result<Vec<(usize, f64)>, TpwlError> {
         let (Some(first), Some(last)) = (self.sets.first(), self.sets.last()) else {
             return Err(TpwlError::NoTraining);
@@ -311,15 +312,16 @@ impl TpwlModel {
     }
 }
 
-/// A contact or grid that was solved already cannot be refused later, except through a file.
+/// Converts an error for a contact or grid. It occurs only for data from a file, since trained contacts were solved
+/// before.
 fn refused(error: impl Into<SolveError>) -> TpwlError {
     TpwlError::Transient(error.into().into())
 }
 
-/// Fewest moments with fields a trajectory needs: a selection by steps looks at three at a time.
+/// Minimum number of moments with fields per trajectory: a selection by steps uses three at a time.
 const LEAST_STATES: usize = 3;
 
-/// Refuses settings without sense.
+/// Checks the settings.
 fn check_settings(TpwlTraining { modes, selection }: TpwlTraining) -> Result<(), TpwlError> {
     if modes == 0 {
         return Err(TpwlError::setting("number of modes", 0.0, "at least 1"));
@@ -331,7 +333,7 @@ fn check_settings(TpwlTraining { modes, selection }: TpwlTraining) -> Result<(),
     Err(TpwlError::setting("tolerance of the selection", tolerance, "a finite number above zero"))
 }
 
-/// Refuses trajectories that do not go together, and settings without sense; returns the first trajectory.
+/// Checks settings and trajectories, and returns the first trajectory.
 fn check<'a>(trajectories: &[&'a Trajectory], training: TpwlTraining) -> Result<&'a Trajectory, TpwlError> {
     check_settings(training)?;
     let Some(&first) = trajectories.first() else { return Err(TpwlError::NoTraining) };
@@ -372,14 +374,14 @@ pub fn check_frame(frame: Frame) -> Result<(), TpwlError> {
     )))
 }
 
-/// P with what the penalty would leave of it: −λ/γ̄ where a multiplier balances the rows. A linearised system knows no
-/// sets; so it holds the ruptured film by the penalty of its slope, whichever way the training ruptured.
+/// Returns P as the penalty would give it: −λ/γ̄ where a multiplier λ balances the rows. A linearised system has no
+/// active set, so its cavitated film is restrained by the penalty slope for every cavitation model of the training.
 fn penalised(state: &State) -> Arc<[f64]> {
     let multiplier = state.multiplier.iter().copied().chain(std::iter::repeat(0.0));
     state.pressure.iter().zip(multiplier).map(|(pressure, multiplier)| pressure - multiplier / PENALTY).collect()
 }
 
-/// A trajectory in the reduced space.
+/// Returns a trajectory in the reduced space.
 fn moments(space: &ReducedSpace, trajectory: &Trajectory) -> Vec<TrainedMoment> {
     let moment = |state: &State| TrainedMoment {
         time: state.time,

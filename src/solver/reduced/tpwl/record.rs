@@ -1,20 +1,20 @@
-//! What a march drew on, step by step: which operating points, how much of each, and how far from them it went.
+//! Record of a march: for each step the operating points used, their weights, and the distance from them.
 
 use super::weights::Weight;
 use serde::{Deserialize, Serialize};
 
-/// A step of a trajectory-piecewise-linear model.
+/// One step of a trajectory-piecewise-linear model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TpwlStep {
-    /// T at its end.
+    /// T at the end of the step.
     pub time: f64,
-    /// Distance of the extrapolated state, at which the weights hold, from the barycentre of the points they belong to.
+    /// Distance of the extrapolated state, for which the weights hold, from the barycentre of its operating points.
     pub distance: f64,
-    /// Weighted mean of those points' distances to their neighbours on their trajectories.
+    /// Weighted mean of the distances between these points and their neighbours on their trajectories.
     pub spacing: f64,
 }
 
-/// All steps of a march with their weights and reduced states; entry 0 is the stationary start.
+/// All steps of a march with their weights and reduced states; entry 0 is the steady start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TpwlRecord {
     steps: Vec<TpwlStep>,
@@ -25,25 +25,25 @@ pub struct TpwlRecord {
 }
 
 impl TpwlStep {
-    /// How far the step lies from what was trained, in units of the distance between the points it draws on. A
-    /// linearised model knows nothing of what lies farther than about one such distance aside.
+    /// Returns the distance of the step from the trained trajectories, in units of the distance between its operating
+    /// points. A linearised model is accurate up to about one such unit.
     pub fn reach(&self) -> f64 {
         self.distance / self.spacing
     }
 }
 
-/// Reach beyond which a step is no longer carried by its points.
+/// Reach beyond which the operating points do not support a step.
 const FAR_REACH: f64 = 2.0;
 
 impl TpwlRecord {
-    /// Whether more than half of the steps lie farther from the trained trajectories than two distances between
-    /// operating points: the inputs are too steep or too different.
+    /// Returns true if more than half of the steps have a reach above 2: the inputs are too steep or too different
+    /// from the training.
     pub fn too_steep(&self) -> bool {
         let far = self.steps.iter().filter(|step| step.reach() > FAR_REACH).count();
         2 * far > self.steps.len()
     }
 
-    /// An empty record with room for `steps` steps of `entries` weights and a state of `len` entries each.
+    /// Creates an empty record with capacity for `steps` steps of `entries` weights and a state of `len` entries each.
     pub fn with_room(steps: usize, entries: usize, len: usize) -> Self {
         Self {
             steps: Vec::with_capacity(steps),
@@ -61,7 +61,7 @@ impl TpwlRecord {
         self.states.extend_from_slice(state);
     }
 
-    /// Forgets all steps.
+    /// Removes all steps.
     pub fn clear(&mut self) {
         self.steps.clear();
         self.weights.clear();
@@ -69,18 +69,18 @@ impl TpwlRecord {
         self.states.clear();
     }
 
-    /// The steps in the order of time.
+    /// Returns the steps in the order of time.
     pub fn steps(&self) -> &[TpwlStep] {
         &self.steps
     }
 
-    /// The operating points of a step and their weights; empty beyond the end.
+    /// Returns the operating points of a step and their weights; empty beyond the end.
     pub fn weights(&self, step: usize) -> &[Weight] {
         let from = step.checked_sub(1).and_then(|before| self.ends.get(before)).copied().unwrap_or(0);
         self.ends.get(step).map_or(&[], |&to| &self.weights[from..to])
     }
 
-    /// The reduced state at the end of a step; empty beyond the end.
+    /// Returns the reduced state at the end of a step; empty beyond the end.
     pub fn state(&self, step: usize) -> &[f64] {
         let len = self.states.len() / self.steps.len().max(1);
         self.states.get(step * len..(step + 1) * len).unwrap_or(&[])

@@ -1,4 +1,4 @@
-//! Finds the operating points of a state and their weights.
+//! Search of the operating points of a state and their weights.
 
 use super::model::{TpwlModel, TrainedPoint};
 use super::weights::{Barycentre, NEAREST, NEAREST_EACH, Weight, Weighting, exponential, square_distance};
@@ -8,7 +8,7 @@ pub struct Search {
     weighting: Weighting,
     /// Parameter sets in use and their shares, (4.27).
     shares: Vec<(usize, f64)>,
-    /// What takes a state of this contact to each of these sets, see [`carried`].
+    /// Shifts from a state of this contact to each of these sets, see [`carried`].
     shifts: Vec<Vec<f64>>,
     query: Vec<f64>,
     distances: Vec<(usize, f64)>,
@@ -17,7 +17,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// Room for the points of the given sets.
+    /// Allocates the work space for the points of the given sets.
     pub fn new(model: &TpwlModel, weighting: Weighting, shares: Vec<(usize, f64)>) -> Self {
         let sets = shares.iter().map(|&(set, _)| &model.sets[set]);
         let points = sets.clone().map(|set| set.points.len()).max().unwrap_or(0);
@@ -33,17 +33,17 @@ impl Search {
         }
     }
 
-    /// Most weights a search can give.
+    /// Maximum number of weights of a search.
     pub fn most_weights(&self) -> usize {
         self.shares.len() * self.near.capacity()
     }
 
-    /// Sets in use and their shares.
+    /// Returns the sets in use and their shares.
     pub fn shares(&self) -> &[(usize, f64)] {
         &self.shares
     }
 
-    /// The weights for a state, of all sets in use together: their sum is 1.
+    /// Computes the weights for a state, for all sets in use together; their sum is 1.
     pub fn weights(&mut self, model: &TpwlModel, state: &[f64], out: &mut Vec<Weight>) {
         out.clear();
         for (&(set, share), shift) in self.shares.iter().zip(&self.shifts) {
@@ -63,7 +63,7 @@ impl Search {
                     if set.trajectories.len() == 1 {
                         nearest(&mut self.distances, NEAREST, &mut self.near);
                     } else {
-                        // A trajectory's points are neighbours in the list.
+                        // The points of a trajectory are adjacent in the list.
                         let same =
                             |a: &(usize, f64), b: &(usize, f64)| of(model, a).trajectory == of(model, b).trajectory;
                         for own in self.distances.chunk_by_mut(same) {
@@ -82,7 +82,7 @@ fn of<'a>(model: &'a TpwlModel, entry: &(usize, f64)) -> &'a TrainedPoint {
     &model.points[entry.0]
 }
 
-/// Appends the `count` nearest of some points, which are put in another order.
+/// Appends the `count` nearest points; changes the order of `distances`.
 fn nearest(distances: &mut [(usize, f64)], count: usize, out: &mut Vec<Weight>) {
     let count = count.min(distances.len());
     if count < distances.len() {
@@ -91,9 +91,9 @@ fn nearest(distances: &mut [(usize, f64)], count: usize, out: &mut Vec<Weight>) 
     out.extend(distances[..count].iter().map(|&(point, _)| Weight { point, weight: 0.0 }));
 }
 
-/// The difference of each set's mean state from the mean of those in use. A contact between two trained ones is like
-/// neither; its state plus this difference is what its counterpart in the set looks like, whose near points are those
-/// of the same phase. The dissertation's weights know no such thing.
+/// Returns the difference between each set's mean state and the mean of the sets in use. A contact between two
+/// trained ones differs from both. Its state plus this difference approximates the corresponding state in the set,
+/// whose near points are those of the same phase. The dissertation's weights have no such shift.
 fn carried(model: &TpwlModel, weighting: Weighting, shares: &[(usize, f64)]) -> Vec<Vec<f64>> {
     let len = model.space.len();
     if weighting == Weighting::Dissertation {
@@ -104,7 +104,7 @@ fn carried(model: &TpwlModel, weighting: Weighting, shares: &[(usize, f64)]) -> 
     means.iter().map(|mean| (0..len).map(|k| mean[k] - common(k)).collect()).collect()
 }
 
-/// The mean of all moments of a set's training trajectories.
+/// Returns the mean of all moments of a set's training trajectories.
 fn mean_state(model: &TpwlModel, set: usize) -> Vec<f64> {
     let moments = || model.sets[set].trajectories.iter().flat_map(|&trajectory| &model.trajectories[trajectory]);
     let share = 1.0 / moments().count() as f64;

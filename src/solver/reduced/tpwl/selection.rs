@@ -1,4 +1,4 @@
-//! Which moments of a training trajectory become operating points.
+//! Selection of the moments of a training trajectory that become operating points.
 
 use super::linearisation::{Fields, Linearisation, SystemFunctions};
 use super::space::{ReducedSpace, input_vector};
@@ -11,25 +11,26 @@ use faer::{Col, ColRef};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A rule by which operating points are chosen, in the order of time.
+/// Rule that selects operating points in the order of time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Selection {
-    /// (2.85): a state farther from all points than `tolerance` times the nearest one's norm becomes one.
+    /// (2.85): a state is selected if its distance from all points exceeds `tolerance` times the norm of the nearest
+    /// one.
     Distance {
-        /// β.
+        /// Tolerance β.
         tolerance: f64,
     },
-    /// (4.30) as its text has it: a state becomes a point when the step towards it, taken with the linearised system of
-    /// the nearest point, misses it by more than `tolerance` times its norm.
+    /// (4.30) as described in its text: a state is selected if the step towards it with the linearised system of the
+    /// nearest point has an error of more than `tolerance` times its norm.
     Step {
-        /// β.
+        /// Tolerance β.
         tolerance: f64,
     },
 }
 
 impl Selection {
-    /// The word that stands for it in results.
+    /// Returns the name used in results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Distance { .. } => "distance",
@@ -37,7 +38,7 @@ impl Selection {
         }
     }
 
-    /// The same rule with another β.
+    /// Returns the same rule with another β.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         match self {
             Self::Distance { .. } => Self::Distance { tolerance },
@@ -45,42 +46,42 @@ impl Selection {
         }
     }
 
-    /// β.
+    /// Returns β.
     pub fn tolerance(self) -> f64 {
         let (Self::Distance { tolerance } | Self::Step { tolerance }) = self;
         tolerance
     }
 }
 
-/// A moment of a training trajectory in the reduced space.
+/// Moment of a training trajectory in the reduced space.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainedMoment {
-    /// T.
+    /// Dimensionless time T.
     pub time: f64,
-    /// The inputs.
+    /// Inputs.
     pub input: Input,
-    /// ỹ = (p̃, H₀).
+    /// Reduced state ỹ = (p̃, H₀): pressure coefficients and rigid-body separation.
     pub state: Vec<f64>,
-    /// P of the full system at all nodes, about which it is linearised.
+    /// P of the full system at all nodes, at which it is linearised.
     pub pressure: Arc<[f64]>,
 }
 
-/// Chooses operating points of one trajectory, by several rules or tolerances one after the other.
+/// Selects operating points of one trajectory, for several rules or tolerances one after the other.
 pub struct Selector<'a> {
     space: &'a ReducedSpace,
     problem: &'a Problem,
     moments: &'a [TrainedMoment],
-    /// Linearised systems of moments that were asked for: the costly part, the same for every tolerance.
+    /// Linearised systems of the moments requested so far. They are expensive and independent of the tolerance.
     systems: Vec<Option<Linearisation>>,
 }
 
 impl<'a> Selector<'a> {
-    /// Nothing linearised yet.
+    /// Creates a selector without linearised systems.
     pub fn new(space: &'a ReducedSpace, problem: &'a Problem, moments: &'a [TrainedMoment]) -> Self {
         Self { space, problem, moments, systems: (0..moments.len()).map(|_| None).collect() }
     }
 
-    /// Indices of the moments a rule chooses; the first moment is always one of them.
+    /// Returns the indices of the moments that a rule selects; the first moment is always included.
     pub fn choose(&mut self, rule: Selection) -> Vec<usize> {
         let moments = self.moments;
         let mut chosen: Vec<usize> = Vec::new();
@@ -98,20 +99,20 @@ impl<'a> Selector<'a> {
         chosen
     }
 
-    /// The linearised system of a moment.
+    /// Returns the linearised system of a moment.
     fn system(&mut self, moment: usize) -> &Linearisation {
         let linearised = || self.moments[moment].linearised(self.space, self.problem);
         self.systems[moment].get_or_insert_with(linearised)
     }
 
-    /// The same, handed over.
+    /// Removes and returns the linearised system of a moment.
     pub fn take_system(&mut self, moment: usize) -> Linearisation {
         self.systems[moment].take().unwrap_or_else(|| self.moments[moment].linearised(self.space, self.problem))
     }
 }
 
 impl TrainedMoment {
-    /// Its system functions, also under another reference load than its own.
+    /// Returns the system functions, for a reference load that may differ from the moment's own.
     pub fn functions(&self, space: &ReducedSpace, problem: &Problem) -> SystemFunctions {
         SystemFunctions::at(space, problem, self.fields(&self.film(space)), PENALTY)
     }
@@ -129,15 +130,15 @@ impl TrainedMoment {
     }
 }
 
-/// Tolerance with which the search for a number of points begins.
+/// Initial tolerance of the search for a number of points.
 const COARSEST: f64 = 1.0;
-/// Most tolerances that are tried for a number of points.
+/// Maximum number of tolerances that are tried.
 const MOST_TRIED: usize = 48;
-/// Ratio of two tolerances between which no further one is tried.
+/// Ratio of two tolerances at which the search ends.
 const NEAR: f64 = 1.0005;
 
-/// The rule with the tolerance by which it chooses a number of points of some trajectories together, or as near to it
-/// as tolerances come: numbers can jump.
+/// Returns the rule with the tolerance that selects the given number of points from some trajectories together, or as
+/// close to it as possible: the number can jump.
 pub fn with_points(rule: Selection, points: usize, selectors: &mut [Selector<'_>]) -> Selection {
     let mut count = |tolerance: f64| -> usize {
         selectors.iter_mut().map(|selector| selector.choose(rule.with_tolerance(tolerance)).len()).sum()
@@ -148,7 +149,7 @@ pub fn with_points(rule: Selection, points: usize, selectors: &mut [Selector<'_>
         if best.0 == 0 || fine.is_some_and(|fine| coarse < NEAR * fine) {
             break;
         }
-        // Halved until there are enough, then between the last two.
+        // Halved until there are enough points, then bisected.
         let tolerance = fine.map_or(0.5 * coarse, |fine: f64| (fine * coarse).sqrt());
         let found = count(tolerance);
         if found.abs_diff(points) < best.0 {
@@ -167,21 +168,20 @@ fn norm(state: &[f64]) -> f64 {
     state.iter().map(|y| y * y).sum::<f64>().sqrt()
 }
 
-/// The chosen moment nearest to a state, and its distance.
+/// Returns the selected moment nearest to a state, and its distance.
 fn nearest(moments: &[TrainedMoment], chosen: &[usize], state: &[f64]) -> Option<(usize, f64)> {
     let distances = chosen.iter().map(|&i| (i, square_distance(state, &moments[i].state)));
     distances.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, square)| (i, square.sqrt()))
 }
 
-/// How far the step from the trajectory's own former moments to moment `i` ends from it, when one linearised system
-/// makes it.
+/// Returns the error of a step of one linearised system from the trajectory's previous moments to moment `i`.
 fn step_error(system: &Linearisation, point: &TrainedMoment, moments: &[TrainedMoment], i: usize) -> f64 {
     let (now, former) = (&moments[i], &moments[i.saturating_sub(1)]);
     let before = &moments[i.saturating_sub(2)];
     let length = now.time - former.time;
     let length_before = if i >= 2 { former.time - before.time } else { length };
     let quotient = BackwardDifference::second_order(length, length_before);
-    // In the linearised system the quotient acts on the deviations from the point: its weights add up to zero.
+    // In the linearised system the quotient acts on the deviations from the point, because its weights add up to zero.
     let deviation = |moment: &TrainedMoment| {
         let state = Col::from_fn(moment.state.len(), |j| moment.state[j] - point.state[j]);
         let (here, there) = (input_vector(moment.input), input_vector(point.input));

@@ -1,4 +1,4 @@
-//! The reduced space of a contact in time: its basis, and the passage between fields and reduced states.
+//! Reduced space of a transient contact: its basis, and conversion between fields and reduced states.
 
 use crate::solver::discrete::elasticity::Scratch;
 use crate::solver::discrete::grid::LineGrid;
@@ -8,35 +8,35 @@ use crate::solver::reduced::{PodBasis, dense, matrix_values};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
-/// Entries of the input vector.
+/// Number of entries of the input vector.
 pub const INPUTS: usize = 3;
 
-/// The input vector (1/R̄, ū, w̄) of the linearised systems. The curvature takes the radius' place because the film is
-/// linear in it.
+/// Returns the input vector (1/R̄, ū, w̄) of the linearised systems. It contains the curvature instead of the radius
+/// because the film thickness is linear in the curvature.
 pub fn input_vector(input: Input) -> [f64; INPUTS] {
     [1.0 / input.radius, input.speed, input.load]
 }
 
-/// A pressure basis on a grid with everything linear condensed: the reduced state is ỹ = (p̃, H₀), the film H₀ +
-/// X²/(2R̄) + K V p̃.
+/// Pressure basis on a grid with all linear parts condensed. The reduced state is ỹ = (p̃, H₀), with the pressure
+/// coefficients p̃ and the rigid-body separation H₀, the film thickness H₀ + X²/(2R̄) + K V p̃.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ReducedSpace {
-    /// The grid of the fields.
+    /// Grid of the fields.
     pub grid: LineGrid,
-    /// V: one mode per column over the node array, Vᵀ W V = I.
+    /// Modes V, one per column over the node array, Vᵀ W V = I.
     #[serde(with = "matrix_values")]
     pub pressure: Mat<f64>,
-    /// K V.
+    /// Deformation K V of the modes.
     #[serde(with = "matrix_values")]
     pub deformation: Mat<f64>,
-    /// wᵀ V: what each mode carries.
+    /// wᵀ V: load carried by each mode.
     pub load: Vec<f64>,
-    /// What each row of the full system counts when it is tested with Vᵀ, see `row_sizes::row_weights`.
+    /// Weight of each row of the full system when tested with Vᵀ, see `row_sizes::row_weights`.
     pub row_weights: Vec<f64>,
 }
 
 impl ReducedSpace {
-    /// The space of the first `modes` modes of a basis; one weight per row of the full system.
+    /// Creates the space of the first `modes` modes of a basis, with one weight per row of the full system.
     pub fn new(grid: LineGrid, basis: &PodBasis, modes: usize, row_weights: Vec<f64>) -> Self {
         let modes = modes.clamp(1, basis.modes.ncols());
         let pressure = basis.modes.get(.., ..modes).to_owned();
@@ -52,22 +52,22 @@ impl ReducedSpace {
         Self { grid, pressure, deformation, load, row_weights }
     }
 
-    /// Modes of the basis.
+    /// Number of modes.
     pub fn modes(&self) -> usize {
         self.pressure.ncols()
     }
 
-    /// Entries of a reduced state.
+    /// Number of entries of a reduced state.
     pub fn len(&self) -> usize {
         self.modes() + 1
     }
 
-    /// Never true: there is at least one mode.
+    /// Always false: there is at least one mode.
     pub fn is_empty(&self) -> bool {
         false
     }
 
-    /// The reduced state nearest to fields: Vᵀ W P and their H₀.
+    /// Returns the reduced state nearest to the fields: Vᵀ W P and their H₀.
     pub fn project(&self, state: &State) -> Vec<f64> {
         let weighted = |k: usize| -> f64 {
             let column = self.pressure.col(k);
@@ -76,7 +76,7 @@ impl ReducedSpace {
         (0..self.modes()).map(weighted).chain([state.h_0]).collect()
     }
 
-    /// The film over pressures at all nodes.
+    /// Returns the film thickness for pressures at all nodes.
     pub fn film(&self, pressure: &[f64], h_0: f64, input: Input) -> Vec<f64> {
         let mut film = vec![0.0; pressure.len()];
         self.grid.deform(pressure, &mut film, &mut Scratch::default());
@@ -84,7 +84,7 @@ impl ReducedSpace {
         film
     }
 
-    /// P and H of a reduced state at all nodes.
+    /// Computes P and H of a reduced state at all nodes.
     pub fn fields(&self, state: &[f64], input: Input, pressure: &mut [f64], film: &mut [f64]) {
         let modes = self.modes();
         dense::times(self.pressure.as_ref(), &state[..modes], pressure);
@@ -101,7 +101,7 @@ fn add_shape(film: &mut [f64], x: &[f64], h_0: f64, input: Input) {
     }
 }
 
-/// Whether two contacts differ in nothing but their load.
+/// Returns true if two contacts differ only in their load.
 pub fn same_but_load(a: &OperatingPoint, b: &OperatingPoint) -> bool {
     OperatingPoint { load: b.load, ..*a } == *b
 }

@@ -1,4 +1,4 @@
-//! The superposition of linearised systems, (4.27), and the one linear system that a step solves.
+//! Superposition of linearised systems, (4.27), and the linear system of a step.
 
 use super::linearisation::LinearFunction;
 use super::model::{TpwlModel, TrainedPoint};
@@ -8,11 +8,11 @@ use crate::solver::reduced::dense::SmallSystem;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par, unzip, zip};
 
-/// A superposed system g = ḡ + B (y − ȳ) + C (u − ū), f likewise with E and F, about the barycentre (ȳ, ū) of its
+/// Superposed system g = ḡ + B (y − ȳ) + C (u − ū), and likewise f with E and F, about the barycentre (ȳ, ū) of its
 /// points.
 pub struct Superposition {
     weighting: Weighting,
-    /// The points in use.
+    /// Operating points in use.
     pub weights: Vec<Weight>,
     /// ȳ.
     pub state: Vec<f64>,
@@ -22,7 +22,7 @@ pub struct Superposition {
     flux: LinearFunction,
 }
 
-/// out += A x.
+/// Computes out += `factor` A x.
 fn add_product(a: MatRef<'_, f64>, x: &[f64], factor: f64, out: &mut [f64]) {
     let (out, x) = (ColMut::from_slice_mut(out), ColRef::from_slice(x));
     matmul(out.as_mat_mut(), Accum::Add, a, x.as_mat(), factor, Par::Seq);
@@ -33,8 +33,9 @@ impl LinearFunction {
         Self { value: vec![0.0; len], by_state: Mat::zeros(len, len), by_input: Mat::zeros(len, INPUTS) }
     }
 
-    /// Σ w (value − θ intercept + slope) and Σ w of the derivatives, then θ (A ȳ + B ū): θ = 1 expands about the
-    /// points, ½ about points and barycentre by halves.
+    /// Computes Σ w (value − θ intercept + slope), Σ w of the derivatives, and adds θ (A ȳ + B ū), with A and B the
+    /// derivatives by state and input. θ = 1 expands about the points, θ = ½ half about the points and half about the
+    /// barycentre.
     fn superpose<'a>(&mut self, (state, input): (&[f64], &[f64]), theta: f64, parts: impl Iterator<Item = Part<'a>>) {
         self.value.fill(0.0);
         for (k, Part { weight, function, intercept, slope, load_difference }) in parts.enumerate() {
@@ -56,7 +57,7 @@ impl LinearFunction {
     }
 }
 
-/// What one point adds to one system function.
+/// Contribution of one point to one system function.
 struct Part<'a> {
     weight: f64,
     function: &'a LinearFunction,
@@ -66,7 +67,7 @@ struct Part<'a> {
 }
 
 impl Superposition {
-    /// Room for systems of `len` equations and up to `most` points.
+    /// Allocates systems of `len` equations and up to `most` points.
     pub fn new(weighting: Weighting, len: usize, most: usize) -> Self {
         Self {
             weighting,
@@ -88,7 +89,7 @@ impl Superposition {
             state.iter_mut().zip(&point.moment.state).for_each(|(sum, y)| *sum += weight * y);
             input.iter_mut().zip(point.input).for_each(|(sum, u)| *sum += weight * u);
         }
-        // The joint barycentre lies at the load itself, so half of the slope remains.
+        // The joint barycentre has the reference load itself, so half of the slope remains.
         let (theta, slope) = match weighting {
             Weighting::DualTaylor => (0.5, 0.5),
             Weighting::Dissertation => (1.0, 0.0),
@@ -107,8 +108,8 @@ impl Superposition {
         }
     }
 
-    /// Solves q g(y, u) + `history` = f(y, u) for y and gives g there; q = 0 asks for the stationary state. False where
-    /// the system is singular.
+    /// Solves q g(y, u) + `history` = f(y, u) for y and computes g there; q = 0 gives the steady state. Returns false
+    /// if the system is singular.
     pub fn solve(
         &self,
         (quotient, history): (f64, [(f64, &[f64]); 2]),

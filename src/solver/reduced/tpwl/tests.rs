@@ -1,4 +1,4 @@
-//! Linearised systems against finite differences, steps against Newton's, marches against the full system.
+//! Tests: linearised systems compared with finite differences, steps with Newton's, marches with the full system.
 
 use super::linearisation::{Fields, PENALTY_SLOPE};
 use super::superposition::Superposition;
@@ -50,7 +50,7 @@ fn model(trajectories: &[&Trajectory], modes: usize, selection: Selection) -> Tp
     TpwlModel::train(trajectories, TpwlTraining { modes, selection }).unwrap()
 }
 
-/// Relative L2 difference of H_c between a model's march and the full one.
+/// Returns the relative L2 difference of H_c between a model's march and the full one.
 fn film_error(model: &TpwlModel, transient: &Transient, weighting: Weighting) -> f64 {
     let (got, record) = solve(model, transient, weighting, &()).unwrap();
     assert!(got.finished(), "{}", got.ended.describe());
@@ -66,7 +66,7 @@ fn linearised_systems_agree_with_finite_differences() {
     let moment = &model.points[model.points.len() / 2].moment;
     let film = space.film(&moment.pressure, moment.state[space.modes()], base);
     let exact = Linearisation::at(space, problem, Fields { pressure: &moment.pressure, film: &film, input: base });
-    // g and f with the penalty's slope at the fields plus a multiple of others.
+    // g and f with the penalty slope, at the fields plus a multiple of others.
     let beside = |(p, h): (&dyn Fn(usize) -> f64, &dyn Fn(usize) -> f64), input: Input, by: f64| {
         let plus = |values: &[f64], more: &dyn Fn(usize) -> f64| -> Vec<f64> {
             values.iter().enumerate().map(|(i, value)| value + by * more(i)).collect()
@@ -74,7 +74,7 @@ fn linearised_systems_agree_with_finite_differences() {
         let (pressure, film) = (plus(&moment.pressure, p), plus(&film, h));
         SystemFunctions::at(space, problem, Fields { pressure: &pressure, film: &film, input }, PENALTY_SLOPE)
     };
-    // Beside the cavitation front the penalty bends: a step must stay on one side of it.
+    // At the cavitation boundary the penalty has a kink: a step must stay on one side of it.
     let step = 1e-7;
     let compare = |name: &str, exact: (Vec<f64>, Vec<f64>), at: &dyn Fn(f64) -> SystemFunctions| {
         let (more, less) = (at(step), at(-step));
@@ -134,7 +134,7 @@ fn a_step_about_an_operating_point_is_the_reduced_newton_step() {
     let former: Vec<f64> =
         point.system.storage.value.iter().enumerate().map(|(i, g)| g + 1e-4 * (i as f64).sin()).collect();
     let input = Input { load: point.moment.input.load + 0.01, ..point.moment.input };
-    // Newton from the point under the new input, but linearised in it too.
+    // Newton's method from the point with the new input, also linearised in the input.
     let Linearisation { storage: g, flux: f } = &point.system;
     let change = faer::Col::from_fn(INPUTS, |k| input_vector(input)[k] - point.input[k]);
     let matrix = &g.by_state * faer::Scale(quotient.now) - &f.by_state;
@@ -196,7 +196,7 @@ fn case_1_of_table_4_5_is_reproduced_and_other_loads_are_met() {
 
 #[test]
 fn a_training_that_ruptures_by_complementarity_does_as_well_as_one_by_the_penalty() {
-    // Pressures of the ruptured set as they are, zero, would leave its multiplier unbalanced: H_c is off by 2e-2.
+    // Without the conversion of the multiplier to a pressure, H_c would have an error of 2e-2.
     let held = |transient: Transient| Transient {
         lubricant: Lubricant { cavitation: Cavitation::Complementarity, ..transient.lubricant },
         ..transient
@@ -220,13 +220,13 @@ fn a_training_that_ruptures_by_complementarity_does_as_well_as_one_by_the_penalt
 
 #[test]
 fn few_modes_suffice_where_rows_are_balanced_and_the_rupture_is_not_locked() {
-    // Rows weighted by cell sizes alone and a penalty with its full slope leave errors of 0.05 in H_c here.
+    // With rows weighted by cell sizes only and the full penalty slope, H_c would have an error of 0.05.
     let model = model(&[&SINE], 40, STEP_SELECTION);
     for (name, signal, bar) in [("sine", sine(0.5), 5e-4), ("triangle", wave(0.0), 4e-3)] {
         let error = film_error(&model, &transient(CASE_1, Inputs::load(signal), 1.0), Weighting::DualTaylor);
         assert!(error < bar, "{name}: {error:e}");
     }
-    // |∂r/∂P| of the far inlet's rows is more than 10⁶ times that under the contact.
+    // |∂r/∂P| of the rows in the far inlet is more than 10⁶ times that in the contact.
     let space = &model.space;
     let at = |x: f64| space.row_weights[space.grid.x.partition_point(|&own| own < x) - FIRST_UNKNOWN];
     assert!(at(0.0) > 500.0 * at(-3.5), "{} and {}", at(0.0), at(-3.5));
@@ -271,7 +271,7 @@ fn a_number_of_points_is_met_by_either_rule_in_the_same_space() {
         let times = chosen[0].iter().map(|&i| MODEL.trajectories[0][i].time);
         assert!(other.points.iter().map(|point| point.moment.time).eq(times));
     }
-    // The same rule again is the same model.
+    // The same rule gives the same model.
     let again = MODEL.reselected(MODEL.training.selection).unwrap();
     assert_eq!(again.points.len(), MODEL.points.len());
     let still = transient(CASE_1, Inputs::load(sine(0.5)), 0.1);

@@ -1,23 +1,23 @@
-//! Weights of operating points with respect to the state: the dissertation's, and those of the nearest barycentre.
+//! Weights of operating points for a state: those of the dissertation, and those of the nearest barycentre.
 
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
-/// How operating points are combined.
+/// Method of combining operating points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Weighting {
-    /// The barycentre of near points that lies nearest to the state, and expansions half about the points and half
-    /// about it. Expansions about points on one side of a curved trajectory err to one side; these do so only in third
-    /// order.
+    /// Weights such that the barycentre of near points is nearest to the state, with expansions half about the points
+    /// and half about the barycentre. Expansions about points on one side of a curved trajectory have an error of one
+    /// sign; here the error is of third order.
     #[default]
     DualTaylor,
-    /// Sharp exponential weights of all points, (4.29), and interpolation between parameters, (4.27).
+    /// Exponential weights of all points, (4.29), and interpolation between parameters, (4.27).
     Dissertation,
 }
 
 impl Weighting {
-    /// The word that stands for it in results.
+    /// Returns the name used in results.
     pub fn name(self) -> &'static str {
         match self {
             Self::DualTaylor => "dual_taylor",
@@ -26,30 +26,30 @@ impl Weighting {
     }
 }
 
-/// Nearest points considered where a set has one trajectory.
+/// Number of nearest points for a set with one trajectory.
 pub const NEAREST: usize = 5;
-/// Nearest points considered on each trajectory where a set has several.
+/// Number of nearest points per trajectory for a set with several.
 pub const NEAREST_EACH: usize = 2;
-/// Weights below this one count as none, section 4.2.
+/// Weights below this count as zero, section 4.2.
 const LEAST_WEIGHT: f64 = 1e-3;
 /// Exponent of (4.29).
 const SHARPNESS: f64 = 25.0;
-/// What a distant point costs beside the distance of the barycentre.
+/// Penalty on distant points, relative to the squared distance of the barycentre.
 const SPREAD: f64 = 1e-3;
 
-/// A point and its weight.
+/// Operating point with its weight.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weight {
-    /// Which operating point.
+    /// Index of the operating point.
     pub point: usize,
-    /// Its share.
+    /// Weight of the point.
     pub weight: f64,
 }
 
-/// Sums that run beside each other: one after the other, additions would wait for each other.
+/// Number of partial sums: a single sum would wait for each addition.
 const LANES: usize = 8;
 
-/// Σ (aᵢ − cᵢ)(bᵢ − cᵢ) over reduced states of one length.
+/// Returns Σ (aᵢ − cᵢ)(bᵢ − cᵢ) over reduced states of one length.
 fn product_about(a: &[f64], b: &[f64], center: &[f64]) -> f64 {
     let ((a, a_end), (b, b_end), (c, c_end)) =
         (a.as_chunks::<LANES>(), b.as_chunks::<LANES>(), center.as_chunks::<LANES>());
@@ -63,13 +63,13 @@ fn product_about(a: &[f64], b: &[f64], center: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + end
 }
 
-/// Squared Euclidean distance of two reduced states.
+/// Returns the squared Euclidean distance of two reduced states.
 pub fn square_distance(a: &[f64], b: &[f64]) -> f64 {
     product_about(a, a, b)
 }
 
-/// Weights (4.29) from the distances of all points: none below 0.001, their sum 1. A point that is met exactly has them
-/// all.
+/// Computes the weights (4.29) from the distances of all points. Weights below 0.001 are omitted; the sum is 1. A
+/// point at distance zero has weight 1.
 pub fn exponential(distances: &[(usize, f64)], out: &mut Vec<Weight>) {
     out.clear();
     let nearest = distances.iter().fold(f64::INFINITY, |least, (_, d)| least.min(*d));
@@ -88,7 +88,7 @@ fn normalise(weights: &mut [Weight]) {
 /// Work space of [`Barycentre::weights`].
 #[derive(Debug)]
 pub struct Barycentre {
-    /// G of all points, and which of them are left.
+    /// G of all points, and indices of the remaining ones.
     products: Mat<f64>,
     kept: Vec<usize>,
     gram: Mat<f64>,
@@ -96,7 +96,7 @@ pub struct Barycentre {
 }
 
 impl Barycentre {
-    /// Work space for up to `most` points at once.
+    /// Allocates the work space for up to `most` points at once.
     pub fn new(most: usize) -> Self {
         Self {
             products: Mat::zeros(most, most),
@@ -106,9 +106,9 @@ impl Barycentre {
         }
     }
 
-    /// The weights of `out`'s points that bring Σ wᵢ yᵢ nearest to `state` and prefer near points: min ‖y − Σ wᵢ yᵢ‖² +
-    /// 10⁻³ Σ wᵢ² dᵢ² with Σ wᵢ = 1, where points of negative weight are left out and the rest solved again. At most as
-    /// many points as there is room for.
+    /// Computes the weights of `out`'s points for which Σ wᵢ yᵢ is nearest to `state`, with preference for near
+    /// points: min ‖y − Σ wᵢ yᵢ‖² + 10⁻³ Σ wᵢ² dᵢ² with Σ wᵢ = 1. Points with negative weights are removed and the
+    /// rest solved again. The work space limits the number of points.
     pub fn weights<'a>(&mut self, state: &[f64], point: impl Fn(usize) -> &'a [f64], out: &mut Vec<Weight>) {
         self.set_products(state, &point, out);
         let square = |k: usize| self.products[(k, k)];
@@ -118,8 +118,8 @@ impl Barycentre {
             if !self.solve(out) {
                 break;
             }
-            // Leaving out all negative ones at once may lose a point that a second solve would keep; the most negative
-            // one cannot.
+            // Only the most negative weight is removed at a time. Removing all negative ones could lose a point that
+            // a second solve would keep.
             let lowest = (0..out.len()).min_by(|&a, &b| out[a].weight.total_cmp(&out[b].weight));
             match lowest {
                 Some(k) if out[k].weight < 0.0 => {
@@ -133,7 +133,7 @@ impl Barycentre {
         out.push(Weight { point: only, weight: 1.0 });
     }
 
-    /// Gᵢⱼ = (yᵢ − y)·(yⱼ − y).
+    /// Computes Gᵢⱼ = (yᵢ − y)·(yⱼ − y).
     fn set_products<'a>(&mut self, state: &[f64], point: &impl Fn(usize) -> &'a [f64], points: &[Weight]) {
         self.kept.clear();
         self.kept.extend(0..points.len());
@@ -145,7 +145,7 @@ impl Barycentre {
         }
     }
 
-    /// Solves (G + 10⁻³ diag G) w ∝ 1 for the points that are left; false where it is singular.
+    /// Solves (G + 10⁻³ diag G) w ∝ 1 for the remaining points; returns false if the matrix is singular.
     fn solve(&mut self, out: &mut [Weight]) -> bool {
         let n = out.len();
         let g = &mut self.gram;

@@ -1,4 +1,4 @@
-//! A march whose inputs are told as it goes, from one time to the next: a contact as a part of something larger.
+//! March with inputs that are given step by step: a contact as a component of a larger simulation.
 
 use super::model::TrajectoryModel;
 use super::steps::{Kept, ReducedMarch};
@@ -10,66 +10,66 @@ use crate::solver::reduced::ReducedError;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// More steps of the model's own length are not taken at once.
+/// Maximum length of one advance, in steps of the model's own length.
 pub const MOST_PARTS_AT_ONCE: f64 = 1e5;
 
-/// A reduced model that is led from one time to the next.
+/// Reduced model that is advanced from one time to the next.
 ///
-/// From one time to the next the inputs go on a straight line. The way there is divided evenly into steps that are no
-/// longer than the model's own, nor much longer than the one before; one that cannot be taken is tried in parts, down to
-/// a 64th of the model's own. So inputs that are told at every step of a march along sampled ones give that march.
+/// Between two times the inputs vary linearly. The interval is divided evenly into steps that are no longer than the
+/// model's own, and not much longer than the previous one. A failed step is divided, down to a 64th of the model's
+/// own. So inputs given at every step of a march along sampled inputs reproduce that march.
 pub struct CoupledMarch {
     march: ReducedMarch<'static>,
     frame: Frame,
     reference: Problem,
     longest: f64,
     at: Conditions,
-    /// The equations one step before.
+    /// Equations one step before.
     former: Conditions,
     now: MarchState,
 }
 
-/// All that a march needs to go on from a time.
+/// Complete state of a march, from which it can be continued.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct MarchState {
     moment: Moment,
     /// Inputs one step before.
     former: Input,
-    /// Length of the former step; infinite where the contact has rested.
+    /// Length of the previous step; infinite after a steady start.
     before: f64,
     kept: Kept,
 }
 
-/// Why a march does not go on; it stays where it was.
+/// Error of an advance; the march keeps its previous state.
 #[derive(Debug, thiserror::Error)]
 pub enum CoupledError {
     /// The model is refused.
     #[error(transparent)]
     Reduced(#[from] ReducedError),
-    /// It begins or goes on no farther.
+    /// The march cannot start or continue.
     #[error("the march {}", .0.describe())]
     Ended(Ended),
-    /// The way to the next time makes no sense, or is too long.
+    /// The interval to the next time is not positive, or too long.
     #[error(
         "a step over T = {span} cannot be taken: it must be above zero and at most {most}, {MOST_PARTS_AT_ONCE} steps of \
          the model's own"
     )]
     Span {
-        /// What was asked for.
+        /// Requested interval.
         span: f64,
-        /// What is accepted.
+        /// Largest accepted interval.
         most: f64,
     },
-    /// A state of something else.
+    /// The state does not belong to this model.
     #[error("this is no state of this model")]
     Foreign,
 }
 
 impl CoupledMarch {
-    /// Begins where the reference contact has rested for ever under some inputs.
+    /// Starts from the steady state of the reference contact under the given inputs.
     ///
     /// # Errors
-    /// When the model is refused, or finds no stationary contact.
+    /// [`CoupledError`] if the model is refused, or if it finds no steady state.
     pub fn begin(model: &Arc<TrajectoryModel>, reference: Problem, input: Input) -> Result<Self, CoupledError> {
         let (mut march, frame) = (ReducedMarch::on(model)?, model.frame);
         let at = conditions(frame, &reference, 0.0, input)?;
@@ -86,51 +86,51 @@ impl CoupledMarch {
         Ok(begun)
     }
 
-    /// The contact at the present time.
+    /// Returns the scalars at the current time.
     pub fn moment(&self) -> &Moment {
         &self.now.moment
     }
 
-    /// The reference problem.
+    /// Returns the reference problem.
     pub fn reference(&self) -> &Problem {
         &self.reference
     }
 
-    /// The equations at the present time.
+    /// Returns the equations at the current time.
     pub fn conditions(&self) -> &Conditions {
         &self.at
     }
 
-    /// Fields of the present state.
+    /// Returns the fields of the current state.
     pub fn fields(&self) -> State {
         self.march.state(&self.at)
     }
 
-    /// Abscissae of the fields, in units of the frame's half width.
+    /// Returns the abscissae of the fields, in units of the frame's half-width.
     pub fn abscissae(&self) -> &[f64] {
         &self.march.grid().x
     }
 
-    /// Rigid-body separation H₀ with the kernel of (2.27) in the lengths of the frame, in the film scale of the reference
-    /// contact.
+    /// Returns the rigid-body separation H₀ with the kernel of (2.27) in the lengths of the frame, in the film scale
+    /// of the reference contact.
     pub fn separation(&self) -> f64 {
         self.at.scales.film * self.march.h_0()
     }
 
-    /// p̃ of the present state.
+    /// Returns the pressure coefficients p̃ of the current state.
     pub fn coefficients(&self) -> &[f64] {
         self.now.kept.history.nearer().0
     }
 
-    /// What it needs to go on from here.
+    /// Returns the complete state, from which the march can be continued.
     pub fn state(&self) -> &MarchState {
         &self.now
     }
 
-    /// Goes on from a state under a reference contact.
+    /// Continues from a state, for a reference contact.
     ///
     /// # Errors
-    /// When the model is refused, or the state is one of another model.
+    /// [`CoupledError`] if the model is refused, or if the state belongs to another model.
     pub fn resume(model: &Arc<TrajectoryModel>, reference: Problem, state: &MarchState) -> Result<Self, CoupledError> {
         let (march, frame) = (ReducedMarch::on(model)?, model.frame);
         let at = conditions(frame, &reference, state.moment.time, state.moment.input)?;
@@ -140,10 +140,10 @@ impl CoupledMarch {
         Ok(resumed)
     }
 
-    /// Goes back, or on, to a state under a reference contact.
+    /// Sets the march to a state, for a reference contact.
     ///
     /// # Errors
-    /// When it is one of another model; nothing has changed then.
+    /// [`CoupledError`] if the state belongs to another model; nothing is changed then.
     pub fn restore(&mut self, reference: Problem, state: &MarchState) -> Result<(), CoupledError> {
         let Moment { time, input, .. } = state.moment;
         if !(self.march.knows(&state.kept) && state.is_sound()) {
@@ -157,11 +157,11 @@ impl CoupledMarch {
         Ok(())
     }
 
-    /// Goes on over `span` of T, at whose end the inputs are `to`. Nothing is allocated once it has gone on before.
+    /// Advances by `span` of T to the inputs `to`. After the first call nothing is allocated.
     ///
     /// # Errors
-    /// When the way makes no sense, the inputs lead to a contact outside any sense, or a step cannot be taken; then it
-    /// is where it was.
+    /// [`CoupledError`] if the interval is not accepted, the inputs lead to a contact outside the accepted ranges, or
+    /// a step fails. The march then keeps its previous state.
     pub fn advance(&mut self, span: f64, to: Input) -> Result<&Moment, CoupledError> {
         let most = MOST_PARTS_AT_ONCE * self.longest;
         if !(span > 0.0 && span <= most) {
@@ -181,7 +181,7 @@ impl CoupledMarch {
         let end = begun + span;
         let (mut at, mut former, mut before) = (self.at, self.former, self.now.before);
         let (mut longest, mut effort) = (self.longest, Effort::default());
-        // Lengths are parts of the span: differences of T, late in a march, are rounded.
+        // Lengths are computed from the span: late in a march differences of T have rounding errors.
         let mut gone = 0.0;
         loop {
             let left = span - gone;
@@ -221,7 +221,7 @@ impl CoupledMarch {
 }
 
 impl MarchState {
-    /// When it is.
+    /// Returns the time T.
     pub fn time(&self) -> f64 {
         self.moment.time
     }
@@ -231,7 +231,7 @@ impl MarchState {
         self.kept.copy_from(&other.kept);
     }
 
-    /// Whether its numbers make sense.
+    /// Returns true if all numbers are valid.
     fn is_sound(&self) -> bool {
         let Moment { time, input, h_c, h_min, x_h_min, p_c, p_max, x_p_max, .. } = self.moment;
         let scalars = [time, h_c, h_min, x_h_min, p_c, p_max, x_p_max];

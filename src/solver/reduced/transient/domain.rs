@@ -1,4 +1,4 @@
-//! What a reduced model in time was trained for, and in what a march leaves it.
+//! Trained range of a reduced transient model, and checks of a march against it.
 
 use crate::solver::full::Problem;
 use crate::solver::full::transient::{Input, Inputs, Moment, Trajectory};
@@ -8,52 +8,52 @@ use crate::solver::reduced::{Domain, Trust};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// How far an input may leave its trained range, in widths of it, and how much faster than trained it may change: what
-/// differences over steps of other lengths make of the same input.
+/// Accepted excess of an input beyond its trained range, in widths of the range; and accepted ratio of its rate to
+/// the trained one. It allows for differences over steps of other lengths.
 const ROOM: (f64, f64) = (0.01, 1.05);
-/// Steps of a march to come that are looked at, at most.
+/// Maximum number of steps of a planned march that are checked.
 const MOST_LOOKED_AT: f64 = 4000.0;
-/// What rounding makes of an input that rests.
+/// Change of a constant input by rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Range and fastest change of one input, over its reference.
+/// Range and largest rate of one input, relative to its reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reach {
     /// Smallest and largest value.
     pub range: (f64, f64),
-    /// Largest change per unit of T, of differences over the steps.
+    /// Largest change per unit of T, as a difference over one step.
     pub rate: f64,
 }
 
-/// What a reduced model in time was trained for.
+/// Trained range of a reduced transient model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrajectoryDomain {
-    /// The reference contacts, and the lubricant.
+    /// Reference contacts, and the lubricant.
     pub reference: Domain,
-    /// R̄.
+    /// Radius R̄.
     pub radius: Reach,
-    /// ū.
+    /// Entrainment speed ū.
     pub speed: Reach,
-    /// w̄.
+    /// Load w̄.
     pub load: Reach,
-    /// The inputs, where all trainings had the same. Bases of a single course hold the states along it and no others: of
-    /// the film at rest under a load that the course passes through they may miss a fifth.
+    /// Inputs, if all trainings had the same ones. Bases from a single time history hold only the states along it.
+    /// For the steady film at a load that this history passes through their error may be a fifth.
     pub only: Option<Inputs>,
-    /// Length of its steps \[T\]: the mean of the training whose steps are shortest.
+    /// Length of the steps \[T\]: the mean of the training with the shortest steps.
     pub step: f64,
 }
 
-/// An input: its name, what was trained of it, and where it is found.
+/// Input: name, trained range, and access function.
 type Named = (&'static str, Reach, fn(&Input) -> f64);
 
-/// In what, and how far, a march has left its training.
+/// Excess of a march beyond the trained range, and its sentence.
 struct Excess {
     far: f64,
     sentence: String,
 }
 
 impl Reach {
-    /// Whether it was let change.
+    /// Returns true if the input varied in the training.
     pub fn varies(&self) -> bool {
         self.rate > 0.0
     }
@@ -70,7 +70,7 @@ impl Reach {
         reach
     }
 
-    /// Whether it can be that of some trajectories.
+    /// Returns true if the numbers are valid.
     pub fn is_sound(&self) -> bool {
         let (low, high) = self.range;
         low.is_finite() && high.is_finite() && low <= high && self.rate.is_finite() && self.rate >= 0.0
@@ -91,7 +91,7 @@ impl Reach {
         Some(Excess { far: beyond, sentence })
     }
 
-    /// Whether it leaves the only course that it learned.
+    /// Returns the excess over the only trained time history, `None` if the value follows it.
     fn elsewhere(&self, name: &str, value: f64, learned: f64) -> Option<Excess> {
         let (low, high) = self.range;
         let far = (value - learned).abs();
@@ -122,7 +122,7 @@ impl Reach {
     }
 }
 
-/// Changes of the inputs between two moments, per unit of T.
+/// Returns the changes of the inputs between two moments, per unit of T.
 fn rate(before: &Moment, now: &Moment) -> Input {
     let (step, from, to) = (now.time - before.time, before.input, now.input);
     Input {
@@ -132,13 +132,13 @@ fn rate(before: &Moment, now: &Moment) -> Input {
     }
 }
 
-/// The inputs of all trainings, where these are the same.
+/// Returns the inputs of all trainings, if they are equal.
 pub fn only_course<'a>(mut courses: impl Iterator<Item = &'a Inputs>) -> Option<Inputs> {
     let first = courses.next()?;
     courses.all(|other| other == first).then(|| first.clone())
 }
 
-/// Whichever is farther outside.
+/// Returns the larger excess.
 fn worse(one: Option<Excess>, other: Option<Excess>) -> Option<Excess> {
     match (one, other) {
         (Some(one), Some(other)) => Some(if other.far > one.far { other } else { one }),
@@ -147,7 +147,7 @@ fn worse(one: Option<Excess>, other: Option<Excess>) -> Option<Excess> {
 }
 
 impl TrajectoryDomain {
-    /// What trajectories of one lubricant teach; `None` where there are none.
+    /// Computes the trained range of trajectories with one lubricant; `None` without trajectories or steps.
     pub fn of(trajectories: &[Trajectory]) -> Option<Self> {
         let problem = &trajectories.first()?.problem;
         let range = |get: fn(&Problem) -> f64| {
@@ -179,7 +179,7 @@ impl TrajectoryDomain {
         })
     }
 
-    /// The inputs by name.
+    /// Returns the three inputs with name, range and access function.
     fn reaches(&self) -> [Named; 3] {
         [
             ("load", self.load, |input| input.load),
@@ -188,13 +188,13 @@ impl TrajectoryDomain {
         ]
     }
 
-    /// How far an input leaves its range, or the only course that was learned.
+    /// Returns the excess of an input over its range, or over the only trained time history.
     fn value_outside(&self, (name, reach, get): Named, time: f64, input: &Input) -> Option<Excess> {
         let other = |only: &Inputs| reach.elsewhere(name, get(input), get(&only.at(time)));
         reach.value_outside(name, get(input)).or_else(|| self.only.as_ref().and_then(other))
     }
 
-    /// Sentences on what inputs at T, and their changes per unit of T, leave of what was trained.
+    /// Returns one sentence for each input, or rate per unit of T, that is outside the trained range at T.
     pub fn outside(&self, time: f64, input: Input, rate: Input) -> Vec<String> {
         let of = |(name, reach, get): Named| {
             let value = self.value_outside((name, reach, get), time, &input);
@@ -203,8 +203,8 @@ impl TrajectoryDomain {
         self.reaches().into_iter().flat_map(of).flatten().map(|excess| excess.sentence).collect()
     }
 
-    /// Returns what a march has left of what was trained: the reference contact, and the farthest value and the fastest
-    /// change of each input.
+    /// Returns the warnings of a march: a reference contact outside the trained range, and the farthest value and the
+    /// fastest change of each input.
     pub fn left_by(&self, trajectory: &Trajectory) -> Vec<Warning> {
         let mut left = Vec::new();
         if let Trust::Outside(outside) = self.reference.trust(&trajectory.problem) {
@@ -228,7 +228,7 @@ impl TrajectoryDomain {
         left
     }
 
-    /// In what a march of a contact along inputs will leave what was trained; none where it stays within it.
+    /// Returns a sentence if a planned march will leave the trained range; `None` if not.
     pub fn leaves(&self, problem: &Problem, inputs: &Inputs, duration: f64) -> Option<String> {
         if let Trust::Outside(why) = self.reference.trust(problem) {
             return Some(why.to_string());
@@ -253,7 +253,7 @@ impl TrajectoryDomain {
         })
     }
 
-    /// Whether its numbers can be those of a training.
+    /// Returns true if the numbers are valid.
     pub fn is_sound(&self) -> bool {
         let reaches = [self.radius, self.speed, self.load];
         let positive = self.radius.range.0 > 0.0 && self.load.range.0 > 0.0;

@@ -1,10 +1,10 @@
-//! Reduced models of contacts in time (RNSA): Galerkin's projection on bases of trajectories, rows by cubature, Newton
-//! in every step.
+//! Reduced models of transient contacts (RNSA): Galerkin projection on bases of trajectories, equations sampled by
+//! cubature, and Newton's method in every step.
 //!
-//! The march is that of the full system ([`crate::solver::full::transient::march`]); what a step costs depends on the
-//! modes and the sampled rows alone. Only a remeshed frame needs ρ̄H at all nodes once per step, for the spline that
-//! carries it to the next grid. A long march passes states that have little in common: a model may have local bases, each
-//! with rows of its own, and a step takes the one whose centre is nearest.
+//! The march is that of the full system ([`crate::solver::full::transient::march`]). The cost of a step depends only on
+//! the numbers of modes and sampled equations. Only a remeshed frame needs the mass flow ρ̄H at all nodes once per
+//! step, for the spline interpolation to the next grid. States of a long march have little in common. So a model may
+//! have local bases, each with its own sampled equations, and a step uses the one with the nearest centre.
 
 mod coupled;
 mod domain;

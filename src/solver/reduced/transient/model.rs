@@ -1,84 +1,84 @@
-//! What a reduced model of trajectories is made of.
+//! Data of a reduced model of trajectories.
 
 use super::domain::TrajectoryDomain;
 use crate::solver::full::transient::{Frame, Inputs};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::Window;
 
-/// A reduced model of a line contact in time, in one frame.
+/// Reduced model of a transient line contact in one frame.
 #[derive(Clone, Debug)]
 pub struct TrajectoryModel {
-    /// Title for people; empty of a model that was never saved.
+    /// Title for display; empty for a model that was never saved.
     pub title: String,
-    /// The frame it was trained in.
+    /// Frame of the training.
     pub frame: Frame,
-    /// Bases, sampled rows, grid. Under complementarity its snapshots tell where the rupture boundary was in training,
-    /// elsewhere it has none; its range of M is of no use here. Beside local bases it has all rows: contacts at rest
-    /// are found with it, and steps that a local basis cannot take.
+    /// Bases, sampled equations and grid. With complementarity its snapshots hold the positions of the cavitation
+    /// boundary in the training; otherwise there are none. Its range of M is not used. If there are local bases, it
+    /// has all rows: it computes steady contacts, and steps that a local basis fails to solve.
     pub window: Window,
-    /// Bases of the states around some centres, of which a step takes the nearest; none where one basis serves all.
+    /// Bases of the states around some centres; a step uses the nearest one. Empty if one basis serves all states.
     pub locals: Vec<LocalBasis>,
-    /// Where its training trajectories began, and what drove them.
+    /// Starts and inputs of the training trajectories.
     pub starts: Vec<TrajectoryStart>,
-    /// What it was trained for.
+    /// Trained range.
     pub domain: TrajectoryDomain,
-    /// The scene it was trained by, as text; empty for a model that was never saved.
+    /// Training scene as text; empty for a model that was never saved.
     pub scene: String,
-    /// What the training did, one sentence per line.
+    /// Log of the training, one sentence per line.
     pub log: Vec<String>,
 }
 
-/// A basis of the states around a centre.
+/// Basis of the states around a centre.
 #[derive(Clone, Debug)]
 pub struct LocalBasis {
-    /// Its modes, which are made of the model's whole basis, and its sampled rows.
+    /// Modes, which are combinations of the model's whole basis, and sampled equations.
     pub window: Window,
-    /// p̃ of its centre in the whole basis.
+    /// Pressure coefficients p̃ of its centre in the whole basis.
     pub centre: Vec<f64>,
 }
 
-/// The beginning of a training trajectory, from which others begin, and its inputs.
+/// Start of a training trajectory, used as initial guess of others, and its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrajectoryStart {
-    /// The reference contact.
+    /// Reference contact.
     pub point: OperatingPoint,
-    /// What drove it.
+    /// Inputs.
     pub inputs: Inputs,
-    /// How long \[T\].
+    /// Duration \[T\].
     pub duration: f64,
-    /// p̃ of its stationary state.
+    /// Pressure coefficients p̃ of the steady state.
     pub coefficients: Vec<f64>,
-    /// Its H₀.
+    /// Rigid-body separation H₀.
     pub h_0: f64,
-    /// Under complementarity its first ruptured column, in node arrays; empty under a penalty.
+    /// With complementarity, the first cavitated column in node arrays; empty with a penalty.
     pub fronts: Vec<usize>,
 }
 
 impl TrajectoryModel {
-    /// What its steps are taken with: the local bases, or the one there is.
+    /// Iterates over the bases used for steps: the local ones, or the whole one.
     pub fn serving(&self) -> impl Iterator<Item = &Window> {
         let whole = self.locals.is_empty().then_some(&self.window);
         self.locals.iter().map(|local| &local.window).chain(whole)
     }
 
-    /// Pressure modes of a step, at most.
+    /// Largest number of pressure modes of a step.
     pub fn modes(&self) -> usize {
         self.serving().map(|window| window.pressure.count()).max().unwrap_or(0)
     }
 
-    /// Sampled rows of a step, at most.
+    /// Largest number of sampled equations of a step.
     pub fn rows(&self) -> usize {
         self.serving().map(|window| window.sampled_rows.len()).max().unwrap_or(0)
     }
 
-    /// The whole basis, number 0, or local basis k, number k + 1.
+    /// Returns the whole basis for number 0, or local basis k for number k + 1.
     pub(super) fn numbered(&self, number: usize) -> &Window {
         let local = number.checked_sub(1).and_then(|local| self.locals.get(local));
         local.map_or(&self.window, |local| &local.window)
     }
 
-    /// The trained reference contact that serves a load \[N/m\] at the beginning of a march: of the trained ones the
-    /// nearest, under the load itself where that lies between trained ones.
+    /// Returns the trained reference contact for a load \[N/m\] at the start of a march. It is the nearest trained
+    /// contact, with the load itself if that lies between trained loads. `None` if there are no starts.
     pub fn reference_for(&self, load: f64) -> Option<OperatingPoint> {
         let far = |point: &OperatingPoint| (point.load / load).ln().abs();
         let points = || self.starts.iter().map(|start| start.point);

@@ -1,17 +1,17 @@
-//! Which of a model's local bases is nearest to a state.
+//! Selection of the local basis nearest to a state.
 
 use super::model::TrajectoryModel;
 use crate::solver::discrete::grid::dot;
 use crate::solver::reduced::{PressureModes, dense};
 use faer::Mat;
 
-/// Another basis must be nearer than this share of the distance to the present one's centre: states between two centres
-/// would go to and fro. A training lets bases know states as far from their centres.
+/// A basis replaces the current one if its centre is nearer than this share of the distance to the current centre.
+/// This avoids oscillation between two bases. The training extends each basis to states as far from its centre.
 pub(crate) const HYSTERESIS: f64 = 0.9;
 
-/// The centres of all local bases, as each basis sees them.
+/// Centres of all local bases in the coordinates of each basis.
 pub(super) struct Nearest {
-    /// Of the whole basis, then of each local one: the centres in its modes, centres × modes.
+    /// For the whole basis, then for each local one: the centres in its modes, centres × modes.
     seen: Vec<Mat<f64>>,
     /// Squared norms of the centres.
     squares: Vec<f64>,
@@ -19,7 +19,7 @@ pub(super) struct Nearest {
 }
 
 impl Nearest {
-    /// Of a model.
+    /// Computes the centres for a model.
     pub fn new(model: &TrajectoryModel) -> Self {
         let (centres, modes) = (model.locals.len(), model.window.pressure.count());
         let whole = Mat::from_fn(centres, modes, |k, mode| model.locals[k].centre[mode]);
@@ -33,8 +33,8 @@ impl Nearest {
         }
     }
 
-    /// The number of the basis that serves a state, which is given in the modes of basis `number`: that one, unless
-    /// another is nearer by far.
+    /// Returns the number of the basis for a state, which is given in the modes of basis `number`. Another basis is
+    /// selected only if it is clearly nearer.
     pub fn serving(&mut self, number: usize, coefficients: &[f64]) -> usize {
         let Some(seen) = self.seen.get(number).filter(|seen| seen.nrows() > 0) else { return number };
         dense::times(seen.as_ref(), coefficients, &mut self.products);

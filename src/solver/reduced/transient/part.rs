@@ -1,4 +1,4 @@
-//! One basis of a model in time, ready to solve steps with.
+//! One basis of a transient model with its operators.
 
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, LineGrid};
 use crate::solver::discrete::reynolds::line::Upstream;
@@ -8,11 +8,11 @@ use crate::solver::reduced::Window;
 use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::operators::{Flow, Operators, passed_rows};
 
-/// Operators of a basis, and what its rows read in time.
+/// Operators of a basis, and time-dependent data of its rows.
 pub(super) struct Part {
     pub operators: Operators,
-    /// Stencils of the sampled rows, and of those that the rupture boundary may pass, and their coefficients, for a flow
-    /// from the inlet and from the outlet.
+    /// Stencils and coefficients of the sampled equations and of the rows that the cavitation boundary may pass, for
+    /// flow from the inlet and from the outlet.
     sides: Vec<[Side; 2]>,
     /// Nodes of these rows, and their X.
     pub nodes: Vec<usize>,
@@ -20,7 +20,7 @@ pub(super) struct Part {
     pub contact: ContactRows,
 }
 
-/// How a row reads its neighbours.
+/// Stencil and coefficients of a row for one flow direction.
 #[derive(Clone, Copy, Default)]
 struct Side {
     stencil: [usize; STENCIL],
@@ -28,7 +28,7 @@ struct Side {
 }
 
 impl Part {
-    /// The basis and rows of a window on its grid.
+    /// Builds the basis and rows of a local model on its grid.
     pub fn new(window: &Window, grid: &LineGrid) -> Self {
         let modes = window.pressure.count();
         let (unknowns, last) = (grid.unknowns(), grid.len() - 1);
@@ -50,7 +50,7 @@ impl Part {
         }
     }
 
-    /// Gives the sampled rows their place in time, where the former states are carried along already.
+    /// Sets the coefficients of the sampled equations for a step; the previous states must be interpolated before.
     pub fn set_rows(&mut self, step: &Step, history: &History) {
         let weights = step.history_weights();
         for (r, (sides, x)) in self.sides.iter().zip(&self.x).enumerate() {
@@ -61,7 +61,7 @@ impl Part {
         }
     }
 
-    /// Lets the sampled rows rest.
+    /// Sets the coefficients of the sampled equations for a steady contact.
     pub fn rest(&mut self, at: &Conditions) {
         for (r, sides) in self.sides.iter().enumerate() {
             self.operators.set_row(r, sides[0].stencil, sides[0].geometry.in_time(at.speed, 0.0, 0.0));

@@ -1,5 +1,5 @@
-//! The online phase in time: Newton on the sampled rows from the extrapolation of the two former steps, in the basis that
-//! is nearest.
+//! Transient online phase: Newton's method on the sampled equations from the extrapolation of the two previous steps,
+//! in the nearest basis.
 
 use super::model::{TrajectoryModel, TrajectoryStart};
 use super::nearest::Nearest;
@@ -17,51 +17,52 @@ use crate::solver::reduced::{ReducedError, Window, dense};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Stop of a step on ‖Δp̃‖/‖p̃‖.
+/// Stopping tolerance of a step for ‖Δp̃‖/‖p̃‖, with the pressure coefficients p̃.
 const TOLERANCE: f64 = 1e-6;
-/// Newton steps of a time step, and of the stationary start.
+/// Maximum number of Newton steps of a time step, and of the steady start.
 const MOST_NEWTON: [usize; 2] = [15, 60];
-/// How a step is tried: whether a rupture boundary, where there is one, is in force, and the penalty factor over the
-/// model's own. A boundary that finds no place gives way to the penalty, that to a softer one.
+/// Attempts of a step: whether a cavitation boundary is active, and the penalty factor relative to the model's own.
+/// If the boundary fails, the penalty is used, then a softer one.
 const ATTEMPTS: [(bool, f64); 3] = [(true, 1.0), (false, 1.0), (false, 0.1)];
-/// Steps in a basis before another takes over: both former states are then of this one, and nothing of them is lost twice.
+/// Minimum number of steps in a basis. Both previous states are then of this basis, so that no state is projected
+/// twice.
 const LEAST_STAY: usize = 2;
-/// The number of the whole basis.
+/// Number of the whole basis.
 const WHOLE: usize = 0;
 
-/// Sees every iterate of every step, with the number of the basis that it is in.
+/// Observer of all iterates of all steps; receives the number of their basis.
 pub(crate) type StepObserver<'a> = Box<dyn FnMut(usize, &Iterate<'_>) + 'a>;
 
-/// A reduced model, ready to march.
+/// Reduced model prepared for a march.
 pub struct ReducedMarch<'a> {
     model: Arc<TrajectoryModel>,
     grid: LineGrid,
-    /// The whole basis, then the local ones.
+    /// Whole basis, then the local ones.
     parts: Vec<Part>,
     nearest: Nearest,
-    /// The basis that the states are given in, and how many steps were taken in it.
+    /// Number of the basis of the current states, and number of steps taken in it.
     number: usize,
     stayed: usize,
     history: History,
     coefficients: Vec<f64>,
     start: Vec<f64>,
     h_0: f64,
-    /// The equations at the former states, the nearer one first; none before the march has begun.
+    /// Equations at the previous states, the nearer one first; `None` before the march starts.
     at: Option<[Conditions; 2]>,
-    /// Where their films rupture, and where a step begins; empty under a penalty.
+    /// Cavitation boundaries of these states, and that at the start of a step; empty with a penalty.
     fronts: [Vec<usize>; 2],
     front: Vec<usize>,
-    /// What of the modes' pressures the boundary takes away, by nodes.
+    /// Pressures of the modes that the boundary removes, with their nodes.
     cut: Vec<(usize, f64)>,
-    /// P and H at all nodes, which only remeshing and another basis ask for.
+    /// P and H at all nodes, used only for remeshing and for a change of the basis.
     fields: [Vec<f64>; 2],
     fft: Scratch,
-    /// Scalars of the present state.
+    /// Scalars of the current state.
     scalars: Scalars,
     observer: Option<StepObserver<'a>>,
 }
 
-/// The former states in the basis of a number.
+/// Previous states in the basis with this number.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Kept {
     pub history: History,
@@ -71,7 +72,7 @@ pub(super) struct Kept {
 }
 
 impl Kept {
-    /// Takes over another one, in the room there is.
+    /// Copies another state without allocating, if the capacity suffices.
     pub fn copy_from(&mut self, other: &Self) {
         self.history.copy_from(&other.history);
         self.fronts.iter_mut().zip(&other.fronts).for_each(|(own, other)| own.clone_from(other));
@@ -80,10 +81,10 @@ impl Kept {
 }
 
 impl<'a> ReducedMarch<'a> {
-    /// The model on its grid, to march along `transient`.
+    /// Prepares the model for a march along `transient`.
     ///
     /// # Errors
-    /// When the model is of point contacts, or of films that rupture otherwise.
+    /// [`ReducedError`] if the model is of point contacts, or of another cavitation model.
     pub fn new(model: &Arc<TrajectoryModel>, transient: &Transient) -> Result<Self, ReducedError> {
         let (own, given) = (model.window.cavitation, transient.lubricant.cavitation);
         if own != given {
@@ -92,10 +93,10 @@ impl<'a> ReducedMarch<'a> {
         Self::on(model)
     }
 
-    /// The model on its grid, whatever it is to march along.
+    /// Prepares the model for any march.
     ///
     /// # Errors
-    /// When the model is of point contacts.
+    /// [`ReducedError`] if the model is of point contacts.
     pub(super) fn on(model: &Arc<TrajectoryModel>) -> Result<Self, ReducedError> {
         let grid = line_grid(model)?.scaled(1.0);
         let parts: Vec<Part> =
@@ -124,14 +125,14 @@ impl<'a> ReducedMarch<'a> {
         })
     }
 
-    /// Writes the present state down, in the room there is.
+    /// Copies the current state to `kept` without allocating, if the capacity suffices.
     pub(super) fn keep(&self, kept: &mut Kept) {
         kept.history.copy_from(&self.history);
         kept.fronts.iter_mut().zip(&self.fronts).for_each(|(kept, own)| kept.clone_from(own));
         (kept.number, kept.stayed) = (self.number, self.stayed);
     }
 
-    /// Goes back to states that [`Self::keep`] wrote down, at these conditions, the nearer ones first.
+    /// Restores states stored by [`Self::keep`], with the conditions `at`, the nearer ones first.
     pub(super) fn restore(&mut self, kept: &Kept, at: [Conditions; 2]) {
         self.history.copy_from(&kept.history);
         self.fronts.iter_mut().zip(&kept.fronts).for_each(|(own, kept)| own.clone_from(kept));
@@ -142,7 +143,7 @@ impl<'a> ReducedMarch<'a> {
         self.h_0 = h_0;
     }
 
-    /// Whether such states can be of this model.
+    /// Returns true if these states can belong to this model.
     pub(super) fn knows(&self, kept: &Kept) -> bool {
         let Some(part) = self.parts.get(kept.number) else { return false };
         let between = if matches!(self.model.frame, Frame::Remeshed(_)) { self.grid.len() } else { 0 };
@@ -152,24 +153,24 @@ impl<'a> ReducedMarch<'a> {
             && fronts.all(|own| own.len() == lines && own.iter().all(|front| *front <= self.grid.len()))
     }
 
-    /// H₀ of the present state.
+    /// Returns the rigid-body separation H₀ of the current state.
     pub(super) fn h_0(&self) -> f64 {
         self.h_0
     }
 
-    /// Shows every iterate to an observer, for a training.
+    /// Passes every iterate to an observer, for a training.
     pub(crate) fn observe(&mut self, observer: StepObserver<'a>) {
         self.observer = Some(observer);
     }
 
-    /// Coefficients for as many modes as the present basis has.
+    /// Resizes the coefficients to the number of modes of the current basis.
     fn make_room(&mut self) {
         let modes = self.parts[self.number].operators.modes();
         self.coefficients.resize(modes, 0.0);
         self.start.resize(modes, 0.0);
     }
 
-    /// Gives the former states in the basis of another number: their pressures in its modes, their ρ̄H at its rows.
+    /// Converts the previous states to another basis: pressures to its modes, mass flow ρ̄H to its rows.
     fn change_to(&mut self, number: usize) {
         let (Some(at), true) = (self.at, number != self.number) else { return };
         let mut fields = std::mem::take(&mut self.fields);
@@ -193,7 +194,7 @@ impl<'a> ReducedMarch<'a> {
         self.make_room();
     }
 
-    /// Changes to the basis nearest to where the former states lead.
+    /// Changes to the basis nearest to the extrapolated state.
     fn change_to_nearest(&mut self, ratio: f64) {
         if self.stayed < LEAST_STAY || self.model.locals.is_empty() {
             return;
@@ -203,7 +204,7 @@ impl<'a> ReducedMarch<'a> {
         self.change_to(serving);
     }
 
-    /// Newton for the end of a step, in the present basis.
+    /// Runs Newton's method for the end of a step, in the current basis.
     fn solve(&mut self, step: &Step) -> Result<Effort, Termination> {
         let part = &mut self.parts[self.number];
         self.history.carry(self.model.frame, step, &self.grid.x, &part.x);
@@ -213,7 +214,8 @@ impl<'a> ReducedMarch<'a> {
         self.newton(&step.now, MOST_NEWTON[0])
     }
 
-    /// Newton from the present state; the iteration that failed is repeated with a softer penalty from `start`.
+    /// Runs Newton's method from the current state. After a failure it is repeated from `start`, without the
+    /// cavitation boundary and then with a softer penalty.
     fn newton(&mut self, at: &Conditions, max_newton: usize) -> Result<Effort, Termination> {
         let (h_0, number) = (self.h_0, self.number);
         let window = self.model.numbered(number);
@@ -243,7 +245,7 @@ impl<'a> ReducedMarch<'a> {
         Err(Termination::Diverged)
     }
 
-    /// Makes the present state the nearer of the former ones.
+    /// Stores the current state as the nearer previous one.
     fn remember(&mut self, at: &Conditions) {
         let operators = &mut self.parts[self.number].operators;
         self.history.remember(&self.coefficients, self.h_0, operators.flow());
@@ -270,12 +272,12 @@ impl<'a> ReducedMarch<'a> {
         self.scalars = self.parts[self.number].contact.scalars(at, &self.coefficients, self.h_0, bend);
     }
 
-    /// P and H of the present state at all nodes.
+    /// Computes P and H of the current state at all nodes.
     fn set_fields(&self, at: &Conditions, fields: &mut [Vec<f64>; 2], fft: &mut Scratch) {
         self.spread(at, (&self.coefficients, self.h_0, &self.fronts[0]), fields, fft);
     }
 
-    /// P and H of a state of the present basis, with its H₀ and its rupture boundary, at all nodes.
+    /// Computes P and H at all nodes for a state of the current basis, its H₀ and its cavitation boundary.
     fn spread(
         &self,
         at: &Conditions,
@@ -297,7 +299,7 @@ impl<'a> ReducedMarch<'a> {
     }
 }
 
-/// The contact at the end of a step.
+/// Returns the contact at the end of a step.
 fn case(at: &Conditions, penalty: f64, max_newton: usize) -> Case<'_> {
     let stop = Stop::new(TOLERANCE, max_newton);
     Case { problem: &at.problem, scale: 1.0, curvature: at.curvature, penalty, stop }

@@ -1,32 +1,33 @@
-//! Starting beside a film that is known: between two iterations, and from node to node, the stress hardly changes.
+//! Film integrals with an initial guess from a nearby film that is already solved. Between two iterations, and from
+//! node to node, the stress changes little.
 
 use super::moments::shortened;
 use super::{FilmIntegrals, FilmLoad, FilmRule, MOST_ITERATIONS, alone, length, solve};
 use crate::solver::physics::lubricant::Fluidity;
 
-/// The largest first step, relative to τ_m, after which a start from a film nearby is trusted.
+/// Largest first step, relative to the mid-film stress τ_m, for which the initial guess from a nearby film is accepted.
 const FIRST_STEP: f64 = 0.3;
 
-/// A film that was solved already, as a start for one nearby.
+/// Solved film, used as initial guess for a nearby one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct KnownFilm {
-    /// What it depended on.
+    /// Scalars a, b and S of the film.
     pub load: FilmLoad,
-    /// Its τ_m; zero where none is known.
+    /// Mid-film stress τ_m; zero if unknown.
     pub mid_stress: [f64; 2],
     /// ∂τ_m/∂(a, b, S).
     pub d_mid_stress: [[f64; 2]; 3],
 }
 
 impl KnownFilm {
-    /// Whether nothing is known.
+    /// Returns true if no solution is stored.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.mid_stress == [0.0; 2]
     }
 
-    /// τ_m of a film nearby, to first order where that changes it little; none without sliding, or where nothing is
-    /// known.
+    /// Estimates τ_m of a nearby film, to first order if the change is small. `None` without sliding, or if no
+    /// solution is stored.
     #[inline]
     fn near(&self, load: &FilmLoad) -> Option<[f64; 2]> {
         let own = self.mid_stress;
@@ -43,8 +44,8 @@ impl KnownFilm {
     }
 }
 
-/// [`film_integrals`](super::film_integrals) beside a film that is known, by a rule, and until a step of τ_m, relative to
-/// it, is as small as `last`: what that leaves is the square of it.
+/// Computes [`film_integrals`](super::film_integrals) starting from a nearby solved film. Ends when a step of τ_m,
+/// relative to τ_m, is as small as `last`; the remaining error is the square of it.
 pub fn film_integrals_near(
     law: &Fluidity,
     (rule, last): (&FilmRule, f64),
@@ -53,8 +54,8 @@ pub fn film_integrals_near(
 ) -> FilmIntegrals {
     if let Some(near) = known.near(&load) {
         let (first, integrals) = solve(law, shortened(law, rule, &load), load, (near, last), 0);
-        // From too small a stress a steep law takes steps that never come back, from one of the other sign too many
-        // short ones.
+        // If the initial stress is too small, a steep law takes steps that diverge. If it has the wrong sign, the
+        // steps are too many and too short.
         if first <= FIRST_STEP * length(near) && integrals.iterations < MOST_ITERATIONS {
             return integrals;
         }

@@ -1,15 +1,15 @@
-//! Sums across the film: the rule, and the moments of the fluidity that the inner problem is made of, at one stress at
-//! mid-film.
+//! Quadrature across the film: the rule, and the moments of the fluidity at one mid-film stress, from which the inner
+//! problem is built.
 
 use super::{FilmLoad, length};
 use crate::solver::physics::lubricant::{Fluidity, GAUSS_6};
 
-/// Points ζ, ascending, and weights of a rule over the film; a panel ends at ζ = 0, so that the points above are a rule
-/// for the upper half.
+/// Points ζ, ascending, and weights of a rule over the film. A panel ends at ζ = 0, so that the points above are a
+/// rule for the upper half.
 pub type FilmRule = [(f64, f64)];
 
-/// The production rule: two panels with six Gauss points each. The panels meet at ζ = 0, where the stress of pure
-/// rolling has its kink.
+/// Production rule: two panels with six Gauss points each. The panels meet at ζ = 0, where the stress of pure rolling
+/// has its kink.
 pub const PRODUCTION_RULE: [(f64, f64); 12] = two_panels();
 
 const fn two_panels() -> [(f64, f64); 12] {
@@ -32,11 +32,11 @@ const GAUSS_4: [(f64, f64); 4] = [
     (0.430_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-/// What does for a smooth law, to rounding, where stresses differ by no more than this between the surfaces, in units of
-/// the law's scale.
+/// Rules that are sufficient for a smooth law, to rounding, up to this difference of the stress between the surfaces,
+/// in units of the law's scale.
 const SHORTER: [(f64, &FilmRule); 2] = [(0.08, &GAUSS_4), (0.9, &GAUSS_6)];
 
-/// The rule for a film: one without the panels that a kink asks for where the law has none and the stress hardly varies.
+/// Returns the rule for a film: a shorter one without panels if the law is smooth and the stress varies little.
 #[inline]
 pub(super) fn shortened<'a>(law: &Fluidity, rule: &'a FilmRule, load: &FilmLoad) -> &'a FilmRule {
     if rule.len() != POINTS || !law.is_smooth() {
@@ -46,7 +46,7 @@ pub(super) fn shortened<'a>(law: &Fluidity, rule: &'a FilmRule, load: &FilmLoad)
     SHORTER.into_iter().find(|(most, _)| across <= *most).map_or(rule, |(_, shorter)| shorter)
 }
 
-/// Sums over a film rule at one τ_m.
+/// Sums over a film rule at one mid-film stress τ_m, with the fluidity g.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Moments {
     /// ∫ ζ^k g.
@@ -57,13 +57,13 @@ pub(super) struct Moments {
     pub stiffness: [[f64; 3]; 2],
 }
 
-/// Some points of a rule, whose law is evaluated at once; unused ones have no weight.
+/// Points of a rule at which the law is evaluated at once; unused points have weight zero.
 struct Lanes<const N: usize> {
     zeta: [f64; N],
     weight: [f64; N],
 }
 
-/// A rule in portions of N points.
+/// Splits a rule into portions of N points.
 fn portions<const N: usize>(rule: &FilmRule) -> impl Iterator<Item = Lanes<N>> + '_ {
     rule.chunks(N).map(|points| {
         let mut lanes = Lanes { zeta: [0.0; N], weight: [0.0; N] };
@@ -74,7 +74,7 @@ fn portions<const N: usize>(rule: &FilmRule) -> impl Iterator<Item = Lanes<N>> +
     })
 }
 
-/// Points of the production rule.
+/// Number of points of the production rule.
 const POINTS: usize = PRODUCTION_RULE.len();
 
 impl Moments {
@@ -87,7 +87,7 @@ impl Moments {
         }
     }
 
-    /// With so many points of the rule at once, or of its upper half.
+    /// Computes the sums with `N` points of the rule at once, or `HALF` points of its upper half.
     #[inline]
     fn by_portions<const N: usize, const HALF: usize>(
         law: &Fluidity,
@@ -104,8 +104,8 @@ impl Moments {
         }
     }
 
-    /// Without stress at mid-film: the fluidity is even across it, so that the upper half tells all, and odd moments
-    /// vanish.
+    /// Sums without stress at mid-film. The fluidity is then even across the film: the upper half suffices, and odd
+    /// moments vanish.
     fn rolling<const N: usize>(law: &Fluidity, rule: &FilmRule, load: &FilmLoad) -> Self {
         let mut out = Self::default();
         let across = length([load.a, load.b]);
@@ -133,7 +133,7 @@ impl Moments {
         out
     }
 
-    /// Where nothing shears the film across the direction of sliding: the y parts vanish, stresses are scalars.
+    /// Sums without shear perpendicular to the sliding direction: the y parts vanish, and stresses are scalars.
     fn along<const N: usize>(law: &Fluidity, rule: &FilmRule, a: f64, mid: f64) -> Self {
         let mut out = Self::default();
         for Lanes { zeta, weight } in portions::<N>(rule) {
@@ -190,7 +190,7 @@ impl Moments {
         out
     }
 
-    /// Inverse of ∂(∫ τ g)/∂τ_m, a symmetric positive 2 × 2 matrix: xx, xy, yy.
+    /// Returns the inverse of ∂(∫ τ g)/∂τ_m, a symmetric positive definite 2 × 2 matrix: xx, xy, yy.
     pub fn inverse(&self) -> [f64; 3] {
         let [xx, xy, yy] = self.stiffness[0];
         let (xx, yy) = (self.fluidity[0] + xx, self.fluidity[0] + yy);

@@ -1,4 +1,5 @@
-//! The integrals against adaptive quadrature, their derivatives against differences, and what holds for every law.
+//! Film integrals compared with adaptive quadrature, their derivatives compared with finite differences, and
+//! properties that hold for every law.
 
 use super::*;
 use crate::solver::physics::lubricant::ShearLaw;
@@ -27,7 +28,7 @@ pub fn loads() -> Vec<FilmLoad> {
     out
 }
 
-/// Panels of 1/16, shrinking towards the kink of |τ|, 12 Gauss points (two times six) each.
+/// Panels of 1/16 that shrink towards the kink of |τ|, with 12 Gauss points (two times six) each.
 fn reference_rule(kink: f64) -> Vec<(f64, f64)> {
     let mut edges: Vec<f64> = (0..=16).map(|k| f64::from(k) / 16.0 - 0.5).collect();
     for k in 0..26 {
@@ -56,7 +57,7 @@ fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64, depth: u
     adaptive(f, from, middle, 0.5 * tolerance, depth - 1) + adaptive(f, middle, to, 0.5 * tolerance, depth - 1)
 }
 
-/// Where |τ| is smallest.
+/// Returns the height at which |τ| is smallest.
 fn kink(load: &FilmLoad, mid: [f64; 2]) -> f64 {
     let length = load.a * load.a + load.b * load.b;
     if length == 0.0 { 0.0 } else { -(mid[0] * load.a + mid[1] * load.b) / length }
@@ -93,7 +94,7 @@ fn the_reference_rule_agrees_with_adaptive_quadrature_to_1e_8() {
 fn derivatives_agree_with_finite_differences_to_1e_6() {
     for law in laws() {
         for load in loads() {
-            // Differences across the kink of pure rolling say nothing about the derivative there.
+            // Finite differences across the kink of pure rolling do not approximate the derivative there.
             if load.a == 0.0 && load.b == 0.0 && load.sliding == 0.0 {
                 continue;
             }
@@ -164,7 +165,7 @@ fn sliding_the_other_way_mirrors_the_film() {
 #[test]
 fn shorter_rules_of_a_smooth_law_change_nothing() {
     let (eyring, _) = Fluidity::of(ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, 0.0).unwrap();
-    // Twice the points are told from the rule by their number, and kept.
+    // A rule with twice the points is recognised by their number and is not shortened.
     let longer: Vec<(f64, f64)> = [-0.25, 0.25]
         .into_iter()
         .flat_map(|middle| PRODUCTION_RULE.map(|(at, weight)| (middle + 0.5 * at, 0.5 * weight)))
@@ -177,7 +178,7 @@ fn shorter_rules_of_a_smooth_law_change_nothing() {
                     (film_integrals(&eyring, &PRODUCTION_RULE, load), film_integrals(&eyring, &longer, load));
                 assert!((short.mobility / long.mobility - 1.0).abs() < 1e-13, "{load:?}");
                 assert!((short.shift - long.shift).abs() < 1e-13, "{load:?}");
-                // Derivatives decide how Newton gets there, not where.
+                // Derivatives affect the path of Newton's method, not its solution.
                 for (one, other) in short.d_mobility.iter().zip(long.d_mobility) {
                     assert!((one - other).abs() < 1e-7 * (long.mobility + other.abs()), "{load:?}: {one} {other}");
                 }

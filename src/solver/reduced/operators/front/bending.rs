@@ -1,4 +1,5 @@
-//! What the boundary changes of K V and K P: at places of it that are kept, and by the nodes between.
+//! Changes of the deformations K V (of the modes) and K P (of the pressure) by the boundary B: at stored positions of
+//! B, and by the nodes in between.
 
 use super::Front;
 use crate::solver::discrete::reynolds::CENTER;
@@ -10,28 +11,30 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use std::ops::Range;
 
-/// Places of B at which K V is kept: a solve takes the nearest of them. As many as these, and as take this many bytes.
+/// Maximum number of positions of B with stored K V, and their maximum memory in bytes. A solve uses the nearest
+/// position.
 const KEPT: usize = 8;
 const KEPT_BYTES: usize = 16 << 20;
 
-/// K V at one place of B.
+/// K V at one position of B.
 pub(super) struct Kept {
-    /// Of each line how many nodes carry pressure.
+    /// Number of nodes that carry pressure, for each line.
     pub fronts: Vec<usize>,
-    /// At the support, row-major; of the place in use it lies in the basis of the system.
+    /// K V at the support, row-major. For the position in use it is stored in the basis of the system.
     pub deformation: Vec<f64>,
-    /// Σ v vᵀ over the nodes behind it, where modes are held at zero there.
+    /// Σ v vᵀ over the nodes behind B, if modes are restrained there.
     pub behind: Mat<f64>,
     /// wᵀ V.
     pub load: Vec<f64>,
-    /// What the film at X = 0 (and Y = 0) gains, and the scale it was found for.
+    /// Contribution to the film thickness at X = 0 (and Y = 0), and the scale for which it was computed.
     pub lift: (Option<f64>, Vec<f64>),
 }
 
-/// Nodes whose bending is added to the Jacobian at once.
+/// Number of nodes whose deformation is added to the Jacobian at once.
 const TOGETHER: usize = 32;
 
-/// Work space: what some nodes bend the rows, rows × nodes column-major, and their modes, row-major.
+/// Work space: change of the rows by the deformation of some nodes, rows × nodes column-major, and modes at these
+/// nodes, row-major.
 #[derive(Default)]
 pub(super) struct Bent {
     rows: Vec<f64>,
@@ -45,7 +48,7 @@ impl Bent {
 }
 
 impl Front {
-    /// Keeps K V, given whole, at places of B that are far from each other.
+    /// Stores K V, given for whole modes, at positions of B that are far from each other.
     pub(super) fn keep(&mut self, window: &Window, whole: &[f64], whole_load: &[f64]) {
         let modes = whole_load.len();
         let s = whole.len() / modes;
@@ -92,8 +95,8 @@ impl Front {
         }
     }
 
-    /// Nodes between B and its place in K V, and whether they carry pressure that K V does not know, 1, or the other way
-    /// about, −1.
+    /// Returns the nodes between B and its position in K V, with +1 if they carry pressure that K V does not include,
+    /// and −1 in the opposite case.
     pub(super) fn between(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.lines.iter().flat_map(|line| {
             let sign = if line.front > line.kept { 1.0 } else { -1.0 };
@@ -102,7 +105,8 @@ impl Front {
         })
     }
 
-    /// Finds which rows lie behind B, and which further places near B are to be seen: those of the rows behind it.
+    /// Determines which rows lie behind B, and which further places near B are evaluated: those of the rows just
+    /// behind it.
     pub(super) fn look_near(&mut self, system: &mut SampledSystem) {
         let SampledSystem { row_states, stencils, seen, support, transient, .. } = system;
         for ((state, (line, column)), stencil) in row_states.iter_mut().zip(&self.rows).zip(&*stencils) {
@@ -112,7 +116,8 @@ impl Front {
             } else if *column >= line.column + line.front {
                 RowState::Cavitated
             } else if support.places[stencil[CENTER]].xi < 0.0 {
-                // Before the centre there is no boundary: where the inlet cavitates, in time, a penalty holds it.
+                // There is no boundary in front of the centre. A cavitated inlet of a transient contact is treated by
+                // the penalty.
                 RowState::Penalised
             } else {
                 RowState::Full
@@ -122,7 +127,7 @@ impl Front {
         let near = &mut seen[1..];
         near.fill(own..own);
         if *transient || self.idle {
-            // All are.
+            // All further places.
             near.first_mut().into_iter().for_each(|near| *near = own..end);
             return;
         }
@@ -139,8 +144,8 @@ impl Front {
         }
     }
 
-    /// P, K P and the gradients of coefficients: cuts off what lies behind B, adds to K P of the rows' own places what
-    /// nodes between B and its place in K V bend, and finds all three near B.
+    /// Applies B to P, K P and the gradients of the coefficients. Cuts off pressures behind B, adds the deformation
+    /// by nodes between B and its position in K V at the rows' own places, and computes all fields near B.
     pub(super) fn cut_and_bend(&mut self, system: &SampledSystem, coefficients: &[f64], fields: &mut [f64]) {
         let (pressure, rest) = fields.split_at_mut(self.cut.len());
         for line in &self.lines {
@@ -153,7 +158,7 @@ impl Front {
         self.spread_near(system, coefficients, fields);
     }
 
-    /// P, K P and the gradients of coefficients near B, where what bends is known.
+    /// Computes P, K P and the gradients of the coefficients near B, after [`Self::find_bending`].
     pub(super) fn spread_near(&self, system: &SampledSystem, coefficients: &[f64], fields: &mut [f64]) {
         let (basis, near) = (&system.basis, &system.seen[1..]);
         let count = self.cut.len();
@@ -171,7 +176,7 @@ impl Front {
         }
     }
 
-    /// Finds the pressures, of coefficients, that K V does not know.
+    /// Computes the pressures of the coefficients that K V does not include.
     pub(super) fn find_bending(&mut self, coefficients: &[f64]) {
         let mut bending = std::mem::take(&mut self.bending);
         bending.clear();
@@ -179,12 +184,12 @@ impl Front {
         self.bending = bending;
     }
 
-    /// Adds what they bend to K P at a part of the support.
+    /// Adds the deformation by these pressures to K P at a part of the support.
     fn bend_part(&self, part: Range<usize>, deformation: &mut [f64]) {
         let s = self.cut.len();
         let out = &mut deformation[part.clone()];
         let bends = |k: usize| &self.bends[k * s..][part.clone()];
-        // Four nodes at once: sums are read and written a quarter as often.
+        // Four nodes at once: the sums are read and written a quarter as often.
         let mut fours = self.bending.chunks_exact(4);
         for four in fours.by_ref() {
             let &[(k, a), (l, b), (m, c), (n, d)] = four else { continue };
@@ -195,10 +200,9 @@ impl Front {
         }
     }
 
-    /// Adds to the rows of the Jacobian, by their derivatives with respect to the films of their nodes, what nodes between
-    /// B and its place in K V bend. Of one line always: there few nodes decide the film, and at a high M Newton's steps
-    /// grow without them. Of many lines it costs more than the steps that it mostly saves, and waits until an iteration
-    /// turns out `slow`.
+    /// Adds the deformation by nodes between B and its position in K V to the rows of the Jacobian. For a single line
+    /// always: there few nodes determine the film thickness, and at high M Newton's method needs more steps without
+    /// them. For many lines the cost exceeds the savings, so it is done only for `slow` iterations.
     pub(super) fn bend(&mut self, system: &mut SampledSystem, scale: f64, slow: bool) {
         if self.idle || !(slow || self.lines.len() == 1) {
             return;
@@ -232,7 +236,8 @@ impl Front {
         self.bent = own;
     }
 
-    /// What the film at X = 0 (and Y = 0) gains, in place of what whole modes give it.
+    /// Replaces `lift`, given for whole modes, by the contribution of the cut-off modes to the film thickness at X =
+    /// 0 (and Y = 0).
     pub(super) fn lift(&mut self, lift: &mut [f64], Centre { window, nodes: zero, scale }: Centre<'_>) {
         let modes = lift.len();
         if self.aimed != Some(scale) {
@@ -263,7 +268,7 @@ impl Front {
     }
 }
 
-/// How far two places of B are from each other.
+/// Returns the distance between two positions of B.
 fn apart(a: &[usize], b: &[usize]) -> usize {
     a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum()
 }

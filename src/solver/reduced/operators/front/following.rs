@@ -1,4 +1,4 @@
-//! How the boundary moves after a step, (D.16)–(D.18).
+//! Motion of the boundary B after a step, (D.16)–(D.18).
 
 use super::reach::BEFORE;
 use super::{Front, TURNS};
@@ -7,13 +7,13 @@ use crate::solver::reduced::operators::part::Moved;
 use crate::solver::reduced::operators::sampled_system::SampledSystem;
 use crate::solver::reduced::sums::row_times;
 
-/// The pressure that counts as negative in time, and what is none worth the name: there the bases are of fewer contacts,
-/// and pressures behind the contact that matter are smaller.
+/// Pressure that counts as negative, and as negligible, in a transient contact. Transient bases are of fewer
+/// contacts, and smaller pressures behind the contact matter.
 const LITTLE: f64 = 1e-5;
 
 impl Front {
-    /// Lets B follow a step, of which the share `omega` was taken. What gradients add to λ is left out: where P ends they
-    /// are small, and when steps are, λ is that of the rows.
+    /// Moves B after a step, of which the share `omega` was taken. The contribution of gradients to the multiplier λ is
+    /// neglected: it is small where P ends, and vanishes with the step.
     pub(super) fn follow(
         &mut self,
         system: &mut SampledSystem,
@@ -35,7 +35,7 @@ impl Front {
             }
             let at = |k: usize| &self.nodes[line.first + k];
             let (stride, first, end) = if strides {
-                // Behind the last pressure worth the name there may be no modes that B could see become negative.
+                // Behind the last significant pressure there may be no modes that show B a negative pressure.
                 let little = |k: &usize| fields[at(*k).place].abs() < LITTLE;
                 (line.stride, 1, line.front - (1..line.front).rev().take_while(little).count())
             } else {
@@ -58,7 +58,7 @@ impl Front {
             let front = match negative {
                 Some(first) => first.max(end.saturating_sub(stride)),
                 None => {
-                    // More flows in at these nodes than the gap takes: the liquid fills them.
+                    // If more flows into these nodes than the gap holds, the liquid fills them.
                     let mut inflow = 0.0;
                     let filled = |&k: &usize| {
                         inflow += at(k).weight * multiplier(k);

@@ -1,15 +1,15 @@
-//! Where the boundary is in a node array, and where it may come.
+//! Position of the boundary B in a node array, and nodes that it may reach.
 
 use crate::solver::discrete::grid::ContactGrid;
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::Window;
 
-/// Nodes that B may move beyond where it was in any of the trainings.
+/// Number of nodes that B may move beyond its positions in the training.
 const MARGIN: usize = 4;
-/// Nodes before B at which pressures are looked at: k of (D.17).
+/// Number of nodes in front of B whose pressures are checked: k of (D.17).
 pub(super) const BEFORE: usize = 5;
 
-/// Of each line along X the first column of a node array behind which no pressure is positive.
+/// Returns, for each line along X, the first column of a node array behind which no pressure is positive.
 pub(crate) fn fronts(grid: &ContactGrid, pressure: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut fronts = vec![0; grid.lines()];
     for node in (0..grid.unknowns()).map(|k| grid.node(k)) {
@@ -34,7 +34,7 @@ pub(crate) fn cut_off(grid: &ContactGrid, fronts: &[usize], pressure: &mut [f64]
     }
 }
 
-/// The nodes that B may pass, line after line, as ranges of columns.
+/// Returns the nodes that B may pass, line by line, as ranges of columns.
 pub(super) fn passed(window: &Window) -> Vec<(usize, usize)> {
     let grid = &window.grid;
     let last = (0..grid.unknowns()).map(|k| grid.line_and_column(grid.node(k)).1).max().unwrap_or(0);
@@ -48,7 +48,7 @@ pub(super) fn passed(window: &Window) -> Vec<(usize, usize)> {
     (0..grid.lines()).map(of_line).collect()
 }
 
-/// The rows, as unknowns, that the boundary may pass, line after line; none where a penalty holds the pressures.
+/// Returns the rows, as unknowns, that the boundary may pass, line by line; empty for cavitation by a penalty.
 pub(crate) fn passed_rows(window: &Window) -> Vec<usize> {
     let mut rows = Vec::new();
     if window.cavitation == Cavitation::Complementarity {
@@ -57,7 +57,7 @@ pub(crate) fn passed_rows(window: &Window) -> Vec<usize> {
     rows
 }
 
-/// Tells line and unknown of every node that B may pass, line after line.
+/// Calls `tell` with line and unknown of every node that B may pass, line by line.
 pub(super) fn each_passed(window: &Window, mut tell: impl FnMut(usize, usize)) {
     let (grid, lines) = (&window.grid, window.grid.lines());
     let first = grid.line_and_column(grid.node(0)).1;

@@ -1,37 +1,39 @@
-//! The nodes of a grid at which temperatures are marched: every few nodes of a line, or of a few lines of a plane.
+//! Nodes of a grid at which temperatures are marched: every few nodes of a line, or of a few lines of a plane.
 
 use crate::solver::discrete::grid::{ContactGrid, INLET};
 use crate::solver::physics::contact::ContactKind;
 
-/// Stations along a line contact, at least. With 90 of them tractions of fast contacts that hardly slide are off by 1.5 %.
+/// Minimum number of stations along a line contact. With 90, tractions of fast contacts with little sliding have an
+/// error of 1.5 %.
 const STATIONS: usize = 120;
 
-/// Least distance of stations along the lines of a plane: in the contact, and over −X in front of it. With 0.075, or with
-/// seven lines, contacts take two thirds of the time, and films of the hottest ones are off by more than 1 %.
+/// Minimum distance of stations along the lines of a plane in the contact; multiplied by −X in front of it. With
+/// 0.075, or with seven lines, film thicknesses of the hottest contacts have an error of more than 1 %.
 const SPACING: f64 = 0.055;
-/// Where it ends, and the distance behind that.
+/// X where this distance ends, and the distance behind it.
 const BEHIND: f64 = 1.15;
 const SPACING_BEHIND: f64 = 0.15;
 
-/// −Y of the lines of a plane that are marched, or of the nearest lines of its grid.
+/// −Y of the marched lines of a plane; the nearest lines of the grid are used.
 const ORDINATES: [f64; 11] = [1.5, 1.2, 1.05, 0.95, 0.85, 0.75, 0.62, 0.48, 0.32, 0.16, 0.0];
 
-/// Pressures behind X = 0 up to which the film of a plane counts as ruptured where its traction is summed up: what modes leave
-/// there is no more. In light contacts, whose films hardly thicken under pressure, it would add 1 % to that.
+/// Pressures behind X = 0 up to which the film of a plane counts as cavitated in the sum of the traction; smaller
+/// pressures are remainders of the modes. In lightly loaded contacts, whose viscosity hardly rises with pressure,
+/// they would add 1 % to the traction.
 const LEFT: f64 = 1e-4;
 
-/// The nodes of a grid at which temperatures are marched.
+/// Nodes of a grid at which temperatures are marched.
 pub(crate) struct Stations {
     /// Columns of nodes, from the inlet to the outlet.
     columns: Vec<usize>,
     /// Lines along X, from the edge of a plane to its axis.
     lines: Vec<usize>,
-    /// Nodes across.
+    /// Number of nodes across.
     across: usize,
 }
 
 impl Stations {
-    /// Of a grid.
+    /// Selects the stations of a grid.
     pub fn of(grid: &ContactGrid) -> Self {
         let ((xi, y), across) = (grid.abscissae(), grid.nodes().1);
         if grid.kind() == ContactKind::Line {
@@ -44,41 +46,41 @@ impl Stations {
         Self { columns: along_plane(xi), lines, across }
     }
 
-    /// Abscissae ξ of the columns.
+    /// Returns the abscissae ξ of the columns.
     pub fn xi(&self, grid: &ContactGrid) -> Vec<f64> {
         self.columns.iter().map(|&column| grid.abscissae().0[column]).collect()
     }
 
-    /// Ordinates of the lines in units of a.
+    /// Returns the ordinates of the lines in units of a.
     pub fn y(&self, grid: &ContactGrid) -> Vec<f64> {
         self.lines.iter().map(|&line| grid.abscissae().1[line]).collect()
     }
 
-    /// Of each line the nodes at its stations.
+    /// Returns the nodes at the stations of each line.
     pub fn nodes(&self) -> impl Iterator<Item = Vec<usize>> + '_ {
         self.lines.iter().map(|line| self.columns.iter().map(|column| column * self.across + line).collect())
     }
 
-    /// Of each line the first three nodes: at the inlet the slope is one-sided.
+    /// Returns the first three nodes of each line, for the one-sided slope at the inlet.
     pub fn inlets(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
         let first = self.columns.first().copied().unwrap_or_default();
         self.lines.iter().map(move |line| [0, 1, 2].map(|k| (first + k) * self.across + line))
     }
 }
 
-/// Of a line contact, every so many of its nodes from the inlet to the outlet.
+/// Returns equally spaced nodes of a line contact from the inlet to the outlet.
 fn along_line(nodes: usize) -> Vec<usize> {
     let last = nodes - 1;
     let stride = ((last - INLET) / STATIONS).max(1);
     (INLET..last).step_by(stride).filter(|node| last - node >= stride).chain([last]).collect()
 }
 
-/// Of a plane, columns some distance apart.
+/// Returns columns of a plane with the minimum distances.
 fn along_plane(xi: &[f64]) -> Vec<usize> {
     let (mut out, mut last) = (vec![0], xi[0]);
     for (column, &xi) in xi.iter().enumerate().take(xi.len() - 1) {
         let apart = if xi < BEHIND { SPACING * (-xi).max(1.0) } else { SPACING_BEHIND };
-        // Spacings add up to no more than they are.
+        // Tolerance for rounding in sums of spacings.
         if xi - last >= apart * (1.0 - 1e-9) {
             out.push(column);
             last = xi;
@@ -88,7 +90,7 @@ fn along_plane(xi: &[f64]) -> Vec<usize> {
     out
 }
 
-/// P at X as the traction with heat counts it.
+/// Returns P at X as used in the traction of thermal contacts.
 pub(crate) fn carried(kind: ContactKind, x: f64, pressure: f64) -> f64 {
     if kind == ContactKind::Point && x > 0.0 && pressure <= LEFT { 0.0 } else { pressure }
 }
