@@ -1,4 +1,4 @@
-//! The fields of a contact, each defined once: its type, its word, what it is, its unit, and what interfaces have it.
+//! Fields of a contact, each defined once: type, name, description, unit, and the interfaces that have it.
 
 use super::facts::{Facts, Measure};
 use super::given::{Choices, Domain, Given, MethodName, OilGrade, ShearName, ValueError};
@@ -14,10 +14,10 @@ use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Heat, LimitingSt
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Makes [`ContactSpec`] and [`Field`] of a table: member, type, field, word, what it is, further facts.
+/// Generates [`ContactSpec`] and [`Field`] from a table: member, type, field, name, description, further facts.
 macro_rules! contact_fields {
     ($($member:ident: $kind:ty, $field:ident, $word:literal, $about:literal, { $($fact:ident: $value:expr),* };)*) => {
-        /// A contact as people state it: what was stated, and nothing else.
+        /// Contact as the user stated it. Fields that were not stated are `None`.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields, default)]
         pub struct ContactSpec {
@@ -26,10 +26,10 @@ macro_rules! contact_fields {
                 #[serde(skip_serializing_if = "Option::is_none")]
                 pub $member: Option<$kind>,
             )*
-            /// Laws with all constants, as scenes have them; a named lubricant takes their place.
+            /// Laws with all constants, as in scenes. A named lubricant replaces them.
             #[serde(skip_serializing_if = "Option::is_none")]
             pub laws: Option<Lubricant>,
-            /// Thermal constants of lubricant and bodies, as scenes have them.
+            /// Thermal constants of lubricant and bodies, as in scenes.
             #[serde(skip_serializing_if = "Option::is_none")]
             pub thermal: Option<Heat>,
         }
@@ -44,21 +44,21 @@ macro_rules! contact_fields {
             /// All fields.
             pub const ALL: &[Self] = &[$(Self::$field),*];
 
-            /// What is known of it.
+            /// Returns the description of the field.
             pub const fn facts(self) -> Facts {
                 match self {
                     $(Self::$field => Facts { $($fact: $value,)* ..Facts::new($word, $about) },)*
                 }
             }
 
-            /// The words it is chosen by, with what they mean; empty where it is no choice.
+            /// Returns the accepted words with their meanings; empty if the field is not chosen by a word.
             pub fn choices(self) -> Choices {
                 match self {
                     $(Self::$field => <$kind as Given>::choices(),)*
                 }
             }
 
-            /// How its values look.
+            /// Number of numbers in a value; 0 if it is not numeric.
             const fn numbers(self) -> usize {
                 match self {
                     $(Self::$field => <$kind as Given>::NUMBERS,)*
@@ -67,21 +67,21 @@ macro_rules! contact_fields {
         }
 
         impl ContactSpec {
-            /// Whether a field is stated.
+            /// Returns true if a field is stated.
             pub fn states(&self, field: Field) -> bool {
                 match field {
                     $(Field::$field => self.$member.is_some(),)*
                 }
             }
 
-            /// The number of a field; `None` where it is not stated, or no number.
+            /// Returns the number of a field; `None` if it is not stated or not a number.
             pub fn number(&self, field: Field) -> Option<f64> {
                 match field {
                     $(Field::$field => self.$member.as_ref().and_then(Given::number),)*
                 }
             }
 
-            /// States a number in SI units.
+            /// Sets a number in SI units. No effect on fields that are not numbers.
             pub fn set(&mut self, field: Field, value: f64) {
                 match field {
                     $(Field::$field => self.$member = Given::of_number(value).or(self.$member.take()),)*
@@ -101,7 +101,7 @@ macro_rules! contact_fields {
                 Ok(())
             }
 
-            /// What is not stated here is that of another one.
+            /// Fills fields that are not stated from another specification.
             pub(super) fn filled_from(mut self, other: Self) -> Self {
                 $(self.$member = self.$member.or(other.$member);)*
                 Self { laws: self.laws.or(other.laws), thermal: self.thermal.or(other.thermal), ..self }
@@ -197,44 +197,44 @@ contact_fields! {
     body2: BodyHeat, Body2, "body2", "The same of body 2, which moves with u_m (1 + SRR/2)", { placeholder: Some("K,C,RHO|MATERIAL") };
 }
 
-/// No numeric field has this word.
+/// Error: no numeric field has this name.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("`{word}` cannot be varied; accepted are {}", varied_words())]
 pub struct NotVaried {
-    /// The word.
+    /// The name.
     word: String,
 }
 
-/// The words that can be varied.
+/// Returns the names of the fields that can be varied.
 fn varied_words() -> String {
     let numbers = Field::of(Words::Flags).filter(|field| field.is_number());
     numbers.map(|field| field.facts().name).collect::<Vec<_>>().join(", ")
 }
 
 impl Field {
-    /// The fields of an interface.
+    /// Returns the fields of an interface.
     pub fn of(words: Words) -> impl Iterator<Item = Self> {
         Self::ALL.iter().copied().filter(move |field| !field.facts().absent.contains(&words))
     }
 
-    /// Its keyword in Python and its field in a scene, such as `moes_m`.
+    /// Returns the keyword in Python and the field name in a scene, such as `moes_m`.
     pub fn keyword(self) -> String {
         self.facts().name.replace('-', "_")
     }
 
-    /// The field that results have by a name, such as `moes.M`.
+    /// Returns the field with this name in results, such as `moes.M`.
     fn in_results(name: &str) -> Option<Self> {
         let name = name.replace('-', "_");
         Self::ALL.iter().copied().find(|field| names::of_field(*field) == name)
     }
 
-    /// The field of a word, with hyphens or underscores.
+    /// Returns the field with this name, written with hyphens or underscores.
     pub fn named(word: &str) -> Option<Self> {
         let word = word.replace('_', "-");
         Self::ALL.iter().copied().find(|field| field.facts().name == word)
     }
 
-    /// The field of a title, as people write it in a table.
+    /// Returns the field with this column title, in the forms that users write in tables.
     pub fn titled(title: &str) -> Option<Self> {
         let key: String = title.to_lowercase().split_whitespace().collect();
         let known = |field: &Self| field.facts().titles.contains(&key.as_str());
@@ -243,10 +243,10 @@ impl Field {
         own.filter(|field| !field.facts().absent.contains(&Words::Columns))
     }
 
-    /// The numeric field that a word varies; `m` and `l` are short for `moes-m` and `moes-l`.
+    /// Returns the numeric field to vary. `m` and `l` are short for `moes-m` and `moes-l`.
     ///
     /// # Errors
-    /// With the accepted words.
+    /// If no numeric field has this name. The message lists the accepted names.
     pub fn varied(word: &str) -> Result<Self, NotVaried> {
         let found = match word {
             "m" | "M" => Some(Self::MoesM),
@@ -256,25 +256,25 @@ impl Field {
         found.ok_or_else(|| NotVaried { word: word.to_owned() })
     }
 
-    /// Refuses a text that is no value of it.
+    /// Checks that a text is a valid value of the field.
     ///
     /// # Errors
-    /// With what is accepted.
+    /// With a sentence that says what is accepted.
     pub fn check(self, text: &str) -> Result<(), ValueError> {
         ContactSpec::default().read_plain(self, text)
     }
 
-    /// Whether its value is one number.
+    /// Returns true if the value is one number.
     pub const fn is_number(self) -> bool {
         self.numbers() == 1
     }
 
-    /// Whether a value may begin with a minus sign.
+    /// Returns true if a value may begin with a minus sign.
     pub const fn may_be_negative(self) -> bool {
         self.numbers() > 0
     }
 
-    /// Whether it is on or off.
+    /// Returns true if the field is a switch.
     pub const fn is_switch(self) -> bool {
         matches!(self, Self::Heat)
     }
