@@ -1,26 +1,26 @@
-//! Why a command gives no result, each as one sentence.
+//! Errors of commands.
 
 use super::program::NoWindow;
 use crate::engine::EngineError;
 use crate::scene::atomic_file::WriteError;
 use crate::scene::{Refusal, SceneFileError, Words};
 
-/// Why a command stops.
+/// Reason why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// The request is wrong.
+    /// The request is invalid.
     #[error("{0}")]
     Request(String),
     /// The window cannot be opened.
     #[error(transparent)]
     Window(#[from] NoWindow),
-    /// The engine refuses it.
+    /// Error of the engine.
     #[error(transparent)]
     Harness(EngineError),
-    /// Somebody stopped it.
+    /// The run was cancelled.
     #[error("the run was stopped before it was done")]
     Stopped,
-    /// Whoever read standard output left; nobody is there to be told.
+    /// The reader of standard output has closed it. No message can be shown.
     #[error("nobody reads standard output any more")]
     ReaderLeft,
     /// Standard output cannot be written.

@@ -143,29 +143,29 @@ pub struct OilGrade(pub f64);
 impl Choice for ContactKind {
     const ALL: All<Self> = &[
         ("line", "Line contact, loads in N/m", Self::Line),
-        ("point", "Point contact, loads in N: a circle, or with a radius across an ellipse", Self::Point),
+        ("point", "Point contact, loads in N: circular, or elliptical if a radius across is given", Self::Point),
     ];
 }
 
 impl Choice for MethodName {
-    const ALL: All<Self> = &[("full", "The full system", Self::Full), ("reduced", "A reduced model", Self::Reduced)];
+    const ALL: All<Self> = &[("full", "Full solver", Self::Full), ("reduced", "Reduced model", Self::Reduced)];
 }
 
 impl Choice for Grid {
     const ALL: All<Self> = &[
         ("uniform", "Equidistant nodes", Self::Usual),
-        ("graded", "The explorer's default", Self::Graded),
-        ("model", "The reduced model's own", Self::Model),
+        ("graded", "Graded grid, the explorer's default", Self::Graded),
+        ("model", "Grid of the reduced model", Self::Model),
     ];
 }
 
 impl Choice for Cavitation {
     const ALL: All<Self> = &[
-        ("penalty", "The penalty term of (2.36)", Self::Penalty),
-        ("complementarity", "No pressure below zero, by a multiplier (appendix D)", Self::Complementarity),
+        ("penalty", "Penalty term (2.36)", Self::Penalty),
+        ("complementarity", "No negative pressure, by a complementarity condition (appendix D)", Self::Complementarity),
         (
             "mass-conserving",
-            "No liquid lost behind the contact: the gap is filled in part (Elrod and Adams)",
+            "Conserves mass: the gap is partially filled where the film cavitates (JFO, Elrod–Adams)",
             Self::MassConserving { supply_film_m: None },
         ),
     ];
@@ -173,9 +173,9 @@ impl Choice for Cavitation {
 
 impl Choice for ShearName {
     const ALL: All<Self> = &[
-        ("newtonian", "Viscosity does not depend on stress", Self::Newtonian),
-        ("eyring", "Ree and Eyring's hyperbolic sine", Self::Eyring),
-        ("carreau", "The modified Carreau law (3.40)", Self::Carreau),
+        ("newtonian", "Viscosity independent of stress", Self::Newtonian),
+        ("eyring", "Ree–Eyring law (hyperbolic sine)", Self::Eyring),
+        ("carreau", "Modified Carreau law (3.40)", Self::Carreau),
     ];
 }
 
