@@ -39,8 +39,8 @@ pub struct CasesArgs {
 
 fn table_help() -> String {
     format!(
-        "The table: a line of titles, then a contact a line. Columns are name and those of the flags of `solve`: {}; a \
-         unit stands in a title, as `load [N/mm]`, or in a cell",
+        "Table: a line of titles, then one contact per line. Columns are name and the flags of `solve`: {}; units are given \
+         in titles, such as `load [N/mm]`, or in cells",
         CaseTable::accepted()
     )
 }

@@ -58,7 +58,7 @@ impl From<Refusal> for Failure {
     }
 }
 
-/// The first paragraph of clap's message, on one line.
+/// Returns the first paragraph of clap's message, on one line.
 pub fn usage(error: &clap::Error) -> Failure {
     let text = error.render().to_string();
     let paragraph: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
