@@ -13,13 +13,13 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A request that is refused, in one sentence.");
+pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A refused request, with the reason in one sentence.");
 pyo3::create_exception!(
     ehl_explorer,
     MarchStopped,
     EhlError,
-    "A march that did not reach its end. ``reached`` is the structured array of the march up to there, ``warning`` how it \
-     ended in numbers and words: ``kind``, ``ended``, ``reached``, ``text``."
+    "A march that did not reach its end. ``reached`` is the structured array of the march so far. ``warning`` describes \
+     how it ended: ``kind``, ``ended``, ``reached``, ``text``."
 );
 
 /// Interval of signal checks and progress reports.
