@@ -73,7 +73,7 @@ pub enum Place {
 pub struct RunArgs {
     #[command(flatten)]
     campaign: Where,
-    /// Where the shards are computed; for clusters see slurm.sh in the folder, and the Python package for Dask
+    /// Machine that computes the shards; for clusters see slurm.sh in the folder, and the Python package for Dask
     #[arg(long, value_enum)]
     on: Place,
     /// Number of parallel processes (default: one per processor)

@@ -15,7 +15,7 @@ use crate::solver::training::TrainingObserver;
 use crate::solver::warning::{Repeated, Warning};
 use std::str::FromStr;
 
-/// How varied options are written.
+/// Syntax of varied options, for messages.
 const SHAPE: &str = "write NAME=FROM:TO:N, as in moes-m=10:100:19, with :log for a constant ratio or :graded:HALF for half \
                      of the values up to HALF";
 

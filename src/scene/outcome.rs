@@ -24,7 +24,7 @@ pub struct NamedValue {
 /// Result of checking one expectation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// What was expected.
+    /// The expectation.
     pub expected: Expectation,
     /// Computed value; `None` if the scene has no such value.
     pub value: Option<f64>,
