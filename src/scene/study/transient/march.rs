@@ -24,7 +24,7 @@ pub struct March {
     pub trajectory: Trajectory,
     /// Time of each step, without the start \[s\].
     pub seconds: Vec<f64>,
-    /// Largest relative error of the mass balance between the study's positions.
+    /// Relative error of the mass balance between the study's positions.
     pub mass_defect: Option<f64>,
     /// Largest discretisation error of H_c among some moments of a full march, with the time of this moment.
     pub grid_cost: Option<(f64, GridCost)>,
