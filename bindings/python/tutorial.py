@@ -1,7 +1,7 @@
 # %% [markdown]
 # # EHL Explorer from Python
 #
-# A tour in cells (`# %%`): run it as a script, or open it as a notebook in an editor that knows such cells.
+# A tour in cells (`# %%`): run it as a script, or open it as a notebook in an editor that supports such cells.
 # All quantities are in SI units; X = x/a, P = p/p_H and H = h R/a² are dimensionless.
 
 # %%
@@ -12,7 +12,7 @@ import ehl_explorer as ehl
 # %% [markdown]
 # ## One contact
 #
-# A contact is given by Moes' numbers, in SI units, or as engineers write it. It never changes; `replace` makes another one.
+# A contact is given by Moes numbers, in SI units, or as engineers write it. It is immutable; `replace` returns a new one.
 
 # %%
 contact = ehl.Contact.moes(40, 10)
@@ -22,9 +22,9 @@ roller = ehl.Contact.engineering(
 print(roller, f"M = {roller.m:.1f}, L = {roller.l:.1f}, p_H = {roller.hertz_pressure / 1e9:.2f} GPa")
 
 # %% [markdown]
-# The full system takes milliseconds to seconds, the reduced model a fraction of a millisecond. It says whether it was
-# trained for the contact, and by how much it is off at most in 99 of 100 contacts: from a full solution on its own grid.
-# That grid has an error too, which both solutions share. A full solution says how large it is.
+# The full solver takes milliseconds to seconds, the reduced model a fraction of a millisecond. The reduced model reports
+# whether the contact is inside its trained range, and a 99 % empirical error bound relative to a full solution on its own
+# grid. The discretisation error of this grid is the same for both solutions. A full solution contains an estimate of it.
 
 # %%
 full = ehl.solve(contact.replace(grid="model"))
@@ -37,8 +37,8 @@ assert reduction < fast.h_c_error_bound
 assert full.pressure.shape == full.film.shape == full.x.shape
 
 # %% [markdown]
-# On another grid the full solution differs by the errors of both grids, which are much larger than what the reduced model
-# adds.
+# On another grid, the full solution differs by the discretisation errors of both grids. They are much larger than the
+# error of the reduced model.
 
 # %%
 usual = ehl.solve(contact)
@@ -47,7 +47,7 @@ print(f"on {usual['grid.nx']} nodes H_c = {usual.H_c:.6f}, {abs(usual.H_c / full
 assert abs(usual.H_c / full.H_c - 1) < 2 * (of_usual + discretisation)
 
 # %% [markdown]
-# What makes no sense is refused in a sentence.
+# An invalid contact is refused with one sentence.
 
 # %%
 try:
@@ -58,7 +58,8 @@ except ehl.EhlError as refused:
 # %% [markdown]
 # ## Many contacts
 #
-# Arrays are solved on all cores into a structured array. A row that cannot be solved says why, and the others stand.
+# Arrays of contacts are solved on all cores into a structured array. A row that cannot be solved contains the reason and
+# does not affect the others.
 
 # %%
 loads = np.geomspace(1e5, 4e5, 40)
@@ -70,17 +71,17 @@ print("status:", set(films["status"].flat), "reasons:", set(films["reason"].flat
 print("h_c in nm:", np.round(films["h_c_m"][:, 0] * 1e9, 1), "trained:", bool(films["reduced.trained"].all()))
 
 # %% [markdown]
-# A sweep goes from neighbour to neighbour, as on the command line.
+# In a sweep, each contact starts from its neighbour, as on the command line.
 
 # %%
 table = ehl.sweep(contact, "moes-m=10:160:5:log", method="reduced")
 print(np.column_stack([table["moes.M"], table["H_c"]]))
 
 # %% [markdown]
-# ## A contact in time
+# ## A transient contact
 #
-# The load swings by 10 %; times are in units of a/u_m. A march that cannot take a step raises `MarchStopped`, whose `reached`
-# holds what was computed before.
+# The load oscillates by 10 %; times are in units of a/u_m. If a step fails, `MarchStopped` is raised; its `reached`
+# contains the rows computed so far.
 
 # %%
 time = np.linspace(0, 4, 81)
@@ -90,7 +91,7 @@ print(march.dtype.names, march["H_c"].min(), march["H_c"].max())
 # %% [markdown]
 # ## Scenes
 #
-# A scene is an experiment with what is expected of it: a file, or a text.
+# A scene is an experiment with expected values, given as a file or a text.
 
 # %%
 scene = """Scene(

@@ -1,5 +1,5 @@
-// Puts the page together: `node build.mjs PKG MODELS OUT` takes what wasm-bindgen wrote and the model files, writes the
-// static folder, with a hash in the name of each large file, .br and .gz beside every file, and `first-picture.txt`.
+// Builds the page: `node build.mjs PKG MODELS OUT` reads the output of wasm-bindgen and the model files. It writes the
+// static folder, with a hash in the name of each large file, .br and .gz next to every file, and `first-picture.txt`.
 import { createHash } from "node:crypto";
 import { cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
@@ -11,7 +11,7 @@ const page = join(dirname(fileURLToPath(import.meta.url)), "page");
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 
-// A file under a name that says what is in it.
+// Writes a file under a name that contains the hash of its content.
 function hashed(path, name, ending) {
   const content = readFileSync(path);
   const hash = createHash("sha256").update(content).digest("hex").slice(0, 16);
@@ -30,7 +30,7 @@ for (const file of readdirSync(page)) cpSync(join(page, file), join(out, file));
 cpSync(join(pkg, "ehl_web.js"), join(out, "ehl_web.js"));
 const constants_ = `const CACHE = "ehl-explorer";\nconst MODULE = ${JSON.stringify(MODULE)};\nconst MODELS = ${JSON.stringify(MODELS, null, 2)};\n`;
 writeFileSync(join(out, "files.js"), `${constants_}export { CACHE, MODULE, MODELS };\n`);
-// Not every browser lets a service worker import.
+// Not every browser supports imports in a service worker.
 const offline = readFileSync(join(page, "offline.js"), "utf8").replace(/^import .* from "\.\/files\.js";\n/m, constants_);
 writeFileSync(join(out, "offline.js"), offline);
 

@@ -1,4 +1,4 @@
-//! `bench`: the speed table.
+//! Command `bench`: speed table.
 
 use super::failure::Failure;
 use super::output;
@@ -13,7 +13,7 @@ pub struct BenchArgs {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
-    /// Fewer points; done within 20 s
+    /// Fewer points; finishes within 20 s
     #[arg(long)]
     quick: bool,
 }

@@ -1,4 +1,4 @@
-//! `campaign`: a scene's work in shards.
+//! Command `campaign`: the work of a scene, divided into shards.
 
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
@@ -14,36 +14,36 @@ use serde::Serialize;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
-/// What is done with a campaign.
+/// Subcommands of `campaign`.
 #[derive(Debug, Subcommand)]
 pub enum CampaignCommand {
-    /// Plan a campaign into a folder: its scene, its shards, a hash of all they depend on, a script for Slurm
+    /// Plan a campaign in a folder: its scene, its shards, hashes of all files they depend on, and a script for Slurm
     Plan(PlanArgs),
-    /// Compute one shard, unless it is there already
+    /// Compute one shard, unless it already exists
     Shard(ShardArgs),
-    /// Put everything together, or open the next round; refuses gaps and what was computed by another program
+    /// Merge all shards, or open the next round; refuses missing shards and those computed by another program
     Merge(Where),
-    /// Compute all that is open on this machine, and merge
+    /// Compute all open shards on this machine, and merge
     Run(RunArgs),
-    /// Say how far it is
+    /// Show the progress
     Status(StatusArgs),
 }
 
 /// Options of `campaign plan`.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    /// The campaign: its scene, and how large a shard is
+    /// Campaign file: the scene, and the size of a shard
     #[arg(value_name = "CAMPAIGN.ron")]
     campaign: PathBuf,
-    /// The folder of the campaign
+    /// Folder of the campaign
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
 }
 
-/// Where a campaign is.
+/// Location of a campaign.
 #[derive(Debug, Args)]
 pub struct Where {
-    /// The folder of the campaign
+    /// Folder of the campaign
     #[arg(value_name = "DIR")]
     folder: PathBuf,
 }
@@ -56,15 +56,15 @@ pub struct ShardArgs {
     /// Number of the shard, from 0
     #[arg(value_name = "K")]
     shard: usize,
-    /// Threads that it may use; a scheduler gives each shard its own processor
+    /// Number of threads; keep 1 if a scheduler gives each shard one processor
     #[arg(long, value_name = "N", default_value = "1")]
     threads: NonZero<u16>,
 }
 
-/// Where shards are computed by `campaign run`.
+/// Place where `campaign run` computes shards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Place {
-    /// On this machine.
+    /// This machine.
     Local,
 }
 
@@ -73,10 +73,10 @@ pub enum Place {
 pub struct RunArgs {
     #[command(flatten)]
     campaign: Where,
-    /// Where its shards are computed; for clusters see slurm.sh in the folder, and the Python package for Dask
+    /// Machine that computes the shards; for clusters see slurm.sh in the folder, and the Python package for Dask
     #[arg(long, value_enum)]
     on: Place,
-    /// Processes at a time (default: one for each processor)
+    /// Number of parallel processes (default: one per processor)
     #[arg(long, value_name = "N")]
     workers: Option<NonZero<u16>>,
 }
@@ -86,7 +86,7 @@ pub struct RunArgs {
 pub struct StatusArgs {
     #[command(flatten)]
     campaign: Where,
-    /// Print the numbers of the shards that are to be computed, and nothing else
+    /// Print only the numbers of the open shards
     #[arg(long)]
     open: bool,
     /// Print one JSON object
@@ -173,7 +173,7 @@ fn run_here(args: &RunArgs) -> Result<Verdict, Failure> {
     tell(&Folder::open(&args.campaign.folder)?, &whole?)
 }
 
-/// Says what came of it, and where it is.
+/// Prints the outcome and the path of the result.
 fn tell(folder: &Folder, whole: &Whole) -> Result<Verdict, Failure> {
     output::print(&describe(&whole.outcome))?;
     if whole.processors.len() > 1 {
@@ -188,7 +188,7 @@ fn tell(folder: &Folder, whole: &Whole) -> Result<Verdict, Failure> {
     Ok(if whole.outcome.passed() { Verdict::Done } else { Verdict::FellShort })
 }
 
-/// How far a campaign is, as JSON.
+/// Progress of a campaign as JSON.
 #[derive(Serialize)]
 struct Told<'a> {
     #[serde(flatten)]

@@ -1,4 +1,4 @@
-//! `cases`: a table of load cases.
+//! Command `cases`: table of load cases.
 
 use super::failure::Failure;
 use super::options::choices;
@@ -23,13 +23,13 @@ pub struct CasesArgs {
     /// The table
     #[arg(value_name = "TABLE.csv", help = table_help())]
     table: PathBuf,
-    /// How each is solved; full,reduced for both
+    /// Solution method; full,reduced for both
     #[arg(long, value_parser = choices(Field::Method), value_delimiter = ',', default_value = "full")]
     method: Vec<String>,
-    /// Reduced model to use (default: the embedded one of the kind of contact)
+    /// Reduced model to use (default: the embedded one for the contact)
     #[arg(long, value_name = "FILE")]
     rom: Option<PathBuf>,
-    /// Write the table of results as CSV (default: print it)
+    /// Write the results as CSV (default: print them)
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Print one JSON object per line and method
@@ -39,13 +39,13 @@ pub struct CasesArgs {
 
 fn table_help() -> String {
     format!(
-        "The table: a line of titles, then a contact a line. Columns are name and those of the flags of `solve`: {}; a \
-         unit stands in a title, as `load [N/mm]`, or in a cell",
+        "Table: a line of titles, then one contact per line. Columns are name and the flags of `solve`: {}; units are given \
+         in titles, such as `load [N/mm]`, or in cells",
         CaseTable::accepted()
     )
 }
 
-/// Runs the command: bad lines are named, all others solved.
+/// Runs the command. Refused lines are reported, all others are solved.
 pub fn run(args: &CasesArgs) -> Result<Verdict, Failure> {
     let source = || args.rom.clone().map_or(ModelSource::Embedded, ModelSource::File);
     let method = |name: &String| if name == "reduced" { Method::reduced(source()) } else { Method::Full };
@@ -79,7 +79,7 @@ pub fn run(args: &CasesArgs) -> Result<Verdict, Failure> {
     Ok(if outcome.found.converged { Verdict::Done } else { Verdict::FellShort })
 }
 
-/// A line as JSON: its result by one method, or why it is refused.
+/// Line as JSON: its result by one method, or the reason why it is refused.
 #[derive(Serialize)]
 struct Line<'a> {
     line: usize,
@@ -100,7 +100,7 @@ fn print(row: &Row) -> Result<(), Failure> {
     }
 }
 
-/// Shows how far it is, and keeps the lines.
+/// Observer that shows the progress and stores the rows.
 struct Watch {
     line: ProgressLine,
     rows: Mutex<Vec<Row>>,

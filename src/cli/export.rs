@@ -1,4 +1,4 @@
-//! `export`: a reduced model as other programs take it.
+//! Command `export`: writes a reduced model for other programs.
 
 use super::failure::Failure;
 use super::output;
@@ -11,33 +11,33 @@ use crate::solver::physics::lubricant::Lubricant;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 
-/// What is exported.
+/// Subcommands of `export`.
 #[derive(Debug, Subcommand)]
 pub enum ExportCommand {
-    /// A Functional Mock-up Unit for co-simulation (FMI 2.0): inputs radius, speed, sliding and load, or what a model in
-    /// time lets vary
+    /// Functional Mock-up Unit for co-simulation (FMI 2.0); inputs are radius, speed, sliding and load, or the inputs
+    /// that vary in a transient model
     Fmu(FmuArgs),
 }
 
 /// Options of `export fmu`.
 #[derive(Debug, Args)]
 pub struct FmuArgs {
-    /// The reduced model: a file, or the name of one of the program's own, such as line or point
+    /// Reduced model: a file, or the name of an embedded model, such as line or point
     #[arg(value_name = "MODEL.rom")]
     model: PathBuf,
-    /// Write the unit here
+    /// Output file
     #[arg(long, value_name = "FILE.fmu")]
     out: PathBuf,
-    /// The load is given (default)
+    /// Load as input (default)
     #[arg(long, conflicts_with = "approach")]
     load: bool,
-    /// The approach of the bodies is given, and the load follows (point contacts)
+    /// Approach of the bodies as input and load as output (point contacts)
     #[arg(long)]
     approach: bool,
-    /// The lubricant that the simulation means; refused where the model was trained with another one
+    /// Lubricant of the simulation; refused if the model was trained with another one
     #[arg(long, value_name = "NAME", value_parser = by_name)]
     lubricant: Option<NamedLubricant>,
-    /// The library that solves it (default: next to this program, or in ../lib/ehl-explorer from there)
+    /// Solver library of the unit (default: next to this program, or in ../lib/ehl-explorer from there)
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
 }
@@ -48,7 +48,7 @@ pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     let (model, content) = model_of(&args.model)?;
     let same = |laws: Lubricant| match &model {
         SavedModel::Stationary(model) => laws == model.domain.lubricant,
-        // It says itself how its films rupture.
+        // A transient model determines the cavitation model itself.
         SavedModel::InTime(model) => laws.of_the_liquid() == model.domain.reference.lubricant.of_the_liquid(),
     };
     if let Some(named) = args.lubricant
@@ -70,7 +70,7 @@ pub fn run(command: &ExportCommand) -> Result<Verdict, Failure> {
     Ok(Verdict::Done)
 }
 
-/// The model of a file, or one of the program by its name, and the content of its file.
+/// Reads a model from a file, or an embedded model by its name. Also returns the content of its file.
 fn model_of(path: &Path) -> Result<(SavedModel, Vec<u8>), Failure> {
     let read = match path.to_str().and_then(bytes_of).filter(|_| !path.exists()) {
         Some(content) => SavedModel::from_bytes(&content).map(|model| (model, content.to_vec())),
@@ -79,7 +79,7 @@ fn model_of(path: &Path) -> Result<(SavedModel, Vec<u8>), Failure> {
     Ok(read.map_err(|reason| EngineError::Model { path: path.to_owned(), reason: reason.into() })?)
 }
 
-/// Where the library of units is looked for: next to the program, and where packages put it.
+/// Returns the paths where the solver library is searched: next to the program, and where packages install it.
 fn places() -> Vec<PathBuf> {
     let program = std::env::current_exe().and_then(std::fs::canonicalize);
     let folder = program.ok().and_then(|program| Some(program.parent()?.to_owned())).unwrap_or_default();
@@ -87,7 +87,7 @@ fn places() -> Vec<PathBuf> {
     [Some(folder), installed].into_iter().flatten().map(|folder| folder.join(fmu::library_file())).collect()
 }
 
-/// The content of the library.
+/// Reads the solver library.
 fn library(given: Option<&Path>) -> Result<Vec<u8>, Failure> {
     if let Some(path) = given {
         let unreadable = |error: std::io::Error| {

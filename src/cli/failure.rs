@@ -1,26 +1,26 @@
-//! Why a command gives no result, each as one sentence.
+//! Errors of commands.
 
 use super::program::NoWindow;
 use crate::engine::EngineError;
 use crate::scene::atomic_file::WriteError;
 use crate::scene::{Refusal, SceneFileError, Words};
 
-/// Why a command stops.
+/// Reason why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// The request is wrong.
+    /// The request is invalid.
     #[error("{0}")]
     Request(String),
     /// The window cannot be opened.
     #[error(transparent)]
     Window(#[from] NoWindow),
-    /// The engine refuses it.
+    /// Error of the engine.
     #[error(transparent)]
     Harness(EngineError),
-    /// Somebody stopped it.
+    /// The run was cancelled.
     #[error("the run was stopped before it was done")]
     Stopped,
-    /// Whoever read standard output left; nobody is there to be told.
+    /// The reader of standard output has closed it. No message can be shown.
     #[error("nobody reads standard output any more")]
     ReaderLeft,
     /// Standard output cannot be written.
@@ -58,7 +58,7 @@ impl From<Refusal> for Failure {
     }
 }
 
-/// The first paragraph of clap's message, on one line.
+/// Returns the first paragraph of clap's message, on one line.
 pub fn usage(error: &clap::Error) -> Failure {
     let text = error.render().to_string();
     let paragraph: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();

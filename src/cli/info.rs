@@ -1,4 +1,4 @@
-//! `info`: what a reduced model holds.
+//! Command `info`: contents of a reduced model.
 
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
@@ -12,21 +12,21 @@ use std::path::PathBuf;
 /// Options of `info`.
 #[derive(Debug, Args)]
 pub struct InfoArgs {
-    /// The reduced model
+    /// Reduced model
     #[arg(value_name = "FILE.rom")]
     file: PathBuf,
-    /// Write its bases, sampled rows and snapshots as arrays that numpy reads
+    /// Write its bases, sampled equations and snapshots as arrays for numpy
     #[arg(long, value_name = "FILE.npz")]
     arrays: Option<PathBuf>,
-    /// Solve the training contacts again in full, and write their fields into the arrays too
+    /// Solve the training contacts in full again, and add their fields to the arrays
     #[arg(long, requires = "arrays")]
     snapshots: bool,
-    /// Write the pressures after every Newton step of these solves too
+    /// Add the pressures after every Newton step of these solves
     #[arg(long, requires = "snapshots")]
     iterates: bool,
 }
 
-/// Why a transient model has no such fields.
+/// Message for transient models.
 const TRANSIENT: &str = "a transient model was trained from the steps of marches, which its file does not hold; leave out \
                          --snapshots";
 

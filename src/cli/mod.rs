@@ -1,6 +1,6 @@
-//! The commands. Each turns options into a request for the engine and its answer into text, JSON or files.
+//! Commands. Each converts its options into a request to the engine, and the answer into text, JSON or files.
 //!
-//! Exit codes: 0 done and converged; 1 ran, but did not converge or an expectation fell short; 2 the request is wrong,
+//! Exit codes: 0 done and converged; 1 ran, but did not converge or did not meet an expectation; 2 invalid request,
 //! with one sentence on standard error.
 
 #![warn(clippy::indexing_slicing)]

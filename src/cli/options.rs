@@ -1,4 +1,4 @@
-//! The options of a contact and how it is solved, shared by `solve` and `sweep`: the flags of a [`ContactSpec`].
+//! Options for a contact and its solution, shared by `solve` and `sweep`: the flags of a [`ContactSpec`].
 
 use crate::scene::named_lubricant::NAMED;
 use crate::scene::{ContactSpec, Field, Words};
@@ -7,16 +7,16 @@ use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 use std::path::PathBuf;
 
-/// A contact and how it is solved. SI units throughout.
+/// Contact and solution method, in SI units.
 #[derive(Clone, Debug)]
 pub struct PointOptions(pub ContactSpec);
 
-/// The words that a field is chosen by.
+/// Returns the parser for a field that is chosen by a word.
 pub fn choices(field: Field) -> PossibleValuesParser {
     field.choices().into_iter().map(|(word, about)| PossibleValue::new(word).help(about)).collect::<Vec<_>>().into()
 }
 
-/// The flag of a field.
+/// Returns the flag of a field.
 fn flag(field: Field) -> Arg {
     let facts = field.facts();
     let help = Words::Flags.help(field);
@@ -41,7 +41,7 @@ fn flag(field: Field) -> Arg {
     }
 }
 
-/// Texts that are values of a field.
+/// Returns the parser for a field that is checked as text.
 fn text_of(field: Field) -> ValueParser {
     ValueParser::new(move |text: &str| field.check(text).map(|()| text.to_owned()))
 }

@@ -1,4 +1,5 @@
-//! Standard output and standard error without panics: a reader that leaves ends the program quietly.
+//! Standard output and standard error without panics. If the reader closes standard output, the program ends without a
+//! message.
 
 use super::failure::Failure;
 use crate::host::clock::Stopwatch;
@@ -10,7 +11,7 @@ use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
 use std::time::Duration;
 
-/// Prints text as it is.
+/// Prints text unchanged.
 pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
@@ -24,23 +25,23 @@ pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     print(&text)
 }
 
-/// Says one sentence on standard error.
+/// Prints one sentence on standard error.
 pub fn complain(sentence: &str) {
     let line: Vec<&str> = sentence.split_whitespace().collect();
-    // If standard error is gone too there is no one to tell.
+    // If standard error is closed too, no message can be shown.
     let _ = writeln!(io::stderr(), "ehl-explorer: {}", line.join(" "));
 }
 
-/// Shows progress on standard error: on a terminal one changing line, else, where wanted, one line per stage.
+/// Shows progress on standard error: on a terminal one changing line, otherwise, if requested, one line per stage.
 pub struct ProgressLine {
     terminal: bool,
     stages: bool,
-    /// The stage shown last, and since when.
+    /// Last stage shown, with the time.
     state: Mutex<(String, Option<Stopwatch>)>,
 }
 
 impl ProgressLine {
-    /// A quiet start; with `stages` a line per stage where standard error is no terminal.
+    /// Returns a progress display. With `stages`, it prints one line per stage if standard error is not a terminal.
     pub fn new(stages: bool) -> Self {
         Self { terminal: io::stderr().is_terminal(), stages, state: Mutex::default() }
     }

@@ -1,4 +1,4 @@
-//! The program: its commands, how they are read from the command line, and its exit codes.
+//! Command line of the program: its commands, how they are parsed, and its exit codes.
 
 use super::failure::{Failure, usage};
 use super::verdict::Verdict;
@@ -9,13 +9,13 @@ use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Elastohydrodynamic contacts: full solutions and reduced models, on the screen and headless.
+/// Elastohydrodynamic contacts: full solutions and reduced models, in a window or on the command line.
 #[derive(Debug, Parser)]
 #[command(name = "ehl-explorer", version, args_conflicts_with_subcommands = true)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Open the explorer on this scene or campaign (default: on the last session)
+    /// Scene or campaign to open in the explorer (default: the last session)
     #[arg(value_name = "SCENE.ron")]
     scene: Option<PathBuf>,
 }
@@ -24,35 +24,35 @@ struct Cli {
 enum Command {
     /// Solve one operating point
     Solve(solve::SolveArgs),
-    /// Solve along one or two varied options, each point starting from its neighbour
+    /// Solve along one or two varied options; each point starts from its neighbour
     Sweep(sweep::SweepArgs),
-    /// Solve a table of load cases (CSV), a contact a line; bad lines are named, the others solved
+    /// Solve a table of load cases (CSV) with one contact per line; refused lines are reported, the others solved
     Cases(cases::CasesArgs),
-    /// Run scenes and hold them against their expectations; exit 1 if any falls short
+    /// Run scenes and check their expectations; exit code 1 if one is not met
     Run(run::RunArgs),
-    /// Cut a scene's work into shards for many processes and machines, and put together what comes of them
+    /// Divide the work of a scene into shards for many processes and machines, and merge their results
     #[command(subcommand)]
     Campaign(campaign::CampaignCommand),
-    /// Train a reduced model as a scene describes
+    /// Train the reduced model that a scene describes
     Train(train::TrainArgs),
-    /// Measure the speed table: full and reduced side by side
+    /// Measure the speed of full and reduced solves
     Bench(bench::BenchArgs),
-    /// Show what a reduced model holds
+    /// Show the contents of a reduced model
     Info(info::InfoArgs),
-    /// Write a reduced model as other programs take it
+    /// Write a reduced model for other programs
     #[command(subcommand)]
     Export(export::ExportCommand),
 }
 
-/// No window can be had: a sentence.
+/// Error: the window cannot be opened.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct NoWindow(pub String);
 
-/// Opens the explorer on a scene, where there is one; it returns when its window is closed.
+/// Function that opens the explorer on a scene, if given. It returns when the window is closed.
 pub type Explorer = fn(Option<PathBuf>) -> Result<(), NoWindow>;
 
-/// The program: parses the command line, runs the command, returns its exit code.
+/// Parses the command line, runs the command, and returns the exit code.
 pub fn main(explorer: Explorer) -> ExitCode {
     if let Some(failure) = negative_infinity() {
         return finish(Err(failure));
@@ -89,7 +89,7 @@ fn finish(result: Result<Verdict, Failure>) -> ExitCode {
     }
 }
 
-/// Opens the explorer; a scene is read here first, so that a wrong one is refused before a window opens.
+/// Opens the explorer. A scene is read here first, so that an invalid one is refused before a window opens.
 fn explore(scene: Option<PathBuf>, explorer: Explorer) -> Result<Verdict, Failure> {
     if let Some(folder) = scene.as_deref().and_then(Folder::meant) {
         Folder::open(&folder)?;
@@ -107,7 +107,7 @@ fn explore(scene: Option<PathBuf>, explorer: Explorer) -> Result<Verdict, Failur
     Ok(explorer(scene).map(|()| Verdict::Done)?)
 }
 
-/// A number that looks like an option: it is refused by its own name.
+/// Refuses values such as `-inf`, which would be parsed as an option, with a message that names the option.
 fn negative_infinity() -> Option<Failure> {
     let words: Vec<String> = std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
     words.windows(2).find_map(|pair| match pair {

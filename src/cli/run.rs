@@ -1,4 +1,4 @@
-//! `run`: scenes, held against their expectations.
+//! Command `run`: runs scenes and checks their expectations.
 
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
@@ -16,29 +16,30 @@ use time::Date;
 /// Options of `run`.
 #[derive(Debug, Args)]
 pub struct RunArgs {
-    /// The scenes
+    /// Scenes to run
     #[arg(value_name = "SCENE.ron", required_unless_present = "all", conflicts_with = "all")]
     pub(super) scenes: Vec<PathBuf>,
-    /// Run every scene below a folder and keep RESULTS.md there, the page of what came of them; takes hours. Scenes marked
-    /// `training: Embedded` run only if --only gives their place
+    /// Run every scene below a folder and write RESULTS.md, the results page, there; takes hours. Scenes marked
+    /// `training: Embedded` run only if --only gives their full path
     #[arg(long)]
     pub(super) all: bool,
-    /// Of all scenes run those marked `quick: true` only, in a few minutes, and leave RESULTS.md as it is
+    /// Run only scenes marked `quick: true`, in a few minutes, without changing RESULTS.md
     #[arg(long, requires = "all")]
     pub(super) quick: bool,
-    /// The folder of all scenes
+    /// Folder of all scenes
     #[arg(long = "scenes", value_name = "DIR", default_value = "scenes", requires = "all")]
     pub(super) folder: PathBuf,
-    /// Of all scenes run those below these places only, such as line or time/fig_4_14.ron; RESULTS.md keeps the others
+    /// Run only scenes whose path begins with one of these, such as line or time/fig_4_14.ron; RESULTS.md keeps the
+    /// others
     #[arg(long, value_name = "PLACE", requires = "all", num_args = 1..)]
     pub(super) only: Vec<String>,
-    /// Take over what RESULTS.md says of scenes that have not changed since, where nothing fell short
+    /// Keep results in RESULTS.md of scenes that have not changed since and met all expectations
     #[arg(long, requires = "all")]
     pub(super) resume: bool,
-    /// With --resume: only where the scene ran on this day (UTC) or later, such as 2026-11-29
+    /// With --resume: only results from this day (UTC) or later, such as 2026-11-29
     #[arg(long, value_name = "DAY", requires = "resume", value_parser = day)]
     pub(super) since: Option<Date>,
-    /// Write every scene's outcome (JSON), tables (CSV) and the model that it trains (.rom) into this folder
+    /// Write outcome (JSON), tables (CSV) and trained model (.rom) of every scene into this folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Print one JSON object per scene
@@ -46,7 +47,7 @@ pub struct RunArgs {
     pub(super) json: bool,
 }
 
-/// Runs the command: all scenes and their models are read before the first is run.
+/// Runs the command. All scenes and their models are read before the first one runs.
 pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     if args.all {
         return super::run_all::run(args);
@@ -82,18 +83,18 @@ fn day(text: &str) -> Result<Date, Failure> {
     day_of(text).ok_or_else(|| Failure::Request(accepted.to_owned()))
 }
 
-/// Makes the folder of outcomes where one is wanted.
+/// Creates the output folder, if one is given.
 pub(super) fn make_out(args: &RunArgs) -> Result<(), Failure> {
     let Some(folder) = &args.out else { return Ok(()) };
     Ok(std::fs::create_dir_all(folder).map_err(|reason| WriteError { path: folder.clone(), reason })?)
 }
 
-/// The folder that a scene's paths refer to.
+/// Returns the folder to which a scene's paths are relative.
 fn base(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
 }
 
-/// Runs one scene, whose paths refer to its folder.
+/// Runs one scene, with paths relative to its folder.
 pub(super) fn outcome_of(path: &Path, scene: &Scene, store: &Store) -> Result<SceneOutcome, EngineError> {
     let progress = ProgressLine::new(false);
     let outcome = run_scene(scene, &mut Workbench::on(store, base(path)), &progress);
@@ -101,7 +102,7 @@ pub(super) fn outcome_of(path: &Path, scene: &Scene, store: &Store) -> Result<Sc
     outcome
 }
 
-/// Writes the model that a scene has just trained beside the rest of its outcome.
+/// Writes the model that a scene has just trained into the output folder.
 pub(super) fn keep_model(scene: &Scene, store: &Store, folder: &Path, name: &str) -> Result<(), EngineError> {
     let Some(model) = scene.training().and_then(|spec| store.already_trained(&spec)) else { return Ok(()) };
     let path = folder.join(format!("{name}.rom"));
@@ -113,7 +114,7 @@ pub(super) fn tell(outcome: &SceneOutcome, json: bool) -> Result<(), Failure> {
     if json { output::print_json(&outcome.to_json()) } else { output::print(&describe(outcome)) }
 }
 
-/// The scene's name for its outputs; with a number where two scenes of the run share it.
+/// Returns the name of a scene's output files, with a number if another scene of the run has the same name.
 pub(super) fn stem(path: &Path, all: &[PathBuf]) -> String {
     let name = |path: &Path| path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let own = name(path);
@@ -121,7 +122,7 @@ pub(super) fn stem(path: &Path, all: &[PathBuf]) -> String {
     if before == 0 { own } else { format!("{own}_{}", before + 1) }
 }
 
-/// The outcome for people.
+/// Describes an outcome for users.
 pub(super) fn describe(outcome: &SceneOutcome) -> String {
     let mut text = format!("{} ({:.2} s)\n", outcome.title, outcome.wall_s);
     let method = |method: &Option<Method>| method.as_ref().map_or("", Method::name);

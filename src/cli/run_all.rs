@@ -1,6 +1,7 @@
-//! `run --all`: every scene below a folder, and the page of what came of them.
+//! Command `run --all`: runs every scene below a folder and writes the results page.
 //!
-//! Scenes that train embedded models are left out unless `--only` names them: their models are retrained one at a time.
+//! Scenes that train embedded models are left out unless `--only` names them, since these models are retrained one at a
+//! time.
 
 use super::failure::Failure;
 use super::output;
@@ -15,8 +16,8 @@ use crate::scene::{TrainedModel, atomic_file};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Runs them, each whatever became of the others. All are read and checked before the first runs, and what came of each
-/// is on the page before the next one begins.
+/// Runs all selected scenes. An error in one scene does not stop the others. All scenes are read and checked before the
+/// first one runs, and each result is on the page before the next scene starts.
 pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     let folder = &args.folder;
     let all = scenes_below(folder)?;
@@ -59,7 +60,7 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
         sentence =
             format!("{sentence}; of {} scenes only those marked `quick: true`, so {PAGE} is left as it is", all.len());
     } else {
-        // Scenes may have gone or come where nothing had to run.
+        // The page is also updated if no scene had to run, since scenes may have been added or removed.
         atomic_file::replace(&target, page(&all, &recorded(&target)).as_bytes())?;
         sentence = format!("{sentence}; see {}", target.display());
     }
@@ -72,29 +73,30 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
     Ok(if entries.iter().all(Entry::passed) { Verdict::Done } else { Verdict::FellShort })
 }
 
-/// Whether the options select a scene.
+/// Returns true if the options select a scene.
 fn selected(file: &SceneFile, args: &RunArgs) -> bool {
     let below = args.only.is_empty() || args.only.iter().any(|place| file.place.starts_with(place.as_str()));
     below && (file.scene.quick || !args.quick)
 }
 
-/// Whether a scene trains an embedded model.
+/// Returns true if a scene trains an embedded model.
 fn embeds(file: &SceneFile) -> bool {
     file.scene.training == TrainedModel::Embedded
 }
 
-/// Whether `--only` gives a scene's whole place, with or without `.ron`.
+/// Returns true if `--only` gives a scene's full path, with or without `.ron`.
 fn named(file: &SceneFile, args: &RunArgs) -> bool {
     let place = file.place.strip_suffix(".ron").unwrap_or(&file.place);
     args.only.iter().any(|only| only.strip_suffix(".ron").unwrap_or(only) == place)
 }
 
-/// What the page says, if there is one. It is read anew each time: others may run scenes of the same folder.
+/// Reads the entries of the page, if it exists. It is read again each time, because other processes may run scenes of
+/// the same folder.
 fn recorded(page: &Path) -> BTreeMap<String, Entry> {
     std::fs::read_to_string(page).map(|text| entries_of(&text)).unwrap_or_default()
 }
 
-/// Whether what the page says of a scene can be taken over.
+/// Returns true if the entry of a scene can be kept.
 fn serves(entry: &Entry, file: &SceneFile, args: &RunArgs) -> bool {
     args.resume && entry.belongs(file) && entry.passed() && args.since.is_none_or(|day| entry.ran_since(day))
 }
@@ -107,7 +109,7 @@ fn entry_of(file: &SceneFile, args: &RunArgs, store: &Store, all: &[PathBuf]) ->
             if let Some(out) = &args.out {
                 let name = stem(&file.path, all);
                 outcome.write(out, &name)?;
-                // A model that no file can hold does not end the others.
+                // A model that cannot be written does not stop the other scenes.
                 if let Err(refused) = keep_model(&file.scene, store, out, &name) {
                     output::complain(&refused.to_string());
                 }
@@ -124,7 +126,7 @@ mod tests {
     use super::*;
     use time::Duration;
 
-    /// A scene of one contact at M = 10, L = 5, which expects a film above `least`.
+    /// Returns the text of a scene of one contact at M = 10, L = 5 that expects H_c above `least`.
     fn scene(quick: bool, method: &str, least: f64) -> String {
         format!(
             "Scene(version: 1, title: \"t\", quick: {quick}, at: Moes(m: 10.0, l: 5.0), study: Point(methods: [{method}]), \
@@ -192,7 +194,7 @@ mod tests {
         let page = std::fs::read_to_string(scenes.join(PAGE)).unwrap();
         assert!(page.contains("3 scenes with 3 expectations: 2 fall short"), "{page}");
         assert!(page.contains("](line/no_model.ron)") && page.contains("none.rom"), "{page}");
-        // What was kept is taken over, unless it is older than wanted; what fell short is tried again.
+        // Results on the page are kept unless they are older than requested; failed scenes run again.
         let film = "| 0.1256 | ok |";
         assert!(page.contains(film), "{page}");
         std::fs::write(scenes.join(PAGE), page.replace(film, "| kept | ok |")).unwrap();
@@ -205,7 +207,7 @@ mod tests {
         let since = crate::host::clock::today().saturating_add(Duration::days(2));
         run(&RunArgs { since: Some(since), ..args(false, true) }).unwrap();
         assert!(std::fs::read_to_string(scenes.join(PAGE)).unwrap().contains(film));
-        // Of a scene that is another now nothing is, unless it runs; what is not asked for stays as it is.
+        // A result of a changed scene is not kept unless the scene runs; results of scenes not selected stay unchanged.
         write("line/good.ron", scene(true, "Reduced()", 1e9));
         write("short.ron", scene(false, "Reduced()", 1e-9));
         let only = |place: &str| RunArgs { only: vec![place.to_owned()], ..args(false, true) };

@@ -1,4 +1,4 @@
-//! `solve`: one operating point.
+//! Command `solve`: one operating point.
 
 use super::failure::Failure;
 use super::options::PointOptions;
@@ -18,7 +18,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Values with nine decimals: what they are called here, and in a result.
+/// Values with nine decimals: their names here and in a result.
 const DIMENSIONLESS: [(&str, &str); 8] = [
     ("H_c", "H_c"),
     ("H_min", "H_min"),
@@ -39,7 +39,7 @@ const SMALL: [(&str, &str); 5] = [
     ("residual norm", "residual_norm"),
 ];
 
-/// Calibrated bounds on errors.
+/// Calibrated error bounds.
 const BOUNDS: [(&str, &str); 4] = [
     ("H_c", "reduced.h_c_error_bound"),
     ("H_min", "reduced.h_min_error_bound"),
@@ -52,17 +52,17 @@ const BOUNDS: [(&str, &str); 4] = [
 pub struct SolveArgs {
     #[command(flatten)]
     point: PointOptions,
-    /// Write the profiles as CSV: X, Y, P, H and their SI twins
+    /// Write the profiles as CSV: X, Y, P, H, and the same in SI units
     #[arg(long, value_name = "FILE.csv")]
     profiles: Option<PathBuf>,
-    /// Write the shear across the film in the plane Y = 0 as CSV: X, Z = z/h, stress in Pa, rate in 1/s
+    /// Write the shear across the film in the plane Y = 0 as CSV: X, Z = z/h, shear stress in Pa, shear rate in 1/s
     #[arg(long, value_name = "FILE.csv")]
     film_shear: Option<PathBuf>,
-    /// Write a results sheet: inputs, results, how they were checked, formulas beside; by the ending Markdown with
-    /// figures beside it (md), a page with figures (html) or a table (csv)
+    /// Write a report sheet with inputs, results, how they were checked, and published formulas; the extension selects
+    /// Markdown with separate figures (md), a page with figures (html) or a table (csv)
     #[arg(long, value_name = "FILE.md")]
     sheet: Option<PathBuf>,
-    /// Estimate what a point contact's grid costs H_c and H_min, by a second solve on another grid
+    /// Estimate the discretisation error of H_c and H_min of a point contact by a second solve on another grid
     #[arg(long)]
     accuracy: bool,
     /// Print one JSON object
@@ -115,10 +115,10 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     Ok(if answer.result.converged { Verdict::Done } else { Verdict::FellShort })
 }
 
-/// Says on standard error how a solve goes on, from the second second on.
+/// Observer that reports progress on standard error after the first second.
 struct Progress {
     begin: Stopwatch,
-    /// The second in which it speaks next.
+    /// Time of the next message \[s\].
     next: AtomicUsize,
 }
 
@@ -135,7 +135,7 @@ impl Observer for Progress {
 
 impl TrainingObserver for Progress {}
 
-/// A result, with what the grid of a point contact costs where that was asked for.
+/// Result, with the discretisation error of a point contact if requested.
 #[derive(Serialize)]
 struct Report<'a> {
     #[serde(flatten)]
@@ -144,7 +144,7 @@ struct Report<'a> {
     accuracy: Option<GridAccuracy>,
 }
 
-/// The report for people.
+/// Describes the result for users.
 fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {

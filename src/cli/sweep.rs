@@ -1,4 +1,4 @@
-//! `sweep`: the same along one or two varied options.
+//! Command `sweep`: contacts along one or two varied options.
 
 use super::failure::Failure;
 use super::options::PointOptions;
@@ -13,8 +13,8 @@ use std::path::PathBuf;
 /// Options of `sweep`.
 #[derive(Debug, Args)]
 pub struct SweepArgs {
-    /// What is varied, once or twice; NAME is a numeric option, as moes-m or speed. With :log for a constant ratio, with
-    /// :graded:HALF for half of the values up to HALF and ever wider steps, as srr=0:1:41:graded:0.05
+    /// One or two varied options; NAME is a numeric option such as moes-m or speed. Add :log for a constant ratio, or
+    /// :graded:HALF for steps that grow, with half of the values up to HALF, as in srr=0:1:41:graded:0.05
     #[arg(value_name = "NAME=FROM:TO:N[:log|:graded:HALF]", required = true, num_args = 1..=2)]
     varied: Vec<Varied>,
     #[command(flatten)]
@@ -27,7 +27,7 @@ pub struct SweepArgs {
     json: bool,
 }
 
-/// Runs the command: contacts that make no sense are named, all others solved.
+/// Runs the command. Refused contacts are reported, all others are solved.
 pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
     let sweep = ContactSweep::new(&args.varied, &args.point.0, Words::Flags)?;
     let progress = ProgressLine::new(false);
@@ -50,7 +50,7 @@ pub fn run(args: &SweepArgs) -> Result<Verdict, Failure> {
     Ok(if failures == 0 && refused.is_none() { Verdict::Done } else { Verdict::FellShort })
 }
 
-/// Prints a contact as JSON: its result, or its varied options and why it is refused.
+/// Prints a contact as JSON: its result, or its varied options and the reason why it is refused.
 fn print(contact: &SweptContact<'_>) -> Result<(), Failure> {
     let SweptContact { names, values, row } = contact;
     match &row.answer {

@@ -1,5 +1,6 @@
-//! `train`: a reduced model as a scene describes, of stationary contacts or in time. What was solved of the former is kept in `FILE.rom.training` until the model is
-//! written, so that the same command goes on where a killed one stopped.
+//! Command `train`: trains the reduced model that a scene describes, of steady or transient contacts. Full solutions of
+//! a steady training are stored in `FILE.rom.training` until the model is written, so that the same command continues
+//! an interrupted training.
 
 use super::failure::Failure;
 use super::options::choices;
@@ -17,13 +18,13 @@ use std::sync::Arc;
 /// Options of `train`.
 #[derive(Debug, Args)]
 pub struct TrainArgs {
-    /// The scene; its study must be a training, or a contact in time with a reduced model of its own
+    /// Scene; its study must be a training, or a transient study that trains a reduced model
     #[arg(value_name = "SCENE.ron")]
     scene: PathBuf,
-    /// Write the model here
+    /// Output file of the model
     #[arg(long, value_name = "FILE.rom")]
     out: PathBuf,
-    /// How films rupture, in place of what the scene says
+    /// Cavitation model; replaces that of the scene
     #[arg(long, value_parser = choices(Field::Cavitation))]
     cavitation: Option<String>,
 }
@@ -45,7 +46,7 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     };
     let kept = training_file::beside(&args.out);
     check_out(&args.out)?;
-    // What would fail at the end fails here already.
+    // Errors that would otherwise occur at the end are found here.
     let keeper = TrainingKeeper::new(kept.clone()).map_err(EngineError::from)?;
     let mut state = match training_file::unfinished(&kept, &spec).map_err(EngineError::from)? {
         Some(state) => {
@@ -81,7 +82,7 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     Ok(Verdict::Done)
 }
 
-/// Refuses what cannot be the file of a model before anything is trained.
+/// Refuses an invalid output path before the training starts.
 fn check_out(out: &Path) -> Result<(), Failure> {
     let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
     if out.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
@@ -92,7 +93,7 @@ fn check_out(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes a model; where that fails, into the folder for temporary files, and says so.
+/// Writes a model. If that fails, writes it to the folder for temporary files and reports the path.
 fn write(out: &Path, write: impl Fn(&Path) -> Result<(), ModelFileError>) -> Result<Verdict, Failure> {
     let Err(reason) = write(out) else { return Ok(Verdict::Done) };
     let refused = EngineError::Model { path: out.to_owned(), reason: reason.into() };
@@ -107,7 +108,7 @@ fn write(out: &Path, write: impl Fn(&Path) -> Result<(), ModelFileError>) -> Res
     }
 }
 
-/// Trains a model in time: its few full marches take seconds to minutes, and nothing of them is kept beside the output.
+/// Trains a transient model. Its few full marches take seconds to minutes and are not stored.
 fn in_time(scene: &Scene, args: &TrainArgs) -> Result<Verdict, Failure> {
     let folder = args.scene.parent().unwrap_or(Path::new(""));
     let progress = ProgressLine::new(true);
@@ -122,7 +123,7 @@ fn in_time(scene: &Scene, args: &TrainArgs) -> Result<Verdict, Failure> {
     Ok(written)
 }
 
-/// Shows how far the training is and keeps it on disk meanwhile.
+/// Observer that shows the progress and stores the training on disk.
 struct ProgressObserver {
     progress: ProgressLine,
     keeper: TrainingKeeper,

@@ -1,10 +1,10 @@
-//! What a command that ran reports by its exit code.
+//! Exit status of a command that ran.
 
-/// How a command ended.
+/// Exit status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Exit code 0.
     Done,
-    /// Exit code 1: did not converge, or an expectation fell short.
+    /// Exit code 1: did not converge, or an expectation was not met.
     FellShort,
 }

@@ -1,14 +1,14 @@
-//! Several files as one: a ZIP archive whose files are stored as they are.
+//! Writes ZIP archives without compression.
 
-/// The archive of some files, each with its path inside, with slashes. Paths must differ; all of them together must have
-/// less than 4 GiB.
+/// Returns the ZIP archive of some files, each with its path inside, with slashes. Paths must differ. All files
+/// together must have less than 4 GiB.
 pub fn zip(files: impl IntoIterator<Item = (String, Vec<u8>)>) -> Vec<u8> {
     let mut archive = Vec::new();
     let (mut directory, mut count) = (Vec::new(), 0u16);
     for (name, content) in files {
         let (at, size) = (archive.len() as u32, content.len() as u32);
-        // What an entry and its line in the directory have in common: version 2.0, no flags, stored, the first of
-        // January 1980, checksum, both sizes, length of the name, nothing more.
+        // Fields shared by the local header and the directory entry: version 2.0, no flags, stored, 1 January 1980,
+        // checksum, both sizes, length of the name, no extra field.
         let mut common = Vec::new();
         [20u16, 0, 0, 0, 0x21].iter().for_each(|word| common.extend(word.to_le_bytes()));
         [crc32fast::hash(&content), size, size].iter().for_each(|word| common.extend(word.to_le_bytes()));
@@ -20,7 +20,7 @@ pub fn zip(files: impl IntoIterator<Item = (String, Vec<u8>)>) -> Vec<u8> {
         directory.extend(b"PK\x01\x02");
         directory.extend(20u16.to_le_bytes());
         directory.extend(&common);
-        // No remark, the first volume, no attributes, where the entry begins.
+        // No comment, first disk, no attributes, offset of the local header.
         directory.extend([0; 10]);
         directory.extend(at.to_le_bytes());
         directory.extend(name.as_bytes());

@@ -1,43 +1,43 @@
-//! Arrays for other programs: one archive (`.npz`) that `numpy.load` reads, of files (`.npy`, version 1.0) of numbers of
-//! eight bytes, neither compressed nor aligned.
+//! Arrays for other programs: an archive (`.npz`) that `numpy.load` reads. It contains files (`.npy`, version 1.0) of
+//! eight-byte numbers, neither compressed nor aligned.
 
 use super::archive::zip;
 
-/// An array with a name.
+/// Named array.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Array {
-    /// Its name, in letters, digits and `_`.
+    /// Name, made of letters, digits and `_`.
     pub name: String,
-    /// How long it is along each of its axes, the last one running fastest.
+    /// Length of each axis. The last axis varies fastest.
     pub shape: Vec<usize>,
-    /// Its numbers.
+    /// Numbers.
     pub values: Vec<f64>,
 }
 
 impl Array {
-    /// A list of numbers.
+    /// Returns a one-dimensional array.
     pub fn list(name: impl Into<String>, values: Vec<f64>) -> Self {
         Self { name: name.into(), shape: vec![values.len()], values }
     }
 
-    /// Rows of equal length; an empty table has no columns.
+    /// Returns a matrix of rows of equal length. An empty table has no columns.
     pub fn rows<R: AsRef<[f64]>>(name: impl Into<String>, rows: &[R]) -> Self {
         let columns = rows.first().map_or(0, |row| row.as_ref().len());
         let values = rows.iter().flat_map(|row| row.as_ref()).copied().collect();
         Self { name: name.into(), shape: vec![rows.len(), columns], values }
     }
 
-    /// Columns of `length` numbers each, next to each other.
+    /// Returns a matrix whose columns have `length` numbers each.
     pub fn columns(name: impl Into<String>, length: usize, columns: &[&Vec<f64>]) -> Self {
         let row = |i: usize| columns.iter().map(move |column| column.get(i).copied().unwrap_or(f64::NAN));
         Self { name: name.into(), shape: vec![length, columns.len()], values: (0..length).flat_map(row).collect() }
     }
 
-    /// The array as a file of its own.
+    /// Returns the array as an `.npy` file.
     fn to_npy(&self) -> Vec<u8> {
         let shape: String = self.shape.iter().map(|length| format!("{length}, ")).collect();
         let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", shape.trim_end());
-        // Magic, version, length and header together fill whole lines of 64 bytes, the last of them a line break.
+        // Magic, version, length and header are padded to a multiple of 64 bytes, ending with a line break.
         let blanks = 64 - (10 + header.len() + 1) % 64;
         header.push_str(&" ".repeat(blanks % 64));
         header.push('\n');
@@ -49,7 +49,7 @@ impl Array {
     }
 }
 
-/// The archive of some arrays. Names must differ.
+/// Returns the archive of some arrays. Names must differ.
 pub fn npz(arrays: &[Array]) -> Vec<u8> {
     zip(arrays.iter().map(|array| (format!("{}.npy", array.name), array.to_npy())))
 }
@@ -67,7 +67,7 @@ mod tests {
         ]
     }
 
-    /// Entries by the directory at the end: names and contents.
+    /// Reads the entries from the directory at the end: names and contents.
     fn entries(file: &[u8]) -> Vec<(String, Vec<u8>)> {
         let word = |at: usize| usize::from(u16::from_le_bytes(file[at..at + 2].try_into().unwrap()));
         let long = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
@@ -113,7 +113,7 @@ mod tests {
     fn other_programs_read_it() {
         let path = std::env::temp_dir().join(format!("ehl-arrays-{}.npz", std::process::id()));
         std::fs::write(&path, npz(&arrays())).unwrap();
-        // Python's own reader of archives judges sizes and checksums; numpy, where it is there, the arrays as well.
+        // Python's zipfile module checks sizes and checksums, and numpy, if installed, the arrays.
         let program = "\
 import sys, zipfile, ast\n\
 with zipfile.ZipFile(sys.argv[1]) as archive:\n    \
@@ -126,7 +126,7 @@ assert arrays['modes'].shape == (2, 3) and arrays['modes'][0, 1] == -2.0\n\
 assert (arrays['singular_values'] == numpy.arange(40.0)).all() and arrays['nothing'].size == 0\n";
         let run = Command::new("python3").args(["-c", program]).arg(&path).output();
         std::fs::remove_file(&path).unwrap();
-        // Without Python there is nobody to ask.
+        // Skipped if Python is not installed.
         if let Ok(run) = run {
             assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
         }

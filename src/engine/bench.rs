@@ -1,4 +1,4 @@
-//! The speed table: full and reduced side by side, against a dense Newton measured in the same run.
+//! Speed table of full and reduced solves, compared with a dense Newton method measured in the same run.
 #![allow(clippy::indexing_slicing, reason = "the table's own sizes and points")]
 
 mod heat;
@@ -27,78 +27,79 @@ use serde::Serialize;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What all rows of line contacts are compared with: Newton with a dense LU per step on the same 1201 nodes, as the
-/// dissertation has it.
+/// Baseline of the rows of line contacts: Newton with a dense LU decomposition per step on the same 1201 nodes, as in
+/// the dissertation.
 pub const BASELINE: &str = "line/dense-newton";
 
-/// What all rows of point contacts are compared with: the cold full solve. A dense LU of 11960 unknowns would take
-/// minutes.
+/// Baseline of the rows of point contacts: the full solve from a cold start. A dense LU decomposition of 11960 unknowns
+/// would take minutes.
 pub const POINT_BASELINE: &str = "point/full/cold";
 
-/// What all rows of steps in time are compared with: the full step on the same 1201 nodes.
+/// Baseline of the rows of time steps: the full step on the same 1201 nodes.
 pub const TRANSIENT_BASELINE: &str = "line/transient/full-step";
 
-/// The dense baseline may take this long; at least three runs are made whatever they take.
+/// Time budget of the dense baseline. At least three runs are made.
 const BASELINE_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_secs(4)];
-/// Each other row stops drawing further points after this, and after three of them.
+/// Time budget of each other row. At least three points are solved.
 const ROW_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(1500)];
-/// Points of the full rows and of the reduced row.
+/// Numbers of points of the full rows, the reduced row and the baseline; normal and quick.
 const FULL_POINTS: [usize; 2] = [400, 60];
 const REDUCED_POINTS: [usize; 2] = [10_000, 1_000];
 const BASELINE_POINTS: [usize; 2] = [40, 6];
-/// Shear-thinning line contacts, of either kind for their reduced models, and how many of these have a traction curve.
+/// Numbers of shear-thinning line contacts, of contacts of either kind for their reduced models, and of traction
+/// curves.
 const SHEAR_POINTS: [usize; 2] = [150, 20];
 const REDUCED_SHEAR_POINTS: [usize; 2] = [1000, 150];
 const CURVES: [usize; 2] = [50, 8];
-/// Point contacts: solves, and the time after which no further ones are begun.
+/// Number of point contacts, and time after which no further solve is started.
 const POINT_POINTS: [usize; 2] = [50, 4];
 const POINT_BUDGET: [Duration; 2] = [Duration::from_secs(60), Duration::from_millis(700)];
-/// The trajectory-piecewise-linear model of the same march.
+/// Training of the trajectory-piecewise-linear model of the same march.
 const TPWL_TRAINING: TpwlTraining = TpwlTraining { modes: 100, selection: Selection::Step { tolerance: 1e-3 } };
-/// Modes of local bases along that march, and how many bases.
+/// Local bases for the march: number of bases, and modes per basis.
 const LOCAL: LocalBases = LocalBases { clusters: 4, modes: 50 };
-/// Contacts of a traction curve, SRR 0…1.
+/// Number of contacts of a traction curve, SRR 0…1.
 const CURVE_POINTS: usize = 41;
 const SEED: u64 = 2026;
-/// Marches of a reduced model: one of them is over too soon for a median that can be repeated.
+/// Number of marches of a reduced model. A single march is too short for a reproducible median.
 const MARCHES: usize = 10;
-/// Duration of the march whose steps are timed.
+/// Duration T of the march whose steps are timed.
 const MARCH_DURATION: [f64; 2] = [1.5, 0.5];
 
-/// One line of the table.
+/// Row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// `line/full/cold` and so on.
+    /// Name, such as `line/full/cold`.
     pub name: &'static str,
-    /// Median \[s\].
+    /// Median time \[s\].
     pub median_s: f64,
-    /// 99th percentile \[s\].
+    /// 99th percentile of the time \[s\].
     pub p99_s: f64,
-    /// Solves measured.
+    /// Number of measured solves.
     pub runs: usize,
-    /// What the ratio refers to.
+    /// Name of the baseline.
     pub baseline: &'static str,
-    /// Median of the baseline over this median: how many times faster.
+    /// Speed-up: median of the baseline over this median.
     pub ratio: f64,
 }
 
-/// The table, and what a reader must know about it.
+/// Speed table with notes.
 #[derive(Clone, Debug, PartialEq, Serialize, Default)]
 pub struct Bench {
-    /// The lines.
+    /// Rows.
     pub rows: Vec<Row>,
-    /// Lines that are missing and why; solves that did not converge.
+    /// Missing rows with the reason, and solves that did not converge.
     #[serde(skip)]
     pub notes: Vec<String>,
 }
 
-/// Measures the table over random points of Table 3.1's box for line and of Table 3.4's for point contacts, and of
-/// Table 3.6's ranges for shear-thinning ones: the same points for every row of a kind.
+/// Measures the table at random points: in the range of Table 3.1 for line contacts, of Table 3.4 for point contacts,
+/// and of Table 3.6 for shear-thinning contacts. All rows of a kind use the same points.
 ///
-/// `quick` takes fewer points and ends within 20 s.
+/// `quick` uses fewer points and ends within 20 s.
 ///
 /// # Errors
-/// When a solver refuses a point of the box, which it never should.
+/// If a solver refuses a point of the range.
 pub fn run(quick: bool) -> Result<Bench, EngineError> {
     let size = usize::from(quick);
     let points = random_points(&ParameterSpace::table_3_1(), ContactKind::Line, REDUCED_POINTS[size], SEED);
@@ -152,8 +153,8 @@ pub fn run(quick: bool) -> Result<Bench, EngineError> {
 }
 
 impl Bench {
-    /// Reduced solves of shear-thinning contacts of one kind, H_c and traction without any field, and whole traction
-    /// curves; a note where there is no model.
+    /// Times reduced solves of shear-thinning contacts of one kind (H_c and traction without fields) and whole traction
+    /// curves. Adds a note if there is no model.
     fn reduced_shear_rows(
         &mut self,
         [solve, curve]: [&'static str; 2],
@@ -171,7 +172,7 @@ impl Bench {
         Ok(vec![solves, curve_row(curve, &mut online, curves, POINT_BUDGET[size])?])
     }
 
-    /// What solves with the embedded model of a row; a note where there is none.
+    /// Returns the online solver with the embedded model of a row. Adds a note if there is none.
     fn online(&mut self, row: &str, kind: ContactKind, shear: ShearLaw) -> Option<Online> {
         let name = match (kind, shear) {
             (ContactKind::Line, ShearLaw::Newtonian) => "line",
@@ -185,7 +186,7 @@ impl Bench {
         model.map(|model| Online::new(model, ReducedOptions::default()))
     }
 
-    /// The embedded model of a row; a note where there is none.
+    /// Returns the embedded model of a row. Adds a note if there is none.
     fn model(&mut self, row: &str, name: &str) -> Option<Arc<ReducedModel>> {
         let missing = |reason: &ModelFileError| self.notes.push(format!("{row} is missing: {reason}"));
         Store::default().embedded(name).inspect_err(missing).ok()
@@ -211,7 +212,7 @@ impl Bench {
     }
 }
 
-/// Full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
+/// Times full solves of point contacts on 301×41 nodes, cold and from the nearest other solution.
 fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, EngineError> {
     let range = ParameterSpace::table_3_4();
     let points = random_points(&range, ContactKind::Point, POINT_POINTS[size], SEED);
@@ -229,7 +230,7 @@ fn point_rows(size: usize, shear: &[Problem]) -> Result<Vec<Timing>, EngineError
     Ok(rows)
 }
 
-/// Random contacts of Table 3.5 in the ranges of Table 3.6: u_m with a constant ratio, SRR and NPR equidistant.
+/// Returns random contacts of Table 3.5 in the ranges of Table 3.6. The distribution is uniform in ln u_m, SRR and NPR.
 fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, EngineError> {
     let lubricant = named_lubricant::SQUALANE_PIP;
     let mut random = fastrand::Rng::with_seed(SEED);
@@ -238,7 +239,7 @@ fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, Engin
             kind,
             radius_m: 12.7e-3,
             speed_m_per_s: 0.1 * 50f64.powf(random.f64()),
-            // The line's load makes the Hertzian pressure of the point's 23 N.
+            // The load of the line contact gives the same Hertzian pressure as 23 N on the point contact.
             load: if kind == ContactKind::Line { 144e3 } else { 23.0 },
             modulus_pa: 1.2388e11,
             viscosity_pa_s: 0.0705,
@@ -254,7 +255,7 @@ fn shear_problems(kind: ContactKind, count: usize) -> Result<Vec<Problem>, Engin
     (0..count).map(problem).collect()
 }
 
-/// Solves cold, then each again from the nearest other solution.
+/// Solves cold, then each contact again from the nearest other solution.
 fn cold_and_warm(
     names: [&'static str; 2],
     budget: Duration,
@@ -274,8 +275,8 @@ fn cold_and_warm(
     Ok([cold, warm])
 }
 
-/// Steps in time, of the full system and of the reduced models that reproduce them: the load of case 1 of Table 4.1 on
-/// the contact of Table 4.2, fixed frame.
+/// Times steps of the full solver and of transient reduced models: the load of case 1 of Table 4.1 on the contact of
+/// Table 4.2, in the fixed frame.
 fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
     let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 });
     let transient = Transient::new(OperatingPoint::TABLE_4_2, load, MARCH_DURATION[size], 2.5e-3);
@@ -290,7 +291,7 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
     };
     let local = TrajectoryTraining { local: Some(LOCAL), rows_per_mode: 3.0, ..settings };
     let (model, local) = (trained(&settings)?, trained(&local)?);
-    // Models are used for what they cost least: nobody asks for fields at every step.
+    // The marches of models store no fields, as in typical use.
     let transient = Transient { keep: Keep::Scalars, ..transient };
     let names = ["line/transient/rnsa-step", "line/transient/local-step", "line/transient/tpwl-step"];
     let [mut reduced, mut nearest, mut superposed] = names.map(Timing::new);
@@ -302,7 +303,8 @@ fn transient_rows(size: usize) -> Result<Vec<Timing>, EngineError> {
     Ok(vec![full, reduced, nearest, superposed])
 }
 
-/// Reduced solves one after the other, with all fields and the scalars read off them where `fields` says so.
+/// Times reduced solves one after the other, with the reconstruction of all fields and their scalars if `fields` is
+/// true.
 fn reduced_row(
     name: &'static str,
     online: &mut Online,
@@ -311,7 +313,7 @@ fn reduced_row(
     budget: Duration,
 ) -> Result<Timing, EngineError> {
     if let Some(first) = points.first() {
-        // Operators belong to the model, not to its solves.
+        // Building the operators of the model is not part of a solve.
         online.prepare(first);
     }
     timed(name, budget, 3, points, |point| {
@@ -322,8 +324,8 @@ fn reduced_row(
     })
 }
 
-/// Reduced solves with their scalars, with all fields, and without these ended at a relative step of 1e-3: what stops there
-/// is as far from the full solution.
+/// Times reduced solves with their scalars, with all fields, and with a relative step tolerance of 1e-3 and without
+/// fields. The latter does not increase the error against the full solution.
 fn reduced_rows(
     [scalars, fields, swift]: [&'static str; 3],
     online: &mut Online,
@@ -339,7 +341,7 @@ fn reduced_rows(
     ])
 }
 
-/// Whole traction curves over SRR by a reduced model, one for the speed, load and plateau ratio of each point.
+/// Times whole traction curves over SRR by a reduced model, one for the speed, load and plateau ratio of each point.
 fn curve_row(
     name: &'static str,
     online: &mut Online,
@@ -355,7 +357,7 @@ fn curve_row(
     })
 }
 
-/// The solution nearest to number `k` by (3.20) and in SRR and NPR, other than itself.
+/// Returns the solution nearest to number `k` by (3.20) and in SRR and NPR, other than itself.
 fn nearest_other(solutions: &[Solution], k: usize) -> Option<&Solution> {
     let far = |other: &Solution| {
         let (a, b) = (&solutions[k].problem, &other.problem);
@@ -371,8 +373,8 @@ struct Timing {
     failures: usize,
 }
 
-/// Times `solve`, which says whether it converged, for one item after the other until the budget is spent, for `least`
-/// of them in any case.
+/// Times `solve`, which returns whether it converged, for one item after the other until the budget is used up, and for
+/// at least `least` items.
 fn timed<T>(
     name: &'static str,
     budget: Duration,
@@ -398,7 +400,7 @@ impl Timing {
         Self { name, seconds: Vec::new(), failures: 0 }
     }
 
-    /// Marches and records every step.
+    /// Marches and records the time of every step.
     fn add_steps(&mut self, model: &mut dyn Marching, transient: &Transient) -> Result<Trajectory, EngineError> {
         let Timed { trajectory, seconds } = timed_march(model, transient, String::new(), &(), None)?;
         self.seconds.extend(seconds);

@@ -1,6 +1,6 @@
-//! Files with a checked header, shared by reduced models and unfinished trainings.
+//! Files with a checked header, used for reduced models, unfinished trainings and shards.
 //!
-//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of everything else (u64), all little-endian,
+//! Layout: magic (8 bytes), version (u32), payload length (u64), XXH3 hash of everything else (u64), all little-endian;
 //! then the payload, and nothing after it.
 
 use crate::host::files;
@@ -8,41 +8,41 @@ use std::io;
 use std::path::Path;
 use xxhash_rust::xxh3::Xxh3;
 
-/// Bytes before the hash.
+/// Number of bytes before the hash.
 const BEFORE_HASH: usize = 20;
-/// Bytes before the payload.
+/// Number of bytes before the payload.
 pub(super) const HEADER: usize = 28;
 
-/// A kind of file.
+/// File format.
 pub(super) struct Format {
-    /// What every file of the kind begins with.
+    /// Magic bytes at the beginning.
     pub magic: &'static [u8; 8],
-    /// The version that is written and read.
+    /// Version for writing and reading.
     pub version: u32,
-    /// Largest payload that is read \[bytes\].
+    /// Largest accepted payload \[bytes\].
     pub max_payload: u64,
 }
 
-/// What is wrong with a file's content.
+/// Error in the content of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Flaw {
-    /// Another kind of file.
+    /// Not a file of this format.
     Foreign,
     /// Another version.
     OtherVersion { found: u32 },
-    /// Fewer bytes than announced.
+    /// Fewer bytes than announced in the header.
     Truncated { found: u64, wanted: u64 },
-    /// More bytes announced than any such file has.
+    /// The header announces more bytes than accepted.
     TooLarge { bytes: u64 },
-    /// Other bytes than were written.
+    /// The hash does not match.
     Changed,
 }
 
-/// Why a file gives no payload.
+/// Reason why a file cannot be read.
 pub(super) enum Unreadable {
-    /// The system refuses to read it.
+    /// Error of the system.
     Io(io::Error),
-    /// Its content is refused.
+    /// Error in the content.
     Flaw(Flaw),
 }
 
@@ -59,7 +59,7 @@ impl From<Flaw> for Unreadable {
 }
 
 impl Format {
-    /// The content of a file with this payload.
+    /// Returns the content of a file with this payload.
     pub fn seal(&self, payload: &[u8]) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(HEADER + payload.len());
         bytes.extend_from_slice(self.magic);
@@ -70,7 +70,7 @@ impl Format {
         bytes
     }
 
-    /// The payload of a file's content.
+    /// Returns the payload of a file's content, and checks the hash.
     pub fn open<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], Flaw> {
         let payload = self.payload(bytes)?;
         let own = hash(bytes.get(..BEFORE_HASH).unwrap_or_default(), payload);
@@ -78,7 +78,7 @@ impl Format {
         if whole && hash_of(bytes) == own { Ok(payload) } else { Err(Flaw::Changed) }
     }
 
-    /// The same without a look at the hash.
+    /// Returns the payload without checking the hash.
     pub fn payload<'a>(&self, bytes: &'a [u8]) -> Result<&'a [u8], Flaw> {
         let announced = self.announced(bytes)?;
         let rest = bytes.get(HEADER..).unwrap_or_default();
@@ -86,14 +86,14 @@ impl Format {
         usize::try_from(announced).ok().and_then(|length| rest.get(..length)).ok_or(cut)
     }
 
-    /// Reads a whole file. Its announced size is checked before anything is allocated.
+    /// Reads a whole file. The announced size is checked before memory is allocated.
     pub fn read(&self, path: &Path) -> Result<Vec<u8>, Unreadable> {
         let length = files::size(path)?;
         let wanted = self.announced(&files::read_at_most(path, HEADER as u64)?)? + HEADER as u64;
         if length < wanted {
             return Err(Flaw::Truncated { found: length, wanted }.into());
         }
-        // One byte more shows that there is something after the payload.
+        // One additional byte shows whether the file continues after the payload.
         Ok(files::read_at_most(path, wanted + 1)?)
     }
 
@@ -124,7 +124,7 @@ fn hash(before: &[u8], payload: &[u8]) -> u64 {
     hash.digest()
 }
 
-/// The hash that a file's content says it has.
+/// Returns the hash stored in a file's content.
 pub(super) fn hash_of(bytes: &[u8]) -> u64 {
     u64_at(bytes, BEFORE_HASH).unwrap_or_default()
 }

@@ -1,4 +1,4 @@
-//! The reduced models that are part of the program, with a catalogue of what they cover.
+//! Reduced models embedded in the program, with a catalogue of their ranges.
 
 use super::rom::{self, Catalogue, ModelFileError};
 use crate::host::models;
@@ -8,7 +8,7 @@ use crate::solver::reduced::{Domain, ReducedModel};
 use std::borrow::Cow;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// What the program holds of the file of a model: all of it, or without the feature `models` its header and directory.
+/// Embeds a model file: complete, or without the feature `models` only header and directory.
 #[cfg(feature = "models")]
 macro_rules! held {
     ($path:literal) => {
@@ -18,14 +18,14 @@ macro_rules! held {
 #[cfg(not(feature = "models"))]
 macro_rules! held {
     ($path:literal) => {{
-        // The file itself is needed at compile time only.
+        // The file itself is needed only at compile time.
         const FILE: &[u8] = include_bytes!($path);
         static HEAD: [u8; rom::head_length(FILE)] = rom::head(FILE);
         &HEAD
     }};
 }
 
-/// The steady models by name, each with what the program holds of its file. Scenes in `scenes/training` train them.
+/// Names of the steady models with the embedded part of their files. Scenes in `scenes/training` train them.
 const MODELS: [(&str, &[u8]); 11] = [
     ("line", held!("../../assets/line.rom")),
     ("line_shear", held!("../../assets/line_shear.rom")),
@@ -40,16 +40,16 @@ const MODELS: [(&str, &[u8]); 11] = [
     ("point_light_sliding", held!("../../assets/point_light_sliding.rom")),
 ];
 
-/// A model of the program in the catalogue.
+/// Catalogue entry of an embedded model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Name of the model and of its file.
     pub name: &'static str,
-    /// Contacts it covers.
+    /// Range of contacts that it covers.
     pub domain: Domain,
 }
 
-/// Returns the catalogue of the steady models, from the directories of their files; a damaged one is left out.
+/// Returns the catalogue of the steady models, read from the directories of their files. Damaged files are left out.
 pub fn catalogue() -> &'static [Entry] {
     static CATALOGUE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
         let entry = |(name, bytes)| Some(Entry { name, domain: Catalogue::of_head(bytes).ok()?.domain });
@@ -58,45 +58,45 @@ pub fn catalogue() -> &'static [Entry] {
     &CATALOGUE
 }
 
-/// Returns the content of the file of a model; `None` for an unknown name, and where the file is not there (yet).
+/// Returns the content of a model's file; `None` for an unknown name, or if the file has not been loaded yet.
 pub fn bytes_of(name: &str) -> Option<Cow<'static, [u8]>> {
     let (_, held) = MODELS.iter().chain(&[IN_TIME]).find(|(known, _)| *known == name)?;
     if cfg!(feature = "models") { Some(Cow::Borrowed(held)) } else { models::now(name).map(Cow::Owned) }
 }
 
-/// Models that have been read, by name.
+/// Loaded models, by name.
 pub(super) type Read = Vec<(String, Arc<ReducedModel>)>;
 
 static READ: Mutex<Read> = Mutex::new(Vec::new());
 
 fn read() -> MutexGuard<'static, Read> {
-    // A thread that panicked leaves a whole list.
+    // A panic does not leave the list in an invalid state.
     READ.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Locks the models that have been read, with the catalogue made.
+/// Locks the list of loaded models, after making sure that the catalogue exists.
 pub(super) fn hold() -> MutexGuard<'static, Read> {
     catalogue();
     read()
 }
 
-/// Name of a model of the program that has been read; `None` for other models.
+/// Returns the name of a loaded embedded model; `None` for other models.
 pub fn name_of(model: &Arc<ReducedModel>) -> Option<String> {
     read().iter().find(|(_, read)| Arc::ptr_eq(read, model)).map(|(name, _)| name.clone())
 }
 
-/// Reads a model of the program. That its parts belong together was checked when it was tested, and is not checked again.
+/// Loads an embedded model. Its consistency is checked by tests, not here.
 ///
 /// # Errors
-/// For an unknown name, and when the program was built with a damaged asset.
+/// For an unknown name, or if the program was built with a damaged file.
 pub fn embedded(name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
     embedded_watched(name, &())
 }
 
-/// [`embedded`] while an observer watches. Each model is read once.
+/// Loads an embedded model with an observer, as [`embedded`]. Each model is read once.
 ///
 /// # Errors
-/// As [`embedded`], and when the observer cancels.
+/// As [`embedded`], and if the observer cancels.
 pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Arc<ReducedModel>, ModelFileError> {
     let known = |read: &Read| read.iter().find(|(known, _)| known == name).map(|(_, model)| Arc::clone(model));
     if let Some(model) = known(&read()) {
@@ -105,21 +105,21 @@ pub(super) fn embedded_watched(name: &str, observer: &dyn Observer) -> Result<Ar
     let bytes = bytes_of(name).ok_or(ModelFileError::Foreign)?;
     let model = rom::from_own_bytes(&bytes, observer)?.stationary()?;
     let mut read = read();
-    // If another thread has read it in the meantime, everybody gets that one.
+    // If another thread has loaded it in the meantime, that copy is used.
     Ok(known(&read).unwrap_or_else(|| {
         read.push((name.to_owned(), Arc::clone(&model)));
         model
     }))
 }
 
-/// The transient model with the content of its file.
+/// Transient model with the embedded part of its file.
 const IN_TIME: (&str, &[u8]) = ("line_in_time", held!("../../assets/line_in_time.rom"));
 
-/// The model in time of line contacts whose load varies: `scenes/training/line_in_time.ron`. It is read once: every picture
-/// needs what it was trained for.
+/// Loads the transient model of line contacts with varying load: `scenes/training/line_in_time.ron`. It is read only
+/// once, because its trained range is needed for every frame.
 ///
 /// # Errors
-/// When the program was built with a damaged asset.
+/// If the program was built with a damaged file.
 pub fn line_in_time() -> Result<Arc<TrajectoryModel>, ModelFileError> {
     static MODEL: OnceLock<Arc<TrajectoryModel>> = OnceLock::new();
     if let Some(model) = MODEL.get() {

@@ -1,4 +1,4 @@
-//! What the grid costs the film of a point contact, from a second solve on another grid.
+//! Discretisation error of a point contact, estimated from a second solve on another grid.
 
 use super::EngineError;
 use super::workbench::Workbench;
@@ -9,29 +9,29 @@ use crate::solver::full::point::{Accuracy, resolution_warning, second_grid};
 use crate::solver::training::TrainingObserver;
 use serde::Serialize;
 
-/// Discretisation errors of H_c and H_min, by Richardson's extrapolation with the scheme's second order.
+/// Discretisation errors of H_c and H_min, by Richardson's extrapolation with second order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct GridAccuracy {
-    /// Nodes along X of the second grid.
+    /// Number of nodes along X of the second grid.
     pub nx: usize,
-    /// Its nodes across.
+    /// Number of nodes across of the second grid.
     pub ny: usize,
     /// Relative error of H_c on the first grid.
     pub h_c_error: f64,
     /// Relative error of H_min on the first grid.
     pub h_min_error: f64,
-    /// H_c in the limit of fine grids.
+    /// Extrapolated value of H_c.
     #[serde(rename = "H_c_limit")]
     pub h_c_limit: f64,
-    /// H_min in the limit of fine grids.
+    /// Extrapolated value of H_min.
     #[serde(rename = "H_min_limit")]
     pub h_min_limit: f64,
-    /// Whether both grids resolve the side lobes; else the error of H_min may be larger.
+    /// True if both grids resolve the side lobes. Otherwise the error of H_min may be larger.
     pub resolved: bool,
 }
 
 impl GridAccuracy {
-    /// Compares a solution with one on another grid; `None` where they do not belong together.
+    /// Compares a solution with one on another grid; `None` if they cannot be compared.
     pub fn of(solution: &Solution, second: &Solution) -> Option<Self> {
         let accuracy = Accuracy::of_either(solution, second)?;
         let (h_c_error, h_min_error) = accuracy.errors_of(solution);
@@ -48,10 +48,10 @@ impl GridAccuracy {
 }
 
 impl Workbench {
-    /// Solves a point contact that has been answered on a second grid, and compares.
+    /// Solves a point contact again on a second grid, and compares both solutions.
     ///
     /// # Errors
-    /// When the answer is no converged full solution of a point contact, or the second solve has none.
+    /// If the answer is not a converged full solution of a point contact, or if the second solve fails.
     pub fn grid_accuracy(
         &mut self,
         answer: &Answer,

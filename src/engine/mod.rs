@@ -1,10 +1,11 @@
-//! The bench: what is expensive and shared, jobs, files, and headless experiments.
+//! Engine: the workbench with its shared resources, jobs, files, and runs without a window.
 //!
-//! * [`answer()`] turns a request into an answer; [`Workbench`] solves single contacts by any method and keeps grids, work space and models between solves: it is the bench of studies.
-//! * [`run_scene`] answers a scene's question.
-//! * [`mod@bench`] is the speed table, [`SavedModel`] reads and writes `.rom` files, [`training_file`] keeps unfinished
-//!   trainings.
-//! * [`campaign`] cuts a scene's work into shards for many processes and machines.
+//! * [`answer()`] solves a request. [`Workbench`] solves single contacts by any method, stores grids, work space and
+//!   models between solves, and is the bench of studies.
+//! * [`run_scene`] runs a scene.
+//! * [`mod@bench`] is the speed table, [`SavedModel`] reads and writes `.rom` files, [`training_file`] stores
+//!   unfinished trainings.
+//! * [`campaign`] divides the work of a scene into shards for many processes and machines.
 
 #![warn(clippy::indexing_slicing)]
 

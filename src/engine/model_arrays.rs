@@ -1,4 +1,4 @@
-//! What reduced models are made of, as arrays for other programs.
+//! Contents of reduced models as arrays for other programs.
 
 use super::arrays::Array;
 use crate::solver::reduced::tpwl::TpwlModel;
@@ -6,7 +6,7 @@ use crate::solver::reduced::transient::{TrajectoryModel, TrajectoryStart};
 use crate::solver::reduced::{PodBasis, ReducedModel, Window, deformation_weights};
 use faer::Mat;
 
-/// A matrix by rows.
+/// Returns a matrix in row-major order.
 fn matrix(name: String, of: &Mat<f64>) -> Array {
     let values = of.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<f64>>()).collect();
     Array { name, shape: vec![of.nrows(), of.ncols()], values }
@@ -19,7 +19,7 @@ fn basis(prefix: &str, of: &PodBasis) -> [Array; 2] {
     ]
 }
 
-/// Nodes, bases and sampled rows of a window, names beginning with `prefix`.
+/// Returns nodes, bases and sampled equations of a local model, with names that begin with `prefix`.
 fn of_window(prefix: &str, window: &Window) -> Vec<Array> {
     let (name, grid) = (|what: &str| format!("{prefix}{what}"), &window.grid);
     let places: Vec<(f64, f64)> = (0..grid.weights().len()).map(|node| grid.place(node)).collect();
@@ -37,9 +37,9 @@ fn of_window(prefix: &str, window: &Window) -> Vec<Array> {
     arrays
 }
 
-/// A model in time: nodes, bases and sampled rows as those of a window, without its name in front, those of its local bases
-/// with `local_1_` and so on in front, and of the beginnings
-/// of its trainings `starts` (R, u_m, w, E', η₀, α, how long in T, H₀) with `start_coefficients`.
+/// Returns the arrays of a transient model: nodes, bases and sampled equations as for a local model, without prefix;
+/// those of its local bases with the prefixes `local_1_` and so on; the starts of its trainings `starts` (R, u_m, w,
+/// E', η₀, α, duration T, H₀) with `start_coefficients`.
 pub fn of_trajectories(model: &TrajectoryModel) -> Vec<Array> {
     let mut arrays = of_window("", &model.window);
     for (k, local) in model.locals.iter().enumerate() {
@@ -54,11 +54,15 @@ pub fn of_trajectories(model: &TrajectoryModel) -> Vec<Array> {
     arrays
 }
 
-/// Every window of a model, its names beginning with `window_1_` and so on: `m` (from, to), `xi` and `y` of the nodes
-/// (X over the reference half width, Y), quadrature `weights`, `pressure_modes` (nodes × modes, orthonormal under
-/// `weights`) and `deformation_modes` (orthonormal under `deformation_weights`) with their `_singular_values`,
-/// `sampled_nodes` (from 0), `reconstruction` (modes × rows), and of the snapshots `snapshots` (M, L, R, u_m, w, E′, η₀, α,
-/// SRR, H₀, H_c) with `snapshot_coefficients`. The first node of a line contact lies outside the inlet.
+/// Returns the arrays of every local model, with names that begin with `window_1_` and so on:
+///
+/// - `m` (range of M), `xi` and `y` of the nodes (X over the reference half width, Y), quadrature `weights`;
+/// - `pressure_modes` (nodes × modes, orthonormal with respect to `weights`) and `deformation_modes` (orthonormal with
+///   respect to `deformation_weights`) with their `_singular_values`;
+/// - `sampled_nodes` (from 0), `reconstruction` (modes × sampled equations);
+/// - `snapshots` (M, L, R, u_m, w, E′, η₀, α, SRR, H₀, H_c) with `snapshot_coefficients`.
+///
+/// The first node of a line contact lies outside the inlet.
 pub fn of_model(model: &ReducedModel) -> Vec<Array> {
     let mut arrays = Vec::new();
     for (k, window) in model.windows.iter().enumerate() {
@@ -82,9 +86,15 @@ pub fn of_model(model: &ReducedModel) -> Vec<Array> {
     arrays
 }
 
-/// A linearised model: `x` and quadrature `weights` of the nodes, `pressure_modes` V (nodes × modes, orthonormal under
-/// `weights`), `mode_deformations` K V (the deformation by each pressure mode), `singular_values`, and of the operating points `points` (trajectory from 1, reference load, T, R, u, w over
-/// their references, spacing), `states` (p̃, H₀), and the linearised systems (4.27), points × state × columns:
+/// Returns the arrays of a linearised model:
+///
+/// - `x` and quadrature `weights` of the nodes;
+/// - `pressure_modes` V (nodes × modes, orthonormal with respect to `weights`), `mode_deformations` K V (the
+///   deformation by each pressure mode), `singular_values`;
+/// - `points`, the operating points (trajectory from 1, reference load, T, R, u, w relative to their references,
+///   spacing), with `states` (p̃, H₀);
+/// - the linearised systems (4.27), points × state × columns: `storage_by_state`, `storage_by_input`, `flux_by_state`,
+///   `flux_by_input`, with `storage` and `flux` at the points.
 /// `storage_by_state`, `storage_by_input`, `flux_by_state`, `flux_by_input`, with `storage` and `flux` at the points.
 pub fn of_linearised(model: &TpwlModel) -> Vec<Array> {
     let (space, points) = (&model.space, &model.points);
@@ -117,7 +127,7 @@ pub fn of_linearised(model: &TpwlModel) -> Vec<Array> {
     arrays
 }
 
-/// Matrices of one size, one after the other.
+/// Stacks matrices of equal size.
 fn stacked<'a>(name: String, matrices: impl Iterator<Item = &'a Mat<f64>>) -> Array {
     let mut stack = Array { name, shape: vec![0, 0, 0], values: Vec::new() };
     for (k, of) in matrices.enumerate() {
@@ -146,7 +156,7 @@ mod tests {
                 let at = |i: usize, k: usize| modes.values[i * columns + k];
                 (0..nodes).map(|i| weights.values[i] * at(i, a) * at(i, b)).sum()
             };
-            // Rare modes have fewer digits in the file.
+            // Modes with small singular values have fewer digits in the file.
             let last = columns - 1;
             for (a, b, digits) in [(0, 0, 1e-9), (0, 1, 1e-9), (last, last, 1e-6), (0, last, 1e-6)] {
                 assert!((product(a, b) - f64::from(u8::from(a == b))).abs() < digits, "{}: {a}, {b}", modes.name);

@@ -1,4 +1,4 @@
-//! Training contacts of a reduced model, solved again in full: their fields for other programs.
+//! Training contacts of a reduced model, solved in full again to export their fields.
 
 use super::EngineError;
 use super::arrays::Array;
@@ -19,13 +19,14 @@ struct Solved {
     iterates: Vec<Vec<f64>>,
 }
 
-/// Solves the training contacts of a local model (`window`, from 1) in full, each from a cold start on the model's grid, on
-/// all cores. Returns arrays of nodes × contacts in the order of the model's `snapshots`, their names beginning with
-/// `window_1_` and so on: `snapshot_pressures` P, `snapshot_films` H, `snapshot_deformations` K P. With `iterates` also
-/// `iterate_pressures`, P after every Newton step (nodes × steps), and `iterate_snapshots`, the contact of each step (from 0).
+/// Solves the training contacts of a local model (`window`, from 1) in full, each from a cold start on the model's
+/// grid, on all cores. Returns arrays of nodes × contacts in the order of the model's `snapshots`, with names that
+/// begin with `window_1_` and so on: `snapshot_pressures` P, `snapshot_films` H, `snapshot_deformations` K P. With
+/// `iterates` also `iterate_pressures`, P after every Newton step (nodes × steps), and `iterate_snapshots`, the contact
+/// of each step (from 0).
 ///
 /// # Errors
-/// If the model has no such window, a contact has no full solution, or the observer cancels.
+/// If the model has no such local model, a contact has no full solution, or the observer cancels.
 pub fn solve(
     model: &ReducedModel,
     window: usize,
@@ -76,7 +77,7 @@ pub fn solve(
     Ok(arrays)
 }
 
-/// Keeps the pressures of a solve's Newton steps.
+/// Observer that stores the pressure of each Newton step.
 struct Iterates<'a> {
     observer: &'a dyn Observer,
     kept: Option<Mutex<Vec<Vec<f64>>>>,

@@ -1,4 +1,4 @@
-//! What a reduced model holds, as text for people.
+//! Text descriptions of reduced models for users.
 
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
@@ -9,7 +9,7 @@ use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel, Scheme, Window};
 use std::fmt::Write;
 
-/// A model in time for people.
+/// Describes a transient model.
 pub fn describe_in_time(model: &TrajectoryModel) -> String {
     let (domain, window) = (&model.domain, &model.window);
     let mut text = format!("{}\n  line contacts in time, frame {:?}\n", model.title, model.frame);
@@ -59,7 +59,7 @@ pub fn describe_in_time(model: &TrajectoryModel) -> String {
     text
 }
 
-/// What varies, in the words of a scene.
+/// Describes the varying inputs, in the notation of scenes.
 fn driven(inputs: &Inputs) -> String {
     let all = [("radius", &inputs.radius), ("speed", &inputs.speed), ("load", &inputs.load)];
     let told = |(name, signal): (&str, &Signal)| match signal {
@@ -71,7 +71,7 @@ fn driven(inputs: &Inputs) -> String {
     if told.is_empty() { "at rest".to_owned() } else { told.join(", ") }
 }
 
-/// The grid of a window.
+/// Describes the grid of a local model.
 fn grid_of(window: &Window) -> String {
     match window.grid.spec() {
         GridSpec::Uniform { dx, domain } => {
@@ -88,7 +88,7 @@ fn grid_of(window: &Window) -> String {
     }
 }
 
-/// The varied, limited and fixed quantities of a domain, and the laws of its lubricant, a line each.
+/// Describes the varied, limited and fixed quantities of a trained range, and the laws of its lubricant, one per line.
 fn describe_domain(domain: &Domain) -> String {
     let interval = |quantity: Quantity, (low, high): (f64, f64)| {
         let (unit, scale) = quantity.reading_unit(domain.contact);
@@ -120,7 +120,7 @@ fn describe_domain(domain: &Domain) -> String {
     text
 }
 
-/// The model for people.
+/// Describes a steady model.
 pub fn describe(model: &ReducedModel) -> String {
     let mut text = format!("{}\n  {} contacts\n", model.title, model.contact().name());
     text.push_str(&describe_domain(&model.domain));

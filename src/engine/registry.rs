@@ -1,4 +1,4 @@
-//! Finds reduced models by what they cover.
+//! Selects reduced models by the contacts that they cover.
 
 use crate::solver::full::Problem;
 use crate::solver::parameters::Quantity;
@@ -8,11 +8,10 @@ use crate::solver::reduced::{Domain, Trust};
 use std::cmp::Ordering;
 use std::mem::discriminant;
 
-/// How well a domain serves a contact; the smallest one is taken.
+/// Ranking of a model for a contact; the smallest value is best.
 ///
-/// A domain that covers the contact comes first, of several the one for its shape with the smallest range. Where none does,
-/// the nearest is the one with the same kind of heat, of shear law and of shape, then with the same lubricant, then with the
-/// nearest M.
+/// Models that cover the contact come first, among these the one for its shape with the smallest range. Models that do
+/// not cover it are ranked by agreement in heat, shear law, shape and lubricant, then by the distance in M.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Remoteness {
     outside: bool,
@@ -49,37 +48,38 @@ fn thins(laws: &Lubricant) -> bool {
     laws.shear != ShearLaw::Newtonian
 }
 
-/// Logarithmic size of a domain in M, L, α, η₀ and p_H.
+/// Returns the logarithmic size of a range in M, L, α, η₀ and p_H.
 fn extent(domain: &Domain) -> f64 {
     let quantities = [Quantity::M, Quantity::L, Quantity::Alpha, Quantity::Viscosity, Quantity::HertzPressure];
     let widths = quantities.iter().filter_map(|quantity| domain.interval(*quantity));
     widths.map(|(low, high)| (high / low.max(1e-3 * high)).ln()).sum()
 }
 
-/// Returns the model that serves a contact with a lubricant: of those that cover it the one with the smallest range, else
-/// the nearest. `None` if there is none of the contact's kind that can serve a lubricant that thins under shear, or one
-/// that does not.
+/// Returns the best model for a contact with a lubricant: the one with the smallest range among those that cover it, or
+/// otherwise the nearest. `None` if there is no model of the contact kind, or if none supports the shear law:
+/// shear-thinning or not.
 pub fn best<'a, T>(
     models: impl IntoIterator<Item = (T, &'a Domain)>,
     point: &OperatingPoint,
     lubricant: &Lubricant,
 ) -> Option<T> {
     let problem = Problem::new(point, *lubricant).ok();
-    // Which law of two that thin is a matter of errors; a model without such a law has no equations for one.
+    // A model for another shear-thinning law only has a larger error. A model without shear thinning has no equations
+    // for it.
     let serves = |domain: &Domain| domain.heats() || thins(&domain.lubricant) == thins(lubricant);
     let of_kind = models.into_iter().filter(|(_, domain)| domain.contact == point.kind && serves(domain));
     let judged = of_kind.map(|(model, domain)| (Remoteness::of(domain, problem.as_ref(), point, lubricant), model));
     judged.min_by(|(a, _), (b, _)| a.cmp(b)).map(|(_, model)| model)
 }
 
-/// True if two models are alternatives: of the same kind of contact, heat, shear law and shape, with loads in common.
+/// Returns true if two models are alternatives: same contact kind, heat, shear law and shape, and overlapping loads.
 pub fn alike(one: &Domain, other: &Domain) -> bool {
     let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats());
     let law = |domain: &Domain| discriminant(&domain.lubricant.shear);
     kind(one) == kind(other) && law(one) == law(other) && loads_in_common(one, other) > 0.0
 }
 
-/// Returns the loads that two models have in common, in ln M.
+/// Returns the overlap of two models in ln M.
 pub fn loads_in_common(one: &Domain, other: &Domain) -> f64 {
     let (a, b) = (one.m(), other.m());
     (a.1.min(b.1) / a.0.max(b.0)).ln()

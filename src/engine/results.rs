@@ -1,7 +1,7 @@
-//! All scenes of a folder: finding them, and the page of what came of them.
+//! Results of all scenes of a folder: finding the scenes, and the results page.
 //!
-//! The page is the record as well: it says of every scene when it ran, so that a run of hours can go on where it was
-//! left, on another machine too.
+//! The page is also the record of when every scene ran, so that a run of several hours can be continued later, also on
+//! another machine.
 
 use super::SceneOutcome;
 use super::table::significant;
@@ -15,24 +15,24 @@ use time::Date;
 use time::format_description::well_known::Iso8601;
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Name of the page in the folder of the scenes.
+/// File name of the page in the folder of the scenes.
 pub const PAGE: &str = "RESULTS.md";
 
-/// A scene and where it lies.
+/// Scene with its location.
 #[derive(Clone, Debug)]
 pub struct SceneFile {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The same from the folder of all scenes, with slashes: `line/table_2_1.ron`.
+    /// Path relative to the folder of all scenes, with slashes: `line/table_2_1.ron`.
     pub place: String,
-    /// Its content.
+    /// Content.
     pub scene: Scene,
 }
 
-/// Reads every scene below a folder, in the order of their places.
+/// Reads all scenes below a folder, sorted by their paths.
 ///
 /// # Errors
-/// When the folder cannot be read or a scene is refused.
+/// If the folder cannot be read or a scene is refused.
 pub fn scenes_below(folder: &Path) -> Result<Vec<SceneFile>, SceneFileError> {
     let mut paths = Vec::new();
     find(folder, &mut paths)?;
@@ -52,7 +52,7 @@ fn find(folder: &Path, paths: &mut Vec<PathBuf>) -> Result<(), SceneFileError> {
     for entry in std::fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let path = entry.path();
-        // A link to a folder is not followed: it could lead back.
+        // Links to folders are not followed, to avoid cycles.
         if entry.file_type().map_err(unreadable)?.is_dir() {
             find(&path, paths)?;
         } else if path.extension().is_some_and(|extension| extension == "ron") {
@@ -62,7 +62,7 @@ fn find(folder: &Path, paths: &mut Vec<PathBuf>) -> Result<(), SceneFileError> {
     Ok(())
 }
 
-/// Row group of the page: one scene that ran.
+/// Rows of the page for one scene that ran.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     place: String,
@@ -87,7 +87,7 @@ impl Line {
 }
 
 impl Entry {
-    /// Entry of a scene that ran today, or of one that could not run, with the reason.
+    /// Returns the entry of a scene that ran today, or of one that could not run, with the reason.
     pub fn new(file: &SceneFile, outcome: &Result<SceneOutcome, impl Display>) -> Self {
         let (place, hash, day) = (file.place.clone(), hash(&file.scene), today());
         let mut lines = Vec::new();
@@ -107,7 +107,7 @@ impl Entry {
         Self { place, hash, day, lines }
     }
 
-    /// Whether every expectation holds.
+    /// Returns true if all expectations are met.
     pub fn passed(&self) -> bool {
         self.short() == 0
     }
@@ -116,17 +116,18 @@ impl Entry {
         self.lines.iter().filter(|line| !line.holds).count()
     }
 
-    /// Whether the entry belongs to the scene as it is now: same place, same [`meaning`].
+    /// Returns true if the entry belongs to the current scene: same path, same [`meaning`].
     pub fn belongs(&self, file: &SceneFile) -> bool {
         self.place == file.place && self.hash == hash(&file.scene)
     }
 
-    /// Whether the scene ran on this day or later.
+    /// Returns true if the scene ran on this day or later.
     pub fn ran_since(&self, day: Date) -> bool {
         self.day >= day
     }
 
-    /// Reads place, hash and day from the first line of an entry; `None` if the scene has not run, or for any other line.
+    /// Reads path, hash and day from the first line of an entry; `None` if the scene has not run, or for any other
+    /// line.
     fn begin(cells: &[&str]) -> Option<Self> {
         let place = cells.first()?.rsplit_once("](")?.1.strip_suffix(')')?.to_owned();
         let (day, hash) = cells.last()?.strip_suffix(" -->")?.split_once(" <!-- ")?;
@@ -134,7 +135,8 @@ impl Entry {
         Some(Self { place, hash, day, lines: Vec::new() })
     }
 
-    /// Lines of the page. Title, source and the origin of each expected value are those of the scene as it is now.
+    /// Returns the lines of the page. Title, source and the origin of each expected value are taken from the current
+    /// scene.
     fn rows(&self, file: &SceneFile) -> String {
         let run = format!("{} <!-- {:016x} -->", self.day, self.hash);
         let mut expected = file.scene.expect.iter().map(|expected| cell(&wanted(expected)));
@@ -149,18 +151,17 @@ impl Entry {
     }
 }
 
-/// What stands for a verdict that is none too good.
+/// Text for a failed verdict.
 const SHORT: &str = "**short**";
 
-/// What an expectation asks for: `` `H_c` (full): 0.04 ± 1e-3; Table 2.1 ``.
+/// Describes an expectation: `` `H_c` (full): 0.04 ± 1e-3; Table 2.1 ``.
 fn wanted(expected: &Expectation) -> String {
     let method = expected.method.as_ref().map_or(String::new(), |method| format!(" ({})", method.name()));
     let wanted = format!("`{}`{method}: {}", expected.name, expected.wanted());
     if expected.from.is_empty() { wanted } else { format!("{wanted}; {}", expected.from) }
 }
 
-/// A line of a page's table, of texts that are cells already. `run` stands in the first line of a scene only, with title
-/// and source.
+/// Formats a line of a page's table from cells. `run`, title and source are given only in the first line of a scene.
 fn row(file: &SceneFile, run: Option<&str>, wanted: &str, value: &str, verdict: &str) -> String {
     let (title, source) = match run {
         Some(_) => (format!("[{}]({})", cell(&file.scene.title), file.place), cell(&file.scene.source)),
@@ -170,12 +171,12 @@ fn row(file: &SceneFile, run: Option<&str>, wanted: &str, value: &str, verdict: 
     format!("| {title} | {source} | {wanted} | {value} | {verdict} | {run} |\n")
 }
 
-/// A day as `2026-11-29`.
+/// Parses a day such as `2026-11-29`.
 pub fn day_of(text: &str) -> Option<Date> {
     Date::parse(text, &Iso8601::DATE).ok()
 }
 
-/// What a page says of the scenes that ran, by their places.
+/// Reads the entries of a page, by the paths of the scenes.
 pub fn entries_of(page: &str) -> BTreeMap<String, Entry> {
     let mut entries: BTreeMap<String, Entry> = BTreeMap::new();
     let mut at = None;
@@ -200,16 +201,16 @@ pub fn entries_of(page: &str) -> BTreeMap<String, Entry> {
     entries
 }
 
-/// Hash of a scene's [`meaning`].
+/// Returns the hash of a scene's [`meaning`].
 fn hash(scene: &Scene) -> u64 {
     xxh3_64(meaning(scene).to_string().as_bytes())
 }
 
-/// What a scene computes and expects, in one form however it is spelled: keys sorted, fields without a value left out,
-/// numbers as `f64`. An entry of the page belongs to every scene of the same meaning.
+/// Returns what a scene computes and expects, in a normal form: keys sorted, fields without a value left out, numbers
+/// as `f64`. An entry of the page belongs to every scene with the same normal form.
 ///
-/// Fields that change neither values nor verdicts are left out: version, titles, sources, the explorer's view and the
-/// marks that choose which scenes `run --all` runs.
+/// Fields that affect neither values nor verdicts are left out: version, titles, sources, the explorer's view, and the
+/// fields that select scenes for `run --all`.
 pub fn meaning(scene: &Scene) -> Value {
     let mut form = serde_json::to_value(scene).unwrap_or_default();
     if let Value::Object(fields) = &mut form {
@@ -230,7 +231,7 @@ pub fn meaning(scene: &Scene) -> Value {
     form
 }
 
-/// Removes fields without a value and writes numbers in one form.
+/// Removes fields without a value, and normalises numbers.
 fn unify(form: &mut Value) {
     match form {
         Value::Object(fields) => {
@@ -249,12 +250,12 @@ fn unify(form: &mut Value) {
     }
 }
 
-/// Text that does not end its cell.
+/// Escapes text for a table cell.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// How many scenes and expectations there are, and how many of these fall short.
+/// Describes the numbers of scenes, expectations and failed expectations.
 pub fn summary<'a>(entries: impl IntoIterator<Item = &'a Entry>) -> String {
     let (mut scenes, mut expectations, mut short) = (0, 0, 0);
     for entry in entries {
@@ -269,7 +270,8 @@ pub fn summary<'a>(entries: impl IntoIterator<Item = &'a Entry>) -> String {
     format!("{scenes} scene{} with {expectations} expectation{}: {short}", plural(scenes), plural(expectations))
 }
 
-/// The page: a table for each folder, with every scene; those that have not run as they are now are named.
+/// Returns the page: a table for each folder with all scenes. Scenes that have not run in their current form are
+/// marked.
 pub fn page(files: &[SceneFile], entries: &BTreeMap<String, Entry>) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let entry = |file: &SceneFile| entries.get(&file.place).filter(|entry| entry.belongs(file));

@@ -1,9 +1,9 @@
 //! Unfinished trainings on disk (`.training`), so that a crash or a cancel loses no finished full solution.
 //!
-//! The header is that of `checked_file`, the payload the program's version, a [`TrainingState`] and how its films rupture in
-//! postcard's encoding: another version's solutions, sums and rules of choice may differ, so that a training that is gone on with
-//! by another one would be neither's. Writing waits for the disk, so it is done by a thread of its own, at most once a
-//! second; the training itself pays for a copy only.
+//! The header is that of `checked_file`. The payload contains the program's version and a [`TrainingState`] with the
+//! cavitation model and heat of its lubricant, encoded with postcard. Another version of the program may compute and
+//! select differently and therefore refuses the file. A separate thread writes the file at most once a second, so that
+//! the training does not wait for the disk.
 
 use super::EngineError;
 use super::checked_file::{Flaw, Format, Unreadable};
@@ -25,21 +25,21 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 const VERSION: u32 = 14;
-/// 5000 full solutions in each of some windows, on the finest grids that are used.
+/// File format. The size limit corresponds to 5000 full solutions in each of several local models, on the finest grids.
 const FORMAT: Format = Format { magic: b"EHLTRN\r\n", version: VERSION, max_payload: 2 << 30 };
-/// The program's own version.
+/// Version of this program.
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
-/// So much of another version's name is told.
+/// Longest text of another version that is shown.
 const LONGEST_VERSION: usize = 40;
 
-/// Room that a training has before it begins \[bytes\]: two copies of 200 full solutions of point contacts fit.
+/// Free disk space required before a training starts \[bytes\]: two copies of 200 full solutions of point contacts.
 const ROOM: usize = 32 << 20;
 
 /// Shortest time between two writes.
 const INTERVAL: Duration = Duration::from_secs(1);
 
-/// Why an unfinished training cannot be kept or gone on with.
+/// Reason why an unfinished training cannot be stored or continued.
 #[derive(Debug, thiserror::Error)]
 pub enum TrainingFileError {
     /// Reading or deleting failed.
@@ -47,27 +47,27 @@ pub enum TrainingFileError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the system.
         source: io::Error,
     },
     /// Writing failed.
     #[error("the unfinished training cannot be kept: {0}")]
     Write(#[from] WriteError),
-    /// It cannot be understood.
+    /// The content is not valid.
     #[error("{} is no unfinished training to go on with ({what}); delete it to train from the beginning", path.display())]
     Refused {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// Reason.
         what: String,
     },
-    /// Another training keeps itself there now.
+    /// Another training is writing the file.
     #[error("{} is being written by another training; wait for its end or choose another --out", path.display())]
     InUse {
         /// The file.
         path: PathBuf,
     },
-    /// It belongs to another specification.
+    /// The file belongs to another specification.
     #[error(
         "{} keeps {solutions} full solutions of another training, “{title}”; finish that one with its own scene, delete the file, or choose another --out",
         path.display()
@@ -75,14 +75,14 @@ pub enum TrainingFileError {
     Another {
         /// The file.
         path: PathBuf,
-        /// Title of the training it belongs to.
+        /// Title of the training in the file.
         title: String,
-        /// Full solutions in it.
+        /// Number of full solutions in the file.
         solutions: usize,
     },
 }
 
-/// Where the training of a model file is kept until it is done: `FILE.rom.training`.
+/// Returns the file in which the training of a model file is stored until it is finished: `FILE.rom.training`.
 pub fn beside(model: &Path) -> PathBuf {
     with_suffix(model, ".training")
 }
@@ -93,8 +93,8 @@ fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
     name.into()
 }
 
-/// A state with what the laws of a lubricant are written without: its cavitation and heat. Heat leaves fields out, so it
-/// is text.
+/// State with the parts of the lubricant that are not serialised with it: cavitation model and heat. Heat is stored as
+/// JSON, since its serialised form leaves fields out.
 #[derive(Serialize, Deserialize)]
 struct Whole<'a>(Cow<'a, TrainingState>, Cavitation, String);
 
@@ -115,7 +115,8 @@ impl TryFrom<Whole<'_>> for TrainingState {
     }
 }
 
-/// `#[serde(with = "training_file::whole")]` serialises a state with the cavitation and the heat of its lubricant.
+/// Module for `#[serde(with = "training_file::whole")]`: serialises a state with the cavitation model and heat of its
+/// lubricant.
 pub mod whole {
     use super::{TrainingState, Whole};
     use serde::de::Error as _;
@@ -141,7 +142,7 @@ pub mod whole {
 /// Reads an unfinished training.
 ///
 /// # Errors
-/// When the file cannot be read or understood.
+/// If the file cannot be read or is not valid.
 pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
     let refused = |what: String| TrainingFileError::Refused { path: path.to_owned(), what };
     let flawed = |flaw| {
@@ -173,7 +174,7 @@ pub fn read(path: &Path) -> Result<TrainingState, TrainingFileError> {
     if is_sound(&state) { Ok(state) } else { Err(refused("its content contradicts itself".to_owned())) }
 }
 
-/// Whether a state can be trained on from: what a right hash cannot promise.
+/// Returns true if a training can be continued from the state. A correct hash does not guarantee this.
 fn is_sound(state: &TrainingState) -> bool {
     let windows_fit = match &state.spec.windows {
         Windows::Given(given) => state.windows.is_empty() || state.windows.iter().map(|w| &w.window).eq(given),
@@ -193,10 +194,10 @@ fn is_sound(state: &TrainingState) -> bool {
         })
 }
 
-/// What was kept of a training, if anything was.
+/// Returns the stored state of a training, if there is one.
 ///
 /// # Errors
-/// When the file cannot be read, or belongs to another training: it is never overwritten unasked.
+/// If the file cannot be read, or belongs to another training. Such a file is not overwritten.
 pub fn unfinished(path: &Path, spec: &TrainingSpec) -> Result<Option<TrainingState>, TrainingFileError> {
     if !path.exists() {
         return Ok(None);
@@ -212,7 +213,7 @@ pub fn unfinished(path: &Path, spec: &TrainingSpec) -> Result<Option<TrainingSta
 /// Writes an unfinished training as a whole or not at all.
 ///
 /// # Errors
-/// When the file cannot be written.
+/// If the file cannot be written.
 pub fn write(state: &TrainingState, path: &Path) -> Result<(), TrainingFileError> {
     write_as(PROGRAM, state, path)
 }
@@ -223,22 +224,22 @@ fn write_as(program: &str, state: &TrainingState, path: &Path) -> Result<(), Tra
     Ok(atomic_file::replace(path, &FORMAT.seal(&encoded))?)
 }
 
-/// The right to write an unfinished training: `FILE.rom.training.lock`, deleted when it is given back.
+/// Exclusive right to write an unfinished training: `FILE.rom.training.lock`, deleted when it is released.
 struct Lock {
     path: PathBuf,
-    // The system gives it back when the program ends, however it does.
+    // The system releases the lock when the program ends, also after a crash.
     _file: File,
 }
 
 impl Lock {
-    /// Takes it, which shows as well that the folder may be written.
+    /// Takes the lock. This also shows that the folder is writable.
     fn take(path: &Path) -> Result<Self, TrainingFileError> {
         let refused = |reason| WriteError { path: path.to_owned(), reason };
         let lock = with_suffix(path, ".lock");
         let file = File::options().write(true).create(true).truncate(false).open(&lock).map_err(refused)?;
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => Err(TrainingFileError::InUse { path: path.to_owned() }),
-            // Where the system knows no locks, two trainings cannot be told apart.
+            // On systems without file locks, two trainings cannot be kept apart.
             Ok(()) | Err(TryLockError::Error(_)) => Ok(Self { path: lock, _file: file }),
         }
     }
@@ -246,12 +247,12 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // One that is left behind is taken over by the next training.
+        // A remaining lock file is reused by the next training.
         let _ = std::fs::remove_file(&self.path);
     }
 }
 
-/// Refuses a place without room for a training.
+/// Refuses a folder without enough free space for a training.
 fn try_room(path: &Path) -> Result<(), WriteError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let fill = || {
@@ -262,7 +263,7 @@ fn try_room(path: &Path) -> Result<(), WriteError> {
     fill().map_err(|reason| WriteError { path: path.to_owned(), reason })
 }
 
-/// Keeps a training on disk while it runs.
+/// Writes the state of a training to disk while it runs.
 pub struct TrainingKeeper {
     path: PathBuf,
     states: SyncSender<TrainingState>,
@@ -273,10 +274,10 @@ pub struct TrainingKeeper {
 }
 
 impl TrainingKeeper {
-    /// A keeper that writes to `path`; nothing is written before the first full solutions are there.
+    /// Returns a keeper that writes to `path`. Nothing is written before the first full solutions are available.
     ///
     /// # Errors
-    /// When another training is kept there, or the place cannot be written or has no room.
+    /// If another training uses the file, or if the folder is not writable or has no free space.
     pub fn new(path: PathBuf) -> Result<Self, TrainingFileError> {
         let lock = Lock::take(&path)?;
         try_room(&path)?;
@@ -287,60 +288,60 @@ impl TrainingKeeper {
             let mut failing = false;
             for state in waiting {
                 let written = write(&state, &target);
-                // The same reason is not told again every second.
+                // The same error is not reported again every second.
                 let first = !std::mem::replace(&mut failing, written.is_err());
                 if let (true, Err(error)) = (first, written) {
                     *said.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
                 }
             }
         };
-        // Without a thread only the end is written.
+        // Without a thread, only the final state is written.
         let writer = worker::spawn("training file", write_all).ok();
         Ok(Self { path, states, handed_over: Mutex::new(None), refusal, writer, _lock: lock })
     }
 
-    /// The file.
+    /// Returns the path of the file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Ends with a training that is not done: what there is stays on disk.
+    /// Ends with an unfinished training: writes its state to disk.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub fn keep(self, state: &TrainingState) -> Result<(), TrainingFileError> {
         let path = self.path.clone();
         let _lock = self.settle();
         write(state, &path)
     }
 
-    /// Ends with a training that is done: nothing is left on disk.
+    /// Ends with a finished training: deletes the file.
     ///
     /// # Errors
-    /// When the file cannot be deleted.
+    /// If the file cannot be deleted.
     pub fn discard(self) -> Result<(), TrainingFileError> {
         let path = self.path.clone();
         let _lock = self.settle();
         remove(&path)
     }
 
-    /// Waits until the writer has written what it was given.
+    /// Waits until the writer thread has finished.
     fn settle(self) -> Lock {
         let Self { states, writer, _lock: lock, .. } = self;
         drop(states);
-        // A writer that panicked has written nothing more: the end is written by the caller.
+        // If the writer has panicked, the caller writes the final state.
         let _ = writer.map(JoinHandle::join);
         lock
     }
 
-    /// Hands over a state, at most once a second.
+    /// Passes a state to the writer thread, at most once a second.
     ///
     /// # Errors
-    /// When a former one could not be written; later ones are tried all the same.
+    /// If a previous state could not be written. Later ones are still attempted.
     pub fn checkpoint(&self, state: &TrainingState) -> Result<(), TrainingFileError> {
         let mut handed_over = self.handed_over.lock().unwrap_or_else(PoisonError::into_inner);
         let due = state.solutions() > 0 && handed_over.is_none_or(|at| at.elapsed() >= INTERVAL);
-        // A writer that is still at work gets the next state instead.
+        // If the writer is still busy, it receives the next state instead.
         if due && !matches!(self.states.try_send(state.clone()), Err(TrySendError::Full(_))) {
             *handed_over = Some(Stopwatch::start());
         }
@@ -357,7 +358,7 @@ impl From<TrainingFileError> for EngineError {
 /// Deletes an unfinished training, if there is one.
 ///
 /// # Errors
-/// When the file cannot be deleted.
+/// If the file cannot be deleted.
 pub fn remove(path: &Path) -> Result<(), TrainingFileError> {
     match std::fs::remove_file(path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => {
@@ -470,7 +471,7 @@ mod tests {
         let folder = path.parent().unwrap().to_owned();
         #[cfg(unix)]
         {
-            // A folder in which nothing can be made any more.
+            // A folder that no longer exists, so that nothing can be written.
             let away = folder.with_extension("away");
             std::fs::rename(&folder, &away).unwrap();
             let patience = Stopwatch::start();

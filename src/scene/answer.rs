@@ -1,4 +1,4 @@
-//! A contact to be solved, and what came of it: values that may travel between threads, processes and machines.
+//! Request to solve one contact, and the answer to it. Both can be sent between threads, processes and machines.
 
 use super::contact_result::ContactResult;
 use super::grid::Grid;
@@ -9,7 +9,7 @@ use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// What is to be solved, and how.
+/// Contact to solve, with grid and method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Request {
     /// The operating point.
@@ -19,35 +19,37 @@ pub struct Request {
     pub lubricant: Lubricant,
     /// Grid of a full solution.
     pub grid: Grid,
-    /// The model that [`Grid::Model`] means.
+    /// Reduced model whose grid [`Grid::Model`] refers to.
     pub grid_model: ModelSource,
-    /// In full, or by which reduced model.
+    /// Full solver, or which reduced model.
     pub method: Method,
 }
 
-/// What came of a request.
+/// Answer to a [`Request`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Answer {
-    /// What was solved.
+    /// The request that was solved.
     pub request: Request,
-    /// Scalars, how they were obtained, and how far to trust them.
+    /// Scalars, the method and grid they were computed with, and warnings about their accuracy.
     pub result: ContactResult,
-    /// Fields; of a full solve that did not converge the last state, of such a reduced solve `None`.
+    /// Fields of the solution. If a full solve did not converge, the last iterate; if a reduced solve did not converge,
+    /// `None`.
     pub solution: Option<Solution>,
 }
 
 impl Answer {
-    /// The fields, if the solve converged.
+    /// Returns the fields if the solve converged.
     pub fn fields(&self) -> Option<&Solution> {
         self.solution.as_ref().filter(|_| self.result.converged)
     }
 
-    /// The same, without the rest.
+    /// Returns the fields if the solve converged, and drops the rest of the answer.
     pub fn into_fields(self) -> Option<Solution> {
         self.solution.filter(|_| self.result.converged)
     }
 
-    /// Marks a full solution as the substitute of a reduced one that does not exist.
+    /// Marks this full solution as the replacement for a reduced solve that failed: adds the warnings of the failed
+    /// answer and [`Warning::FullSolverTookOver`] in front of its own.
     pub fn in_place_of(mut self, failed: Self) -> Self {
         let why = failed.result.warnings.into_iter().chain([Warning::FullSolverTookOver]);
         self.result.warnings.splice(0..0, why);

@@ -1,10 +1,10 @@
-//! An operating point as a scene writes it.
+//! Operating point in the form that a scene file uses.
 
 use crate::solver::physics::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 use serde::{Deserialize, Serialize};
 
-/// An operating point, in SI units or by its Moes numbers.
+/// Operating point, in SI units or by its Moes numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum At {
@@ -12,7 +12,8 @@ pub enum At {
     Si {
         /// Reduced radius R \[m\].
         radius: f64,
-        /// Reduced radius R_y across \[m\] of an ellipse; the radius where it is left out.
+        /// Reduced radius R_y across the direction of entrainment \[m\], for an elliptical contact. If absent, equal to
+        /// the radius.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         radius_y: Option<f64>,
         /// Mean entrainment speed u_m \[m/s\].
@@ -23,11 +24,12 @@ pub enum At {
         modulus: f64,
         /// Viscosity at ambient pressure η₀ \[Pa·s\].
         viscosity: f64,
-        /// Pressure–viscosity coefficient α \[1/Pa\]; where the viscosity law determines it (Doolittle), its α* counts
-        /// instead.
+        /// Pressure–viscosity coefficient α \[1/Pa\]. If the viscosity law determines its own coefficient α*
+        /// (Doolittle), α* is used instead.
         alpha: f64,
     },
-    /// Moes numbers; quantities that are given are kept, the rest follows or takes the default realisation.
+    /// Moes numbers. Quantities that are given keep their values; the others follow from M and L or from the default
+    /// realisation.
     Moes {
         /// Load number M.
         m: f64,
@@ -36,7 +38,7 @@ pub enum At {
         /// Fixed radius \[m\].
         #[serde(default, skip_serializing_if = "Option::is_none")]
         radius: Option<f64>,
-        /// Radius across \[m\] of an ellipse; the radius where it is left out.
+        /// Reduced radius across \[m\], for an elliptical contact. If absent, equal to the radius.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         radius_y: Option<f64>,
         /// Fixed speed \[m/s\].
@@ -65,7 +67,7 @@ impl Default for At {
 }
 
 impl At {
-    /// Moes numbers in the default realisation.
+    /// Returns a contact given by Moes numbers, in the default realisation.
     pub fn moes(m: f64, l: f64) -> Self {
         Self::Moes {
             m,
@@ -80,7 +82,7 @@ impl At {
         }
     }
 
-    /// The same with the α* of a lubricant whose viscosity law determines it; unchanged for all others.
+    /// Replaces α by the α* of the lubricant if its viscosity law determines one. Otherwise unchanged.
     pub fn with_alpha_of(mut self, lubricant: &Lubricant) -> Self {
         if let Some(own) = lubricant.own_coefficient() {
             match &mut self {
@@ -91,10 +93,10 @@ impl At {
         self
     }
 
-    /// The operating point in SI units, checked.
+    /// Returns the operating point in SI units, checked.
     ///
     /// # Errors
-    /// When it is outside any sense, or more is fixed than M and L leave free.
+    /// If a quantity is out of range, or if more quantities are fixed than M and L leave free.
     pub fn point(&self, kind: ContactKind) -> Result<OperatingPoint, ContactError> {
         match *self {
             Self::Si { radius, radius_y, speed, load, modulus, viscosity, alpha } => {
@@ -132,7 +134,7 @@ impl At {
     }
 }
 
-/// Refuses a given quantity by its own name, before others follow from it.
+/// Checks the given quantities first, so that a refusal names a given quantity and not one that follows from it.
 fn check_given(kind: ContactKind, given: [Option<f64>; 6]) -> Result<(), ContactError> {
     let mut quantities = OperatingPoint::TABLE_2_1.quantities();
     for (quantity, given) in quantities.iter_mut().zip(given) {
@@ -140,7 +142,7 @@ fn check_given(kind: ContactKind, given: [Option<f64>; 6]) -> Result<(), Contact
     }
     let [radius, speed, load, modulus, viscosity, alpha] = quantities;
     match (At::Si { radius, radius_y: None, speed, load, modulus, viscosity, alpha }).point(kind) {
-        // The mixture of given and known quantities need not make sense as a contact.
+        // Given quantities mixed with the defaults may have Moes numbers out of range. That is not an error here.
         Err(ContactError::OutOfRange { quantity, .. }) if quantity.starts_with("Moes") => Ok(()),
         result => result.map(|_| ()),
     }

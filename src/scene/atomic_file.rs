@@ -1,20 +1,20 @@
-//! Replacing a file as a whole or not at all.
+//! Replaces a file as a whole or not at all.
 
 use crate::host::files;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A file could not be written; whatever stood there before still does.
+/// Error: a file could not be written. A file that was there before is unchanged.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {}; choose a file in a folder that exists and may be written", path.display(), said(reason))]
 pub struct WriteError {
     /// The file.
     pub path: PathBuf,
-    /// Why.
+    /// Reason given by the system.
     pub reason: io::Error,
 }
 
-/// Why the system refuses a file, in words where its own are a number.
+/// Returns the reason of a file error as text, including where the system itself gives only a number.
 pub fn said(reason: &io::Error) -> String {
     match reason.kind() {
         io::ErrorKind::InvalidFilename => "its name is longer than the system accepts".to_owned(),
@@ -22,7 +22,8 @@ pub fn said(reason: &io::Error) -> String {
     }
 }
 
-/// Writes `bytes` to `path`: first beside it, then in its place, so that a failure never leaves half a file.
+/// Writes `bytes` to `path`: first to a temporary file in the same folder, then renamed, so that a failure never leaves
+/// half a file.
 ///
 /// # Errors
 /// When the folder does not exist or cannot be written.
@@ -30,7 +31,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     files::replace(path, bytes).map_err(|reason| WriteError { path: path.to_owned(), reason })
 }
 
-/// Writes files that belong together, the first one last: it refers to the others.
+/// Writes files that belong together. The first one refers to the others and is written last.
 ///
 /// # Errors
 /// When one of them cannot be written.

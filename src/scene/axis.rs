@@ -1,13 +1,13 @@
-//! What a sweep varies, and the values it takes.
+//! Quantity that a sweep varies, and the values it takes.
 
 use crate::solver::parameters::Quantity;
 use serde::{Deserialize, Serialize};
 
-/// One varied quantity.
+/// Varied quantity with its values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axis {
-    /// What is varied; M and L need an operating point given by Moes numbers.
+    /// The quantity. M and L need an operating point given by Moes numbers.
     pub vary: Quantity,
     /// Its values.
     pub values: Steps,
@@ -17,44 +17,45 @@ pub struct Axis {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Steps {
-    /// Equidistant, both ends counted.
+    /// Equal steps, including both ends.
     Linear {
         /// First value.
         from: f64,
         /// Last value.
         to: f64,
-        /// How many.
+        /// Number of values.
         n: usize,
     },
-    /// With a constant ratio, both ends counted.
+    /// Constant ratio between neighbours, including both ends.
     Log {
         /// First value.
         from: f64,
         /// Last value.
         to: f64,
-        /// How many.
+        /// Number of values.
         n: usize,
     },
-    /// Close together at the first value and ever wider apart, both ends counted: half of them up to `half`, which is
-    /// nearer to `from` than to `to`. For what rises at once and then levels off, such as traction over sliding.
+    /// Steps that grow from the first value to the last, including both ends. Half of the values lie between `from` and
+    /// `half`, which must be nearer to `from` than to `to`. Suited to quantities that rise quickly and then level off,
+    /// such as traction over sliding.
     Graded {
         /// First value.
         from: f64,
-        /// Up to here lie half of the values.
+        /// Half of the values lie between `from` and this value.
         half: f64,
         /// Last value.
         to: f64,
-        /// How many.
+        /// Number of values.
         n: usize,
     },
-    /// As listed.
+    /// Listed values.
     List(Vec<f64>),
 }
 
-/// A graded spacing that ends so far from where half of its values lie has no sensible steps left.
+/// Largest accepted ratio (to − from)/(half − from) of a graded spacing.
 const MOST_GRADING: f64 = 1e6;
 
-/// Ends and middle of a graded spacing that makes no sense.
+/// Error: ends and middle of a graded spacing are inconsistent.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "half of the values up to {half} do not fit between {from} and {to}; a value nearer to {from} than to {to} is accepted"
@@ -66,7 +67,7 @@ pub struct GradingError {
 }
 
 impl Steps {
-    /// How many values there are.
+    /// Returns the number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::Linear { n, .. } | Self::Log { n, .. } | Self::Graded { n, .. } => *n,
@@ -74,15 +75,15 @@ impl Steps {
         }
     }
 
-    /// Whether there are none.
+    /// Returns true if there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Ends and middle of a graded spacing that makes no sense.
+    /// Checks ends and middle of a graded spacing.
     ///
     /// # Errors
-    /// When half of the values do not fit there.
+    /// If `half` is not nearer to `from` than to `to`, or is too near to `from`.
     pub fn check_grading(from: f64, half: f64, to: f64) -> Result<(), GradingError> {
         let ratio = (to - from) / (half - from);
         if ratio > 2.0 && ratio <= MOST_GRADING {
@@ -91,7 +92,7 @@ impl Steps {
         Err(GradingError { from, half, to })
     }
 
-    /// All combinations of the values of several, the last one fastest.
+    /// Returns all combinations of the values of several axes. The values of the last axis change fastest.
     pub fn combinations<'a>(steps: impl IntoIterator<Item = &'a Self>) -> Vec<Vec<f64>> {
         let beside = |heads: Vec<Vec<f64>>, own: &Self| {
             let values = own.values();
@@ -101,7 +102,7 @@ impl Steps {
         steps.into_iter().fold(vec![Vec::new()], beside)
     }
 
-    /// The values; both ends are hit exactly.
+    /// Returns the values. The first and the last one are exactly the given ends.
     pub fn values(&self) -> Vec<f64> {
         let spaced = |from: f64, to: f64, n: usize, at: &dyn Fn(f64) -> f64| {
             (0..n)
@@ -116,7 +117,7 @@ impl Steps {
             Self::Linear { from, to, n } => spaced(from, to, n, &|t| from + (to - from) * t),
             Self::Log { from, to, n } => spaced(from, to, n, &|t| from * (to / from).powf(t)),
             Self::Graded { from, half, to, n } => {
-                // sinh(b/2)/sinh(b) = 1/(2 cosh(b/2)): half of the way along lies `half`.
+                // sinh(b/2)/sinh(b) = 1/(2 cosh(b/2)): the value halfway through the list is `half`.
                 let b = 2.0 * (0.5 * (to - from) / (half - from)).acosh();
                 spaced(from, to, n, &|t| from + (to - from) * (b * t).sinh() / b.sinh())
             }
@@ -145,7 +146,7 @@ mod tests {
             assert!(values[0] == from && values[40] == to && (values[20] - half).abs() < 1e-12, "{values:?}");
             let steps: Vec<f64> = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
             assert!(steps.windows(2).all(|pair| pair[1] > pair[0]), "{steps:?}");
-            // A coarser spacing lies on the finer one.
+            // Every fourth value of the finer spacing equals a value of the coarser one.
             let coarse = Steps::Graded { from, half, to, n: 11 }.values();
             assert!(coarse.iter().zip(values.iter().step_by(4)).all(|(a, b)| a == b));
         }

@@ -1,4 +1,5 @@
-//! What a study may use: whoever runs it solves its contacts and keeps what is expensive.
+//! Services that a study uses: solving contacts, loading and training models. The caller of a study provides them, and
+//! stores results that are expensive to compute again.
 
 use super::answer::{Answer, Request};
 use super::error::RunError;
@@ -14,12 +15,12 @@ use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What a study may use.
+/// Services that a study uses.
 pub trait Bench {
-    /// Solves a contact; `start` is a solution nearby, where there is one.
+    /// Solves a contact. `start` is a nearby solution, used as initial guess.
     ///
     /// # Errors
-    /// When the request is refused or cancelled. Not converging is an answer.
+    /// If the request is refused or cancelled. A solve that does not converge is not an error.
     fn answer(
         &mut self,
         request: &Request,
@@ -27,7 +28,7 @@ pub trait Bench {
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, RunError>;
 
-    /// The reduced model of a source for one kind of contact and a lubricant: read, or trained, once.
+    /// Returns the reduced model of a source for this contact kind and lubricant. It is read or trained only once.
     ///
     /// # Errors
     /// When it cannot be read or trained.
@@ -39,43 +40,43 @@ pub trait Bench {
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<ReducedModel>, RunError>;
 
-    /// The reduced model in time of a source: read, or trained, once.
+    /// Returns the transient reduced model of a source. It is read or trained only once.
     ///
     /// # Errors
-    /// When it cannot be read or trained, or is one of stationary contacts.
+    /// If it cannot be read or trained, or if it is a model of steady contacts.
     fn trajectory_model(
         &mut self,
         source: &ModelSource,
         observer: &dyn TrainingObserver,
     ) -> Result<Arc<TrajectoryModel>, RunError>;
 
-    /// The grid on which a request is solved in full.
+    /// Returns the grid for a full solution of a request.
     ///
     /// # Errors
-    /// When the grid is refused or its model cannot be had.
+    /// If the grid is refused, or if the model that defines it is not available.
     fn grid(&mut self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, RunError>;
 
-    /// The training that another scene describes.
+    /// Returns the training that another scene describes.
     ///
     /// # Errors
-    /// When the scene cannot be read or describes none.
+    /// If the scene cannot be read or describes no training.
     fn training(&self, scene: &Path) -> Result<TrainingSpec, RunError>;
 
-    /// The reduced model that a training gives, trained once.
+    /// Returns the reduced model that a training produces. It is trained only once.
     ///
     /// # Errors
-    /// When it gives none or the observer cancels.
+    /// If the training fails or the observer cancels it.
     fn trained(&self, spec: &TrainingSpec, observer: &dyn TrainingObserver) -> Result<Arc<ReducedModel>, RunError>;
 
-    /// Forgets what has been solved: the next solution starts as the first one would.
+    /// Drops stored starting values: the next solve starts as the first one would.
     fn forget(&mut self);
 
-    /// A path of the scene's, relative to its folder.
+    /// Resolves a path of the scene relative to the scene's folder.
     fn resolve(&self, path: &Path) -> PathBuf;
 }
 
-/// Solves a contact for certain: if a reduced model has no solution, the full solver takes over on the model's grid, and
-/// a warning says so.
+/// Solves a contact, with the full solver as fallback: if a reduced solve does not converge, the contact is solved in
+/// full on the model's grid, and a warning is added.
 ///
 /// # Errors
 /// As [`Bench::answer`].

@@ -1,4 +1,4 @@
-//! How rows are best looked at: lines and points over axes with units, as plain data.
+//! Charts of study results as plain data: lines and points over axes with units.
 
 use super::drawing::{Beside, Pen, Pixels, Rgb, Words};
 use super::table::Table;
@@ -6,101 +6,101 @@ use super::table::Table;
 /// A chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What it shows.
+    /// Title above the chart.
     pub title: String,
-    /// What runs to the right.
+    /// Horizontal axis.
     pub x: ChartAxis,
-    /// What runs upwards.
+    /// Vertical axis.
     pub y: ChartAxis,
-    /// What is drawn, the first one below all others.
+    /// Series in drawing order: the first one is below all others.
     pub series: Vec<Series>,
-    /// A map below everything.
+    /// Colour map below everything else.
     pub map: Option<Map>,
-    /// Areas behind the series.
+    /// Filled areas behind the series.
     pub bands: Vec<Band>,
-    /// Words among the series.
+    /// Text notes inside the axes.
     pub notes: Vec<Note>,
-    /// Whether both axes have one scale.
+    /// True if both axes have the same scale.
     pub equal: bool,
-    /// Whether braces in titles of axes and in names mark symbols, as in `{H_c}`.
+    /// True if braces in axis labels and names mark symbols, as in `{H_c}`.
     pub marked: bool,
 }
 
 /// An axis of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartAxis {
-    /// What it counts, with its unit where it has one.
+    /// Quantity, with its unit if it has one.
     pub label: String,
-    /// Whether equal lengths are equal ratios.
+    /// True for a logarithmic axis.
     pub log: bool,
-    /// Where it begins and ends; none where the data say it.
+    /// First and last value; `None` to fit the data.
     pub ends: Option<(f64, f64)>,
-    /// Places with names in place of numbers; none where it counts.
+    /// Named positions shown in place of numbers; empty for a numeric axis.
     pub names: Vec<(f64, String)>,
 }
 
 /// Points of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What they are, for the legend.
+    /// Name for the legend.
     pub name: String,
     /// How they are drawn.
     pub marks: Marks,
     /// Abscissa and ordinate, always finite.
     pub points: Vec<[f64; 2]>,
-    /// How a line is drawn, and the colour of marks; none where the chart may choose.
+    /// Line style and colour of marks; `None` to let the chart choose.
     pub pen: Option<Pen>,
 }
 
-/// A field over the axes as an image.
+/// Field over the axes, drawn as an image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// From where to where it lies to the right.
+    /// Horizontal extent.
     pub x: (f64, f64),
-    /// And upwards.
+    /// Vertical extent.
     pub y: (f64, f64),
     /// Its pixels.
     pub pixels: Pixels,
-    /// What its colours mean.
+    /// Scale that explains the colours.
     pub scale: Option<ColorScale>,
 }
 
-/// What the colours of a map mean.
+/// Colour scale of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColorScale {
     /// The quantity, with its unit.
     pub label: String,
-    /// Its values at both ends.
+    /// Values at the lower and the upper end.
     pub ends: (f64, f64),
     /// Colours from the lower end to the upper one.
     pub colors: Vec<Rgb>,
 }
 
-/// A filled area; one without an end reaches to that of the axes.
+/// Filled rectangle. An infinite end extends to the end of the axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
-    /// From where to where it lies to the right.
+    /// Horizontal extent.
     pub x: (f64, f64),
-    /// And upwards.
+    /// Vertical extent.
     pub y: (f64, f64),
     /// Its colour.
     pub color: Rgb,
-    /// How much it covers, 0 to 1.
+    /// Opacity, 0 to 1.
     pub opacity: f64,
 }
 
-/// Words at a place of the axes.
+/// Text at a position in the axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// The place.
+    /// Position.
     pub at: [f64; 2],
-    /// The words.
+    /// Text.
     pub words: Words,
-    /// On which side of it they stand.
+    /// Horizontal side of the position on which the text stands.
     pub beside: Beside,
-    /// Whether they stand above it (1), on it (0) or below (-1).
+    /// Vertical placement: above the position (1), on it (0) or below it (−1).
     pub above: i8,
-    /// Their colour; none for that of the axes.
+    /// Colour of the text; `None` for the colour of the axes.
     pub color: Option<Rgb>,
 }
 
@@ -109,16 +109,16 @@ pub struct Note {
 pub enum Marks {
     /// Joined by a line.
     Line,
-    /// As dots.
+    /// Dots.
     Dots,
-    /// As crosses: something failed there.
+    /// Crosses, for failures.
     Crosses,
-    /// As open circles.
+    /// Open circles.
     Rings,
 }
 
 impl Chart {
-    /// An empty chart.
+    /// Returns an empty chart.
     pub fn new(title: impl Into<String>, x: ChartAxis, y: ChartAxis) -> Self {
         Self {
             title: title.into(),
@@ -133,7 +133,7 @@ impl Chart {
         }
     }
 
-    /// Adds what is finite of some points; nothing where nothing is.
+    /// Adds a series of the points that are finite and can be drawn on the axes. Adds nothing if there are none.
     pub fn add(&mut self, name: impl Into<String>, marks: Marks, points: impl IntoIterator<Item = [f64; 2]>) {
         let shown = |point: &[f64; 2]| {
             let [x, y] = *point;
@@ -145,12 +145,12 @@ impl Chart {
         }
     }
 
-    /// Words in the manner of this chart.
+    /// Parses text with or without marked symbols, as set in [`Chart::marked`].
     pub fn words(&self, text: &str) -> Words {
         if self.marked { Words::marked(text) } else { Words::plain(text) }
     }
 
-    /// The numbers that are drawn: a row for each point, named by its series.
+    /// Returns the drawn numbers as a table: one row per point, labelled with the name of its series.
     pub fn to_table(&self) -> Table {
         let [x, y] = [&self.x, &self.y].map(|axis| self.words(&axis.label).text());
         let mut table = Table::new(self.title.clone(), &[&x, &y]);
@@ -164,17 +164,17 @@ impl Chart {
 }
 
 impl ChartAxis {
-    /// An axis with equal ratios or equal steps.
+    /// Returns a logarithmic (`log`) or linear axis.
     pub fn new(label: impl Into<String>, log: bool) -> Self {
         Self { label: label.into(), log, ends: None, names: Vec::new() }
     }
 
-    /// An axis with equal steps.
+    /// Returns a linear axis.
     pub fn linear(label: impl Into<String>) -> Self {
         Self::new(label, false)
     }
 
-    /// An axis with equal ratios.
+    /// Returns a logarithmic axis.
     pub fn log(label: impl Into<String>) -> Self {
         Self::new(label, true)
     }

@@ -1,4 +1,4 @@
-//! The door: every number of a scene is finite and sane before anything is computed from it.
+//! Range checks of scene values. They run before anything is computed.
 
 use super::method::Method;
 use crate::solver::limits::Refused;
@@ -6,12 +6,12 @@ use crate::solver::parameters::ParameterSpace;
 
 pub(super) use crate::solver::limits::{count, interval, number};
 
-/// Most points of a sweep, a trajectory or a formula comparison.
+/// Largest number of points in a sweep, a trajectory or a formula comparison.
 pub const MAX_POINTS: usize = 100_000;
-/// Most random tests.
+/// Largest number of tests in a random validation.
 pub const MAX_TESTS: usize = 1_000_000;
 
-/// Most full solutions that a study keeps to compare with.
+/// Largest number of full solutions that a study keeps for comparison.
 pub const MAX_COMPARED: usize = 20_000;
 
 pub(super) type Checked = Result<(), Refused>;

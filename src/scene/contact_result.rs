@@ -1,4 +1,4 @@
-//! The result of one contact as people, tables, expectations and other programs see it.
+//! Result of one contact, for users, tables, expectations and other programs.
 
 use super::answer::Request;
 use super::names;
@@ -11,13 +11,14 @@ use crate::solver::warning::Warning;
 use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Deserializer, Serialize, de};
 
-/// A word of the program's own; by another name, since serde would borrow a `&str`.
+/// Static word of the program. The alias exists because serde would try to borrow a field of type `&str`.
 type Word = &'static str;
 
-/// Words that stand in results.
+/// Words that can occur in results.
 const WORDS: [Word; 5] = ["full", "reduced", "uniform", "graded", "model"];
 
-/// One contact's result; what does not apply is absent. [`ContactResult::json`] is the object of `solve --json`.
+/// Result of one contact. Values that do not apply are absent. [`ContactResult::json`] is the object printed by `solve
+/// --json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactResult {
     /// The operating point.
@@ -25,84 +26,84 @@ pub struct ContactResult {
     /// `full` or `reduced`.
     #[serde(deserialize_with = "word")]
     pub method: Word,
-    /// Whether the solve converged; without that there are no scalars.
+    /// True if the solve converged. Otherwise there are no scalars.
     pub converged: bool,
-    /// What a reader must know.
+    /// Warnings about the result.
     pub warnings: Vec<Warning>,
     /// `uniform`, `graded` or `model`.
     #[serde(deserialize_with = "word")]
     pub grid: Word,
-    /// Nodes along X and across, both ends counted.
+    /// Numbers of nodes along X and across, including both ends.
     pub nodes: (usize, usize),
-    /// Unknowns iterated on.
+    /// Number of unknowns.
     pub dofs: usize,
-    /// Discretisation error of H_c of a full solution.
+    /// Estimated discretisation error of H_c, central film thickness, of a full solution.
     pub grid_cost: Option<GridCost>,
-    /// The law of cavitation; of a reduced model the one that it was trained with.
+    /// Cavitation model. For a reduced model, the one it was trained with.
     pub cavitation: Cavitation,
-    /// Where a supplied film fills the gap, X on the axis; none where it is flooded.
+    /// X on the axis at which the supplied lubricant fills the gap (inlet meniscus); `None` if the inlet is flooded.
     pub meniscus: Option<f64>,
     /// Dimensionless scalars of the solution.
     pub scalars: Option<Scalars>,
-    /// Traction coefficient (3.41) over the whole domain; of a reduced model by its own quadrature, to which its bound
-    /// belongs.
+    /// Traction coefficient (3.41) over the whole domain. For a reduced model, computed by its own traction quadrature,
+    /// to which its error bound applies.
     pub traction: Option<f64>,
-    /// ½∫h dp: N/m of a line contact, N of a point contact, where there are fields.
+    /// Rolling resistance ½∫h dp, if there are fields: N/m for a line contact, N for a point contact.
     pub rolling_resistance: Option<f64>,
-    /// ‖f‖₂ of the scaled rows, each weighted by the square root of its cell: the L2 norm over the domain.
+    /// ‖f‖₂ of the scaled equations, each weighted by the square root of its cell size: the L2 norm over the domain.
     pub residual_norm: Option<f64>,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub newton_iterations: usize,
-    /// Krylov iterations.
+    /// Number of Krylov iterations.
     pub linear_iterations: Option<usize>,
-    /// Seconds of the solve alone.
+    /// Time of the solve alone \[s\].
     pub wall_s: f64,
-    /// Temperatures, where heat was computed.
+    /// Temperatures, if heat was computed.
     pub heat: Option<HeatFacts>,
-    /// What only a reduced solve has.
+    /// Values that only a reduced solve has.
     pub reduced: Option<ReducedFacts>,
 }
 
-/// What a solve took.
+/// Grid size and cost of a solve.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// Nodes of the grid along X and across, both ends counted.
+    /// Numbers of nodes along X and across, including both ends.
     pub nodes: (usize, usize),
-    /// Unknowns that were iterated on.
+    /// Number of unknowns.
     pub dofs: usize,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub newton_iterations: usize,
-    /// Krylov iterations of a full solve.
+    /// Number of Krylov iterations of a full solve.
     pub linear_iterations: Option<usize>,
-    /// Seconds of the solve alone.
+    /// Time of the solve alone \[s\].
     pub wall_s: f64,
 }
 
-/// What a reduced solve adds to its result.
+/// Values that a reduced solve adds to the result.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ReducedFacts {
-    /// Modes that were used, and sampled rows.
+    /// Numbers of modes and of sampled equations that were used.
     pub size: ModelSize,
-    /// The local model that answers, from 0.
+    /// Index of the local model that was used, from 0.
     pub window: usize,
-    /// Whether the model was trained for the contact; a warning says why not.
+    /// True if the contact is inside the trained range. If not, a warning gives the reason.
     pub trained: bool,
-    /// e_f^I, (3.15); `None` without convergence.
+    /// Residual estimate e_f^I, (3.15); `None` if the solve did not converge.
     pub residual_estimate: Option<f64>,
-    /// Calibrated errors, where the model has them.
+    /// Calibrated error estimates, if the model has them.
     pub error: Option<ErrorEstimate>,
 }
 
-/// What a solve with heat adds to its result.
+/// Values that a thermal solve adds to the result.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeatFacts {
-    /// Rises at X = 0.
+    /// Temperature rises at X = 0.
     pub central: Rises,
-    /// The largest rises under pressure.
+    /// Largest temperature rises under pressure.
     pub largest: Rises,
-    /// Heat that is made and goes nowhere, over what shear and compression make.
+    /// Imbalance of the energy balance, relative to the heat generated by shear and compression.
     pub energy_balance: f64,
-    /// The share of the heat that the bodies take.
+    /// Fractions of the generated heat that flow into bodies 1 and 2.
     pub into_bodies: [f64; 2],
 }
 
@@ -115,37 +116,38 @@ impl From<&Temperatures> for HeatFacts {
     }
 }
 
-/// One named value of a result.
+/// Value of one named entry of a result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
-    /// Yes or no; 1 and 0 in tables.
+    /// Boolean; 1 or 0 in tables.
     Truth(bool),
-    /// A whole number.
+    /// Whole number.
     Count(usize),
-    /// A finite number.
+    /// Finite number.
     Number(f64),
-    /// Words, which are in no table.
+    /// Text; not included in tables.
     Text(String),
-    /// Objects, which are in no table.
+    /// List of objects; not included in tables.
     List(Vec<serde_json::Value>),
 }
 
 type Get = fn(&ContactResult) -> Option<Value>;
 
-/// Which columns of tables a value is in.
+/// Group of table columns that a value belongs to.
 #[derive(Clone, Copy, PartialEq)]
 enum In {
     None,
-    /// Those of the contact.
+    /// Columns of the contact.
     Contact,
-    /// Those of its result.
+    /// Columns of its result.
     Result,
-    /// Those of a thermal result.
+    /// Columns of a thermal result.
     Heat,
 }
 
-/// Every value by its name, with a dot if it belongs to a group, in the order of the JSON object and of tables.
+/// All values with their names, in the order of the JSON object and of tables. A dot in a name separates group and
+/// value.
 const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::CONTACT, In::None, |r| text(r.point.kind.name())),
     (names::METHOD, In::None, |r| text(r.method)),
@@ -227,17 +229,17 @@ fn text(word: &str) -> Option<Value> {
     Some(Value::Text(word.to_owned()))
 }
 
-/// Columns of a contact in tables.
+/// Returns the names of the contact columns of tables.
 pub fn contact_columns() -> Vec<&'static str> {
     columns(&[In::Contact])
 }
 
-/// Columns of a contact in a table that begins with its varied values.
+/// Returns the contact columns of a table whose first columns are the varied values, without repeating those.
 pub(super) fn contact_columns_after(varied: &[String]) -> Vec<&'static str> {
     contact_columns().into_iter().filter(|column| !varied.iter().any(|name| name == column)).collect()
 }
 
-/// Columns of its result, thermal or not.
+/// Returns the names of the result columns, with or without the thermal ones.
 pub fn result_columns(heat: bool) -> Vec<&'static str> {
     columns(if heat { &[In::Result, In::Heat] } else { &[In::Result] })
 }
@@ -264,8 +266,8 @@ impl Value {
 }
 
 impl ContactResult {
-    /// The result of a request whose solve ended with a solution, converged or not, or with none; without warnings.
-    /// A reduced model may bring its own traction coefficient and law of cavitation.
+    /// Returns the result of a request, without warnings. `solution` is the solution of the solve, converged or not, if
+    /// there is one. A reduced model may supply its own traction coefficient and cavitation model.
     pub fn new(
         request: &Request,
         solution: Option<&Solution>,
@@ -300,17 +302,17 @@ impl ContactResult {
         }
     }
 
-    /// The number of a name; none where the result has no such number.
+    /// Returns the number with this name, if the result has it.
     pub fn value(&self, name: &str) -> Option<f64> {
         VALUES.iter().find(|(own, ..)| *own == name).and_then(|(.., get)| get(self)?.as_number())
     }
 
-    /// The numbers of some names; NaN where there is none.
+    /// Returns the numbers with these names; NaN for those the result does not have.
     pub fn row<'a>(&'a self, names: &'a [&str]) -> impl Iterator<Item = f64> + 'a {
         names.iter().map(|name| self.value(name).unwrap_or(f64::NAN))
     }
 
-    /// Every number by its name, in alphabetical order; truth as 1 and 0.
+    /// Returns all numbers with their names, in alphabetical order; booleans as 1 and 0.
     pub fn values(&self) -> Vec<(&'static str, f64)> {
         let number = |(name, _, get): &(&'static str, In, Get)| Some((*name, get(self)?.as_number()?));
         let mut values: Vec<_> = VALUES.iter().filter_map(number).collect();
@@ -318,34 +320,34 @@ impl ContactResult {
         values
     }
 
-    /// Whether a reduced model was asked about a contact it was not trained for.
+    /// Returns true if a reduced model was used outside its trained range.
     pub fn untrained(&self) -> bool {
         self.reduced.as_ref().is_some_and(|facts| !facts.trained)
     }
 
-    /// Its warnings as one sentence; empty without any.
+    /// Returns the warnings as one sentence; empty without warnings.
     pub fn warning(&self) -> String {
         Warning::joined(&self.warnings)
     }
 
-    /// The warnings of one contact's results by several methods as one sentence, each once.
+    /// Returns the warnings of one contact's results by several methods as one sentence, each warning once.
     pub fn warning_of_all(results: &[Self]) -> String {
         let mut warnings: Vec<&Warning> = results.iter().flat_map(|result| &result.warnings).collect();
         warnings.dedup();
         Warning::joined(warnings)
     }
 
-    /// The object of `solve --json`.
+    /// Returns the object printed by `solve --json`.
     pub fn json(&self) -> ResultJson<'_> {
         ResultJson(self)
     }
 }
 
-/// A result as the object of `solve --json`: what does not apply is absent.
+/// Serialises a result as the object of `solve --json`. Values that do not apply are absent.
 #[derive(Clone, Copy)]
 pub struct ResultJson<'a>(&'a ContactResult);
 
-/// Values of one group, without its name.
+/// Values of one group, serialised without the group's name.
 struct Group<'a>(&'a [(&'static str, Value)]);
 
 impl Serialize for Group<'_> {

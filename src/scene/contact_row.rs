@@ -1,4 +1,4 @@
-//! One contact of a table of many: a contact that makes no sense refuses its own row only.
+//! One contact in a table of contacts. An invalid contact is refused in its own row and does not affect the others.
 
 use super::answer::{Answer, Request};
 use super::contact_result::ContactResult;
@@ -7,20 +7,20 @@ use super::names;
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 
-/// How the solve of a row went.
+/// Status of a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RowStatus {
-    /// There is a result.
+    /// Converged: there is a result.
     Converged,
     /// The solve did not converge.
     NotConverged,
-    /// The contact is refused.
+    /// The contact was refused.
     #[default]
     Refused,
 }
 
 impl RowStatus {
-    /// Its word in tables.
+    /// Returns the word used in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Converged => "converged",
@@ -30,13 +30,13 @@ impl RowStatus {
     }
 }
 
-/// Why one contact of many is refused: a sentence, which travels between machines.
+/// Reason why a contact in a table is refused. It is stored as text so that it can be sent between machines.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[error("{0}")]
 pub struct RefusedContact(String);
 
 impl RefusedContact {
-    /// The sentence of a reason.
+    /// Stores the message of a reason.
     pub fn of(why: &impl Display) -> Self {
         Self(why.to_string())
     }
@@ -48,10 +48,10 @@ impl From<RefusedContact> for RunError {
     }
 }
 
-/// A contact by several methods, or why it is refused.
+/// Results of a contact by several methods, or the reason why it is refused.
 pub type ByMethods = Result<Vec<ContactResult>, RefusedContact>;
 
-/// Returns the columns of words of contacts by several methods: status, the reason for it, warnings.
+/// Returns the text columns for contacts solved by several methods: status, reason, warnings.
 pub fn remarks<'a>(rows: impl Iterator<Item = &'a ByMethods> + Clone) -> Vec<(&'static str, Vec<String>)> {
     let converged = |results: &[ContactResult]| results.iter().all(|result| result.converged);
     let status = |row: &ByMethods| match row {
@@ -75,22 +75,22 @@ pub fn remarks<'a>(rows: impl Iterator<Item = &'a ByMethods> + Clone) -> Vec<(&'
     ]
 }
 
-/// A row of a table: what came of one contact.
+/// Row of a table: the result of one contact.
 #[derive(Debug, Default)]
 pub struct ContactRow {
-    /// How its solve went.
+    /// Status of the solve.
     pub status: RowStatus,
-    /// Why it did not converge or is refused; empty if it converged.
+    /// Reason why it did not converge or is refused; empty if it converged.
     pub reason: String,
     /// Its answer; `None` if it is refused.
     pub answer: Option<Answer>,
 }
 
 impl ContactRow {
-    /// Solves the contact of a row, or refuses it with a sentence.
+    /// Solves the contact of a row. A refusal is stored as a sentence in the row.
     ///
     /// # Errors
-    /// If a model cannot be had, which concerns all rows, or the observer cancels.
+    /// If a model is not available, which affects all rows, or if the observer cancels.
     pub fn solve(
         request: Result<&Request, String>,
         solve: impl FnOnce(&Request) -> Result<Answer, RunError>,
@@ -113,7 +113,7 @@ impl ContactRow {
         }
     }
 
-    /// Writes the numbers of some columns, NaN if there is none. A refused contact counts as not converged.
+    /// Writes the values of the named columns, NaN for missing ones. A refused contact counts as not converged.
     pub fn fill(&self, columns: &[&str], numbers: &mut [f64]) {
         let number = |column: &str| match &self.answer {
             Some(answer) => answer.result.value(column),
@@ -124,7 +124,7 @@ impl ContactRow {
         }
     }
 
-    /// Returns what a reader must know of it: the warnings of its result, or why it is refused.
+    /// Returns the warnings of the result, or the reason why the contact is refused.
     pub fn warning(&self) -> String {
         self.answer.as_ref().map_or_else(|| self.reason.clone(), |answer| answer.result.warning())
     }

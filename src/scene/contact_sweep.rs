@@ -1,4 +1,4 @@
-//! A sweep of a stated contact along one or two of its fields, on the command line and in Python.
+//! Sweep of a contact specification along one or two of its fields, for the command line and Python.
 
 use super::answer::Request;
 use super::axis::{GradingError, Steps};
@@ -15,40 +15,40 @@ use crate::solver::training::TrainingObserver;
 use crate::solver::warning::{Repeated, Warning};
 use std::str::FromStr;
 
-/// How varied options are written.
+/// Syntax of varied options, for messages.
 const SHAPE: &str = "write NAME=FROM:TO:N, as in moes-m=10:100:19, with :log for a constant ratio or :graded:HALF for half \
                      of the values up to HALF";
 
-/// Why a text is no varied option.
+/// Error: a text is not a valid varied option.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum VariedError {
-    /// It is written in another way.
+    /// The form is wrong.
     #[error("{SHAPE}")]
     Shape,
-    /// An end is no number.
+    /// An end is not a number.
     #[error("`{0}` is no number; {SHAPE}")]
     Number(String),
-    /// The number of values is none.
+    /// The number of values is not a whole number.
     #[error("`{0}` is no count; {SHAPE}")]
     Count(String),
     /// An end is not finite.
     #[error("{0} to {1} is no finite range; {SHAPE}")]
     Infinite(f64, f64),
-    /// There are too many values, or none.
+    /// Too many values, or none.
     #[error("{0} values are asked for; between 1 and {MAX_POINTS} are accepted")]
     TooMany(usize),
-    /// A constant ratio between ends that are not positive.
+    /// Constant ratio between ends that are not both positive.
     #[error("a constant ratio needs positive ends; leave out :log")]
     Ratio,
-    /// The grading does not fit.
+    /// The grading is inconsistent.
     #[error(transparent)]
     Grading(#[from] GradingError),
-    /// No number has that word.
+    /// No numeric field has this name.
     #[error(transparent)]
     Word(#[from] NotVaried),
 }
 
-/// One varied option and the values it takes.
+/// Varied option with the values it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied {
     /// The field.
@@ -58,10 +58,10 @@ pub struct Varied {
 }
 
 impl Varied {
-    /// A field by its word, and its values.
+    /// Returns the field with this name and its values.
     ///
     /// # Errors
-    /// When no number has that word.
+    /// If no numeric field has this name.
     pub fn new(name: &str, steps: Steps) -> Result<Self, VariedError> {
         Ok(Self { field: Field::varied(name)?, steps })
     }
@@ -107,40 +107,41 @@ impl FromStr for Varied {
 /// Contacts along one or two varied options, not yet solved.
 pub struct ContactSweep {
     names: Vec<String>,
-    /// The varied values of each contact, and the contact or why it is refused.
+    /// Varied values of each contact, and its request or the reason why it is refused.
     points: Vec<(Vec<f64>, Result<Request, Refusal>)>,
-    /// Words of the refusals.
+    /// Option names used in refusals.
     words: Words,
 }
 
-/// One contact of a sweep with its varied options.
+/// Solved contact of a sweep with its varied options.
 pub struct SweptContact<'a> {
     /// Names of the varied options.
     pub names: &'a [String],
-    /// Their values.
+    /// Values of the varied options.
     pub values: &'a [f64],
-    /// What came of it.
+    /// Result of the contact.
     pub row: &'a ContactRow,
 }
 
-/// What a sweep gave.
+/// Result of a sweep.
 pub struct Swept {
-    /// A row for each contact: varied values, the contact and its result (NaN if it did not converge or is refused), and
-    /// in words its status, the reason for it, and its warnings.
+    /// Table with one row per contact: varied values, contact and result as numbers (NaN if it did not converge or is
+    /// refused); status, reason and warnings as text.
     pub table: Table,
-    /// How many did not converge.
+    /// Number of contacts that did not converge.
     pub failures: usize,
-    /// How many are refused, with the reason of the first.
+    /// Number of refused contacts, with the reason for the first one.
     pub refused: Option<(usize, String)>,
-    /// How many carry each kind of warning.
+    /// Kinds of warnings, each with the number of contacts that have it.
     pub warnings: Vec<Repeated>,
 }
 
 impl ContactSweep {
-    /// The contacts of which some fields are varied, the last one fastest. `words` are those of the interface.
+    /// Builds the contacts for all combinations of the varied fields; the last field varies fastest. `words` are the
+    /// option names of the interface, for refusals.
     ///
     /// # Errors
-    /// When all of them are refused, or there are too many.
+    /// If all contacts are refused, or if there are too many.
     pub fn new(varied: &[Varied], contact: &ContactSpec, words: Words) -> Result<Self, Refusal> {
         let product = varied.iter().try_fold(1usize, |product, v| product.checked_mul(v.steps.len()));
         if product.is_none_or(|points| points > MAX_POINTS) {
@@ -161,10 +162,11 @@ impl ContactSweep {
         }
     }
 
-    /// Solves them, each from its neighbour; `tell` is shown each of them.
+    /// Solves the contacts, each with its neighbour as initial guess. `tell` receives each contact as soon as it is
+    /// solved.
     ///
     /// # Errors
-    /// When all of them are refused, a model cannot be had, the observer cancels, or `tell` refuses to hear more.
+    /// If all contacts are refused, a model is not available, the observer cancels, or `tell` returns an error.
     pub fn solve<E: From<RunError>>(
         self,
         bench: &mut dyn Bench,

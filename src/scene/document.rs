@@ -1,4 +1,4 @@
-//! The scene as a document: what it holds, read and written as RON.
+//! Scene document: its fields, and reading and writing as RON.
 
 use super::at::At;
 use super::error::{SceneError, SceneFileError, VERSION};
@@ -20,19 +20,19 @@ use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Largest scene file that is read \[bytes\].
+/// Largest accepted size of a scene file \[bytes\].
 pub const MAX_BYTES: u64 = 4 << 20;
 
-/// How far the α of a scene may lie from the one that a viscosity law determines and still count as the same, rounded.
+/// Relative difference up to which a scene's α counts as a rounded form of the α* that the viscosity law determines.
 const ROUNDED_ALPHA: f64 = 1e-3;
 
 /// Use of the model that a scene trains.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrainedModel {
-    /// A file of its own.
+    /// Separate model file.
     #[default]
     Separate,
-    /// Part of the program.
+    /// Model that is embedded in the program.
     Embedded,
 }
 
@@ -42,9 +42,9 @@ pub enum TrainedModel {
 pub struct Scene {
     /// Version of the format, [`VERSION`].
     pub version: u32,
-    /// Title for people.
+    /// Title shown to users.
     pub title: String,
-    /// Where the experiment comes from: a table, a figure, a paper.
+    /// Origin of the experiment: a table, a figure, a paper.
     #[serde(default, skip_serializing_if = "is_default")]
     pub source: String,
     /// Line or point contact.
@@ -53,46 +53,48 @@ pub struct Scene {
     /// Laws of the lubricant; its constants are part of [`Scene::at`].
     #[serde(default)]
     pub lubricant: Lubricant,
-    /// How the film ruptures in full solutions, and in models that are trained from them.
+    /// Cavitation model of full solutions, and of models trained from them.
     #[serde(default, skip_serializing_if = "is_default")]
     pub cavitation: Cavitation,
-    /// Heat: thermal constants of the oil and of both bodies; without it everything has the inlet's temperature.
+    /// Thermal constants of the lubricant and of both bodies. Without them the contact is isothermal at the inlet
+    /// temperature.
     #[serde(default, skip_serializing_if = "is_default")]
     pub heat: Option<Heat>,
-    /// The operating point. Studies that bring their own points (trajectory, random test, training) do not use it.
+    /// Operating point. Not used by studies that bring their own points (trajectory, random validation, training).
     #[serde(default)]
     pub at: At,
     /// Slide-to-roll ratio SRR.
     #[serde(default, skip_serializing_if = "is_default")]
     pub srr: f64,
-    /// Newtonian plateau ratio NPR of a shear-thinning lubricant, in place of its own.
+    /// Newtonian plateau ratio NPR of a shear-thinning lubricant. Replaces the lubricant's own value.
     #[serde(default, skip_serializing_if = "is_default")]
     pub npr: Option<f64>,
-    /// Grid of full solutions; a reduced model always uses its own.
+    /// Grid of full solutions. A reduced model always uses its own grid.
     #[serde(default)]
     pub grid: Grid,
-    /// The question.
+    /// The study to run.
     pub study: Study,
-    /// What the answer should be.
+    /// Expected values of the results.
     #[serde(default, skip_serializing_if = "is_default")]
     pub expect: Vec<Expectation>,
-    /// Whether it takes less than ten seconds of one processor: `run --all --quick` and the tests run those.
+    /// True if the scene takes less than ten seconds of one processor. `run --all --quick` and the tests run these
+    /// scenes.
     #[serde(default, skip_serializing_if = "is_default")]
     pub quick: bool,
-    /// Whether some of its solves are meant to fail. Without this, or an expectation that admits failures, a solve that
-    /// fails lets the scene fall short.
+    /// True if some of the solves are meant to fail. Without it, a failed solve counts against the scene, unless an
+    /// expectation admits failures.
     #[serde(default, skip_serializing_if = "is_default")]
     pub failures_expected: bool,
-    /// Use of the model that the scene trains. `run --all` runs a scene that trains an embedded model only if it is named.
+    /// Use of the model that the scene trains. If it is embedded, `run --all` skips the scene unless it is named.
     #[serde(default, skip_serializing_if = "is_default")]
     pub training: TrainedModel,
-    /// What the explorer keeps with it; results do not depend on it.
+    /// Settings that the explorer stores with the scene. Results do not depend on them.
     #[serde(default, skip_serializing_if = "is_default")]
     pub view: Option<View>,
 }
 
 impl Scene {
-    /// A scene that solves one contact in its default realisation, in full and by the embedded model.
+    /// Returns a scene that solves one contact in its default realisation, in full and with the embedded model.
     pub fn at_moes(m: f64, l: f64) -> Self {
         Self {
             version: VERSION,
@@ -115,15 +117,15 @@ impl Scene {
         }
     }
 
-    /// The operating point in SI units.
+    /// Returns the operating point in SI units.
     ///
     /// # Errors
-    /// When it is outside any sense, or more is fixed than M and L leave free.
+    /// If a quantity is out of range, or if more quantities are fixed than M and L leave free.
     pub fn point(&self) -> Result<OperatingPoint, ContactError> {
         self.at.with_alpha_of(&self.lubricant).point(self.contact)
     }
 
-    /// A sentence where the scene's own α has no effect: the viscosity law determines another one.
+    /// Returns a message if the scene's α has no effect because the viscosity law determines a different one.
     pub fn unused_alpha(&self) -> Option<String> {
         let own = self.lubricant.own_coefficient()?;
         let given = match self.at {
@@ -138,7 +140,7 @@ impl Scene {
         })
     }
 
-    /// What its study is about.
+    /// Returns the contact and solver settings that the study runs on.
     pub fn experiment(&self) -> Experiment {
         Experiment {
             contact: self.contact,
@@ -151,7 +153,8 @@ impl Scene {
         }
     }
 
-    /// The training that it describes, of films that rupture as the scene says; none where it asks something else.
+    /// Returns the training that the scene describes, with its cavitation model and heat; `None` if its study is not a
+    /// training.
     pub fn training(&self) -> Option<TrainingSpec> {
         match &self.study {
             Study::Training(spec) => Some(spec.clone().under(self.cavitation).heated(self.heat)),
@@ -159,18 +162,18 @@ impl Scene {
         }
     }
 
-    /// The laws of the lubricant, with the way its film ruptures and heat.
+    /// Returns the laws of the lubricant, including cavitation model and heat.
     pub fn laws(&self) -> Lubricant {
         Lubricant { cavitation: self.cavitation, heat: self.heat, ..self.lubricant }
     }
 
-    /// Takes over laws, with the way the film ruptures and heat.
+    /// Sets the laws of the lubricant, including cavitation model and heat.
     pub fn set_laws(&mut self, laws: Lubricant) {
         (self.cavitation, self.heat) = (laws.cavitation, laws.heat);
         self.lubricant = Lubricant { cavitation: Cavitation::default(), heat: None, ..laws };
     }
 
-    /// The sliding and the plateau ratio.
+    /// Returns the sliding and the plateau ratio.
     pub fn sliding(&self) -> Sliding {
         Sliding { slide_to_roll_ratio: self.srr, newtonian_plateau_ratio: self.npr }
     }
@@ -180,7 +183,7 @@ fn options() -> Options {
     Options::default().with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 
-/// Only the version, whatever else is there.
+/// Reads only the version and ignores all other fields.
 #[derive(Deserialize)]
 #[serde(rename = "Scene")]
 struct Probe {
@@ -191,7 +194,7 @@ impl Scene {
     /// Reads and checks a scene.
     ///
     /// # Errors
-    /// With line and column where the text is wrong, or the field whose value makes no sense.
+    /// If the text is not valid (with line and column), or if a field has an invalid value.
     pub fn from_ron(text: &str) -> Result<Self, SceneError> {
         let parsed = options().from_str::<Self>(text);
         let version = match &parsed {
@@ -215,7 +218,7 @@ impl Scene {
     /// Writes the scene as text that [`Scene::from_ron`] reads back unchanged.
     ///
     /// # Errors
-    /// Never for a scene that passes [`Scene::check`].
+    /// Does not fail for a scene that passes [`Scene::check`].
     pub fn to_ron(&self) -> Result<String, SceneError> {
         let config = PrettyConfig::new().struct_names(true).compact_arrays(true).depth_limit(3);
         let mut text =
@@ -224,10 +227,10 @@ impl Scene {
         Ok(text)
     }
 
-    /// Reads a scene file, or one of the program's [`examples`].
+    /// Reads a scene file, or one of the embedded [`examples`].
     ///
     /// # Errors
-    /// When the file cannot be read or is no valid scene; the message names the file.
+    /// If the file cannot be read or is not a valid scene. The message names the file.
     pub fn read(path: &Path) -> Result<Self, SceneFileError> {
         let refused = |reason| SceneFileError::Scene { path: path.to_owned(), reason };
         if let Some(text) = examples::text_of(path) {
@@ -248,7 +251,7 @@ impl Scene {
     /// Writes a scene file, as a whole or not at all.
     ///
     /// # Errors
-    /// When the file cannot be written; the message names it.
+    /// If the file cannot be written. The message names it.
     pub fn write(&self, path: &Path) -> Result<(), SceneFileError> {
         let text = self.to_ron().map_err(|reason| SceneFileError::Scene { path: path.to_owned(), reason })?;
         Ok(atomic_file::replace(path, text.as_bytes())?)

@@ -1,4 +1,4 @@
-//! Why a scene is refused, or gives no result.
+//! Errors of scenes: why a scene is refused or gives no result.
 
 use super::atomic_file::WriteError;
 use super::load_cases::CasesError;
@@ -12,20 +12,20 @@ use crate::solver::reduced::tpwl::TpwlError;
 use crate::solver::training::TrainingError;
 use std::path::PathBuf;
 
-/// Version of the scene format this program writes, and the newest it reads.
+/// Version of the scene format: written by this program, and the newest that it reads.
 pub const VERSION: u32 = 1;
 
-/// Why a scene is refused.
+/// Reason why a scene is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    /// The text is no scene.
+    /// The text is not a valid scene.
     #[error("line {line}, column {column}: {message}")]
     Syntax {
         /// Line, from 1.
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What is wrong there.
+        /// Description of the error.
         message: String,
     },
     /// It was written by a newer program.
@@ -37,18 +37,18 @@ pub enum SceneError {
     /// Version 0 never existed.
     #[error("it has format version 0, which does not exist; write `version: {VERSION}`")]
     NoVersion,
-    /// A value makes no sense.
+    /// A field has an invalid value.
     #[error(transparent)]
     Field(#[from] Refused),
-    /// The operating point makes no sense.
+    /// The operating point is invalid.
     #[error("`at`: {0}")]
     At(#[from] ContactError),
-    /// It cannot be written as text.
+    /// The scene cannot be written as text.
     #[error("it cannot be written as text: {0}")]
     Unwritable(String),
 }
 
-/// Why a scene file is refused.
+/// Reason why a scene file is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneFileError {
     /// The file cannot be read.
@@ -56,15 +56,15 @@ pub enum SceneFileError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason given by the system.
         reason: String,
     },
-    /// The file is no valid scene.
+    /// The file is not a valid scene.
     #[error("the scene {} is refused: {reason}", path.display())]
     Scene {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         reason: SceneError,
     },
     /// The file cannot be written.
@@ -72,10 +72,10 @@ pub enum SceneFileError {
     Write(#[from] WriteError),
 }
 
-/// A reason that a file on the bench gives, whatever its format.
+/// Error of a file or service that the bench provides, of any format.
 pub type Reason = Box<dyn std::error::Error + Send + Sync>;
 
-/// Why a request gives no result. A solve that does not converge is a result, not an error.
+/// Reason why a request gives no result. A solve that does not converge is a result, not an error.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The problem itself is refused.
@@ -92,7 +92,7 @@ pub enum RunError {
     Model {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason.
         reason: Reason,
     },
     /// A scene file is refused.
@@ -101,16 +101,16 @@ pub enum RunError {
     /// A scene is refused.
     #[error("the scene is refused: {0}")]
     Scene(#[from] SceneError),
-    /// A scene that should describe a training asks something else.
+    /// The scene has another study than a training.
     #[error("the scene {} describes no training; its study must be Training(…), or Transient(…) with a reduced model of its own", path.display())]
     NoTraining {
         /// The file.
         path: PathBuf,
     },
-    /// A scene's study and its operating point do not fit.
+    /// The study and the operating point are inconsistent.
     #[error("{0}")]
     Study(String),
-    /// A contact in time is refused.
+    /// A transient contact is refused.
     #[error(transparent)]
     Transient(#[from] TransientError),
     /// A trajectory-piecewise-linear model is refused.
@@ -122,10 +122,10 @@ pub enum RunError {
     /// A table of load cases is refused.
     #[error(transparent)]
     Cases(#[from] CasesError),
-    /// The training gives no model.
+    /// The training failed.
     #[error(transparent)]
     Training(#[from] TrainingError),
-    /// An unfinished training cannot be gone on with or kept.
+    /// An unfinished training cannot be continued or saved.
     #[error("{0}")]
     TrainingFile(#[source] Reason),
     /// An output cannot be written.
@@ -143,12 +143,12 @@ impl From<ContactError> for RunError {
 }
 
 impl RunError {
-    /// Whether the caller stopped it; everything else means that the request was wrong.
+    /// Returns true if the caller stopped the run. All other errors mean that the request was invalid.
     pub fn cancelled(&self) -> bool {
         matches!(self, Self::Cancelled | Self::Training(TrainingError::Cancelled))
     }
 
-    /// Whether it would end the solve of any contact, and not only of the one that was asked for.
+    /// Returns true if the error affects the solves of all contacts, not only the requested one.
     pub fn concerns_all_contacts(&self) -> bool {
         self.cancelled() || matches!(self, Self::Model { .. } | Self::Embedded(_))
     }

@@ -1,44 +1,44 @@
-//! The scenes that come with the program, as they lie in `scenes/`: a program that was copied elsewhere has them too.
-//! A path that leads through [`ROOT`] names one of their files, wherever a scene or its tables are read.
+//! Example scenes embedded in the program: the content of the folder `scenes/`. A path that contains [`ROOT`] refers to
+//! one of these files, wherever a scene or its tables are read.
 
 use super::Scene;
 use include_dir::{Dir, include_dir};
 use std::path::{Component, Path};
 use std::sync::LazyLock;
 
-/// Where paths to them begin: `examples:/training/slider_range_model.ron`.
+/// Start of paths to examples: `examples:/training/slider_range_model.ron`.
 pub const ROOT: &str = "examples:";
 
 static FOLDER: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/scenes");
 
-/// A scene of the program.
+/// Example scene.
 #[derive(Debug)]
 pub struct Example {
-    /// Folder and file below [`ROOT`].
+    /// Folder and file name below [`ROOT`].
     pub path: &'static str,
-    /// The scene; what it refers to is named from [`ROOT`] on, so that it can be saved anywhere.
+    /// The scene. Its references to other files start at [`ROOT`], so that it can be saved in any folder.
     pub scene: Scene,
 }
 
 impl Example {
-    /// The folder that it lies in.
+    /// Returns the folder of the example.
     pub fn folder(&self) -> &'static str {
         self.path.split('/').next().unwrap_or_default()
     }
 }
 
-/// All of them, folder by folder, in the order of their names.
+/// Returns all examples, folder by folder, sorted by name.
 pub fn all() -> &'static [Example] {
     static ALL: LazyLock<Vec<Example>> = LazyLock::new(|| {
         let files = FOLDER.dirs().flat_map(Dir::files).filter_map(|file| file.path().to_str());
         let scenes = files.filter(|path| path.ends_with(".ron"));
-        // They are tested: none is refused.
+        // A test checks that all examples are accepted.
         scenes.filter_map(|path| Some(Example { path, scene: Scene::from_ron(&linked(path)?).ok()? })).collect()
     });
     &ALL
 }
 
-/// The text of the file that a path leads to through [`ROOT`]; none where it leads elsewhere.
+/// Returns the text of the embedded file that a path through [`ROOT`] refers to; `None` for other paths.
 pub fn text_of(path: &Path) -> Option<&'static str> {
     let mut inside = Vec::new();
     for component in path.components().skip_while(|component| component.as_os_str() != ROOT).skip(1) {
@@ -51,7 +51,7 @@ pub fn text_of(path: &Path) -> Option<&'static str> {
     FOLDER.get_file(inside.join("/"))?.contents_utf8()
 }
 
-/// The text of a scene in which files of these folders are named from [`ROOT`] on.
+/// Returns the text of an example with references to other embedded files rewritten to start at [`ROOT`].
 fn linked(path: &str) -> Option<String> {
     let from_root = Path::new(ROOT).join(path);
     let folder = from_root.parent()?;
@@ -63,7 +63,7 @@ fn linked(path: &str) -> Option<String> {
     Some(parts.collect::<Vec<_>>().join("\""))
 }
 
-/// A path without steps back.
+/// Resolves `..` in a path.
 fn plain(path: &Path) -> String {
     let mut names: Vec<String> = Vec::new();
     for component in path.components() {

@@ -1,44 +1,44 @@
-//! What a scene expects of its answer.
+//! Expected values of a scene's results.
 
 use super::method::Method;
 use serde::{Deserialize, Serialize};
 
-/// One expected value.
+/// Expected value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expectation {
-    /// Name of the value as results call it: `H_c`, `moes.M`, `order`, …
+    /// Name of the value in results: `H_c`, `moes.M`, `order`, …
     pub name: String,
-    /// The method it belongs to; left out where the value belongs to none or only one method is used.
+    /// Method that computes the value. Left out if the value belongs to no method or if the scene uses only one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub method: Option<Method>,
-    /// The value; for `Between`, `AtMost` and `AtLeast` it may be left out.
+    /// Reference value. May be left out for `Between`, `AtMost` and `AtLeast`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
-    /// How close the answer must come.
+    /// Accepted deviation.
     pub within: Within,
-    /// Where the expectation comes from.
+    /// Origin of the reference value.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub from: String,
 }
 
-/// How close is close enough.
+/// Accepted deviation from the reference value.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Within {
-    /// |answer/value − 1| at most this.
+    /// |result/value − 1| at most this.
     Relative(f64),
-    /// |answer − value| at most this.
+    /// |result − value| at most this.
     Absolute(f64),
-    /// The answer is at most this.
+    /// Result at most this.
     AtMost(f64),
-    /// The answer is at least this.
+    /// Result at least this.
     AtLeast(f64),
-    /// The answer lies between these two, both included.
+    /// Result between these two, both included.
     Between(f64, f64),
 }
 
 impl Within {
-    /// Whether an answer is close enough. No answer and NaN never are.
+    /// Returns true if a result is accepted. NaN is never accepted.
     pub fn holds(self, value: Option<f64>, answer: f64) -> bool {
         match (self, value) {
             (Self::Relative(tolerance), Some(value)) => (answer - value).abs() <= tolerance * value.abs(),
@@ -52,7 +52,8 @@ impl Within {
 }
 
 impl Expectation {
-    /// Whether it is about failures and leaves room for some; those beyond plausible pressures count as none.
+    /// Returns true if the expectation is about failures and accepts some. Expectations about failures beyond plausible
+    /// pressures do not count.
     pub fn admits_failures(&self) -> bool {
         let value = self.value.unwrap_or(0.0);
         self.name.contains("failure")
@@ -65,7 +66,7 @@ impl Expectation {
             }
     }
 
-    /// What is wanted, in words.
+    /// Describes the accepted values as text.
     pub fn wanted(&self) -> String {
         let value = self.value.map_or_else(|| "?".to_owned(), |v| format!("{v}"));
         match self.within {

@@ -1,4 +1,4 @@
-//! What a study is about: the facts of its scene, without the question itself.
+//! Contact and solver settings of a scene, without its study.
 
 use super::answer::Request;
 use super::at::At;
@@ -7,7 +7,7 @@ use super::method::{Method, ModelSource};
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 
-/// The contact of a scene, and how it is solved in full.
+/// Contact of a scene, and how it is solved in full.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Experiment {
     /// Line or point contact.
@@ -20,22 +20,22 @@ pub struct Experiment {
     pub sliding: Sliding,
     /// Grid of full solutions.
     pub grid: Grid,
-    /// The model that [`Grid::Model`] means.
+    /// Reduced model whose grid [`Grid::Model`] refers to.
     pub grid_model: ModelSource,
-    /// Names of the values that are expected.
+    /// Names of the expected values.
     pub expected: Vec<String>,
 }
 
 impl Experiment {
-    /// The operating point in SI units, without sliding.
+    /// Returns the operating point in SI units, without sliding.
     ///
     /// # Errors
-    /// When it is outside any sense, or more is fixed than M and L leave free.
+    /// If a quantity is out of range, or if more quantities are fixed than M and L leave free.
     pub fn point(&self) -> Result<OperatingPoint, ContactError> {
         self.at.with_alpha_of(&self.lubricant).point(self.contact)
     }
 
-    /// The same as something to be solved in full, with its sliding.
+    /// Returns the request that solves the contact in full, with its sliding.
     ///
     /// # Errors
     /// As [`point`](Self::point).
@@ -43,7 +43,7 @@ impl Experiment {
         Ok(self.request_at(OperatingPoint { sliding: self.sliding, ..self.point()? }))
     }
 
-    /// Another contact of the same lubricant on the same grid.
+    /// Returns the request for another contact with the same lubricant and grid.
     pub fn request_at(&self, point: OperatingPoint) -> Request {
         Request {
             point,

@@ -1,10 +1,10 @@
-//! The fields of a solution as tables.
+//! Tables of the fields of a solution.
 
 use super::table::Table;
 use crate::solver::full::{Shear, Solution};
 
-/// The fields of a solution at its nodes: X, Y, P, H and their SI twins, λ or θ where it has one, and the rises of
-/// temperature at mid-film and of both surfaces where heat was computed.
+/// Returns the fields of a solution at its nodes: X, Y, P, H, the same in SI units, and λ or θ of the cavitation model
+/// if the solution has one. For a thermal solution also the temperature rises at mid-film and of both surfaces.
 pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     let mut columns = vec!["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"];
     if !solution.multiplier.is_empty() {
@@ -32,10 +32,10 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     table
 }
 
-/// Heights Z at which [`film_shear_table`] looks.
+/// Number of heights Z in [`film_shear_table`].
 const HEIGHTS: usize = 11;
 
-/// Shear across the film in the plane Y = 0: X, Z = z/h, the stress τ_zx and the shear rate ∂u/∂z.
+/// Returns the shear across the film in the plane Y = 0: X, Z = z/h, shear stress τ_zx and shear rate ∂u/∂z.
 pub fn film_shear_table(name: impl Into<String>, solution: &Solution) -> Table {
     let mut table = Table::new(name, &["X", "Z", "tau_zx_pa", "rate_per_s"]);
     let heights: [f64; HEIGHTS] = std::array::from_fn(|k| k as f64 / (HEIGHTS - 1) as f64);

@@ -1,4 +1,4 @@
-//! The grid of full solutions as a scene writes it.
+//! Grid of full solutions in the form that a scene file uses.
 
 use super::check::{Checked, count, number, refuse};
 use crate::solver::discrete::grid::{
@@ -11,34 +11,33 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub enum Grid {
-    /// Equidistant nodes, both ends counted; the dissertation's are `Uniform(dx: 0.005, domain: (-4.0, 2.0))`.
+    /// Equidistant nodes. The dissertation uses `Uniform(dx: 0.005, domain: (-4.0, 2.0))`.
     Uniform {
         /// Spacing ΔX.
         dx: f64,
-        /// Inlet and outlet.
+        /// Inlet and outlet end.
         domain: (f64, f64),
     },
-    /// The dissertation's uniform grid where it does for the contact; elsewhere a longer or finer one. What `solve` takes
-    /// where it is not told otherwise.
+    /// The dissertation's uniform grid if it is sufficient for the contact, otherwise a longer or finer one. Default of
+    /// `solve`.
     Usual,
-    /// The explorer's graded grid: along X for a line, across for a point contact; longer or finer where the contact
-    /// wants that.
+    /// The explorer's graded grid: graded along X for a line contact, across for a point contact. Longer or finer if
+    /// the contact requires it.
     #[default]
     Graded,
-    /// A graded grid of one's own.
+    /// Graded grid with given parameters.
     GradedNodes {
-        /// Number of nodes, both ends counted.
+        /// Number of nodes, including both ends.
         nodes: usize,
-        /// Inlet and outlet in the reference coordinate ξ.
+        /// Inlet and outlet end in the reference coordinate ξ.
         domain: (f64, f64),
-        /// Whether the pressure spike is mapped to ξ = 1.
+        /// True if the pressure spike is mapped to ξ = 1.
         registered: bool,
     },
-    /// Nodes on the half Y ≤ 0 of a point contact; the dissertation's are
-    /// `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0, -2.0))`.
+    /// Nodes on the half Y ≤ 0 of a point contact. The dissertation uses `Plane(dx: 0.02, dy: 0.05, domain: (-4.0, 2.0,
+    /// -2.0))`.
     Plane(PointGridSpec),
-    /// The grid of the reduced model in the study (of the embedded one where there is none), so that both can be
-    /// compared.
+    /// Grid of the study's reduced model, or of the embedded model if the study has none, so that both can be compared.
     Model,
 }
 
@@ -53,13 +52,13 @@ impl From<GridSpec> for Grid {
 }
 
 impl Grid {
-    /// The dissertation's grid: 1201 nodes from −4 to 2.
+    /// The dissertation's grid: 1201 nodes from X = −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
-    /// The same for one contact: [`Grid::Usual`] becomes the grid that does for it.
+    /// Replaces [`Grid::Usual`] by a grid that is sufficient for this contact.
     ///
     /// # Errors
-    /// When none of the program's own does.
+    /// If none of the predefined grids is sufficient.
     pub fn for_contact(self, point: &OperatingPoint) -> Result<Self, GridError> {
         match (self, point.kind) {
             (Self::Usual, ContactKind::Point) => PointGridSpec::DISSERTATION.for_contact(point).map(Self::Plane),
@@ -69,7 +68,7 @@ impl Grid {
         }
     }
 
-    /// The solver's specification for a point contact; `None` where this is no grid of one.
+    /// Returns the solver's specification for a point contact; `None` if this grid is not for point contacts.
     pub fn point_spec(&self) -> Option<PointGridSpec> {
         match *self {
             Self::Plane(spec) => Some(spec),
@@ -78,7 +77,7 @@ impl Grid {
         }
     }
 
-    /// The solver's specification for a line contact; `None` where a reduced model's grid is wanted, or one of a point
+    /// Returns the solver's specification for a line contact; `None` for the grid of a reduced model or of a point
     /// contact.
     pub fn spec(&self) -> Option<GridSpec> {
         match *self {
@@ -89,7 +88,7 @@ impl Grid {
         }
     }
 
-    /// The word that stands for it in results.
+    /// Returns the word used in results.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Usual | Self::Uniform { .. } => "uniform",
@@ -100,7 +99,7 @@ impl Grid {
     }
 }
 
-/// Refuses a grid that makes no sense or is none of this kind of contact.
+/// Refuses a grid with invalid values or of another contact kind.
 pub(super) fn check(grid: &Grid, contact: ContactKind) -> Checked {
     match (contact, grid) {
         (ContactKind::Line, Grid::Plane(_)) => {

@@ -1,40 +1,39 @@
-//! How a contact is solved, and by which reduced model.
+//! Solution method of a contact: the full solver or a reduced model.
 
 use crate::solver::reduced::{ReducedOptions, Window};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// How a contact is solved.
+/// Solution method of a contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub enum Method {
-    /// The full system.
+    /// Full solver.
     #[default]
     Full,
-    /// A reduced model.
+    /// Reduced model.
     Reduced {
-        /// Which one.
+        /// Source of the model.
         #[serde(default)]
         model: ModelSource,
-        /// Loss of information (2.92) at which its pressure modes are cut off; all of them where there is none.
+        /// Loss of information (2.92) at which the pressure modes are truncated; all modes if absent.
         #[serde(default)]
         pressure_loss: Option<f64>,
-        /// Loss of information (2.93) at which its deformation modes are cut off; the exact deformation where there is
-        /// none.
+        /// Loss of information (2.93) at which the deformation modes are truncated; exact deformation if absent.
         #[serde(default)]
         deformation_loss: Option<f64>,
     },
 }
 
-/// Where a reduced model comes from. Paths are relative to the scene's folder.
+/// Source of a reduced model. Paths are relative to the scene's folder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum ModelSource {
-    /// The one in the program.
+    /// The model embedded in the program.
     #[default]
     Embedded,
     /// A `.rom` file.
     File(PathBuf),
-    /// Trained on the spot as another scene describes.
+    /// Trained when needed, as another scene describes.
     Trained(PathBuf),
 }
 
@@ -42,12 +41,12 @@ impl Method {
     /// The embedded reduced model.
     pub const EMBEDDED: Self = Self::reduced(ModelSource::Embedded);
 
-    /// A reduced model with all its modes.
+    /// Returns a reduced model with all its modes.
     pub const fn reduced(model: ModelSource) -> Self {
         Self::Reduced { model, pressure_loss: None, deformation_loss: None }
     }
 
-    /// The word that stands for it in results.
+    /// Returns the word used in results.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Full => "full",
@@ -55,7 +54,7 @@ impl Method {
         }
     }
 
-    /// The reduced model, if it is one.
+    /// Returns the source of the reduced model, if the method uses one.
     pub fn model(&self) -> Option<&ModelSource> {
         match self {
             Self::Full => None,
@@ -63,7 +62,7 @@ impl Method {
         }
     }
 
-    /// The online settings in one of the model's windows.
+    /// Returns the settings of the online solver for one of the model's local models.
     pub fn options(&self, window: &Window) -> ReducedOptions {
         let Self::Reduced { pressure_loss, deformation_loss, .. } = self else { return ReducedOptions::default() };
         ReducedOptions {
@@ -73,7 +72,7 @@ impl Method {
         }
     }
 
-    /// Whether it is a model whose modes are cut off.
+    /// Returns true for a reduced model with truncated modes.
     pub fn truncated(&self) -> bool {
         matches!(self, Self::Reduced { pressure_loss: Some(_), .. } | Self::Reduced { deformation_loss: Some(_), .. })
     }

@@ -1,9 +1,9 @@
-//! The experiment as a document: one contact, one question about it, and what is expected of the answer.
+//! Scene documents: one contact, one study of it, and the expected results.
 //!
-//! A [`Scene`] is plain data. The explorer builds, changes and saves it; the engine runs it; [`document`] reads and
-//! writes it as RON with line and column in every error; [`check`] refuses values that make no sense, naming the field.
-//! What the explorer needs beyond the experiment to open a scene as it was saved stands in its [`View`]; windows,
-//! themes and zoom are not part of it.
+//! A [`Scene`] is plain data. The explorer builds, changes and saves it; the engine runs it. [`document`] reads and
+//! writes it as RON and reports errors with line and column. [`check`] refuses invalid values and names the field. The
+//! [`View`] stores what the explorer needs to open a scene as it was saved. Windows, themes and zoom are not part of a
+//! scene.
 
 #![warn(clippy::indexing_slicing)]
 

@@ -1,4 +1,4 @@
-//! Lubricants that have a name: a set of laws under a word that command lines and people can use.
+//! Named lubricants: sets of laws with a name for the command line and for users.
 
 use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use crate::solver::physics::lubricant::{
@@ -7,37 +7,37 @@ use crate::solver::physics::lubricant::{
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A lubricant with its name and one line about it; in files its name.
+/// Lubricant with a name and a description. Files store only the name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NamedLubricant {
-    /// The word on the command line.
+    /// Name on the command line.
     pub name: &'static str,
-    /// Its name for people.
+    /// Name shown to users.
     pub title: &'static str,
     /// Its laws.
     pub laws: Lubricant,
-    /// Its viscosity at ambient pressure η₀ \[Pa·s\], where the name says that much.
+    /// Viscosity at ambient pressure η₀ \[Pa·s\], if the name determines it.
     pub viscosity_pa_s: Option<f64>,
-    /// Its thermal constants: customary ones, not those of its source.
+    /// Thermal constants: typical values, not those of the source.
     pub heat: OilHeat,
-    /// The contact in which its source studies it, where it has an ambient viscosity of its own.
+    /// Contact that the source studies, if the lubricant has its own ambient viscosity.
     pub studied: Option<StudiedContact>,
-    /// What it is, for people.
+    /// Description for users.
     pub about: &'static str,
 }
 
-/// Bodies, speed and loads of a source.
+/// Bodies, speed and loads used in a source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StudiedContact {
-    /// R \[m\].
+    /// Reduced radius R \[m\].
     pub radius_m: f64,
-    /// E′ \[Pa\].
+    /// Reduced modulus E′ \[Pa\].
     pub modulus_pa: f64,
-    /// u_m \[m/s\].
+    /// Mean entrainment speed u_m \[m/s\].
     pub speed_m_per_s: f64,
-    /// w of the point contact \[N\].
+    /// Load w of the point contact \[N\].
     pub load_n: f64,
-    /// w of the line contact with the same Hertzian pressure \[N/m\].
+    /// Load w of the line contact with the same Hertzian pressure \[N/m\].
     pub load_n_per_m: f64,
 }
 
@@ -50,7 +50,7 @@ const NEWTONIAN: Lubricant = Lubricant {
     heat: None,
 };
 
-/// A synthetic hydrocarbon whose viscosity follows from its free volume.
+/// Thermal constants of a synthetic hydrocarbon whose viscosity follows from its free volume.
 const HYDROCARBON: OilHeat = OilHeat {
     density: 850.0,
     free_volume: Some(FreeVolumeHeat { bulk_modulus_temperature: 6e-3, expansion: 8e-4, occupied_expansion: -5e-4 }),
@@ -60,7 +60,7 @@ const HYDROCARBON: OilHeat = OilHeat {
 const SQUALANE_VOLUME: Tait = Tait { k_0: 1.007837e9, k_0_prime: 11.29 };
 const PAO_650_VOLUME: Tait = Tait { k_0: 1.4252e9, k_0_prime: 12.82 };
 
-/// Squalane with polyisoprene, Table 3.5; its η₀ is 0.0705 Pa·s.
+/// Squalane with polyisoprene, Table 3.5. Its η₀ is 0.0705 Pa·s.
 pub const SQUALANE_PIP: Lubricant = Lubricant {
     density: DensityLaw::Tait(SQUALANE_VOLUME),
     viscosity: ViscosityLaw::Doolittle(Doolittle { b: 4.2, r_0: 0.658, volume: SQUALANE_VOLUME }),
@@ -70,8 +70,9 @@ pub const SQUALANE_PIP: Lubricant = Lubricant {
     heat: None,
 };
 
-/// The dissertation's oil with customary constants of friction: an Eyring stress of 5 MPa and a limit of 5 % of the
-/// pressure. They act on the traction; pressure and film are those of a Newtonian oil.
+/// The dissertation's lubricant with typical friction constants: an Eyring stress of 5 MPa and a limiting shear stress
+/// of 5 % of the pressure. They affect only the traction; pressure and film thickness are those of a Newtonian
+/// lubricant.
 pub const MINERAL_OIL: Lubricant =
     Lubricant { limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: Some(5e6) }), ..NEWTONIAN };
 
@@ -165,7 +166,7 @@ impl<'de> Deserialize<'de> for NamedLubricant {
 }
 
 impl NamedLubricant {
-    /// The contact in which its source studies it, in pure rolling; `None` for laws that go with any contact.
+    /// Returns the contact that the source studies, in pure rolling; `None` if the lubricant has no such contact.
     pub fn studied_contact(&self, kind: ContactKind) -> Option<OperatingPoint> {
         let (viscosity, studied) = (self.viscosity_pa_s?, self.studied?);
         let load = match kind {
@@ -178,8 +179,8 @@ impl NamedLubricant {
     }
 }
 
-/// The named lubricant with these laws; where none has all of them, the one whose film is the same, whatever stress
-/// limits the traction.
+/// Returns the named lubricant with these laws. If no lubricant has all of them, returns one with the same film
+/// thickness, ignoring the stress that limits the traction.
 pub fn of_laws(laws: &Lubricant) -> Option<&'static NamedLubricant> {
     let laws = Lubricant { heat: None, ..*laws };
     let film = |named: &&NamedLubricant| {
@@ -189,15 +190,15 @@ pub fn of_laws(laws: &Lubricant) -> Option<&'static NamedLubricant> {
     NAMED.iter().find(same).or_else(|| NAMED.iter().find(film))
 }
 
-/// There is no lubricant of a name.
+/// Error: no lubricant has this name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no lubricant of that name; accepted are {}", NAMED.map(|lubricant| lubricant.name).join(", "))]
 pub struct UnknownLubricant;
 
-/// The lubricant of a name.
+/// Returns the lubricant with this name.
 ///
 /// # Errors
-/// When there is none; the sentence lists the accepted names.
+/// If there is none. The message lists the accepted names.
 pub fn by_name(name: &str) -> Result<NamedLubricant, UnknownLubricant> {
     NAMED.iter().find(|lubricant| lubricant.name == name).copied().ok_or(UnknownLubricant)
 }
@@ -209,7 +210,7 @@ mod tests {
 
     #[test]
     fn studied_contacts_have_the_pressures_of_their_sources() {
-        // Tables 3.5 and 3.8 (point contacts); the line contacts are those of the same Hertzian pressure.
+        // Tables 3.5 and 3.8 (point contacts). The line contacts have the same Hertzian pressure.
         for (name, pressure_pa) in [("squalane-pip", 0.4728e9), ("pao-650", 0.5278e9)] {
             let named = by_name(name).unwrap();
             for kind in [ContactKind::Line, ContactKind::Point] {

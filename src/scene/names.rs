@@ -1,5 +1,6 @@
-//! Names of the quantities of results, each once: keys of the object of `solve --json`; as dotted paths columns of
-//! tables, values of expectations, keys in Python and outputs of Functional Mock-up Units. `moes-m` is only a flag.
+//! Names of the quantities in results, each defined once. They are the keys of the object printed by `solve --json`. As
+//! dotted paths they are table columns, names in expectations, keys in Python and outputs of Functional Mock-up Units.
+//! `moes-m` is only a flag.
 
 use super::contact_spec::{Field, Measure};
 use crate::solver::parameters::Quantity;
@@ -80,15 +81,15 @@ names! {
     WALL_S "wall_s"
 }
 
-/// Column of the word that says how the solve of a row went.
+/// Column with the status of a row.
 pub const STATUS: &str = "status";
-/// Column of why a row has no result.
+/// Column with the reason why a row has no result.
 pub const REASON: &str = "reason";
 
-/// Bounds on the errors of H_c, H_min, traction and the rise at mid-film.
+/// Error bounds of H_c, H_min, traction and temperature rise at mid-film.
 pub const BOUNDS: [&str; 4] = [H_C_BOUND, H_MIN_BOUND, TRACTION_BOUND, RISE_BOUND];
 
-/// Returns the name of a value by one of several methods: `full.H_c`.
+/// Returns the name of a value computed by one of several methods: `full.H_c`.
 pub fn by(method: &str, name: &str) -> String {
     format!("{method}.{name}")
 }
@@ -111,7 +112,7 @@ pub fn of_quantity(quantity: Quantity) -> String {
     name.to_owned()
 }
 
-/// Returns the name of a stated field, which is its word where no result has it.
+/// Returns the result name of a contact field, or its keyword if it is not part of results.
 pub fn of_field(field: Field) -> String {
     match (field, field.facts().measure) {
         (Field::SupplyFilm, _) => SUPPLY_FILM.to_owned(),
@@ -133,7 +134,7 @@ mod tests {
         }
     }
 
-    /// Sizes that a training finds, which are no values of a contact.
+    /// Sizes determined by a training. They are not values of a contact.
     const OF_TRAININGS: [&str; 3] = ["basis_p", "basis_delta", "sampled_rows"];
 
     #[test]
@@ -142,7 +143,7 @@ mod tests {
         let mut seen = 0;
         for example in examples::all() {
             for column in example.scene.study.tables(&[]).into_iter().flat_map(|table| table.columns) {
-                // A method or a model may stand before a name.
+                // A name may be preceded by a method or a model.
                 let ends = || std::iter::successors(Some(&*column), |name| name.split_once('.').map(|(_, end)| end));
                 let known = ends().any(|name| ALL.contains(&name));
                 let other = !OF_TRAININGS.contains(&&*column)

@@ -1,28 +1,28 @@
-//! What a reader of an outcome must know, as data.
+//! Warnings and remarks of an outcome, as data.
 
 use crate::solver::warning::{Repeated, Warning};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::fmt;
 
-/// What a reader of an outcome must know. Its sentence is what it displays.
+/// Warning or remark of an outcome. Its `Display` text is the complete sentence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Notice {
-    /// A warning of a part of the study, such as a method or a march; of all of it if the part is empty.
+    /// Warning about a part of the study, such as a method or a march, or about the whole study if `part` is empty.
     Warning {
         /// Name of the part.
         part: String,
         /// The warning.
         warning: Warning,
     },
-    /// A kind of warning that several answers of a part carry.
+    /// Warning of one kind that applies to several results of a part.
     Repeated {
         /// Name of the part.
         part: String,
-        /// How many answers carry it, and the last of them.
+        /// Number of results, and the last warning of this kind.
         repeated: Repeated,
     },
-    /// A sentence on the study.
+    /// Remark about the study.
     Sentence(String),
 }
 
@@ -43,8 +43,8 @@ impl Notice {
         }
     }
 
-    /// Returns part, kind, values and sentence as one JSON object: `{"part": …, "kind": …, values…, "text": …}`. The kind
-    /// of a mere sentence is `note`.
+    /// Returns part, kind, values and sentence as one JSON object: `{"part": …, "kind": …, values…, "text": …}`. A
+    /// remark has the kind `note`.
     pub fn to_json(&self) -> Value {
         let mut object = self.warning().map_or_else(|| json!({"kind": "note"}), Warning::to_json);
         if let Value::Object(fields) = &mut object {

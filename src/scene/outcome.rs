@@ -1,4 +1,4 @@
-//! What a scene gave: values by name and method, verdicts, tables.
+//! Outcome of a scene: values by name and method, verdicts, tables.
 
 use super::atomic_file::{self, WriteError};
 use super::expectation::Expectation;
@@ -10,53 +10,53 @@ use crate::solver::warning::{Repeated, Warning};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// A value with its name and the method it belongs to.
+/// Value with its name and the method that computed it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedValue {
     /// Name, as expectations use it.
     pub name: String,
-    /// The method, where it belongs to one.
+    /// The method, if the value belongs to one.
     pub method: Option<Method>,
     /// The value.
     pub value: f64,
 }
 
-/// One expectation held against the answer.
+/// Result of checking one expectation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// What was expected.
+    /// The expectation.
     pub expected: Expectation,
-    /// The answer; none where the scene gave no such value.
+    /// Computed value; `None` if the scene has no such value.
     pub value: Option<f64>,
-    /// Whether it holds.
+    /// True if the expectation is met.
     pub holds: bool,
 }
 
-/// What the rows of a study say: values, whether every solve converged that was meant to, and what a reader must know.
+/// Evaluation of the rows of a study: values, convergence, warnings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Findings {
     /// All values.
     pub values: Vec<NamedValue>,
-    /// Whether every solve converged.
+    /// True if every solve that should converge did so.
     pub converged: bool,
-    /// What a reader must know.
+    /// Warnings and remarks.
     pub warnings: Vec<Notice>,
 }
 
-/// A scene's answer.
+/// Outcome of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneOutcome {
     /// The scene's title.
     pub title: String,
     /// The scene's source.
     pub source: String,
-    /// Seconds of the whole run.
+    /// Time of the whole run \[s\].
     pub wall_s: f64,
-    /// Whether the scene says that some solves need not converge.
+    /// True if the scene accepts solves that do not converge.
     pub failures_expected: bool,
-    /// What the rows say.
+    /// Values and warnings found in the rows.
     pub found: Findings,
-    /// All expectations.
+    /// Verdict on each expectation.
     pub verdicts: Vec<Verdict>,
     /// Tables of the study.
     pub tables: Vec<Table>,
@@ -73,26 +73,26 @@ impl Findings {
         self.values.push(NamedValue { name: name.into(), method: method.cloned(), value });
     }
 
-    /// Adds warnings of a part of the study, or of all of it if the part is empty.
+    /// Adds warnings about a part of the study, or about the whole study if `part` is empty.
     pub(super) fn warn(&mut self, part: &str, warnings: impl IntoIterator<Item = Warning>) {
         let of_part = |warning| Notice::Warning { part: part.to_owned(), warning };
         self.warnings.extend(warnings.into_iter().map(of_part));
     }
 
-    /// Adds kinds of warnings that several answers of a part carry.
+    /// Adds kinds of warnings that apply to several results of a part.
     pub(super) fn warn_repeated(&mut self, part: &str, kinds: impl IntoIterator<Item = Repeated>) {
         let of_part = |repeated| Notice::Repeated { part: part.to_owned(), repeated };
         self.warnings.extend(kinds.into_iter().map(of_part));
     }
 
-    /// Median, 95 % value and maximum of a quantity, as `name_median`, `name_p95` and `name_max`.
+    /// Adds median, 95th percentile and maximum of a quantity, as `name_median`, `name_p95` and `name_max`.
     pub(super) fn push_spread(&mut self, name: &str, method: Option<&Method>, values: &[f64]) {
         self.push(format!("{name}_median"), method, median(values));
         self.push(format!("{name}_p95"), method, percentile(values, 0.95));
         self.push(format!("{name}_max"), method, percentile(values, 1.0));
     }
 
-    /// Newton steps and seconds of single solves.
+    /// Adds statistics of the Newton steps and times of single solves.
     pub(super) fn push_effort(&mut self, method: Option<&Method>, newton: &[f64], seconds: &[f64]) {
         self.push("newton_median", method, median(newton));
         self.push("newton_max", method, percentile(newton, 1.0));
@@ -100,20 +100,21 @@ impl Findings {
         self.push("p99_s", method, percentile(seconds, 0.99));
     }
 
-    /// How often calibrated bounds hold, given each over the true error by the name of the bound, and how far they lie above it in the median.
+    /// Adds how often calibrated error bounds hold, in per cent, and the median overestimation. `ratios` are bound over
+    /// true error.
     pub(super) fn push_bounds(&mut self, name: &str, method: Option<&Method>, ratios: &[f64]) {
         let held = ratios.iter().filter(|ratio| **ratio >= 1.0).count();
         self.push(format!("{name}.holds_percent"), method, 100.0 * held as f64 / ratios.len() as f64);
         self.push(format!("{name}.over_error_median"), method, median(ratios));
     }
 
-    /// The value of a name: of the method where one is given, else the first of that name.
+    /// Returns the value with this name: of the given method, or else the first one with the name.
     pub fn value(&self, name: &str, method: Option<&Method>) -> Option<f64> {
         let fits = |v: &&NamedValue| v.name == name && method.is_none_or(|m| v.method.as_ref() == Some(m));
         self.values.iter().find(fits).map(|v| v.value)
     }
 
-    /// Expectations held against the values.
+    /// Checks the expectations against the values.
     pub fn verdicts(&self, expected: &[Expectation]) -> Vec<Verdict> {
         let verdict = |expected: &Expectation| {
             let value = self.value(&expected.name, expected.method.as_ref());
@@ -125,15 +126,16 @@ impl Findings {
 }
 
 impl SceneOutcome {
-    /// Whether every expectation holds, and every solve converged unless the scene says that some need not.
+    /// Returns true if all expectations are met and every solve converged, or if the scene accepts solves that do not
+    /// converge.
     pub fn passed(&self) -> bool {
         self.verdicts.iter().all(|verdict| verdict.holds) && (self.found.converged || self.failures_expected)
     }
 
-    /// Writes it (JSON) and its tables (CSV) into a folder, under a name.
+    /// Writes the outcome (JSON) and its tables (CSV) into a folder, with a common file name.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// If a file cannot be written.
     pub fn write(&self, folder: &Path, name: &str) -> Result<(), WriteError> {
         let path = folder.join(format!("{name}.json"));
         let text = serde_json::to_string_pretty(&self.to_json());
@@ -145,7 +147,7 @@ impl SceneOutcome {
         Ok(())
     }
 
-    /// The object of `run --json`.
+    /// Returns the object printed by `run --json`.
     pub fn to_json(&self) -> Value {
         let number = |value: f64| if value.is_finite() { json!(value) } else { Value::Null };
         let with_method = |mut object: Value, method: &Option<Method>| {

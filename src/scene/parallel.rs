@@ -1,4 +1,5 @@
-//! Many contacts on all cores, full and reduced. Every solve starts afresh, so that neither order nor threads matter.
+//! Full and reduced solutions of many contacts on all cores. Every solve starts cold, so that results do not depend on
+//! order or threads.
 
 use super::error::RunError;
 use crate::host::pool::map_with;
@@ -11,17 +12,17 @@ use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, ReducedSoluti
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Reduced solves of which the observer is told once.
+/// The observer is notified once per this number of reduced solves.
 const REPORT_EVERY: usize = 32;
-/// Points a reduced solver is made for at a time; its operators cost as much as a few solves.
+/// Number of points for which one reduced solver is built. Building its operators costs as much as a few solves.
 const CHUNK: usize = 128;
 
-/// Counts solves of a stage for the observer.
+/// Counts the solves of a stage and reports them to the observer.
 struct Count<'a> {
     stage: &'static str,
     done: AtomicUsize,
     total: usize,
-    /// Solves of which the observer is told once.
+    /// The observer is notified once per this number of solves.
     every: usize,
     observer: &'a dyn Observer,
 }
@@ -36,8 +37,8 @@ impl Count<'_> {
     }
 }
 
-/// Cold full solutions, none where the solver does not converge, with what their grids cost them; `grid` gives the grid
-/// of a point. Cold, so that no reduced solution can lead them to its root.
+/// Computes full solutions from cold starts, so that they do not depend on any reduced solution. Each includes its
+/// estimated discretisation error; `None` if the solve does not converge. `grid` returns the grid for a point.
 pub(super) fn full_solutions(
     grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
     points: &[OperatingPoint],
@@ -48,15 +49,15 @@ pub(super) fn full_solutions(
     full_solutions_told(grid, &contacts, observer, |_, _| {})
 }
 
-/// The same of contacts with a lubricant each; `tell` hears of each with its index as it comes, in any order and from any
-/// thread.
+/// Computes full solutions of contacts with different lubricants, as [`full_solutions`]. `tell` is called with index
+/// and solution of each as soon as it is solved, in any order and from any thread.
 pub(super) fn full_solutions_told(
     grid: impl Fn(&OperatingPoint) -> ContactGrid + Sync,
     contacts: &[(OperatingPoint, Lubricant)],
     observer: &dyn Observer,
     tell: impl Fn(usize, Option<&Solution>) + Sync,
 ) -> Result<Vec<Option<Solution>>, RunError> {
-    // A full solution may take seconds: each is news.
+    // A full solution may take seconds, so each one is reported.
     let (stage, total) = ("full solutions to compare with", contacts.len());
     let count = Count { stage, done: AtomicUsize::new(0), total, every: 1, observer };
     map_with(contacts, Vec::<ContactSolver>::new, |solvers, i, (point, lubricant)| {
@@ -75,7 +76,7 @@ pub(super) fn full_solutions_told(
     })
 }
 
-/// Reduced solutions with their fields where `fields` wants them by the point's index, none where the iteration does
+/// Computes reduced solutions, with fields for the point indices that `fields` selects; `None` if the iteration does
 /// not converge.
 pub(super) fn reduced_solutions(
     model: &Arc<ReducedModel>,
@@ -112,15 +113,16 @@ pub(super) fn reduced_solutions(
     Ok(parts.into_iter().flatten().collect())
 }
 
-/// A reduced solution, with fields where they were wanted.
+/// Reduced solution, with fields if requested.
 pub(super) struct Reduced {
-    /// Coefficients and what came with them.
+    /// Reduced coefficients and error estimates.
     pub solved: ReducedSolution,
-    /// Fields on the window's grid.
+    /// Fields on the grid of the local model.
     pub fields: Option<Solution>,
 }
 
-/// Relative errors of H_c and of H_min against full solutions, wherever both are known.
+/// Returns the relative errors of H_c, central film thickness, and of H_min, minimum film thickness, against full
+/// solutions, for all contacts that have both solutions.
 pub(super) fn film_errors(reduced: &[Option<Reduced>], full: &[Option<Solution>]) -> [Vec<f64>; 2] {
     let mut errors: [Vec<f64>; 2] = Default::default();
     for (reduced, full) in reduced.iter().zip(full) {

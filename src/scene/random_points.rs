@@ -6,10 +6,10 @@ use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::training::random_points_while;
 
-/// Exactly `n` random points of a range for one kind of contact, the same ones for the same seed.
+/// Returns exactly `n` random points of a range for one contact kind. The same seed gives the same points.
 ///
 /// # Errors
-/// When the range holds hardly any admissible point, or the observer cancels.
+/// If the range contains hardly any admissible point, or if the observer cancels.
 pub(super) fn all_random_points(
     range: &ParameterSpace,
     kind: ContactKind,

@@ -1,14 +1,14 @@
-//! Which asymptote of Moes' film formula rules where: the regimes on the chart of M and L.
+//! Lubrication regimes on the chart of M and L: which asymptote of Moes' film formula is dominant.
 
 use super::chart::{Chart, ChartAxis, Marks, Note, Series};
 use super::drawing::{Beside, Pen, Words};
 use crate::solver::physics::contact::{FilmAsymptotes, FilmShape, Moes};
 
-/// M at the ends of the chart.
+/// Ends of the chart along M.
 pub const M_AXIS: (f64, f64) = (0.4, 1500.0);
-/// L at the ends of the chart.
+/// Ends of the chart along L.
 pub const L_AXIS: (f64, f64) = (0.2, 32.0);
-/// An asymptotic regime.
+/// Asymptotic lubrication regime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
     /// Rigid bodies, constant viscosity.
@@ -22,8 +22,9 @@ pub enum Regime {
 }
 
 impl Regime {
-    /// The regime whose asymptote Moes' formula follows at M and L: iso parts add up (the larger rules), piezo parts
-    /// add up inversely (the smaller rules), and the larger of both sides wins.
+    /// Returns the regime whose asymptote dominates Moes' formula at M and L. The isoviscous asymptotes add up, so the
+    /// larger one counts. The piezoviscous ones add up inversely, so the smaller one counts. The larger of these two
+    /// decides.
     pub fn of(shape: FilmShape, moes: Moes) -> Self {
         let a = FilmAsymptotes::of(shape, moes);
         let iso = a.rigid_isoviscous.max(a.elastic_isoviscous);
@@ -36,7 +37,7 @@ impl Regime {
         }
     }
 
-    /// For people.
+    /// Returns the name on two lines, for the chart.
     pub fn name(self) -> &'static str {
         match self {
             Self::RigidIsoviscous => "rigid,\nisoviscous",
@@ -46,7 +47,7 @@ impl Regime {
         }
     }
 
-    /// Its name in a line.
+    /// Returns the name on one line.
     pub fn title(self) -> &'static str {
         match self {
             Self::RigidIsoviscous => "Rigid, isoviscous",
@@ -56,7 +57,7 @@ impl Regime {
         }
     }
 
-    /// What happens in it.
+    /// Returns a one-line description.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::RigidIsoviscous => "The bodies keep their shape, the oil its viscosity",
@@ -67,16 +68,16 @@ impl Regime {
     }
 }
 
-/// Points along each line.
+/// Number of samples along each line.
 pub const SAMPLES: usize = 240;
 
-/// The k-th of so many values in equal ratios.
+/// Returns the k-th of `of` values with constant ratio.
 pub fn spread((low, high): (f64, f64), k: usize, of: usize) -> f64 {
     (low.ln() + (high.ln() - low.ln()) * k as f64 / (of - 1) as f64).exp()
 }
 
-/// Boundaries between regimes by their ends in (M, L); each is straight on logarithmic axes. Along each row and column of a
-/// fine lattice lie the places where the regime changes, sharpened by bisection.
+/// Returns the boundaries between regimes by their ends in (M, L). Each is a straight line on logarithmic axes. The
+/// places where the regime changes are found along the rows and columns of a fine lattice and refined by bisection.
 pub fn boundaries(shape: FilmShape) -> Vec<[[f64; 2]; 2]> {
     let mut found: Vec<([Regime; 2], Vec<Moes>)> = Vec::new();
     let mut add = |a: Regime, b: Regime, place: Moes| {
@@ -112,7 +113,7 @@ pub fn boundaries(shape: FilmShape) -> Vec<[[f64; 2]; 2]> {
         }
     }
     let ends = |(_, mut places): (_, Vec<Moes>)| {
-        // In the order of its longer extent.
+        // Sorted along the axis on which the boundary is longer.
         let ratio = |of: fn(&Moes) -> f64| {
             places.iter().map(of).fold(0.0, f64::max) / places.iter().map(of).fold(f64::INFINITY, f64::min)
         };
@@ -123,9 +124,9 @@ pub fn boundaries(shape: FilmShape) -> Vec<[[f64; 2]; 2]> {
     found.into_iter().filter_map(ends).collect()
 }
 
-/// Places (M, L) for the regimes' names, clear of the contacts that matter most: of those left of M = 1 their beginning,
-/// of those right of M = 1000 their end. Regimes of ellipses lie elsewhere; one that is on the chart with none of these
-/// places has no name there.
+/// Returns places (M, L) for the names of the regimes, away from the most important contacts. Text at M < 1 begins
+/// there; text at M > 1000 ends there. The regimes of elliptical contacts lie elsewhere: a regime that contains none of
+/// these places has no name on the chart.
 pub fn names(shape: FilmShape) -> Vec<(Regime, [f64; 2])> {
     let places: [&[[f64; 2]]; 4] = match shape {
         FilmShape::Line => [&[[0.43, 0.6]], &[[30.0, 0.5]], &[[0.5, 15.0]], &[[1100.0, 22.0]]],
@@ -145,10 +146,10 @@ pub fn names(shape: FilmShape) -> Vec<(Regime, [f64; 2])> {
     regimes.into_iter().zip(places).filter_map(first).collect()
 }
 
-/// The chart for paper, with a contact in it.
+/// Returns the regime chart for print, with one contact marked.
 pub fn chart(shape: FilmShape, moes: Moes) -> Chart {
     let mut chart = Chart::new("Regime", ChartAxis::log("Load number M"), ChartAxis::log("Lubricant number L"));
-    // A contact beyond the usual axes is on them as well.
+    // The axes are extended if the contact lies outside.
     let around = |(from, to): (f64, f64), value: f64| Some((from.min(0.7 * value), to.max(1.4 * value)));
     (chart.x.ends, chart.y.ends) = (around(M_AXIS, moes.m), around(L_AXIS, moes.l));
     let pen = Pen { color: [0x88; 3], opacity: 1.0, width: 0.8, dashes: Vec::new() };
@@ -188,7 +189,7 @@ mod tests {
         for (shape, count) in [(line, 4), (FilmShape::CIRCLE, 4), (ellipse(0.5), 4), (ellipse(20.0), 4)] {
             assert_eq!(names(shape).len(), count, "{shape:?}");
         }
-        // Wide ellipses stay rigid up to heavier loads.
+        // Wide elliptical contacts stay rigid up to larger loads.
         assert_eq!(of(FilmShape::CIRCLE, 8.0, 0.3), Regime::ElasticIsoviscous);
         assert_eq!(of(FilmShape::Ellipse(20.0), 8.0, 0.3), Regime::RigidIsoviscous);
     }

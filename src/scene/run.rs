@@ -1,4 +1,4 @@
-//! A scene in, its outcome out.
+//! Runs a scene and returns its outcome.
 
 use super::bench::Bench;
 use super::error::RunError;
@@ -11,11 +11,11 @@ use crate::solver::observer::{NewtonStep, Observer, Progress};
 use crate::solver::training::{TrainingObserver, TrainingState};
 use std::sync::{Mutex, PoisonError};
 
-/// Answers a scene's question and holds its expectations against the answer.
+/// Runs the study of a scene and checks its expectations.
 ///
 /// # Errors
-/// When the scene is refused, a model cannot be had, or the observer cancels. Solves that do not converge and
-/// expectations that fall short are part of the outcome.
+/// If the scene is refused, a model is not available, or the observer cancels. Solves that do not converge and
+/// expectations that are not met are part of the outcome.
 pub fn run_scene(scene: &Scene, bench: &mut dyn Bench, observer: &dyn StudyObserver) -> Result<SceneOutcome, RunError> {
     scene.check()?;
     let (clock, experiment) = (Stopwatch::start(), scene.experiment());
@@ -26,7 +26,7 @@ pub fn run_scene(scene: &Scene, bench: &mut dyn Bench, observer: &dyn StudyObser
 }
 
 impl Scene {
-    /// What rows of its study say so far, held against its expectations.
+    /// Evaluates rows of the scene's study, complete or not, and checks the expectations.
     pub fn outcome(&self, rows: &[StudyRow], wall_s: f64) -> SceneOutcome {
         let mut found = self.study.findings(&self.experiment(), rows);
         found.warnings.splice(0..0, self.unused_alpha().map(Notice::from));
@@ -42,7 +42,7 @@ impl Scene {
     }
 }
 
-/// Keeps the rows that it passes on.
+/// Observer that stores the rows and forwards all calls.
 struct Kept<'a> {
     observer: &'a dyn StudyObserver,
     rows: Mutex<Vec<StudyRow>>,

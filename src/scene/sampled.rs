@@ -1,14 +1,14 @@
-//! Inputs of a contact in time from a CSV file: a column T and any of radius, speed and load, relative to the
-//! reference.
+//! Inputs of a transient contact from a CSV file: a column T and any of radius, speed and load, relative to the
+//! reference values.
 
 use crate::host::files;
 use crate::solver::full::transient::{Inputs, Signal};
 use std::path::{Path, PathBuf};
 
-/// Largest file that is read \[bytes\].
+/// Largest accepted size of a file \[bytes\].
 pub const MAX_SAMPLED_BYTES: u64 = 32 << 20;
 
-/// Why sampled inputs are refused.
+/// Reason why sampled inputs are refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SampledError {
     /// The file cannot be read.
@@ -16,25 +16,25 @@ pub enum SampledError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason given by the system.
         reason: String,
     },
-    /// A line makes no sense.
+    /// A line is invalid.
     #[error("the inputs {} are refused: line {line}: {problem}", path.display())]
     Line {
         /// The file.
         path: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// What is wrong, and what would be accepted.
+        /// What is wrong, and what is accepted.
         problem: String,
     },
 }
 
-/// Puts the columns of a file in place of the inputs of their names.
+/// Reads a file and replaces the inputs named by its columns.
 ///
 /// # Errors
-/// When the file cannot be read, or with the first line that makes no sense.
+/// If the file cannot be read, or with the first invalid line.
 pub fn read_into(inputs: &mut Inputs, path: &Path) -> Result<(), SampledError> {
     let unreadable = |reason: String| SampledError::Read { path: path.to_owned(), reason };
     let bytes = files::read_at_most(path, MAX_SAMPLED_BYTES + 1).map_err(|error| unreadable(error.to_string()))?;
@@ -45,7 +45,7 @@ pub fn read_into(inputs: &mut Inputs, path: &Path) -> Result<(), SampledError> {
     parse_into(inputs, &text).map_err(|(line, problem)| SampledError::Line { path: path.to_owned(), line, problem })
 }
 
-/// The same for a text; a refusal names the line, from 1.
+/// Same for a text. An error is the line number, from 1, and the problem.
 fn parse_into(inputs: &mut Inputs, text: &str) -> Result<(), (usize, String)> {
     let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim())).filter(|(_, line)| !line.is_empty());
     let (title_line, titles) =

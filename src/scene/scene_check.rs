@@ -1,4 +1,4 @@
-//! Everything of a scene is checked before anything is computed from it.
+//! Checks all values of a scene before anything is computed from it.
 
 use super::check::{Checked, number, refuse};
 use super::document::{Scene, TrainedModel};
@@ -13,10 +13,10 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 
 impl Scene {
-    /// Refuses values that are not finite or make no sense, naming the field.
+    /// Refuses values that are not finite or out of range, and names the field.
     ///
     /// # Errors
-    /// With the first such field.
+    /// With the first invalid field.
     pub fn check(&self) -> Result<(), SceneError> {
         plain("title", &self.title)?;
         let lubricant = |problem: LubricantError| refuse("lubricant", format!("is refused: {problem}"));

@@ -1,5 +1,5 @@
-//! A sheet of one contact for the file: inputs with units, results, how they were checked, published formulas beside
-//! them, and what wrote it. As Markdown, HTML with figures, and CSV.
+//! Report sheet of one contact: inputs with units, results, how they were checked, a comparison with published
+//! formulas, and the program version. Written as Markdown, HTML with figures, or CSV.
 
 use super::answer::Answer;
 use super::chart::{Chart, ChartAxis, Marks};
@@ -15,48 +15,48 @@ use std::ffi::OsStr;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Digits of the sheet's numbers for people; its CSV has all.
+/// Significant digits of numbers in Markdown and HTML. The CSV form has all digits.
 const DIGITS: i32 = 5;
 
-/// A sheet.
+/// Report sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
-    /// Its title.
+    /// Title.
     pub title: String,
-    /// What it says, part by part.
+    /// Sections.
     pub parts: Vec<Part>,
-    /// Pressure and film, and where the contact stands among the regimes.
+    /// Figures: pressure, film thickness, and the contact on the regime chart.
     pub figures: Vec<Chart>,
 }
 
-/// A part of a sheet.
+/// Section of a sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Its title.
+    /// Title.
     pub title: String,
-    /// Its lines.
+    /// Lines.
     pub lines: Vec<Line>,
 }
 
-/// One line of a sheet.
+/// Line of a sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// What it is.
+    /// Name of the quantity.
     pub name: String,
-    /// Its value.
+    /// Value.
     pub value: Value,
-    /// Its unit; empty where it has none.
+    /// Unit; empty without one.
     pub unit: &'static str,
-    /// What is to be said of it.
+    /// Remark.
     pub remark: String,
 }
 
-/// A number or words.
+/// Number or text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A finite number.
     Number(f64),
-    /// Words.
+    /// Text.
     Words(String),
 }
 
@@ -85,8 +85,8 @@ impl Part {
 }
 
 impl Sheet {
-    /// The sheet of one contact by one or more methods, the one that counts first. Of bodies, where they are known, the
-    /// roughness says how the film compares with it.
+    /// Builds the sheet of one contact solved by one or more methods. The first one is the reference. If the bodies are
+    /// given, the film thickness is compared with their roughness.
     pub fn new(title: &str, solved: &[Answer], bodies: Option<&Bodies>) -> Self {
         let mut parts = Vec::new();
         let mut figures = Vec::new();
@@ -102,7 +102,8 @@ impl Sheet {
         Self { title: title.to_owned(), parts, figures }
     }
 
-    /// Its files with their texts as the ending of a name says: md with figures beside it, html or csv; none for others.
+    /// Returns the files of the sheet with their texts. The extension of the path selects the format: md with separate
+    /// figures, html or csv. Empty for other extensions.
     pub fn files(&self, path: &Path) -> Vec<(PathBuf, String)> {
         let text = match path.extension().and_then(OsStr::to_str) {
             Some("md") => return self.notes(path),
@@ -113,13 +114,13 @@ impl Sheet {
         vec![(path.to_owned(), text)]
     }
 
-    /// As Markdown in a file of a name, with the figures that it shows in files beside it.
+    /// Returns the sheet as a Markdown file, followed by its figures as separate files.
     pub fn notes(&self, path: &Path) -> Vec<(PathBuf, String)> {
         let figures = self.figures.iter().map(|figure| (beside(path, figure), figure.to_svg(&Page::default())));
         std::iter::once((path.to_owned(), self.to_markdown(path))).chain(figures).collect()
     }
 
-    /// A table for each part, and links to the figures beside it.
+    /// Writes a table for each section, and links to the figures.
     fn to_markdown(&self, path: &Path) -> String {
         let cell = |text: &str| text.replace('|', "\\|").replace('\n', " ");
         let mut text = format!("# {}\n", self.title);
@@ -133,14 +134,14 @@ impl Sheet {
         }
         for figure in &self.figures {
             let file = beside(path, figure);
-            // A link knows no blanks and no brackets.
+            // The link is in angle brackets because a file name may contain blanks and brackets.
             let name = file.file_name().unwrap_or_default().to_string_lossy();
             let _ = write!(text, "\n![{}](<{name}>)\n", figure.title);
         }
         text
     }
 
-    /// As one page of HTML with its figures in it; it refers to nothing else.
+    /// Returns the sheet as one self-contained page of HTML with its figures.
     pub fn to_html(&self) -> String {
         let title = escaped(&self.title);
         let mut text = format!(
@@ -171,7 +172,8 @@ impl Sheet {
         text
     }
 
-    /// As CSV with the columns part, quantity, value, unit, remark; numbers in the shortest form that reads back exactly.
+    /// Returns the sheet as CSV with the columns part, quantity, value, unit, remark. Numbers have the shortest form
+    /// that reads back exactly.
     pub fn to_csv(&self) -> String {
         let mut text = String::from("part,quantity,value,unit,remark\n");
         for part in &self.parts {
@@ -186,7 +188,7 @@ impl Sheet {
     }
 }
 
-/// The file of a figure beside a sheet: `contact_pressure.svg` beside `contact.md`.
+/// Returns the file name of a figure of a sheet: `contact_pressure.svg` for `contact.md`.
 fn beside(path: &Path, figure: &Chart) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!("{stem}_{}.svg", figure.title.to_lowercase()))
@@ -318,7 +320,7 @@ fn verification(solved: &Answer) -> Part {
     part
 }
 
-/// How far the other methods lie from the first one.
+/// Compares the other methods with the first one.
 fn difference(solved: &[Answer]) -> Option<Part> {
     let (first, others) = solved.split_first()?;
     let mut part = Part::new("Methods compared");
@@ -335,7 +337,7 @@ fn difference(solved: &[Answer]) -> Option<Part> {
     (!part.lines.is_empty()).then_some(part)
 }
 
-/// Published formulas and how far each is off.
+/// Compares published formulas with the result.
 fn formulas(result: &ContactResult) -> Option<Part> {
     let mut part = Part::new("Published film formulas");
     for &formula in FilmFormula::of(result.point.kind) {
@@ -351,7 +353,7 @@ fn formulas(result: &ContactResult) -> Option<Part> {
     (!part.lines.is_empty()).then_some(part)
 }
 
-/// Pressure and film in the plane Y = 0, in SI units, and the chart of regimes.
+/// Draws pressure and film thickness in the plane Y = 0, in SI units, and the regime chart.
 fn pictures(solved: &[Answer]) -> Vec<Chart> {
     let x = || ChartAxis::linear("x [mm]");
     let mut pressure = Chart::new("Pressure", x(), ChartAxis::linear("p [GPa]"));
@@ -362,7 +364,7 @@ fn pictures(solved: &[Answer]) -> Vec<Chart> {
         let near = || solution.profile().filter(|(x, ..)| (-2.0..=1.5).contains(x));
         let mm = 1e3 * hertz.half_width_m;
         pressure.add(result.method, Marks::Line, near().map(|(x, p, _)| [x * mm, p * hertz.pressure_pa * 1e-9]));
-        // The gap in front of the contact would hide the film.
+        // Film thicknesses far upstream of the contact are left out: they would dominate the scale.
         let most = 4.0 * solution.scalars.h_c;
         let close = near().filter(|(_, _, h)| *h <= most);
         film.add(result.method, Marks::Line, close.map(|(x, _, h)| [x * mm, h * scale * 1e6]));

@@ -1,7 +1,7 @@
 //! Order statistics of measured values.
 
-/// The value below which a fraction (0…1) of the values lies, interpolated between neighbours; NaN of none. NaN sorts
-/// last.
+/// Returns the value below which a fraction (0…1) of the values lies, interpolated between neighbours; NaN without
+/// values. NaN values sort last.
 pub fn percentile(values: &[f64], fraction: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -14,18 +14,18 @@ pub fn percentile(values: &[f64], fraction: f64) -> f64 {
     if t == 0.0 { at(below) } else { at(below) * (1.0 - t) + at(above) * t }
 }
 
-/// The middle value; NaN of none.
+/// Returns the median; NaN without values.
 pub fn median(values: &[f64]) -> f64 {
     percentile(values, 0.5)
 }
 
-/// The mean; NaN of none.
+/// Returns the mean; NaN without values.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Spearman's rank correlation of pairs: 1 where both order alike. Equal values share their mean rank; NaN of fewer
-/// than two pairs, or where one side does not vary.
+/// Returns Spearman's rank correlation of pairs: 1 if both have the same order. Equal values share their mean rank. NaN
+/// for fewer than two pairs, or if one side is constant.
 pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     let (a, b) = (ranks(a), ranks(b));
     let mean = (a.len() as f64 - 1.0) / 2.0;
@@ -33,7 +33,7 @@ pub fn rank_correlation(a: &[f64], b: &[f64]) -> f64 {
     product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
 }
 
-/// The rank of each value, from 0.
+/// Returns the rank of each value, from 0.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<(usize, f64)> = values.iter().copied().enumerate().collect();
     order.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -55,7 +55,7 @@ mod tests {
         let a = [1.0, 2.0, 3.0, 4.0];
         assert_eq!(rank_correlation(&a, &a.map(|v| v.powi(9))), 1.0);
         assert_eq!(rank_correlation(&a, &a.map(|v| -v)), -1.0);
-        // By hand: ranks 0, 1.5, 1.5, 3 against 0, 1, 2, 3.
+        // Computed by hand: ranks 0, 1.5, 1.5, 3 and 0, 1, 2, 3.
         assert!((rank_correlation(&[1.0, 5.0, 5.0, 9.0], &a) - 4.5 / (4.5f64 * 5.0).sqrt()).abs() < 1e-15);
         assert!(rank_correlation(&[1.0, 1.0], &[1.0, 2.0]).is_nan() && rank_correlation(&[], &[]).is_nan());
     }

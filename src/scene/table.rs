@@ -1,30 +1,30 @@
-//! Tables of numbers and their CSV.
+//! Tables of numbers, written as CSV and text.
 
 pub use crate::solver::limits::Number;
 
 use super::names;
 use crate::solver::warning::Warning;
 
-/// A named table; NaN stands for an empty cell.
+/// Named table. NaN is an empty cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     /// Name, used in file names.
     pub name: String,
     /// Column titles.
     pub columns: Vec<String>,
-    /// Rows as long as the columns.
+    /// Rows, each with one value per column.
     pub rows: Vec<Vec<f64>>,
-    /// What each row is called, where rows have names; `run` prints such a table.
+    /// Names of the rows, if they have names. `run` prints such a table.
     pub labels: Vec<String>,
-    /// Columns of words after the numbers: title, and a text for each row.
+    /// Text columns after the numbers: title, and one text per row.
     pub remarks: Vec<(&'static str, Vec<String>)>,
 }
 
-/// A number of a row, by its name.
+/// Column of a table of typed rows: name and value.
 pub type Column<T> = (&'static str, fn(&T) -> f64);
 
 impl Table {
-    /// A table of typed rows.
+    /// Returns a table of typed rows.
     pub fn of<'a, T: 'a>(
         name: impl Into<String>,
         columns: &[Column<T>],
@@ -35,18 +35,18 @@ impl Table {
         table
     }
 
-    /// An empty table.
+    /// Returns an empty table.
     pub fn new(name: impl Into<String>, columns: &[&str]) -> Self {
         Self { name: name.into(), columns: columns.iter().map(|&c| c.to_owned()).collect(), ..Self::default() }
     }
 
-    /// With the warnings of each row as its last column.
+    /// Adds the warnings of each row as last column.
     pub fn with_warnings<'a>(self, rows: impl IntoIterator<Item = &'a [Warning]>) -> Self {
         Self { remarks: vec![(names::WARNING, rows.into_iter().map(Warning::joined).collect())], ..self }
     }
 
-    /// As CSV with a title line; numbers in the shortest form that reads back exactly. Names of rows make up the first
-    /// column, remarks the last ones.
+    /// Writes CSV with a title line. Numbers have the shortest form that reads back exactly. Row names are the first
+    /// column, text columns the last ones.
     pub fn to_csv(&self) -> String {
         let named = (!self.labels.is_empty()).then_some("name");
         let titles = named.into_iter().chain(self.columns.iter().map(String::as_str));
@@ -64,7 +64,7 @@ impl Table {
         text
     }
 
-    /// As columns for people, numbers with three digits, each line behind `indent`.
+    /// Writes aligned columns for the terminal: numbers with three digits, each line after `indent`.
     pub fn to_text(&self, indent: &str) -> String {
         let short = |value: &f64| if value.is_finite() { significant(*value, 3) } else { String::new() };
         let mut lines = vec![std::iter::once(String::new()).chain(self.columns.iter().cloned()).collect::<Vec<_>>()];
@@ -88,12 +88,12 @@ impl Table {
     }
 }
 
-/// Whether a number is whole and small enough to be written out: a count, as a rule.
+/// Returns true for a whole number below one million, which is written with all digits.
 pub fn is_whole(value: f64) -> bool {
     value.fract() == 0.0 && value.abs() < 1e6
 }
 
-/// A number with so many significant digits; whole ones below a million are written out.
+/// Formats a number with this number of significant digits. Whole numbers below one million have all digits.
 pub fn significant(value: f64, digits: i32) -> String {
     let size = value.abs();
     if is_whole(value) {

@@ -1,4 +1,4 @@
-//! What the explorer keeps with a scene so that nothing is lost when it is saved and opened again.
+//! Settings that the explorer stores with a scene, so that the scene opens as it was saved.
 
 use super::written::is_default;
 use crate::solver::parameters::Quantity;
@@ -6,58 +6,58 @@ use crate::solver::physics::bodies::Bodies;
 use crate::solver::physics::engineering::Oil;
 use serde::{Deserialize, Serialize};
 
-/// How the explorer edits a scene: what follows when a slider moves, and how the reduced model is truncated. Running a
-/// scene without a screen does not use it.
+/// Explorer settings of a scene: which quantities follow when a slider moves, and how the reduced model is truncated.
+/// They have no effect on `run`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields, default)]
 pub struct View {
-    /// What follows when M moves.
+    /// Quantity that follows when M moves.
     #[serde(skip_serializing_if = "is_default")]
     pub when_m_moves: LoadFollower,
-    /// What follows when L moves; must be one of [`LoadFollower::partners`].
+    /// Quantity that follows when L moves; must be one of [`LoadFollower::partners`].
     #[serde(skip_serializing_if = "is_default")]
     pub when_l_moves: LubricantFollower,
-    /// Quantities in SI units that stay when M or L moves.
+    /// SI quantities that stay constant when M or L moves.
     #[serde(skip_serializing_if = "is_default")]
     pub held: Held,
-    /// The oil that η₀ and α were entered as.
+    /// Oil from which η₀ and α were entered.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub oil: Option<Oil>,
-    /// The bodies that R, E′, u_m and SRR were entered as.
+    /// Bodies from which R, E′, u_m and SRR were entered.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bodies: Option<Bodies>,
-    /// R_y \[m\] of the ellipse that a roller or a ball was chosen instead of.
+    /// R_y \[m\] of the last elliptical contact, stored while a line or circular contact is selected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_y_m: Option<f64>,
-    /// Loss of information the pressure basis may neglect; `None` keeps every mode.
+    /// Loss of information at which the pressure basis is truncated; `None` keeps all modes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pressure_loss: Option<f64>,
-    /// Loss of information the deformation basis may neglect; `None` keeps every mode.
+    /// Loss of information at which the deformation basis is truncated; `None` keeps all modes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deformation_loss: Option<f64>,
-    /// Deformation of the reduced model through V_δ (the dissertation's) instead of exactly.
+    /// True to compute the deformation of the reduced model through V_δ, as in the dissertation, and not exactly.
     #[serde(skip_serializing_if = "is_default")]
     pub projected_deformation: bool,
 }
 
-/// A set of quantities in SI units, in files a list of their names.
+/// Set of SI quantities. In files, a list of their names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 #[serde(from = "Vec<Quantity>", into = "Vec<Quantity>")]
 pub struct Held([bool; 7]);
 
 impl Held {
-    /// What can be held.
+    /// Quantities that can be held.
     const ALL: [Quantity; 7] = {
         let [radius, speed, load, modulus, viscosity, alpha] = Quantity::SI;
         [radius, speed, load, modulus, viscosity, alpha, Quantity::RadiusY]
     };
 
-    /// Whether a quantity is in it.
+    /// Returns true if the set contains a quantity.
     pub fn contains(self, quantity: Quantity) -> bool {
         Self::ALL.iter().zip(self.0).any(|(si, held)| held && *si == quantity)
     }
 
-    /// Takes a quantity in, or out.
+    /// Adds or removes a quantity.
     pub fn set(&mut self, quantity: Quantity, held: bool) {
         for (si, place) in Self::ALL.iter().zip(&mut self.0) {
             if *si == quantity {
@@ -81,7 +81,7 @@ impl From<Held> for Vec<Quantity> {
     }
 }
 
-/// The quantity that follows when M moves.
+/// Quantity that follows when M moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum LoadFollower {
     /// Load w.
@@ -93,10 +93,10 @@ pub enum LoadFollower {
     Speed,
 }
 
-/// The quantity that follows when L moves.
+/// Quantity that follows when L moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum LubricantFollower {
-    /// α = 5/GPa · L^0.463 and the speed: the default realisation, along which the embedded model is trained.
+    /// α = 5/GPa · L^0.463 and speed: the default realisation, on which the embedded model is trained.
     #[default]
     Realisation,
     /// Speed u_m at constant α.
@@ -111,7 +111,7 @@ impl LoadFollower {
     /// All choices.
     pub const ALL: [Self; 3] = [Self::Load, Self::Radius, Self::Speed];
 
-    /// For people.
+    /// Returns the name shown to users.
     pub fn name(self) -> &'static str {
         match self {
             Self::Load => "load w",
@@ -120,7 +120,7 @@ impl LoadFollower {
         }
     }
 
-    /// The choices for L that leave exactly M and L to follow.
+    /// Returns the choices for L that are consistent with this choice for M.
     pub fn partners(self) -> &'static [LubricantFollower] {
         match self {
             Self::Load => &[
@@ -136,7 +136,7 @@ impl LoadFollower {
 }
 
 impl LubricantFollower {
-    /// For people.
+    /// Returns the name shown to users.
     pub fn name(self) -> &'static str {
         match self {
             Self::Realisation => "α and speed together",

@@ -1,6 +1,6 @@
-//! What the text of a document leaves out.
+//! Rule for leaving fields out of a scene's text.
 
-/// Whether a field may be left out of the text of a scene.
+/// Returns true if a field has its default value and may be left out.
 pub(in crate::scene) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }

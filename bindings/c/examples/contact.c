@@ -1,4 +1,4 @@
-/* Films of a contact while its load rises:
+/* Film thickness of a contact for increasing load:
 
        cargo build --release --manifest-path bindings/Cargo.toml --target-dir target
        cc -Ibindings/c/include bindings/c/examples/contact.c target/release/libehl_contact.so -lm -o contact

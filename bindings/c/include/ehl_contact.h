@@ -10,27 +10,27 @@
 #include <stdlib.h>
 
 /*
- Done.
+ Success.
  */
 #define EHL_OK 0
 
 /*
- Done; the message says what a reader must know, such as a contact beyond the trained range.
+ Success with a warning in the message, such as a contact outside the trained range.
  */
 #define EHL_WARNING 1
 
 /*
- Refused; the message says why, and nothing has changed.
+ Refused. The message contains the reason, and nothing has changed.
  */
 #define EHL_REFUSED 2
 
 /*
- A contact by a reduced model. Each belongs to one thread at a time; different ones are independent.
+ Contact solved by a reduced model. Each may be used by one thread at a time; different ones are independent.
  */
 typedef struct EhlContact EhlContact;
 
 /*
- What a contact is driven by.
+ Inputs of a contact.
  */
 typedef struct EhlInputs {
   /*
@@ -38,7 +38,7 @@ typedef struct EhlInputs {
    */
   double radius;
   /*
-   Radius across over R; 1 for a circle or a line.
+   Radius across over R; 1 for a circular or line contact.
    */
   double radius_ratio;
   /*
@@ -46,15 +46,15 @@ typedef struct EhlInputs {
    */
   double speed;
   /*
-   Sliding speed over mean speed.
+   Slide-to-roll ratio: sliding speed over mean entrainment speed.
    */
   double srr;
   /*
-   Load, N/m of a line contact and N of a point contact; the first guess where an approach is given.
+   Load, N/m for a line contact, N for a point contact. If the approach is given, first guess of the load.
    */
   double load;
   /*
-   Approach of the bodies since they touched, m; not read where the load is given.
+   Approach of the bodies since first contact, m. Ignored if the load is given.
    */
   double approach;
   /*
@@ -66,13 +66,13 @@ typedef struct EhlInputs {
    */
   double viscosity;
   /*
-   Pressure-viscosity coefficient, 1/Pa; not read where the lubricant determines it.
+   Pressure-viscosity coefficient, 1/Pa. Ignored if the lubricant determines it.
    */
   double alpha;
 } EhlInputs;
 
 /*
- What follows.
+ Outputs of a contact.
  */
 typedef struct EhlOutputs {
   /*
@@ -80,7 +80,7 @@ typedef struct EhlOutputs {
    */
   double load;
   /*
-   Approach of the bodies since they touched, m; of a line contact at the distance approach_reference.
+   Approach of the bodies since first contact, m. For a line contact, measured at the distance approach_reference.
    */
   double approach;
   /*
@@ -92,27 +92,27 @@ typedef struct EhlOutputs {
    */
   double h_min_m;
   /*
-   Traction coefficient: friction over load.
+   Traction coefficient: friction force over load.
    */
   double traction;
   /*
-   Friction, N/m or N.
+   Friction force, N/m or N.
    */
   double friction_force;
   /*
-   Largest pressure of the dry contact, Pa.
+   Maximum Hertzian pressure, Pa.
    */
   double hertz_p_h_pa;
   /*
-   Relative error of the central film thickness in 99 of 100 contacts at most; not a number where unknown.
+   99 % empirical bound of the relative error of the central film thickness; NaN if not available.
    */
   double h_c_error_bound;
   /*
-   The same of the minimum film thickness.
+   99 % empirical bound of the relative error of the minimum film thickness; NaN if not available.
    */
   double h_min_error_bound;
   /*
-   The same of the traction coefficient.
+   99 % empirical bound of the relative error of the traction coefficient; NaN if not available.
    */
   double traction_error_bound;
   /*
@@ -120,15 +120,15 @@ typedef struct EhlOutputs {
    */
   double hertz_a_m;
   /*
-   Distance from a line contact at which its approach is measured: its radius, m; not a number for a point contact.
+   Reference distance for the approach of a line contact: its radius, m. NaN for a point contact.
    */
   double approach_reference;
   /*
-   1 where the model was trained for the contact, else 0.
+   1 if the contact is inside the trained range, else 0.
    */
   int32_t trained;
   /*
-   1 where the full solver took over, else 0.
+   1 if the full solver was used, else 0.
    */
   int32_t full;
 } EhlOutputs;
@@ -138,9 +138,10 @@ extern "C" {
 #endif // __cplusplus
 
 /*
- Reads a reduced model (.rom) and makes a contact of it; `by_approach` is 1 where the approach is given and not the
- load. `first`, where it is not null, gets inputs in the midst of what the model was trained for. Null where it is
- refused; then `message`, a buffer of `length` bytes or null, holds a sentence. Free it with `ehl_contact_free`.
+ Reads a reduced model (.rom) and returns a contact solved by it. `by_approach` is 1 if the approach is given, 0 if
+ the load is given. If `first` is not null, it receives inputs near the middle of the trained range. If the model is
+ refused, returns null and writes a sentence to `message`, a buffer of `length` bytes or null. Free the contact with
+ `ehl_contact_free`.
 
  # Safety
  `path` is a string that ends with a zero, `first` null or writable, `message` null or writable for `length` bytes.
@@ -152,12 +153,13 @@ struct EhlContact *ehl_contact_read(const char *path,
                                     size_t length);
 
 /*
- Solves a contact. `EHL_OK`, `EHL_WARNING` or `EHL_REFUSED`; `message`, a buffer of `length` bytes or null, holds what is
- to be said, as far as it fits. Outputs are written unless it is refused.
+ Solves a contact and returns `EHL_OK`, `EHL_WARNING` or `EHL_REFUSED`. `message`, a buffer of `length` bytes or
+ null, receives the warning or the reason, cut off if it is too long. Outputs are written unless the contact is
+ refused.
 
  # Safety
- `contact` comes from `ehl_contact_read` and no other thread uses it meanwhile; `inputs` is readable, `outputs` writable,
- `message` null or writable for `length` bytes.
+ `contact` was returned by `ehl_contact_read` and is not used by another thread at the same time; `inputs` is
+ readable, `outputs` writable, `message` null or writable for `length` bytes.
  */
 int32_t ehl_contact_solve(struct EhlContact *contact,
                           const struct EhlInputs *inputs,
@@ -166,10 +168,10 @@ int32_t ehl_contact_solve(struct EhlContact *contact,
                           size_t length);
 
 /*
- Frees a contact; null is nothing to be freed.
+ Frees a contact. Null is ignored.
 
  # Safety
- `contact` comes from `ehl_contact_read` and is not used again.
+ `contact` was returned by `ehl_contact_read` and is not used again.
  */
 void ehl_contact_free(struct EhlContact *contact);
 

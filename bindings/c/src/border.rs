@@ -1,10 +1,10 @@
-//! What crosses the border to C: texts, messages, and never a panic.
+//! Functions for the C interface: strings, messages, and conversion of panics into errors.
 
 use std::ffi::{CStr, c_char};
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Why something is refused, as the sentence that crosses the border.
+/// Reason of a refusal, as a sentence for the caller.
 pub struct Refused(pub String);
 
 impl<E: Display> From<E> for Refused {
@@ -13,31 +13,31 @@ impl<E: Display> From<E> for Refused {
     }
 }
 
-/// The result of some work; a panic becomes a sentence.
+/// Runs a function and converts a panic into an error message.
 pub fn guarded<T>(work: impl FnOnce() -> Result<T, Refused>) -> Result<T, Refused> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| Err("the solver stopped unexpectedly".into()))
 }
 
-/// A text of C; none where it is null or no UTF-8.
+/// Returns a C string; `None` if it is null or not UTF-8.
 ///
 /// # Safety
-/// It is null or ends with a zero, and lives as long as what is made of it is used.
+/// `text` is null or ends with a zero, and lives as long as the result is used.
 pub unsafe fn text_of<'a>(text: *const c_char) -> Option<&'a str> {
     if text.is_null() {
         return None;
     }
-    // SAFETY: it is not null; the rest is the caller's promise.
+    // SAFETY: it is not null; the rest is guaranteed by the caller.
     unsafe { CStr::from_ptr(text) }.to_str().ok()
 }
 
-/// Writes a message into a buffer, cut off where it is too long, between characters.
+/// Writes a message into a buffer. A message that is too long is cut off between characters.
 ///
 /// # Safety
 /// The buffer is null or writable for `length` bytes.
 pub unsafe fn write_message(buffer: *mut c_char, length: usize, message: &str) {
     let Some(room) = length.checked_sub(1).filter(|_| !buffer.is_null()) else { return };
     let end = (0..=room.min(message.len())).rev().find(|end| message.is_char_boundary(*end)).unwrap_or(0);
-    // SAFETY: the buffer has room for `end` bytes and a zero, and is no part of a Rust text.
+    // SAFETY: the buffer has room for `end` bytes and a zero, and does not overlap a Rust string.
     unsafe {
         buffer.copy_from_nonoverlapping(message.as_ptr().cast(), end);
         buffer.add(end).write(0);

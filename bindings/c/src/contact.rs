@@ -1,4 +1,4 @@
-//! A contact by a reduced model, for C.
+//! Contact solved by a reduced model, for C.
 
 use crate::border::{Refused, guarded, text_of, write_message};
 use ehl_explorer::engine::coupled::{Coupled, Inputs, Outputs, Pressed};
@@ -7,71 +7,71 @@ use std::ffi::c_char;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Done.
+/// Success.
 pub const EHL_OK: i32 = 0;
-/// Done; the message says what a reader must know, such as a contact beyond the trained range.
+/// Success with a warning in the message, such as a contact outside the trained range.
 pub const EHL_WARNING: i32 = 1;
-/// Refused; the message says why, and nothing has changed.
+/// Refused. The message contains the reason, and nothing has changed.
 pub const EHL_REFUSED: i32 = 2;
 
-/// A contact by a reduced model. Each belongs to one thread at a time; different ones are independent.
+/// Contact solved by a reduced model. Each may be used by one thread at a time; different ones are independent.
 pub struct EhlContact(Coupled);
 
-/// What a contact is driven by.
+/// Inputs of a contact.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct EhlInputs {
     /// Reduced radius R in the rolling direction, m.
     pub radius: f64,
-    /// Radius across over R; 1 for a circle or a line.
+    /// Radius across over R; 1 for a circular or line contact.
     pub radius_ratio: f64,
     /// Mean entrainment speed, m/s.
     pub speed: f64,
-    /// Sliding speed over mean speed.
+    /// Slide-to-roll ratio: sliding speed over mean entrainment speed.
     pub srr: f64,
-    /// Load, N/m of a line contact and N of a point contact; the first guess where an approach is given.
+    /// Load, N/m for a line contact, N for a point contact. If the approach is given, first guess of the load.
     pub load: f64,
-    /// Approach of the bodies since they touched, m; not read where the load is given.
+    /// Approach of the bodies since first contact, m. Ignored if the load is given.
     pub approach: f64,
     /// Reduced modulus E', Pa.
     pub modulus: f64,
     /// Viscosity at ambient pressure, Pa s.
     pub viscosity: f64,
-    /// Pressure-viscosity coefficient, 1/Pa; not read where the lubricant determines it.
+    /// Pressure-viscosity coefficient, 1/Pa. Ignored if the lubricant determines it.
     pub alpha: f64,
 }
 
-/// What follows.
+/// Outputs of a contact.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct EhlOutputs {
     /// Load, N/m or N.
     pub load: f64,
-    /// Approach of the bodies since they touched, m; of a line contact at the distance approach_reference.
+    /// Approach of the bodies since first contact, m. For a line contact, measured at the distance approach_reference.
     pub approach: f64,
     /// Central film thickness, m.
     pub h_c_m: f64,
     /// Minimum film thickness, m.
     pub h_min_m: f64,
-    /// Traction coefficient: friction over load.
+    /// Traction coefficient: friction force over load.
     pub traction: f64,
-    /// Friction, N/m or N.
+    /// Friction force, N/m or N.
     pub friction_force: f64,
-    /// Largest pressure of the dry contact, Pa.
+    /// Maximum Hertzian pressure, Pa.
     pub hertz_p_h_pa: f64,
-    /// Relative error of the central film thickness in 99 of 100 contacts at most; not a number where unknown.
+    /// 99 % empirical bound of the relative error of the central film thickness; NaN if not available.
     pub h_c_error_bound: f64,
-    /// The same of the minimum film thickness.
+    /// 99 % empirical bound of the relative error of the minimum film thickness; NaN if not available.
     pub h_min_error_bound: f64,
-    /// The same of the traction coefficient.
+    /// 99 % empirical bound of the relative error of the traction coefficient; NaN if not available.
     pub traction_error_bound: f64,
     /// Half width of the dry contact, m.
     pub hertz_a_m: f64,
-    /// Distance from a line contact at which its approach is measured: its radius, m; not a number for a point contact.
+    /// Reference distance for the approach of a line contact: its radius, m. NaN for a point contact.
     pub approach_reference: f64,
-    /// 1 where the model was trained for the contact, else 0.
+    /// 1 if the contact is inside the trained range, else 0.
     pub trained: i32,
-    /// 1 where the full solver took over, else 0.
+    /// 1 if the full solver was used, else 0.
     pub full: i32,
 }
 
@@ -129,9 +129,10 @@ impl From<&Outputs> for EhlOutputs {
     }
 }
 
-/// Reads a reduced model (.rom) and makes a contact of it; `by_approach` is 1 where the approach is given and not the
-/// load. `first`, where it is not null, gets inputs in the midst of what the model was trained for. Null where it is
-/// refused; then `message`, a buffer of `length` bytes or null, holds a sentence. Free it with `ehl_contact_free`.
+/// Reads a reduced model (.rom) and returns a contact solved by it. `by_approach` is 1 if the approach is given, 0 if
+/// the load is given. If `first` is not null, it receives inputs near the middle of the trained range. If the model is
+/// refused, returns null and writes a sentence to `message`, a buffer of `length` bytes or null. Free the contact with
+/// `ehl_contact_free`.
 ///
 /// # Safety
 /// `path` is a string that ends with a zero, `first` null or writable, `message` null or writable for `length` bytes.
@@ -144,7 +145,7 @@ pub unsafe extern "C" fn ehl_contact_read(
     length: usize,
 ) -> *mut EhlContact {
     let made = guarded(|| {
-        // SAFETY: the caller's promise.
+        // SAFETY: guaranteed by the caller.
         let path = unsafe { text_of(path) }.ok_or("the path is no UTF-8 text")?;
         let model = Arc::new(model_file::read(Path::new(path))?);
         let pressed = if by_approach == 0 { Pressed::Load } else { Pressed::Approach };
@@ -155,27 +156,28 @@ pub unsafe extern "C" fn ehl_contact_read(
     match made {
         Ok((contact, inputs)) => {
             if let Some(inputs) = inputs {
-                // SAFETY: it is not null, and writable by the caller's promise.
+                // SAFETY: it is not null, and writable as guaranteed by the caller.
                 unsafe { first.write(inputs.into()) };
             }
-            // SAFETY: the caller's promise.
+            // SAFETY: guaranteed by the caller.
             unsafe { write_message(message, length, "") };
             Box::into_raw(Box::new(EhlContact(contact)))
         }
         Err(Refused(sentence)) => {
-            // SAFETY: the caller's promise.
+            // SAFETY: guaranteed by the caller.
             unsafe { write_message(message, length, &sentence) };
             std::ptr::null_mut()
         }
     }
 }
 
-/// Solves a contact. `EHL_OK`, `EHL_WARNING` or `EHL_REFUSED`; `message`, a buffer of `length` bytes or null, holds what is
-/// to be said, as far as it fits. Outputs are written unless it is refused.
+/// Solves a contact and returns `EHL_OK`, `EHL_WARNING` or `EHL_REFUSED`. `message`, a buffer of `length` bytes or
+/// null, receives the warning or the reason, cut off if it is too long. Outputs are written unless the contact is
+/// refused.
 ///
 /// # Safety
-/// `contact` comes from `ehl_contact_read` and no other thread uses it meanwhile; `inputs` is readable, `outputs` writable,
-/// `message` null or writable for `length` bytes.
+/// `contact` was returned by `ehl_contact_read` and is not used by another thread at the same time; `inputs` is
+/// readable, `outputs` writable, `message` null or writable for `length` bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ehl_contact_solve(
     contact: *mut EhlContact,
@@ -188,13 +190,13 @@ pub unsafe extern "C" fn ehl_contact_solve(
         if contact.is_null() || inputs.is_null() || outputs.is_null() {
             return Err("contact, inputs and outputs must not be null".into());
         }
-        // SAFETY: they are not null; the rest is the caller's promise.
+        // SAFETY: they are not null; the rest is guaranteed by the caller.
         let (contact, inputs) = unsafe { (&mut *contact, inputs.read()) };
         Ok(contact.0.solve(&inputs.into())?)
     });
     match solved {
         Ok(solved) => {
-            // SAFETY: it is not null, and writable by the caller's promise; so is the message.
+            // SAFETY: it is not null, and writable as guaranteed by the caller; so is the message.
             unsafe {
                 outputs.write((&solved).into());
                 write_message(message, length, &solved.warning());
@@ -202,21 +204,21 @@ pub unsafe extern "C" fn ehl_contact_solve(
             if solved.warnings.is_empty() { EHL_OK } else { EHL_WARNING }
         }
         Err(Refused(sentence)) => {
-            // SAFETY: the caller's promise.
+            // SAFETY: guaranteed by the caller.
             unsafe { write_message(message, length, &sentence) };
             EHL_REFUSED
         }
     }
 }
 
-/// Frees a contact; null is nothing to be freed.
+/// Frees a contact. Null is ignored.
 ///
 /// # Safety
-/// `contact` comes from `ehl_contact_read` and is not used again.
+/// `contact` was returned by `ehl_contact_read` and is not used again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ehl_contact_free(contact: *mut EhlContact) {
     if !contact.is_null() {
-        // SAFETY: it was made by `Box::into_raw`; the rest is the caller's promise.
+        // SAFETY: it was made by `Box::into_raw`; the rest is guaranteed by the caller.
         drop(unsafe { Box::from_raw(contact) });
     }
 }

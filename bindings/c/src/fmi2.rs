@@ -1,7 +1,7 @@
-//! The functions of FMI 2.0 for co-simulation. What each does is in the standard; the names are its own.
+//! Functions of FMI 2.0 for co-simulation. The standard defines their names and behaviour.
 //!
-//! An instance keeps inputs, and outputs as they were when they were last asked for: [`State`] is all that it is made of
-//! beside the model, which instances share, and beside the contact in time where the model is one: [`Kept`] is both.
+//! An instance stores the inputs and the outputs of the last evaluation. [`State`] is its complete state, except for
+//! the model, which instances share, and for a transient contact. [`Kept`] includes the latter.
 
 #![allow(non_snake_case, reason = "the names are the standard's")]
 #![allow(clippy::missing_safety_doc, reason = "what a caller promises is in the standard, the same for all of them")]
@@ -18,11 +18,11 @@ use std::path::PathBuf;
 /// `fmi2CoSimulation`.
 const CO_SIMULATION: c_int = 1;
 
-/// The folder that a URI of a file names.
+/// Returns the folder that a file URI refers to.
 fn folder_of(uri: &str) -> Option<PathBuf> {
     let path = uri.strip_prefix("file:").unwrap_or(uri);
     let path = match path.strip_prefix("//") {
-        // A host, mostly none, comes before the path.
+        // The path follows a host name, which is usually empty.
         Some(rest) => rest.get(rest.find('/')?..)?,
         None => path,
     };
@@ -38,14 +38,14 @@ fn folder_of(uri: &str) -> Option<PathBuf> {
         });
     }
     let path = String::from_utf8(bytes).ok()?;
-    // `/C:/…` of Windows.
+    // Windows: `/C:/…`.
     let drive = path.strip_prefix('/').filter(|path| path.as_bytes().get(1) == Some(&b':')).map(str::to_owned);
     Some(PathBuf::from(drive.unwrap_or(path)))
 }
 
-/// Works with an instance. What is refused is logged and discarded; the instance stays as it was.
+/// Calls a function with an instance. An error is logged, the instance is restored, and the status is "discard".
 unsafe fn with(component: *mut c_void, work: impl FnOnce(&mut Instance) -> Result<c_int, Refused>) -> c_int {
-    // SAFETY: a component is null or one that `fmi2Instantiate` made, used by one thread at a time.
+    // SAFETY: a component is null or was made by `fmi2Instantiate`, and is used by one thread at a time.
     let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else { return ERROR };
     let before = instance.state.clone();
     match guarded(|| work(instance)) {
@@ -57,21 +57,21 @@ unsafe fn with(component: *mut c_void, work: impl FnOnce(&mut Instance) -> Resul
     }
 }
 
-/// Numbers of the simulation; none where there are none.
+/// Returns values passed by the simulation; empty if the pointer is null.
 unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> &'a [T] {
     if pointer.is_null() {
         return &[];
     }
-    // SAFETY: the simulation's promise.
+    // SAFETY: guaranteed by the simulation.
     unsafe { std::slice::from_raw_parts(pointer, length) }
 }
 
-/// Places of the simulation to be written.
+/// Returns the output values of the simulation; empty if the pointer is null.
 unsafe fn slice_mut<'a, T>(pointer: *mut T, length: usize) -> &'a mut [T] {
     if pointer.is_null() {
         return &mut [];
     }
-    // SAFETY: the simulation's promise.
+    // SAFETY: guaranteed by the simulation.
     unsafe { std::slice::from_raw_parts_mut(pointer, length) }
 }
 
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     _categories: usize,
     _names: *const *const c_char,
 ) -> c_int {
-    // Warnings and refusals are always told; there is nothing else.
+    // Warnings and errors are always logged; there are no other messages.
     unsafe { with(component, |_| Ok(OK)) }
 }
 
@@ -106,7 +106,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     _visible: c_int,
     _logging: c_int,
 ) -> *mut c_void {
-    // SAFETY: texts and callbacks are the simulation's; what is made of them lives within this call.
+    // SAFETY: strings and callbacks belong to the simulation and are used only within this call.
     let (name, guid, resources, callbacks) =
         unsafe { (text_of(name), text_of(guid), text_of(resources), callbacks.as_ref()) };
     let name = CString::new(name.unwrap_or(IDENTIFIER)).unwrap_or_default();
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(component: *mut c_void) {
     if !component.is_null() {
-        // SAFETY: `fmi2Instantiate` made it, and nobody uses it any more.
+        // SAFETY: `fmi2Instantiate` made it, and it is not used any more.
         drop(unsafe { Box::from_raw(component.cast::<Instance>()) });
     }
 }
@@ -258,7 +258,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     }
 }
 
-/// Refuses variables of a type of which the unit has none.
+/// Refuses access to variables of a type that the unit does not have.
 unsafe fn none_of(component: *mut c_void, count: usize, what: &str) -> c_int {
     unsafe { with(component, |_| if count == 0 { Ok(OK) } else { Err(format!("there are no {what}").into()) }) }
 }
@@ -317,7 +317,7 @@ pub unsafe extern "C" fn fmi2SetString(
 pub unsafe extern "C" fn fmi2GetFMUstate(component: *mut c_void, kept: *mut *mut c_void) -> c_int {
     unsafe {
         with(component, |instance| {
-            // SAFETY: the place is the simulation's; where a state is in it, it was made here.
+            // SAFETY: the location belongs to the simulation; a state in it was made here.
             let place = kept.as_mut().ok_or("there is no place for the state")?;
             match place.cast::<Kept>().as_mut() {
                 Some(kept) => *kept = instance.kept(),
@@ -343,7 +343,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(component: *mut c_void, kept: *mut c_vo
 pub unsafe extern "C" fn fmi2FreeFMUstate(component: *mut c_void, kept: *mut *mut c_void) -> c_int {
     unsafe {
         with(component, |_| {
-            // SAFETY: the place is null, empty, or holds what `fmi2GetFMUstate` made.
+            // SAFETY: the location is null, empty, or holds a state made by `fmi2GetFMUstate`.
             if let Some(place) = kept.as_mut()
                 && !place.is_null()
             {
@@ -363,7 +363,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> c_int {
     unsafe {
         with(component, |instance| {
-            // SAFETY: a state is null or was made by `fmi2GetFMUstate`; the place is the simulation's.
+            // SAFETY: a state is null or was made by `fmi2GetFMUstate`; the location belongs to the simulation.
             let written = kept.cast::<Kept>().as_ref().ok_or("there is no state")?.written(instance.in_time())?;
             *size.as_mut().ok_or("there is no place for the size")? = written.len();
             Ok(OK)
@@ -380,7 +380,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 ) -> c_int {
     unsafe {
         with(component, |instance| {
-            // SAFETY: a state is null or was made by `fmi2GetFMUstate`; the bytes are the simulation's.
+            // SAFETY: a state is null or was made by `fmi2GetFMUstate`; the bytes belong to the simulation.
             let written = kept.cast::<Kept>().as_ref().ok_or("there is no state")?.written(instance.in_time())?;
             let place = slice_mut(bytes, size).get_mut(..written.len());
             place.ok_or("the place for the state is too small")?.copy_from_slice(&written);
@@ -399,7 +399,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     unsafe {
         with(component, |instance| {
             let read = Kept::read(slice(bytes, size), instance.in_time())?;
-            // SAFETY: the place is the simulation's.
+            // SAFETY: the location belongs to the simulation.
             *kept.as_mut().ok_or("there is no place for the state")? = Box::into_raw(Box::new(read)).cast();
             Ok(OK)
         })
@@ -458,7 +458,7 @@ pub unsafe extern "C" fn fmi2CancelStep(component: *mut c_void) -> c_int {
     unsafe { with(component, |_| Err("no step is under way: each is done when it returns".into())) }
 }
 
-/// No status is ever pending.
+/// Refuses status requests, since no step is ever pending.
 unsafe fn no_status(component: *mut c_void) -> c_int {
     unsafe { with(component, |_| Err("no step is under way".into())) }
 }
@@ -496,7 +496,7 @@ const TERMINATED: c_int = 3;
 pub unsafe extern "C" fn fmi2GetBooleanStatus(component: *mut c_void, kind: c_int, value: *mut c_int) -> c_int {
     unsafe {
         with(component, |_| match value.as_mut() {
-            // A discarded step is no end: others may follow.
+            // A discarded step does not end the simulation; other steps may follow.
             Some(value) if kind == TERMINATED => {
                 *value = 0;
                 Ok(OK)

@@ -1,4 +1,4 @@
-//! An instance of a unit: what it is told, what it answers, and what of it can be kept.
+//! Instance of a unit: inputs, outputs, and states that can be saved.
 
 use crate::border::Refused;
 use ehl_explorer::engine::SavedModel;
@@ -38,37 +38,37 @@ pub struct FmiCallbacks {
     pub environment: *mut c_void,
 }
 
-/// All that changes in an instance.
+/// Changing data of an instance, except for the transient contact.
 #[derive(Clone)]
 pub struct State {
     pub time: f64,
     pub inputs: Inputs,
-    /// What follows from the inputs; none where they have changed since. In time what followed at the end of the last
-    /// step, whatever has been given since.
+    /// Outputs for the inputs; `None` if the inputs have changed since. For a transient contact, the outputs at the end
+    /// of the last step, also if inputs have been set since.
     pub outputs: Option<Outputs>,
-    /// Whether the initialisation is over, so that a contact in time stays what it is until a step is taken.
+    /// True after the initialisation. A transient contact then changes only by steps.
     pub stepping: bool,
 }
 
-/// What a simulation keeps to come back to.
+/// Saved state of an instance.
 pub struct Kept {
     state: State,
-    /// Of a contact in time that has begun.
+    /// State of a transient contact that has started.
     contact: Option<InTimeState>,
 }
 
-/// What answers.
+/// Solver of an instance.
 pub enum Contact {
-    /// Each contact as a stationary one.
+    /// Steady contact, solved independently at each step.
     Stationary(Box<Coupled>),
-    /// One contact that goes on.
+    /// Transient contact, advanced by each step.
     InTime(Box<InTime>),
 }
 
-/// How far a communication point may lie from where an instance is, in steps and over its time.
+/// Accepted difference between a communication point and the current time, relative to the step and to the time.
 const ROUNDING: (f64, f64) = (1e-6, 1e-12);
 
-/// Nothing is to be told of a contact without warnings.
+/// Value of [`Instance::told`] for a contact without warnings.
 pub const TOLD: (bool, usize) = (false, 0);
 
 pub struct Instance {
@@ -76,15 +76,15 @@ pub struct Instance {
     pub logger: Option<Logger>,
     pub environment: *mut c_void,
     pub contact: Contact,
-    /// What each real variable is in this unit; none of those that it does not have.
+    /// Causality of each real variable; `None` for variables that the unit does not have.
     pub roles: Vec<Option<Role>>,
     pub first: Inputs,
     pub state: State,
-    /// Full solver and number of warnings as they were last told: they are not told at every step.
+    /// Use of the full solver and number of warnings in the last log message. A message is written only if they change.
     pub told: (bool, usize),
 }
 
-/// A model that lives as long as instances share it.
+/// Model shared by instances, freed with the last of them.
 enum Lent {
     Stationary(Weak<ReducedModel>),
     InTime(Weak<TrajectoryModel>),
@@ -99,7 +99,7 @@ impl Lent {
     }
 }
 
-/// Models that instances share, by the identity of their units.
+/// Shared models, by the identity of their units.
 static MODELS: Mutex<Vec<(String, Lent)>> = Mutex::new(Vec::new());
 
 pub fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
@@ -118,13 +118,13 @@ pub fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
     Ok(model)
 }
 
-/// Says a sentence to a simulation.
+/// Sends a message to the simulation's logger.
 pub fn say(logger: Option<Logger>, environment: *mut c_void, name: &CString, status: c_int, sentence: &str) {
     let Some(logger) = logger else { return };
     let category = if status == WARNING { c"logStatusWarning" } else { c"logStatusError" };
-    // It is a format of `printf`.
+    // The message is a `printf` format.
     let Ok(message) = CString::new(sentence.replace('%', "%%").replace('\0', " ")) else { return };
-    // SAFETY: the logger and its environment come from the simulation, the texts end with zeros and outlive the call.
+    // SAFETY: the logger and its environment come from the simulation; the strings end with zeros and outlive the call.
     unsafe { logger(environment, name.as_ptr(), status, category.as_ptr(), message.as_ptr()) };
 }
 
@@ -138,14 +138,14 @@ impl Instance {
         status
     }
 
-    /// Makes the outputs follow from the inputs; the status says whether there is a warning.
+    /// Computes the outputs if the inputs have changed. The status is "warning" if there are warnings.
     pub fn follow(&mut self) -> Result<c_int, Refused> {
         if self.state.outputs.is_none() {
             let inputs = &self.state.inputs;
             let outputs = match &mut self.contact {
                 Contact::Stationary(contact) => {
                     let outputs = contact.solve(inputs)?.of_training()?;
-                    // The load that was found is where the next one is sought.
+                    // The load found is the start value of the next search.
                     self.state.inputs.load = outputs.load;
                     outputs
                 }
@@ -158,7 +158,7 @@ impl Instance {
         Ok(if warned { WARNING } else { OK })
     }
 
-    /// Takes outputs, and tells what is new about them.
+    /// Stores outputs, and logs their warnings if they are new.
     fn take(&mut self, outputs: Outputs) {
         let now = (outputs.full, outputs.warnings.len());
         let news = now != self.told && !outputs.warnings.is_empty();
@@ -170,7 +170,7 @@ impl Instance {
         }
     }
 
-    /// Takes a step; a contact in time goes on by it, to what the inputs are to be at its end.
+    /// Takes a step. A transient contact advances to the inputs at the end of the step.
     pub fn step(&mut self, time: f64, step: f64) -> Result<c_int, Refused> {
         let Contact::InTime(contact) = &mut self.contact else {
             self.state.time = time + step;
@@ -192,7 +192,7 @@ impl Instance {
         self.follow()
     }
 
-    /// What a simulation may come back to.
+    /// Returns the state to save.
     pub fn kept(&self) -> Kept {
         let contact = match &self.contact {
             Contact::Stationary(_) => None,
@@ -201,7 +201,7 @@ impl Instance {
         Kept { state: self.state.clone(), contact }
     }
 
-    /// Comes back to a state.
+    /// Restores a saved state.
     pub fn come_back(&mut self, kept: &Kept) -> Result<(), Refused> {
         match (&mut self.contact, &kept.contact) {
             (Contact::Stationary(_), None) => {}
@@ -222,7 +222,7 @@ impl Instance {
         Ok(real.value(role, &self.state.inputs, self.state.outputs.as_ref()).unwrap_or(f64::NAN))
     }
 
-    /// A real variable of this unit, and what it is.
+    /// Returns a real variable of this unit and its causality.
     fn variable(&self, reference: c_uint) -> Result<(&'static Real, Role), Refused> {
         let (place, none) = (reference as usize, || format!("there is no real variable {reference}"));
         let role = self.roles.get(place).copied().flatten().ok_or_else(none)?;
@@ -235,7 +235,7 @@ impl Instance {
         real.set(role, &mut inputs, value)?;
         if inputs != self.state.inputs {
             self.state.inputs = inputs;
-            // What a contact in time is at the end of a step no later input changes.
+            // Later inputs do not change the outputs of a transient contact at the end of a step.
             if !(self.state.stepping && matches!(self.contact, Contact::InTime(_))) {
                 self.state.outputs = None;
             }
@@ -248,10 +248,10 @@ pub fn truth(reference: c_uint) -> Result<&'static Truth, Refused> {
     TRUTHS.get(reference as usize).ok_or_else(|| format!("there is no Boolean variable {reference}").into())
 }
 
-/// What a written state begins with: a word for its form, of a stationary contact and of one in time.
+/// Format identifiers at the beginning of a serialised state, for steady and transient contacts.
 const FORMS: [&[u8; 8]; 2] = [b"EHLFMU01", b"EHLFMU02"];
-/// Numbers in a written state: the time, and the inputs. Outputs follow from them, and in time from what comes behind
-/// them: whether the initialisation is over, and the state of the contact where it has begun.
+/// Number of numbers in a serialised state: time and inputs. Outputs are computed from them. For a transient contact,
+/// they are followed by the end-of-initialisation flag and the state of the contact, if it has started.
 const NUMBERS: usize = 10;
 
 impl Kept {

@@ -1,8 +1,8 @@
-//! Contacts by reduced models, for C (`contact`, with the header `include/ehl_contact.h`) and as Functional Mock-up Units
-//! (`fmi2`).
+//! Contacts solved by reduced models, for C (`contact`, with the header `include/ehl_contact.h`) and as Functional
+//! Mock-up Units (`fmi2`).
 //!
-//! The border to C is the only place with unsafe code: pointers come from there. Nothing here panics across it; what is
-//! refused is told in a sentence.
+//! Unsafe code is needed only at the C interface, because of its pointers. Panics do not cross it, and errors are
+//! returned as sentences.
 
 mod border;
 pub mod contact;

@@ -1,4 +1,4 @@
-"""Reads reduced models with numpy and pcodec alone: python read_model.py MODEL.rom [MODEL.rom ...]
+"""Reads reduced models using only numpy and pcodec: python read_model.py MODEL.rom [MODEL.rom ...]
 
 The format is described in the manual, page "Model files".
 """
@@ -15,7 +15,7 @@ BINOMIALS = np.array([[(-1.0) ** i * comb(n, i) for i in range(6)] for n in rang
 
 
 def open_model(path):
-    """Returns the directory of a model file and a function that decodes the array of a name."""
+    """Returns the directory of a model file, and a function that decodes an array by its name."""
     with open(path, "rb") as file:
         data = file.read()
     magic, version, _length, _hash, size = struct.unpack_from("<8sIQQQ", data)
@@ -35,7 +35,7 @@ def open_model(path):
 
 
 def multiples(parts, shape, across):
-    """Decodes multiples of 2^(row + column), given by how much they differ from a polynomial through earlier nodes."""
+    """Decodes multiples of 2^(row + column), stored as differences from a polynomial through earlier nodes."""
     rows, row_classes = parts[0].astype(int).reshape(2, -1)
     columns, along, aside, classes = parts[1].astype(int).reshape(4, -1)
     used = np.flatnonzero(rows > -32768)
@@ -53,7 +53,7 @@ def multiples(parts, shape, across):
 
 
 def pressure_modes(directory, array, window=0):
-    """Returns the pressure modes of a window, nodes x modes."""
+    """Returns the pressure modes of a local model, nodes x modes."""
     own, shared = (name in directory["arrays"] for name in (f"windows/{window}/pressure", "shared/pressure"))
     if own:
         return array(f"windows/{window}/pressure")

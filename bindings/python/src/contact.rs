@@ -1,4 +1,4 @@
-//! A contact: what is to be solved, by keywords.
+//! Contact defined by keywords.
 
 use crate::STORE;
 use crate::model::Model;
@@ -15,27 +15,27 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A contact, given by the options of ``ehl-explorer solve`` with ``_`` in place of ``-``, an ``oil`` of a grade at a
-/// ``temperature`` besides.
+/// A contact, given by the options of ``ehl-explorer solve`` with ``_`` in place of ``-``, or by an ``oil`` grade and
+/// its ``temperature`` in place of viscosity and alpha.
 ///
-/// ``Contact(moes_m=40, moes_l=10)``, ``Contact(radius=0.0225, speed=5.04, load=646e3, modulus=287.8e9,
-/// viscosity=4e-3, alpha=22e-9)``; numbers in SI units, or texts with a unit as ``radius="12 mm"``; ``contact="point"`` for
-/// balls and ellipses. It is checked as it is made and never changes. Contacts are equal if the same is to be solved; they
-/// can be pickled and be keys of dictionaries.
+/// ``Contact(moes_m=40, moes_l=10)``, ``Contact(radius=0.0225, speed=5.04, load=646e3, modulus=287.8e9, viscosity=4e-3,
+/// alpha=22e-9)``. Numbers are in SI units; texts may have a unit, as in ``radius="12 mm"``. Use ``contact="point"``
+/// for circular and elliptical contacts. The contact is checked when it is created, and is immutable. Contacts are
+/// equal if their requests are. They can be pickled and used as dictionary keys.
 #[pyclass(frozen, module = "ehl_explorer")]
 pub struct Contact {
-    /// What was stated.
+    /// Stated fields.
     pub spec: ContactSpec,
-    /// What that asks for.
+    /// Request that they define.
     pub request: Request,
-    /// The keywords with their values, in the order of the fields.
+    /// Keywords with their values, in the order of the fields.
     given: Vec<(Field, Py<PyAny>)>,
 }
 
-/// A field with the value that is stated of it.
+/// Field with its stated value.
 type Given<'py> = (Field, Bound<'py, PyAny>);
 
-/// States a field by a Python value.
+/// Sets a field to a Python value.
 fn state(spec: &mut ContactSpec, field: Field, value: &Bound<'_, PyAny>) -> PyResult<()> {
     let text = if let Ok(truth) = value.cast::<PyBool>() {
         truth.is_true().to_string()
@@ -58,7 +58,7 @@ fn state(spec: &mut ContactSpec, field: Field, value: &Bound<'_, PyAny>) -> PyRe
     spec.read(field, &text, "").map_err(|refusal| refused(stated(refusal)))
 }
 
-/// Keywords as fields, which `field_of` finds. `None` states nothing.
+/// Converts keywords to fields by `field_of`. `None` leaves a field unset.
 fn stated_fields<'py>(
     keywords: Option<&Bound<'py, PyDict>>,
     field_of: fn(&str) -> Option<Field>,
@@ -74,7 +74,7 @@ fn stated_fields<'py>(
     keywords.into_iter().flatten().map(field).collect()
 }
 
-/// A value that nobody can change any more: numbers of Python in place of lists and arrays.
+/// Returns an immutable copy of a value: lists and arrays become tuples of Python numbers.
 fn unchangeable<'py>(field: Field, value: Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     if value.is_instance_of::<PyString>() || value.is_instance_of::<PyBool>() || value.is_instance_of::<PyTuple>() {
         return Ok(value);
@@ -89,7 +89,7 @@ fn unchangeable<'py>(field: Field, value: Bound<'py, PyAny>) -> PyResult<Bound<'
 }
 
 impl Contact {
-    /// The contact of some fields; a later value takes the place of an earlier one.
+    /// Returns the contact of some fields. A later value of the same field replaces an earlier one.
     fn of(fields: Vec<Given<'_>>) -> PyResult<Self> {
         let mut given: Vec<Given<'_>> = Vec::with_capacity(fields.len());
         for (field, value) in fields {
@@ -98,12 +98,12 @@ impl Contact {
                 given.push((field, unchangeable(field, value)?));
             }
         }
-        // The unit of a load depends on the kind of contact, which is the first field.
+        // The contact kind is the first field and must be read first, because the unit of a load depends on it.
         given.sort_by_key(|(field, _)| *field);
         let mut spec = ContactSpec::default();
         given.iter().try_for_each(|(field, value)| state(&mut spec, *field, value))?;
         for (field, _) in &given {
-            // Zero has one sign, by which equal contacts have equal hashes.
+            // Removes the sign of zero, so that equal contacts have equal hashes.
             if spec.number(*field) == Some(0.0) {
                 spec.set(*field, 0.0);
             }
@@ -114,7 +114,7 @@ impl Contact {
         Ok(Self { spec, request, given })
     }
 
-    /// The contact of some numbers and of keywords, which take their place.
+    /// Returns the contact of some numbers and of keywords, which replace the numbers.
     fn of_numbers(
         py: Python<'_>,
         numbers: impl IntoIterator<Item = (Field, Option<f64>)>,
@@ -130,7 +130,7 @@ impl Contact {
         self.given.iter().map(|(field, value)| (*field, value.bind(py).clone())).collect()
     }
 
-    /// What a call asks for by its method and its model: one in memory, or a file's name.
+    /// Returns the request of a call with its method and model: a model in memory, or a file name.
     pub fn asked(&self, method: Option<&str>, model: Option<&Bound<'_, PyAny>>) -> PyResult<Asked> {
         let mut spec = self.spec.clone();
         let method = method.or(model.map(|_| "reduced"));
@@ -152,22 +152,22 @@ impl Contact {
     }
 }
 
-/// What a call asks for.
+/// Request of a call.
 pub struct Asked {
-    /// The contact and its method.
+    /// Contact and method.
     pub spec: ContactSpec,
-    /// A model in memory.
+    /// Model in memory, if given.
     pub model: Option<Arc<ReducedModel>>,
 }
 
 impl Asked {
-    /// What is solved on.
+    /// Returns the workbench for the request.
     pub fn bench(&self) -> Workbench {
         bench_with(self.model.as_ref())
     }
 }
 
-/// What is solved on, with a model in memory in place of those of the program.
+/// Returns a workbench, with a model in memory in place of the embedded models if given.
 pub fn bench_with(model: Option<&Arc<ReducedModel>>) -> Workbench {
     let bench = Workbench::on(&STORE, "");
     match model {
@@ -184,7 +184,8 @@ impl Contact {
         Self::of(stated_fields(options, Field::named)?)
     }
 
-    /// A contact in SI units: R [m], u_m [m/s], load [N/m line, N point], E' [Pa], viscosity [Pa s], alpha [1/Pa].
+    /// Creates a contact in SI units: R [m], u_m [m/s], load [N/m line, N point], E' [Pa], viscosity [Pa s], alpha
+    /// [1/Pa].
     #[staticmethod]
     #[pyo3(signature = (radius, speed, load, modulus=None, viscosity=None, alpha=None, **options))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
@@ -209,16 +210,16 @@ impl Contact {
         Self::of_numbers(py, numbers, options)
     }
 
-    /// A contact by Moes' numbers M and L; what is given besides is kept, the rest takes its default.
+    /// Creates a contact by Moes numbers M and L. Other quantities that are given keep their values; the rest follows
+    /// or takes default values.
     #[staticmethod]
     #[pyo3(signature = (m, l, **options))]
     fn moes(py: Python<'_>, m: f64, l: f64, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         Self::of_numbers(py, [(Field::MoesM, Some(m)), (Field::MoesL, Some(l))], options)
     }
 
-    /// A contact by the columns of a table of load cases, as
-    /// ``Contact.engineering(radius="12 mm", speed="3 m/s", load="300 N/mm", modulus="231 GPa", oil="ISO VG 68",
-    /// temperature="60 °C", srr="5 %")``.
+    /// Creates a contact by the columns of a table of load cases, as in ``Contact.engineering(radius="12 mm", speed="3
+    /// m/s", load="300 N/mm", modulus="231 GPa", oil="ISO VG 68", temperature="60 °C", srr="5 %")``.
     #[staticmethod]
     #[pyo3(signature = (contact="line", **quantities))]
     fn engineering(py: Python<'_>, contact: &str, quantities: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -227,10 +228,9 @@ impl Contact {
         Self::of(fields)
     }
 
-    /// The contact with some keywords changed: that of all keywords of this one and of these, which take their place.
-    /// ``None`` leaves a keyword out.
+    /// Returns the contact with some keywords changed. ``None`` removes a keyword.
     ///
-    /// ``contact.replace(load=3e5)``; a contact by Moes' numbers keeps those: its other quantities follow.
+    /// ``contact.replace(load=3e5)``. A contact given by Moes numbers keeps these; its other quantities follow.
     #[pyo3(signature = (**changes))]
     fn replace(&self, py: Python<'_>, changes: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let mut fields = self.fields(py);
@@ -282,7 +282,7 @@ impl Contact {
         self.request.point.hertz().half_width_m
     }
 
-    /// Largest pressure p_H of the dry contact [Pa].
+    /// Maximum Hertzian pressure p_H [Pa].
     #[getter]
     fn hertz_pressure(&self) -> f64 {
         self.request.point.hertz().pressure_pa
@@ -294,8 +294,8 @@ impl Contact {
         self.request.point.kind.name()
     }
 
-    /// Radius R [m], speed u_m [m/s], load [N/m or N], modulus E' [Pa], viscosity [Pa s], alpha [1/Pa] and the
-    /// slide-to-roll ratio, by name; of a point contact ``radius_y`` too.
+    /// Radius R [m], speed u_m [m/s], load [N/m or N], modulus E' [Pa], viscosity [Pa s], alpha [1/Pa] and
+    /// slide-to-roll ratio, by name; for a point contact also ``radius_y``.
     fn quantities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (point, dict) = (&self.request.point, PyDict::new(py));
         let names = ["radius", "speed", "load", "modulus", "viscosity", "alpha"];

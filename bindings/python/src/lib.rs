@@ -1,8 +1,8 @@
-//! The Python module `ehl_explorer._native`: contacts, models, studies and scenes for numpy.
+//! Python module `ehl_explorer._native`: contacts, models, studies and scenes for numpy.
 //!
-//! It is a face of the engine beside the command line and the explorer: keywords are fields of
-//! `ehl_explorer::scene::ContactSpec`, so that everything is refused as on the command line, in the words of Python, and the
-//! engine's answers become arrays. What takes long runs without Python's lock ([`work`]).
+//! It is an interface to the engine, like the command line and the explorer. Keywords are fields of
+//! `ehl_explorer::scene::ContactSpec`, so that refusals are those of the command line with keywords in place of flags.
+//! Results become arrays. Long computations run without Python's global lock ([`work`]).
 
 mod contact;
 mod many;
@@ -21,18 +21,19 @@ use std::sync::LazyLock;
 static STORE: LazyLock<Store> = LazyLock::new(Store::default);
 
 thread_local! {
-    /// What the thread holds that forks.
+    /// Lock held by a thread during a fork.
     static HELD: RefCell<Option<Held<'static>>> = const { RefCell::new(None) };
 }
 
-/// Called before and after a fork: while one thread forks, no other one is in the middle of a change to what they share.
+/// Called before and after a fork. Holding the lock ensures that no other thread is changing shared data during the
+/// fork.
 #[pyfunction]
 fn _hold(held: bool) {
     let held = held.then(|| STORE.hold());
     HELD.with(|place| *place.borrow_mut() = held);
 }
 
-/// The native half of `ehl_explorer`.
+/// Native part of `ehl_explorer`.
 #[pymodule]
 mod _native {
     #[pymodule_export]

@@ -1,4 +1,4 @@
-//! Many contacts at once, on all cores.
+//! Solves many contacts on all cores.
 
 use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
@@ -14,10 +14,10 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::ScopedJoinHandle;
 
-/// Contacts for which a reduced solver is taken at a time; its operators cost as much as a few solves.
+/// Number of contacts for which one reduced solver is built. Building its operators costs as much as a few solves.
 const CHUNK: usize = 128;
 
-/// One contact of many, with its own values of the varied fields.
+/// Returns the k-th contact, with its values of the varied fields.
 fn varied(contact: &ContactSpec, columns: &[(Field, &[f64])], k: usize) -> ContactSpec {
     let mut own = contact.clone();
     for (field, values) in columns {
@@ -26,7 +26,7 @@ fn varied(contact: &ContactSpec, columns: &[(Field, &[f64])], k: usize) -> Conta
     own
 }
 
-/// What is said of a row in words.
+/// Text columns of a row.
 #[derive(Clone, Default)]
 struct Said {
     status: RowStatus,
@@ -34,10 +34,10 @@ struct Said {
     warning: String,
 }
 
-/// Solves one contact into a row of its table; says how it went.
+/// Solves one contact into a row of the table, and returns its text columns.
 ///
 /// # Errors
-/// If a model cannot be read, by which every row would be refused, or the observer cancels.
+/// If a model cannot be read, which affects all rows, or if the observer cancels.
 fn solve_row(
     bench: &mut Workbench,
     contact: &ContactSpec,
@@ -52,12 +52,12 @@ fn solve_row(
     Ok(Said { status: solved.status, warning: solved.warning(), reason: solved.reason })
 }
 
-/// Solves a contact with some of its options varied, a contact for each element of the arrays (float64, shape (n,)),
-/// on all cores. Each is solved afresh, so that neither order nor cores matter.
+/// Solves a contact with some of its options varied, one contact for each element of the arrays (float64, shape (n,)),
+/// on all cores. Each is solved from a cold start, so that results do not depend on order or cores.
 ///
-/// A structured array of shape (n,): the contact and its result by the names of ``sweep``'s tables, NaN where a solve did
-/// not converge; ``reduced.trained`` is 1 or 0, ``warning`` a text. ``status`` is "converged", "not converged" or "refused",
-/// ``reason`` why it is not the first.
+/// Returns a structured array of shape (n,): the contact and its result by the names of ``sweep``'s tables, NaN if a
+/// solve did not converge. ``reduced.trained`` is 1 or 0, ``warning`` is a text. ``status`` is "converged", "not
+/// converged" or "refused", and ``reason`` explains the latter two.
 #[pyfunction]
 #[pyo3(signature = (contact, columns, method=None, model=None, progress=None))]
 pub fn solve_many<'py>(
@@ -107,8 +107,8 @@ pub fn solve_many<'py>(
     structured(py, &columns_of_rows, numbers, &texts)
 }
 
-/// Seconds of `runs` solves of a contact without Python between them, each afresh, on the caller's thread; where more
-/// `threads` are given, of that many that share them. What the overhead of this module is held against.
+/// Returns the time in seconds of ``runs`` solves of a contact without Python, each from a cold start, on the calling
+/// thread, or shared by ``threads`` threads. Used to measure the overhead of this module.
 #[pyfunction]
 #[pyo3(signature = (contact, runs, method=None, model=None, threads=1))]
 pub fn measure(
@@ -131,7 +131,7 @@ pub fn measure(
     let seconds = py.detach(|| {
         let clock = Stopwatch::start();
         let work = || solve(&mut asked.bench(), runs.div_ceil(threads.max(1)));
-        // One thread is the caller's: that of a call from Python, on the same core and with the same cache.
+        // A single thread is the calling one, as for a call from Python: same core and same cache.
         let done = if threads <= 1 {
             work()
         } else {

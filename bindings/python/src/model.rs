@@ -17,22 +17,22 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// A reduced model: bases, sampled rows, and the range for which it was trained. It never changes. Models are equal if
-/// their files are; they can be pickled, as what :meth:`save` writes.
+/// A reduced model: bases, sampled equations, and trained range. It is immutable. Models are equal if their files are
+/// equal. They can be pickled; the pickled form is that of :meth:`save`.
 #[pyclass(frozen, skip_from_py_object, module = "ehl_explorer")]
 #[derive(Clone)]
 pub struct Model {
     /// The model.
     pub model: Arc<ReducedModel>,
-    /// Its name, if it is part of the program.
+    /// Name, if it is an embedded model.
     name: Option<&'static str>,
-    /// The content of its file, made when first needed.
+    /// Content of its file, computed when first needed.
     content: OnceLock<Arc<Vec<u8>>>,
 }
 
-/// Models that were unpickled last: every task of a pool brings its model along.
+/// Recently unpickled models. Every task of a pool contains its model, which should be read only once.
 static UNPICKLED: Mutex<VecDeque<Model>> = Mutex::new(VecDeque::new());
-/// How many of them are kept.
+/// Number of these models that are stored.
 const KEPT: usize = 4;
 
 impl Model {
@@ -45,7 +45,7 @@ impl Model {
         Ok(Self { model, name: Some(name), content: OnceLock::new() })
     }
 
-    /// The content of its file.
+    /// Returns the content of its file.
     fn content(&self, py: Python<'_>) -> PyResult<&[u8]> {
         let own = || self.content.get().map(|own| &own[..]);
         let of_program = |name| match engine::bytes_of(name) {
@@ -60,12 +60,12 @@ impl Model {
     }
 }
 
-/// The model of the content of a file, or of a name: what a pickled one is made of.
+/// Returns the model of a file's content or of a name. Used for unpickling.
 #[pyfunction]
 pub fn _model(py: Python<'_>, kept: &Bound<'_, PyAny>) -> PyResult<Model> {
     if let Ok(content) = kept.cast::<PyBytes>() {
         let content = content.as_bytes();
-        // Held under Python's lock only, as a fork finds it open.
+        // Locked only while Python's global lock is held, so that it is not locked during a fork.
         let kept = || UNPICKLED.lock().unwrap_or_else(PoisonError::into_inner);
         let known = |model: &&Model| model.content.get().is_some_and(|own| own[..] == *content);
         if let Some(model) = kept().iter().find(known) {
@@ -91,7 +91,7 @@ fn by_name(py: Python<'_>, arrays: Vec<Array>) -> PyResult<Bound<'_, PyDict>> {
     Ok(dict)
 }
 
-/// A scene from its text, or from the file of a name.
+/// Returns a scene from its text or from a file.
 pub fn scene_of(given: &Bound<'_, PyAny>) -> PyResult<(Scene, PathBuf)> {
     if let Ok(text) = given.extract::<String>()
         && text.contains('(')
@@ -105,7 +105,7 @@ pub fn scene_of(given: &Bound<'_, PyAny>) -> PyResult<(Scene, PathBuf)> {
 
 #[pymethods]
 impl Model {
-    /// Reads a ``.rom`` file; a damaged, foreign or newer one is refused.
+    /// Reads a ``.rom`` file. Refuses damaged files and other formats or versions.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let read =
@@ -115,8 +115,8 @@ impl Model {
         Ok(Self::own(model, Some(content)))
     }
 
-    /// A model of the program: for ``"line"`` or ``"point"`` contacts (circles), of lubricants that thin under shear or
-    /// not; of those that do not also with heat.
+    /// Returns an embedded model for ``"line"`` or (circular) ``"point"`` contacts, with or without shear thinning.
+    /// Models without shear thinning also exist for thermal contacts.
     #[staticmethod]
     #[pyo3(signature = (contact="line", thinning=false, heat=false))]
     fn embedded(py: Python<'_>, contact: &str, thinning: bool, heat: bool) -> PyResult<Self> {
@@ -137,8 +137,8 @@ impl Model {
         Self::of_program(py, name)
     }
 
-    /// Trains a model as a scene describes, given by its text or its file; ``progress(stage, done, total)`` is called
-    /// meanwhile, Ctrl-C stops it. The same scene gives the same model as ``ehl-explorer train``.
+    /// Trains the model of a scene, given by its text or its file. ``progress(stage, done, total)`` is called
+    /// meanwhile; Ctrl-C stops the training. The same scene gives the same model as ``ehl-explorer train``.
     #[staticmethod]
     #[pyo3(signature = (scene, progress=None))]
     fn train(py: Python<'_>, scene: &Bound<'_, PyAny>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
@@ -149,12 +149,12 @@ impl Model {
         Ok(Self::own(Arc::new(model), None))
     }
 
-    /// Writes it as a ``.rom`` file, whole or not at all.
+    /// Writes a ``.rom`` file as a whole or not at all.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| model_file::write(&self.model, &path)).map_err(refused)
     }
 
-    /// Its title.
+    /// Title.
     #[getter]
     fn title(&self) -> &str {
         &self.model.title
@@ -166,8 +166,8 @@ impl Model {
         self.model.contact().name()
     }
 
-    /// The range for which it was trained: (from, to) of ``m``, ``l`` and ``alpha`` [1/Pa], the largest
-    /// ``hertz_pressure`` [Pa], the ``viscosity`` [Pa s], and (from, to) of ``radius_ratio`` R_y/R.
+    /// Trained range: (from, to) of ``m``, ``l`` and ``alpha`` [1/Pa], largest ``hertz_pressure`` [Pa], ``viscosity``
+    /// [Pa s], and (from, to) of ``radius_ratio`` R_y/R.
     #[getter]
     fn domain<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (domain, dict) = (&self.model.domain, PyDict::new(py));
@@ -180,13 +180,14 @@ impl Model {
         Ok(dict)
     }
 
-    /// What it is made of, as arrays by name: those of ``ehl-explorer info --arrays``.
+    /// Returns the contents as arrays by name, as written by ``ehl-explorer info --arrays``.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         by_name(py, py.detach(|| model_arrays::of_model(&self.model)))
     }
 
-    /// The training contacts of a local model (from 1), solved again in full: their fields as arrays by name, those that
-    /// ``ehl-explorer info --arrays FILE --snapshots`` writes. With ``iterates`` also the pressures of all Newton steps.
+    /// Solves the training contacts of a local model (numbered from 1) in full again, and returns their fields as
+    /// arrays by name, as written by ``ehl-explorer info --arrays FILE --snapshots``. With ``iterates`` also the
+    /// pressures of all Newton steps.
     #[pyo3(signature = (window=1, iterates=false, progress=None))]
     fn snapshots<'py>(
         &self,
@@ -230,7 +231,7 @@ impl Model {
         hasher.finish()
     }
 
-    /// The same as text, as ``ehl-explorer info`` prints it.
+    /// Returns the description printed by ``ehl-explorer info``.
     fn __str__(&self) -> String {
         model_text::describe(&self.model)
     }

@@ -1,4 +1,4 @@
-//! One contact solved.
+//! Result of one contact.
 
 use crate::contact::Contact;
 use crate::tables::{from_row, shaped};
@@ -13,9 +13,9 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// One contact solved: scalars by the names of ``solve --json`` (``H_c``, ``h_c_m``, ``traction``, ``converged``, and
-/// those of groups as ``p_h_pa`` or ``trained``), fields as arrays. What does not apply is absent. Results are equal if
-/// everything but the time ``wall_s`` is; they can be pickled.
+/// Result of one contact: scalars by the names of ``solve --json`` (``H_c``, ``h_c_m``, ``traction``, ``converged``,
+/// and those of groups such as ``p_h_pa`` or ``trained``), and fields as arrays. Values that do not apply are absent.
+/// Results are equal if everything except the time ``wall_s`` is equal. They can be pickled.
 #[pyclass(frozen, module = "ehl_explorer")]
 pub struct Result {
     result: ContactResult,
@@ -37,9 +37,9 @@ impl Fields {
         [&self.x, &self.y, &self.pressure, &self.film].into_iter().chain(self.further.iter().map(|(_, array)| array))
     }
 
-    /// The fields of a solution, moved out of it.
+    /// Moves the fields of a solution into arrays.
     fn of(py: Python<'_>, solution: Solution) -> PyResult<Self> {
-        // A line's node arrays begin with one outside the inlet.
+        // The node arrays of a line contact begin with a node outside the inlet.
         let line = solution.problem.point.kind == ContactKind::Line;
         let skipped = usize::from(line);
         let (nx, ny) = (solution.x.len(), solution.y.len());
@@ -73,13 +73,13 @@ impl Fields {
     }
 }
 
-/// The arrays of a result as Python has them: X, Y, P, H, and the further ones by name.
+/// Arrays of a result in Python: X, Y, P, H, and the further ones by name.
 type Kept<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyDict>);
 
-/// What makes a pickled result again, and of what.
+/// Pickled form of a result: function and arguments that recreate it.
 type Reduced<'py> = (Bound<'py, PyAny>, (String, Option<Kept<'py>>));
 
-/// The result that was pickled.
+/// Recreates a pickled result.
 #[pyfunction]
 #[pyo3(signature = (result, fields=None))]
 pub fn _result(result: &str, fields: Option<Kept<'_>>) -> PyResult<Result> {
@@ -94,12 +94,12 @@ pub fn _result(result: &str, fields: Option<Kept<'_>>) -> PyResult<Result> {
 }
 
 impl Result {
-    /// What is pickled of its values.
+    /// Returns the pickled form of the values.
     fn text(&self) -> PyResult<String> {
         ron::to_string(&self.result).map_err(refused)
     }
 
-    /// The same but for the clock, by which results are compared.
+    /// Returns the values without measured times, for comparisons.
     fn text_without_clock(&self) -> PyResult<String> {
         ron::to_string(&ContactResult { wall_s: 0.0, ..self.result.clone() }).map_err(refused)
     }
@@ -130,7 +130,7 @@ impl Result {
         Ok(get(self.fields.as_ref().ok_or_else(none)?).bind(py).clone())
     }
 
-    /// A value by its name, of whatever group.
+    /// Finds a value by its name, in any group.
     fn find<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         let values = self.values(py)?;
         if let Some(value) = values.get_item(name)? {
@@ -153,32 +153,32 @@ impl Result {
 
 #[pymethods]
 impl Result {
-    /// Abscissae X = x/a of the nodes, shape (n_x,).
+    /// X = x/a of the nodes, shape (n_x,).
     #[getter]
     fn x<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.field(py, |fields| &fields.x)
     }
 
-    /// Ordinates Y = y/b <= 0 of the nodes, shape (n_y,); the last lies on the axis, of a line there is only that.
+    /// Y = y/b <= 0 of the nodes, shape (n_y,). The last one lies on the axis; a line contact has only this one.
     #[getter]
     fn y<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.field(py, |fields| &fields.y)
     }
 
-    /// Pressure P = p/p_H at the nodes, shape (n_x,) of a line and (n_x, n_y) of a point contact.
+    /// Pressure P = p/p_H at the nodes, shape (n_x,) for a line contact, (n_x, n_y) for a point contact.
     #[getter]
     fn pressure<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.field(py, |fields| &fields.pressure)
     }
 
-    /// Film H = h R/a^2 at the nodes, shaped as the pressure.
+    /// Film thickness H = h R/a^2 at the nodes, with the shape of the pressure.
     #[getter]
     fn film<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.field(py, |fields| &fields.film)
     }
 
-    /// Further fields by their names: ``multiplier`` or ``filled`` where a film ruptures by that, rises of temperature
-    /// with heat.
+    /// Further fields by name: ``multiplier`` or ``filled`` for cavitation by complementarity or mass-conserving
+    /// cavitation, and temperature rises for thermal contacts.
     #[getter]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
@@ -188,25 +188,25 @@ impl Result {
         Ok(dict)
     }
 
-    /// Whether the solve converged; without that there are no scalars and no fields.
+    /// True if the solve converged. Otherwise there are no scalars and no fields.
     #[getter]
     fn converged(&self) -> bool {
         self.result.converged
     }
 
-    /// What a reader must know, one sentence each.
+    /// Warnings, one sentence each.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.result.warnings.iter().map(ToString::to_string).collect()
     }
 
-    /// Central film H_c.
+    /// Central film thickness H_c.
     #[getter(H_c)]
     fn h_c(&self) -> Option<f64> {
         self.result.scalars.map(|scalars| scalars.h_c)
     }
 
-    /// Smallest film H_min.
+    /// Minimum film thickness H_min.
     #[getter(H_min)]
     fn h_min(&self) -> Option<f64> {
         self.result.scalars.map(|scalars| scalars.h_min)
@@ -218,7 +218,7 @@ impl Result {
         self.result.traction
     }
 
-    /// Everything but the fields, as the object of ``solve --json``.
+    /// Returns everything except the fields, as the object of ``solve --json``.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         Ok(py.import("copy")?.call_method1("deepcopy", (self.values(py)?,))?.cast_into::<PyDict>()?)
     }
@@ -282,9 +282,9 @@ impl Result {
 
 /// Solves a contact, as ``ehl-explorer solve`` does.
 ///
-/// ``method`` is ``"full"`` or ``"reduced"``; ``model`` a :class:`Model` or the name of a ``.rom`` file, where it is not
-/// one of the program's; ``progress(stage, done, total)`` is called now and then. Where a reduced model has no solution
-/// the full solver takes over and a warning says so.
+/// ``method`` is ``"full"`` or ``"reduced"``. ``model`` is a :class:`Model` or the name of a ``.rom`` file, if not an
+/// embedded model. ``progress(stage, done, total)`` is called occasionally. If the reduced model has no solution, the
+/// contact is solved in full and a warning is added.
 #[pyfunction]
 #[pyo3(signature = (contact, method=None, model=None, progress=None))]
 pub fn solve(
@@ -296,7 +296,7 @@ pub fn solve(
 ) -> PyResult<Result> {
     let asked = contact.asked(method, model)?;
     let request = asked.spec.request().map_err(|refusal| refused(stated(refusal)))?;
-    // A reduced solve is over before a thread has begun, unless the full solver must take over.
+    // A reduced solve takes less time than starting a thread. A thread is used only for the full solver.
     if request.method.model().is_some() {
         use ehl_explorer::scene::Bench;
         let answer = py.detach(|| asked.bench().answer(&request, None, &())).map_err(refused)?;

@@ -1,4 +1,4 @@
-//! Sweeps, random tests, contacts in time, scenes.
+//! Sweeps, random validations, transient contacts, scenes.
 
 use crate::contact::Contact;
 use crate::model::{Model, scene_of};
@@ -22,11 +22,11 @@ use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A contact with one or two options varied, each solved from its neighbour, as ``ehl-explorer sweep`` does.
+/// Solves a contact with one or two options varied, each from its neighbour, as ``ehl-explorer sweep`` does.
 ///
 /// ``varied`` is a list of texts as on the command line (``"moes-m=10:160:5:log"``) or of pairs of a name and its
-/// values; the last one changes fastest. A structured array of the table that the command writes; a contact that makes no
-/// sense refuses its own row only.
+/// values; the last one varies fastest. Returns a structured array of the table that the command writes. An invalid
+/// contact is refused in its own row only.
 #[pyfunction]
 #[pyo3(signature = (contact, varied, method=None, model=None, progress=None))]
 pub fn sweep<'py>(
@@ -54,10 +54,10 @@ fn axis(given: &Bound<'_, PyAny>) -> PyResult<Varied> {
     Varied::new(&name.replace('_', "-"), Steps::List(values)).map_err(refused)
 }
 
-/// Random contacts of a range, each solved alone, and compared with full solutions at the first ``compare`` of them: the
-/// study ``RandomTest`` of scenes. The same seed gives the same contacts everywhere.
+/// Solves random contacts of a range, each from a cold start, and compares the first ``compare`` of them with full
+/// solutions: the study ``RandomTest`` of scenes. The same seed gives the same contacts everywhere.
 ///
-/// ``m`` and ``l`` are (from, to); ``max_hertz_pressure`` in Pa. A structured array of the study's table.
+/// ``m`` and ``l`` are (from, to); ``max_hertz_pressure`` is in Pa. Returns a structured array of the study's table.
 #[pyfunction]
 #[pyo3(signature = (m, l, tests, seed=1, max_hertz_pressure=3.2e9, contact="line", method="reduced", compare=0, model=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
@@ -93,15 +93,15 @@ pub fn random_test<'py>(
     array_of(py, first_table(outcome.tables)?)
 }
 
-/// A contact in time, in full: the study ``Transient`` of scenes with inputs R, u_m and load that vary around those of
-/// the contact. With ``model``, the ``.rom`` file of a reduced model in time, by that model alone, as a contact with
-/// ``method="reduced"`` is by the program's own; what it was not trained for is a warning.
+/// Solves a transient contact in full: the study ``Transient`` of scenes, with inputs R, u_m and load that vary around
+/// those of the contact. With ``model``, the ``.rom`` file of a transient reduced model, solves by this model alone; a
+/// contact with ``method="reduced"`` is solved by the embedded model. Leaving the trained range gives a warning.
 ///
 /// Times are in units of a/u_m. ``radius``, ``speed`` and ``load`` are pairs (T, values) of times and multiples of the
-/// contact's own; what is not given stays. Steps are all of the length ``step``, or so short that their estimated error of
-/// H_c is at most ``tolerance``. A structured array of the march: T, inputs, films, pressures, and ``step_error``, the
-/// estimated greatest relative error that the steps leave in H_c. What a reader must know of it is a warning. A march
-/// that cannot take a step raises :class:`MarchStopped`; so does one that reaches a contact that makes no sense.
+/// contact's own value; quantities that are not given are constant. The time step is ``step``, or is adapted so that
+/// the estimated error of H_c is at most ``tolerance``. Returns a structured array of the march: T, inputs, film
+/// thicknesses, pressures, and ``step_error``, the estimated largest relative error of H_c due to the time step. Other
+/// remarks are given as warnings. If a step fails or the contact becomes invalid, :class:`MarchStopped` is raised.
 #[pyfunction]
 #[pyo3(signature = (
     contact, duration, step=None, radius=None, speed=None, load=None, model=None, progress=None, tolerance=None,
@@ -167,13 +167,13 @@ pub fn transient<'py>(
     };
     scene.set_laws(request.lubricant);
     let SceneOutcome { found, tables, .. } = outcome(py, &scene, bench_of(None, PathBuf::new())?, progress)?;
-    // There is one march, whose name a warning need not say.
+    // There is only one march, so that its name is left out of warnings.
     let sentences = found.warnings.iter().filter(|notice| notice.warning().is_none()).map(ToString::to_string);
     warn(py, sentences)?;
     marched(py, found.warnings.iter().filter_map(Notice::warning), first_table(tables)?)
 }
 
-/// The rows of a march with its warnings, or the exception of one that stopped.
+/// Returns the rows of a march and shows its warnings, or returns the exception of a march that stopped.
 fn marched<'py, 'a>(
     py: Python<'py>,
     warnings: impl IntoIterator<Item = &'a Warning>,
@@ -189,7 +189,7 @@ fn marched<'py, 'a>(
     }
 }
 
-/// The march by a reduced model in time.
+/// Computes the march by a transient reduced model.
 fn by_model<'py>(
     py: Python<'py>,
     source: &ModelSource,
@@ -212,9 +212,9 @@ fn by_model<'py>(
     marched(py, &warnings, series("reduced", &trajectory))
 }
 
-/// Runs a scene, given by its text or its file, and holds it against its expectations: an :class:`Outcome`.
+/// Runs a scene, given by its text or its file, and checks its expectations. Returns an :class:`Outcome`.
 ///
-/// ``model`` stands in place of those of the program. Paths in a scene refer to its file's folder.
+/// ``model`` replaces the embedded models. Paths in a scene are relative to its file's folder.
 #[pyfunction]
 #[pyo3(signature = (scene, model=None, progress=None))]
 pub fn run<'py>(
@@ -236,7 +236,8 @@ pub fn run<'py>(
     Ok((py.import("json")?.call_method1("loads", (text,))?, tables))
 }
 
-/// What a study is solved on: with a model in place of those of the program, paths referring to the folder `base`.
+/// Returns the workbench of a study, with a model in place of the embedded ones if given, and paths relative to the
+/// folder `base`.
 fn bench_of(model: Option<&Bound<'_, PyAny>>, base: PathBuf) -> PyResult<Workbench> {
     let bench = Workbench::on(&crate::STORE, base);
     let Some(model) = model else { return Ok(bench) };

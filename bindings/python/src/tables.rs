@@ -1,4 +1,4 @@
-//! Tables as arrays.
+//! Tables as numpy arrays.
 
 use ehl_explorer::scene::Table;
 use numpy::{PyArray1, PyArrayMethods};
@@ -6,8 +6,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
 use std::collections::HashMap;
 
-/// Rows of numbers as a structured array, one field for each column, and behind them the columns of texts. Numbers alone are
-/// moved, not copied.
+/// Returns a structured array with one field per number column, followed by the text columns. Without text columns, the
+/// numbers are moved and not copied.
 pub fn structured<'py>(
     py: Python<'py>,
     columns: &[impl AsRef<str>],
@@ -24,7 +24,7 @@ pub fn structured<'py>(
         let column = numbers.iter().skip(k).step_by(columns.len()).copied();
         array.set_item(name.as_ref(), PyArray1::from_iter(py, column))?;
     }
-    // Most rows have no text, many the same: each is one object.
+    // Most texts are empty and many are equal: each is stored as one object.
     let mut kept: HashMap<&str, Bound<'py, PyString>> = HashMap::new();
     for (title, texts) in texts {
         let texts = texts.iter().map(|text| kept.entry(text).or_insert_with(|| PyString::new(py, text)).clone());
@@ -33,13 +33,13 @@ pub fn structured<'py>(
     Ok(array)
 }
 
-/// A table as such an array.
+/// Returns a table as a structured array.
 pub fn array_of<'py>(py: Python<'py>, table: Table) -> PyResult<Bound<'py, PyAny>> {
     let texts: Vec<(&str, &[String])> = table.remarks.iter().map(|(title, texts)| (*title, &texts[..])).collect();
     structured(py, &table.columns, table.rows.concat(), &texts)
 }
 
-/// Numbers as an array of a shape; the numbers are moved, not copied.
+/// Returns numbers as an array of a shape, without copying.
 pub fn shaped<'py>(py: Python<'py>, numbers: Vec<f64>, shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
     let flat = PyArray1::from_vec(py, numbers);
     match shape {
@@ -48,7 +48,7 @@ pub fn shaped<'py>(py: Python<'py>, numbers: Vec<f64>, shape: &[usize]) -> PyRes
     }
 }
 
-/// The same without the first `skipped` numbers along the first axis.
+/// Returns the array without the first `skipped` elements along the first axis.
 pub fn from_row<'py>(array: Bound<'py, PyAny>, skipped: usize) -> PyResult<Bound<'py, PyAny>> {
     if skipped == 0 {
         return Ok(array);

@@ -1,4 +1,4 @@
-//! Work that takes long: without Python's lock, with progress, and stopped by Ctrl-C.
+//! Long computations: without Python's global lock, with progress, and stopped by Ctrl-C.
 
 use ehl_explorer::engine::EngineError;
 use ehl_explorer::engine::job::guarded;
@@ -13,29 +13,29 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A request that is refused, in one sentence.");
+pyo3::create_exception!(ehl_explorer, EhlError, PyValueError, "A refused request, with the reason in one sentence.");
 pyo3::create_exception!(
     ehl_explorer,
     MarchStopped,
     EhlError,
-    "A march that did not reach its end. ``reached`` is the structured array of the march up to there, ``warning`` how it \
-     ended in numbers and words: ``kind``, ``ended``, ``reached``, ``text``."
+    "A march that did not reach its end. ``reached`` is the structured array of the march so far. ``warning`` describes \
+     how it ended: ``kind``, ``ended``, ``reached``, ``text``."
 );
 
-/// How often Python is asked for signals, and told how far work is.
+/// Interval of signal checks and progress reports.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
 
-/// A contact that is refused, in the words of Python.
+/// Returns the error for a refused contact, with fields named as Python keywords.
 pub fn stated(refusal: Refusal) -> EngineError {
     EngineError::Study(refusal.in_words(Words::Keywords))
 }
 
-/// The exception of a sentence.
+/// Returns the exception with this message.
 pub fn refused(sentence: impl ToString) -> PyErr {
     EhlError::new_err(sentence.to_string())
 }
 
-/// The exception of a march that stopped, with the array that it reached.
+/// Returns the exception of a march that stopped, with the rows computed so far.
 pub fn march_stopped(py: Python<'_>, warning: &Warning, reached: Bound<'_, PyAny>) -> PyErr {
     let stopped = MarchStopped::new_err(warning.to_string());
     let told = || {
@@ -49,13 +49,13 @@ pub fn march_stopped(py: Python<'_>, warning: &Warning, reached: Bound<'_, PyAny
     }
 }
 
-/// Shows sentences as warnings of Python.
+/// Shows messages as Python warnings.
 pub fn warn(py: Python<'_>, sentences: impl IntoIterator<Item = String>) -> PyResult<()> {
     let warn = py.import("warnings")?.getattr("warn")?;
     sentences.into_iter().try_for_each(|sentence| warn.call1((sentence,)).map(drop))
 }
 
-/// What work under way knows of its caller.
+/// State shared between a computation and its caller.
 #[derive(Default)]
 pub struct Watch {
     stop: AtomicBool,
@@ -82,7 +82,7 @@ impl TrainingObserver for Watch {}
 
 impl StudyObserver for Watch {}
 
-/// Does work on a thread of its own; meanwhile calls `progress(stage, done, total)` and listens to signals. An exception
+/// Runs work on a separate thread, and meanwhile calls `progress(stage, done, total)` and checks signals. An exception
 /// of either stops the work and is passed on.
 pub fn long<T: Send>(
     py: Python<'_>,
@@ -91,12 +91,12 @@ pub fn long<T: Send>(
 ) -> PyResult<T> {
     let watch = Watch::default();
     let (sender, receiver) = channel();
-    // A receiver alone may not be looked at while the lock is released.
+    // A receiver alone cannot be shared while the lock is released.
     let receiver = Mutex::new(receiver);
     let (result, raised) = std::thread::scope(|scope| {
         let watch = &watch;
         scope.spawn(move || {
-            // Nobody but this function receives; it waits for the answer whatever happens.
+            // Only this function receives, and it waits for the result in any case.
             let _ = sender.send(guarded(|| work(watch)));
         });
         let mut raised = None;

@@ -1,4 +1,4 @@
-"""What the tests share: the program of the command line, and small scenes."""
+"""Fixtures of the tests: the command-line program, and small scenes."""
 
 import json
 import os
@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 @pytest.fixture(scope="session")
 def program():
-    """Runs the program with some arguments; what it prints, on standard error where it fails."""
+    """Runs the program with some arguments, and returns its output, or its standard error if it fails."""
     target = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     binary = pathlib.Path(os.environ.get("EHL_EXPLORER", target / "release" / "ehl-explorer"))
     if not binary.exists():
@@ -33,7 +33,7 @@ def solve_json(program):
 
 @pytest.fixture(scope="session")
 def in_time_training():
-    """A scene that trains a model in time in a moment: a load that breathes at two paces, on a coarse grid."""
+    """Scene that trains a transient model quickly: a load that oscillates with two periods, on a coarse grid."""
     return """Scene(
         version: 1,
         title: "A load that breathes",
@@ -54,7 +54,7 @@ def in_time_training():
 
 @pytest.fixture(scope="session")
 def small_training():
-    """A training of a moment: a narrow box on a coarse grid."""
+    """Quick training: a narrow range on a coarse grid."""
     return """Scene(
         version: 1,
         title: "A narrow box",

@@ -1,4 +1,4 @@
-"""What a model exports, against the decomposition of its own snapshots by numpy."""
+"""Exported arrays of a model, compared with the singular value decomposition of its snapshots by numpy."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_a_basis_is_the_singular_value_decomposition_of_the_snapshots(kind, weig
     assert modes.shape[1] == np.argmax(lost <= LOSS) + 1, "as many modes as the loss of information asks for"
     np.testing.assert_allclose(modes.T @ (weights[:, None] * modes), np.eye(modes.shape[1]), atol=1e-9)
 
-    # The same space: each mode is its own singular vector up to its sign.
+    # Same space: each mode equals its singular vector up to the sign.
     shared = np.abs(np.sum(np.sqrt(weights)[:, None] * modes * left[:, : modes.shape[1]], axis=0))
     np.testing.assert_allclose(shared, 1, atol=1e-6)
     missed = fields - modes @ (modes.T @ (weights[:, None] * fields))
@@ -101,7 +101,7 @@ def test_what_a_model_does_not_have_is_refused(model):
 
 @pytest.mark.parametrize("contact, digits", [("line", 1e-6), ("point", 1e-2)])
 def test_models_of_the_program_are_orthonormal_under_the_exported_weights(contact, digits):
-    """Up to the digits that a file has of rare modes."""
+    """Up to the digits that a file stores of modes with small singular values."""
     arrays = ehl.Model.embedded(contact).arrays()
     windows = sorted(name.removesuffix("_xi") for name in arrays if name.endswith("_xi"))
     for window in [windows[0], windows[-1]]:

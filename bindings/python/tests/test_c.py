@@ -1,4 +1,4 @@
-"""The library for C: its header is current, and the example is compiled, runs, and says what it should."""
+"""Library for C: its header is up to date, and the example compiles, runs, and prints the expected output."""
 
 import os
 import pathlib

@@ -27,7 +27,7 @@ BALLS = """Scene(version: 1, title: "balls", contact: Point,
         fixed: {Modulus: 231e9, Viscosity: 0.01},
     ), tests: 80, seed: 3, method: Full))"""
 
-# Five full solutions in three shards, then a round for each that the search adds.
+# Five full solutions in three shards, then one round for each solution that the search adds.
 ADAPTIVE = """Scene(version: 1, title: "adaptive", study: Training(title: "t",
     range: (
         axes: {
@@ -56,7 +56,7 @@ def one_machine(folder):
 
 
 def with_a_worker_lost(folder, after):
-    """Takes a campaign through two workers, one of which is killed once so many shards are there."""
+    """Computes a campaign on two workers, one of which is killed after this number of shards."""
     cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
     with cluster, distributed.Client(cluster) as client:
         workers = list(client.run(os.getpid).values())
@@ -96,7 +96,7 @@ def test_a_lost_worker_changes_no_byte_and_a_gap_is_a_sentence(tmp_path):
 def test_an_adaptive_training_that_loses_a_worker_gives_the_model_of_one_machine(tmp_path):
     one, many = planned(tmp_path, "one", ADAPTIVE, 1), planned(tmp_path, "many", ADAPTIVE, 2)
     one_machine(one)
-    # Lost after the first round, whose three shards begin it, and before the last one.
+    # The worker is lost after the first round, which has three shards, and before the last round.
     outcome, seen = with_a_worker_lost(many, 4)
     assert outcome["title"] == "adaptive" and seen[-1] > 4, f"{seen}"
     assert_same_result(one, many)

@@ -1,4 +1,4 @@
-"""Python and the command line are two faces of one engine: their numbers are the same to the last bit."""
+"""Python and the command line use the same engine: their numbers are bitwise equal."""
 
 import csv
 import io

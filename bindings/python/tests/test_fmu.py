@@ -1,4 +1,4 @@
-"""Models as Functional Mock-up Units, imported by FMPy: what they answer is what ``solve`` answers."""
+"""Models as Functional Mock-up Units, imported by FMPy: their results are those of ``solve``."""
 
 import pathlib
 import shutil
@@ -22,7 +22,7 @@ KINDS = ["line", "point"]
 
 @pytest.fixture(scope="session")
 def units(program, tmp_path_factory):
-    """Units by what they are: files, and folders into which they are unpacked."""
+    """Exports units by model and options, each as a file and an unpacked folder."""
     folder = tmp_path_factory.mktemp("units")
 
     def unit(kind, *words):
@@ -36,7 +36,7 @@ def units(program, tmp_path_factory):
 
 
 class Unit:
-    """An instance, its variables by name."""
+    """Instance of a unit, with variables by name."""
 
     def __init__(self, path):
         self.description = fmpy.read_model_description(path)
@@ -248,7 +248,7 @@ def test_a_step_beyond_the_trained_range_is_discarded_with_the_reason_of_solve(k
                 refused()
             assert raised.value.status == DISCARD
             assert solved.warnings[0] in unit.said[-1], unit.said
-        # The simulation need not end.
+        # The simulation may continue.
         assert unit.slave.getBooleanStatus(3) == 0 and unit.slave.getRealStatus(2) == 0.0
         unit.set(load=first["load"])
         assert unit.get(*outputs) == before

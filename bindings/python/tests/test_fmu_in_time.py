@@ -1,5 +1,5 @@
-"""Models in time as Functional Mock-up Units, imported by FMPy: their state advances with the communication step as the
-library's march does."""
+"""Transient models as Functional Mock-up Units, imported by FMPy: their state advances with the communication step like
+the march of the Python module."""
 
 import threading
 
@@ -38,7 +38,7 @@ def path(program, model):
 
 @pytest.fixture(scope="session")
 def scales():
-    """Seconds of one T, and metres of one H."""
+    """Time of one unit of T [s], and film thickness of one unit of H [m]."""
     result = ehl.solve(ehl.Contact(**POINT, dx=0.02), method="full")
     return result.a_m / POINT["speed"], result.a_m**2 / POINT["radius"]
 
@@ -54,7 +54,7 @@ def loads(count):
 
 
 def march(model, loads, every=1):
-    """The library's march by the model, through these loads at every so many steps."""
+    """March of the Python module by the model, with these loads at every n-th step."""
     times = STEP * every * np.arange(len(loads) + 1)
     values = np.concatenate([[1.0], loads / POINT["load"]])
     contact = ehl.Contact(**POINT)
@@ -100,7 +100,7 @@ def test_a_step_that_is_longer_is_divided_and_one_that_does_not_fit_is_divided_e
         films += unit.get("h_c_m")
     unit.end()
     np.testing.assert_allclose(films, wanted["H_c"][1:] * metres, rtol=1e-12)
-    # Two and a half steps of the model's own are three shorter ones.
+    # A communication step of 2.5 model steps is divided into three shorter ones.
     unit, other = begun(path), []
     for load in told[:20]:
         unit.set(load=float(load))
@@ -144,7 +144,7 @@ def test_a_state_is_kept_written_and_set_again(path, scales):
 
     def go_on(unit):
         films = []
-        # There and back, no faster than in training.
+        # Up and down, no faster than in the training.
         for load in POINT["load"] * (1 + 0.02 * np.sin(2 * np.pi * np.arange(1, 16) / 15)):
             unit.set(load=float(load))
             unit.step(1.3 * STEP * seconds)
@@ -199,7 +199,7 @@ def test_many_instances_work_at_once(path, scales):
 def test_a_step_beyond_the_training_is_discarded_and_changes_nothing(path, scales):
     unit = begun(path)
     before = unit.get(*FILMS, "approach")
-    # Far faster than the sine of the training, and far above it.
+    # Much faster than the harmonic load of the training, and much higher.
     for load, length, reason in [(1.08, STEP, "faster than the trained"), (1.5, 100 * STEP, "outside the trained")]:
         unit.set(load=load * POINT["load"])
         with pytest.raises(FMICallException) as raised:
@@ -207,7 +207,7 @@ def test_a_step_beyond_the_training_is_discarded_and_changes_nothing(path, scale
         assert raised.value.status == 2 and reason in unit.said[-1], unit.said
         assert unit.get(*FILMS, "approach") == before and unit.truths() == [True, False]
         assert unit.slave.getBooleanStatus(3) == 0 and unit.slave.getRealStatus(2) == 0.0
-    # More time for the same change.
+    # The same change in more time.
     unit.set(load=1.08 * POINT["load"])
     unit.step(20 * STEP * scales[0])
     assert unit.get("approach")[0] > before[2] and unit.truths() == [True, False]

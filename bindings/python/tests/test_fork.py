@@ -1,4 +1,4 @@
-"""Many processes, forked or spawned: a forked child has none of its parent's threads and must not wait for them."""
+"""Forked and spawned processes: a forked child has no threads of its parent and must not wait for them."""
 
 import functools
 import multiprocessing
@@ -21,7 +21,7 @@ forks = pytest.mark.skipif("fork" not in METHODS, reason="this system does not f
 
 
 def in_a_child(method, work, *given):
-    """What a new process makes of it; the test fails if that takes too long."""
+    """Runs work in a new process; fails if it takes too long."""
     with multiprocessing.get_context(method).Pool(1) as pool:
         return pool.apply_async(work, given).get(timeout=120)
 

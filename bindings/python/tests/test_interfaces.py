@@ -1,4 +1,4 @@
-"""Six contacts through Python, campaigns, marches and units: numbers, trust and warnings of the command line."""
+"""Six contacts by Python, campaigns, marches and units: numbers, trained range and warnings as on the command line."""
 
 import json
 import warnings
@@ -83,7 +83,7 @@ def test_scenes_are_the_same(stated, wanted):
 
 
 def by_reduced(row):
-    """The row of a contact by one method, by the names of `solve`."""
+    """Returns the row of a contact by one method, with the names of `solve`."""
     numbers = {name: row[name if name == "hertz.p_h_pa" else f"reduced.{name}"] for name in NAMES}
     return numbers | {"warning": row["warning"]}
 
@@ -109,7 +109,7 @@ def test_campaigns_are_the_same(solve_json, program, tmp_path):
     assert {warning["kind"] for warning in outcome["warnings"]} == kinds
 
 
-# The same in every interface, and fine enough for the contact outside the trained range.
+# Same grid in every interface, fine enough for the contact outside the trained range.
 GRID = dict(grid="graded")
 GRID_OF_SCENES = "grid: Graded"
 
@@ -120,7 +120,7 @@ def march_scene(stated, more=""):
 
 
 def marched(contact):
-    """The rows of a march at constant load, and what is said of it; of one that stopped first why."""
+    """Returns the rows of a march at constant load, and its warnings, preceded by the reason if it stopped."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         try:
@@ -132,7 +132,7 @@ def marched(contact):
 
 
 def by_scene(outcome, name):
-    """The same of a march of a scene, by its name."""
+    """Returns the same for a named march of a scene."""
     said = [warning["text"] for warning in outcome.object.get("warnings", []) if warning.get("part") == name]
     assert all(text.startswith(f"{name}: ") for text in said)
     return outcome.tables[f"transient_{name.replace('.', '_')}"], [text[len(name) + 2 :] for text in said]
@@ -152,11 +152,11 @@ def test_marches_are_the_same_and_stay_at_the_steady_contact(stated, program, tm
     own = contact(stated).replace(**GRID)
     march = marched(own)
     steady = ehl.solve(own, method="full")
-    # Steps are solved to 1e-6, quadratically, and the steady contact to 1e-10.
+    # Steps are solved to 1e-6 with quadratic convergence, and the steady contact to 1e-10.
     bar = max(1e-8, float(march[0]["step_error"][0]))
     for name in ["H_c", "H_min", "P_c", "P_max"]:
         assert abs(march[0][name][-1] / steady[name] - 1) < bar, name
-    # The grid of a march is judged in fewer words; all else is said alike.
+    # The warning about the grid is shorter for a march; all others are the same.
     grid = "H_c is off by about"
     assert [text for text in march[1] if grid not in text] == [text for text in steady.warnings if grid not in text]
     assert any(grid in text for text in march[1]) == any(grid in text for text in steady.warnings)
@@ -189,7 +189,7 @@ def test_marches_by_the_model_are_the_same(stated, program, tmp_path):
 
 
 def refused_alike(call, keyword, scene, field, why, program, tmp_path):
-    """Python, scenes and the command line refuse with the same reason, each in its own words."""
+    """Python, scenes and the command line refuse with the same reason, each with its own names of fields."""
     (tmp_path / "march.ron").write_text(scene)
     for call, word in [
         (call, keyword),
@@ -216,7 +216,7 @@ def test_units_are_the_same_where_a_model_has_the_contact(stated, solve_json, pr
     fmpy = pytest.importorskip("fmpy")
     from test_fmu import Unit
 
-    # What a unit has no variable for is as its model was trained.
+    # Quantities without a variable have the values of the training.
     lacking = [name.replace("-", "_") for name in stated.get("unit lacks", [])]
     given = {name: value for name, value in words(stated).items() if name not in lacking}
     wanted = solved(given, solve_json)
@@ -245,8 +245,8 @@ def test_units_are_the_same_where_a_model_has_the_contact(stated, solve_json, pr
 
 
 def test_units_have_no_variable_of_a_supplied_film(program, tmp_path):
-    """No unit can be asked for the starved contact: its inlet is flooded. A contact outside its range is discarded with
-    the quantity and the range."""
+    """Units do not support starved contacts: their inlet is fully flooded. A contact outside the trained range is
+    discarded with the quantity and the range."""
     fmpy = pytest.importorskip("fmpy")
     from test_fmu import Unit
 

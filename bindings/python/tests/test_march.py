@@ -1,4 +1,4 @@
-"""Marches in time: one that cannot take a step says so in every interface, with what it reached."""
+"""Transient marches: a failed step is reported in every interface, with the rows computed so far."""
 
 import json
 import pickle
@@ -11,7 +11,7 @@ import ehl_explorer as ehl
 
 SI = dict(radius=0.002, speed=5.0, load=2e5, modulus=2.31e11, viscosity=0.01, alpha=1e-8)
 CONTACT = ehl.Contact(**SI, dx=0.02)
-# A load that jumps to thirty times itself within one step.
+# A load that increases by a factor of thirty within one step.
 JUMP = ([0.0, 1.0, 1.05, 2.0], [1.0, 1.0, 30.0, 30.0])
 
 
@@ -34,7 +34,7 @@ def test_a_march_that_stops_is_an_exception_with_what_it_reached():
     assert str(error).startswith("the march could not take the step of ")
     reached = error.reached
     assert 1 < len(reached) < 41 and reached["T"][0] == 0 and np.isfinite(reached["H_c"]).all()
-    # Up to there it is the march that ends before the jump.
+    # The rows equal those of a march that ends before the jump.
     before = ehl.transient(CONTACT, duration=0.5, step=0.05, load=JUMP)
     np.testing.assert_array_equal(before["H_c"], reached["H_c"][: len(before)])
     ended = error.warning["ended"]["step_refused"]

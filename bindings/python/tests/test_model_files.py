@@ -1,4 +1,4 @@
-"""Model files, read by numpy and pcodec alone."""
+"""Model files, read with only numpy and pcodec."""
 
 import importlib.util
 

@@ -1,4 +1,4 @@
-"""Reduced models: loaded, trained, saved, looked into."""
+"""Reduced models: loading, training, saving, description."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_training_tells_how_far_it_is_and_gives_the_model_of_the_command_line(sm
     assert told and all(done <= total for _, done, total in told if total)
     (tmp_path / "scene.ron").write_text(small_training)
     program("train", tmp_path / "scene.ron", "--out", tmp_path / "own.rom")
-    # A file keeps what the model needs to be proven, not every last digit of it.
+    # A file stores fewer digits than the model has.
     model.save(tmp_path / "saved.rom")
     contact = ehl.Contact.moes(40, 10)
     saved, own = (ehl.solve(contact, model=tmp_path / name).H_c for name in ["saved.rom", "own.rom"])

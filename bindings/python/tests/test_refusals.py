@@ -1,4 +1,4 @@
-"""What makes no sense is refused as on the command line, in the words of Python."""
+"""Invalid requests are refused as on the command line, with keywords in place of flags."""
 
 import re
 
@@ -27,7 +27,7 @@ WRONG = [
 
 
 def in_words_of_python(sentence):
-    """A sentence of the command line with its flags as keywords."""
+    """Replaces the flags in a message of the command line by keywords."""
     chosen = re.sub(r"--(cavitation|method|grid|shear) ([a-z][a-z-]*)", r'\1="\2"', sentence.replace("--heat", "heat=True"))
     return re.sub(r"--([a-z0-9-]+)", lambda flag: flag[1].replace("-", "_") + "=", chosen)
 

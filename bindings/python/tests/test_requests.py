@@ -1,4 +1,4 @@
-"""Requests in random order, sensible or not: no panic, no hang, and every value belongs to its own request.
+"""Valid and invalid requests in random order: no panic, no hang, and every value belongs to its own request.
 
 A few hundred sequences, 20,000 with EHL_LONG=1 in the environment.
 """
@@ -17,9 +17,9 @@ import pytest
 import ehl_explorer as ehl
 
 SEQUENCES = 20_000 if os.environ.get("EHL_LONG") == "1" else 300
-#: Solved contacts that are remembered.
+#: Number of solved contacts that are stored.
 KEPT = 2_000
-#: Seconds that one sequence may take.
+#: Time limit of one sequence [s].
 PATIENCE = 120
 
 MODELS = {
@@ -43,7 +43,7 @@ def line(rng):
 
 
 def sensible(rng):
-    """Keywords of a contact that makes sense, with its method."""
+    """Returns the keywords of a valid contact, with its method."""
     kind = rng.randrange(8)
     given = line(rng)
     if kind == 0:
@@ -66,7 +66,7 @@ def sensible(rng):
 
 
 def senseless(rng):
-    """Keywords of which some are wrong."""
+    """Returns keywords of which some are invalid."""
     given = sensible(rng)
     for _ in range(rng.randint(1, 3)):
         given[rng.choice(WORDS)] = rng.choice(WRONG)
@@ -74,7 +74,7 @@ def senseless(rng):
 
 
 def refused_or(call):
-    """What a call gives, or the sentence of its refusal: nothing else may come of it."""
+    """Returns the result of a call, or the message of its refusal. No other outcome is allowed."""
     try:
         return call(), None
     except (ehl.EhlError, TypeError) as error:
@@ -88,7 +88,7 @@ def number(value):
 
 
 def of_its_own_request(contact, result):
-    """Whether a result is one of this contact."""
+    """Asserts that a result belongs to this contact."""
     quantities, si = contact.quantities(), result["si"]
     assert {name: si[name] for name in si} == {name: quantities[name] for name in si}
     moes = result["moes"]
@@ -99,7 +99,7 @@ def of_its_own_request(contact, result):
         assert result.H_c == result["H_c"] and result.H_min <= result.H_c * (1 + 1e-12)
         bound = result.to_dict().get("reduced", {}).get("h_c_error_bound")
         assert bound is None or bound > 0
-        # The film at the centre is that of the field.
+        # The central film thickness agrees with the field.
         axis = result.film if result.film.ndim == 1 else result.film[:, -1]
         assert abs(np.interp(0, result.x, axis) / result.H_c - 1) < 0.05
     else:
@@ -107,7 +107,7 @@ def of_its_own_request(contact, result):
 
 
 class Session:
-    """What was solved so far, by the contact: the same request must have the same answer, whatever came between."""
+    """Results so far, by contact. The same request must have the same result, independent of requests in between."""
 
     def __init__(self, rng):
         self.rng, self.solved, self.models = rng, {}, {}
@@ -182,7 +182,7 @@ class Session:
                 assert (row["status"], row["reason"], row["converged"]) == ("refused", why, 0) and np.isnan(row["H_c"])
                 continue
             result = self.solve(own)
-            # Each begins at its neighbour, which may change the last digits.
+            # Each contact starts from its neighbour, which may change the last digits.
             if row["converged"] and result["method"] == contact_method(contact):
                 assert abs(row["H_c"] / result.H_c - 1) < 1e-6, (contact, m)
 
@@ -208,7 +208,7 @@ class Session:
 
 
 def contact_method(contact):
-    """The method that a contact states."""
+    """Returns the method that a contact states."""
     return "reduced" if "method='reduced'" in repr(contact) else "full"
 
 
@@ -233,7 +233,7 @@ def test_values_belong_to_their_requests_in_any_order():
         if known:
             signal.alarm(0)
             signal.signal(signal.SIGALRM, former)
-    # A fresh process that never saw the rest gives the same answers, in another order.
+    # A new process gives the same results, in another order.
     contacts = rng.sample(list(session.solved), min(len(session.solved), 60))
     with multiprocessing.get_context("spawn").Pool(1) as pool:
         fresh = pool.map_async(ehl.solve, contacts).get(timeout=600)

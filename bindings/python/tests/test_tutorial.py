@@ -1,4 +1,4 @@
-"""The tutorial runs, and what people are told is there."""
+"""The tutorial runs, and everything public is documented."""
 
 import pathlib
 import subprocess

@@ -1,4 +1,4 @@
-"""Contacts, models and results are values: compared, copied with changes, pickled."""
+"""Contacts, models and results as values: comparison, copies with changes, pickling."""
 
 import copy
 import pickle
@@ -103,6 +103,6 @@ def test_models_are_equal_by_their_files(small_training, tmp_path):
     for model in [embedded, trained, ehl.Model.load(tmp_path / "own.rom")]:
         for same in [*through_pickle(model)[-1:], copy.copy(model), copy.deepcopy(model)]:
             assert same == model and hash(same) == hash(model) and str(same) == str(model)
-            # A file does not have the last digit of a model that was just trained.
+            # A file has fewer digits than a model that was just trained.
             assert abs(ehl.solve(contact, model=same).H_c / ehl.solve(contact, model=model).H_c - 1) < 1e-10
     assert trained == ehl.Model.load(tmp_path / "own.rom") != embedded

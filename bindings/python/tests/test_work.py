@@ -1,4 +1,4 @@
-"""Work that takes long: progress, Ctrl-C, threads, and what the way through Python costs."""
+"""Long computations: progress, Ctrl-C, threads, and the overhead of Python."""
 
 import os
 import signal
@@ -118,8 +118,8 @@ def test_a_scalar_varied_gives_one_row():
 
 
 def ratio(measure, rust, bar, rounds):
-    """The least time of the one over the least time of the other, measured in turns. Other work on the machine only
-    adds to a time, so both least times fall to the true ones: measuring ends early once the ratio is below `bar`."""
+    """Returns the ratio of the shortest times of two functions, measured in turns. Other load on the machine only adds
+    to a time, so that the shortest ones approach the true ones. Measuring ends early once the ratio is below `bar`."""
     least = [np.inf, np.inf]
     for done in range(1, rounds + 1):
         least = [min(least[0], measure()), min(least[1], rust())]
@@ -149,7 +149,7 @@ def test_many_through_python_are_as_quick_as_threads_of_rust():
     from ehl_explorer import _native
 
     contact, runs, cores = ehl.Contact.moes(40, 10), 4_000, len(os.sched_getaffinity(0))
-    # A hundred thousand take as long for each, and the tests have other things to do.
+    # With 100,000 solves the ratio is the same, but the test takes longer.
     ms = np.full(runs, 40.0)
     ehl.solve_many(contact, moes_m=ms[:1000], method="reduced")
 

@@ -1,10 +1,10 @@
-// Workers for long work, one for each lane, started when they are first needed and anew when one has ended.
+// Workers for long tasks, one per lane. A worker is started when it is first needed, and again after it has ended.
 
-// From a wish to stop until a worker that does not hear it is ended, in milliseconds; trainings make something of what
-// there is after the first wish.
+// Time after which a worker that does not react to 0, 1 or 2 stop requests is ended, in milliseconds. After the first
+// request, trainings still process partial results.
 const PATIENCE = [Infinity, 1500, 300];
-// The memory of an instance only grows. A worker that has more than so many bytes is ended once it has had nothing to do
-// for so many milliseconds; the next task starts another one.
+// The memory of an instance never shrinks. A worker with more than this number of bytes is ended after it has been idle
+// for this number of milliseconds. The next task starts another one.
 const LARGE = 64 << 20;
 const REST = 2000;
 
@@ -18,7 +18,7 @@ export class Lanes {
 
   post(lane, ticket, kind, task) {
     if (!this.module) return false;
-    // The worker asks whether these addresses still exist: that is how it hears a wish without returning.
+    // The worker checks whether these addresses still exist. This way it receives a stop request without returning.
     const wishes = [1, 2].map(() => URL.createObjectURL(new Blob(["go on"])));
     this.tasks.set(ticket, { lane, wishes, revoked: 0 });
     const bytes = task.slice();
@@ -49,7 +49,7 @@ export class Lanes {
     return worker;
   }
 
-  // Bytes that the workers have.
+  // Memory of the workers in bytes.
   memory() {
     return [...this.workers.values()].reduce((sum, { memory }) => sum + (memory ?? 0), 0);
   }
@@ -64,8 +64,8 @@ export class Lanes {
     }
   }
 
-  // The task that the worker of a lane is at: the first of those that have not ended. One that waits hears its wish when
-  // its turn comes, and does not take the others along.
+  // The running task of a lane: the first one that has not ended. A waiting task receives its stop request when its
+  // turn comes; the tasks before it are not affected.
   running(lane) {
     return [...this.tasks].find(([, task]) => task.lane === lane)?.[0];
   }
@@ -75,7 +75,7 @@ export class Lanes {
     this.tasks.delete(ticket);
   }
 
-  // Ends a worker: what it was asked for is lost, and said to be.
+  // Ends a worker. Its tasks are lost, and reported as lost.
   end(lane) {
     this.workers.get(lane)?.terminate();
     this.workers.delete(lane);

@@ -1,16 +1,16 @@
-// Keeps the files of the page, so that it opens without a network after the first visit.
+// Stores the files of the page, so that it opens without a network after the first visit.
 import { CACHE, MODULE, MODELS } from "./files.js";
 
 const HASHED = /-[0-9a-f]{16}\.\w+$/;
 const PAGE = ["./", "./start.js", "./lanes.js", "./worker.js", "./files.js", "./ehl_web.js", "./style.css", "./icon.svg"];
 
 self.addEventListener("install", (event) => {
-  // The page itself has kept the large files.
+  // The page itself has already stored the large files.
   event.waitUntil(caches.open(CACHE).then((cache) => cache.addAll(PAGE)).then(() => self.skipWaiting()));
 });
 
 self.addEventListener("activate", (event) => {
-  // Files of a former version go.
+  // Deletes files of previous versions.
   const known = new Set([MODULE, ...Object.values(MODELS)].map(({ file }) => new URL(file, self.location).href));
   const clean = async () => {
     const cache = await caches.open(CACHE);
@@ -28,7 +28,7 @@ self.addEventListener("fetch", (event) => {
   event.respondWith(answer(request));
 });
 
-// A name with a hash always has the same content; everything else is asked for anew where there is a network.
+// A file with a hash in its name never changes. Other files are requested again if there is a network.
 async function answer(request) {
   const cache = await caches.open(CACHE);
   const kept = await cache.match(request, { ignoreSearch: true });

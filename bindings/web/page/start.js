@@ -1,4 +1,4 @@
-// Starts the explorer on the canvas, and does for it what needs a browser.
+// Starts the explorer on the canvas, and provides the browser functions that it needs.
 import init, { start, deliver, dropped, opened } from "./ehl_web.js";
 import { CACHE, MODULE, MODELS } from "./files.js";
 import { Lanes } from "./lanes.js";
@@ -10,16 +10,16 @@ function say(text) {
   element("what").textContent = text;
 }
 
-// What went wrong stands in the page; what was drawn stays below it.
+// Errors are shown above the last picture.
 function failed(text) {
   element("waiting").className = "";
   element("progress").hidden = true;
   say(text);
 }
 
-// Fetches a file whose name says what is in it, once for all visits, with progress in bytes.
+// Fetches a file with a hash in its name, once for all visits, with progress in bytes.
 async function fetched(file, progress) {
-  // There is no such cache where the page is not delivered safely.
+  // The cache is not available on insecure connections.
   const cache = await globalThis.caches?.open(CACHE).catch(() => undefined);
   const kept = await cache?.match(file);
   const response = kept ?? (await fetch(file));
@@ -82,7 +82,7 @@ globalThis.ehl = {
   fetch_model(name, ticket) {
     model(name).then(() => deliver(ticket, new Uint8Array()), () => deliver(ticket, undefined));
   },
-  // The program decodes it once: the bytes need not stay.
+  // The program decodes the file only once, so that the bytes need not be stored.
   model(name) {
     const bytes = models.get(name);
     models.delete(name);
@@ -99,7 +99,7 @@ globalThis.ehl = {
   stops: () => 0,
 };
 
-// A file that was chosen or dropped: its name, a zero, its content. One that is too large is not read.
+// Reads a file that was chosen or dropped: its name, a zero, its content. Files that are too large are not read.
 async function chosen(file, take) {
   if (!file) return take(undefined);
   const name = new TextEncoder().encode(file.name);

@@ -1,11 +1,12 @@
-// An instance of the program that does tasks of the page, one after the other.
+// Instance of the program that does tasks of the page, one after the other.
 import { initSync, work } from "./ehl_web.js";
 import { MODELS } from "./files.js";
 
 let wishes = [];
 let memory;
 
-// Whether an address of the page still exists. Waits for the answer: the worker is in the midst of its work.
+// Returns true if an address of the page still exists. The request is synchronous because the worker is busy with its
+// task.
 function exists(address) {
   try {
     const request = new XMLHttpRequest();
@@ -52,7 +53,7 @@ onmessage = ({ data: { module, ticket, kind, bytes, wishes: given } }) => {
     work(ticket, kind, bytes);
     postMessage({ ticket, ended: true, memory: memory.buffer.byteLength });
   } catch (why) {
-    // A panic: this instance can do no more.
+    // After a panic, this instance cannot continue.
     console.error(why);
     postMessage({ ticket, broken: true });
   }

@@ -1,6 +1,7 @@
-//! The explorer as a web page: one instance of this module draws it, further ones in workers of the page solve.
+//! Explorer as a web page: one instance of this module draws it; further instances in workers of the page do the
+//! computations.
 //!
-//! The files in `page` start both. They provide an object `ehl` with what the program needs of a browser
+//! The files in `page` start both. They provide an object `ehl` with the browser functions that the program needs
 //! (`ehl_explorer::host::page`).
 
 #![cfg(target_arch = "wasm32")]
@@ -21,7 +22,7 @@ use web_sys::HtmlCanvasElement;
 /// Draws the explorer on a canvas.
 ///
 /// # Errors
-/// When the browser has no WebGL.
+/// If the browser has no WebGL.
 #[wasm_bindgen]
 pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
     let fragment = page::fragment();
@@ -37,13 +38,13 @@ pub async fn start(canvas: HtmlCanvasElement) -> Result<(), JsValue> {
     WebRunner::new().start(canvas, WebOptions::default(), Box::new(explorer)).await
 }
 
-/// Called by the page with what a ticket brings, or without anything when it brings no more.
+/// Called by the page with the data for a ticket, or without data when there will be no more.
 #[wasm_bindgen]
 pub fn deliver(ticket: u32, bytes: Option<Vec<u8>>) {
     page::deliver(ticket, bytes);
 }
 
-/// Called by the page with a file that was dropped on it: its name, a zero, its content.
+/// Called by the page with a file dropped on it: name, a zero, content.
 #[wasm_bindgen]
 pub fn dropped(file: &[u8]) {
     browser::take_dropped(file);
@@ -65,10 +66,10 @@ fn repaint() {
     SCREEN.with_borrow(|screen| screen.iter().for_each(Context::request_repaint));
 }
 
-/// Runs a scene, given as text, without the screen; returns its tables as `ehl-explorer run --out` writes them.
+/// Runs a scene, given as text, without the screen. Returns its tables as `ehl-explorer run --out` writes them.
 ///
 /// # Errors
-/// A sentence when it makes no sense.
+/// With a sentence if the scene is invalid.
 #[wasm_bindgen]
 pub fn run(scene: &str) -> Result<String, JsValue> {
     let refused = |why: &dyn std::fmt::Display| JsValue::from_str(&why.to_string());

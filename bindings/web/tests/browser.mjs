@@ -1,4 +1,4 @@
-// Drives the page in a browser as a user would: `PAGE=folder BROWSER=program node browser.mjs`.
+// Tests the page in a browser like a user: `PAGE=folder BROWSER=program node browser.mjs`.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -13,8 +13,8 @@ const FLAGS = [
   "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ];
 const SIZE = { width: 1280, height: 800 };
-// Places on the canvas at this size.
-// Beside other work on the machine frames take longer.
+// Positions on the canvas at this size.
+// With other load on the machine, frames take longer.
 const SLOW = Number(process.env.SLOW ?? 1);
 const TABS = [348, 421, 498, 560, 638, 720, 783, 847, 904, 956];
 const ROLLER = [34, 66];
@@ -35,7 +35,7 @@ context.on("request", (request) => {
   if (!url.startsWith(server.address) && !url.startsWith("blob:") && !url.startsWith("data:")) foreign.push(url);
 });
 
-// A page at an address, once the explorer has its first picture.
+// Opens the page at an address and waits for the first picture of the explorer.
 async function opened(fragment = "") {
   const page = await context.newPage();
   page.on("pageerror", (error) => broken.push(String(error)));

@@ -1,4 +1,4 @@
-// The lanes of a page with workers that never end: `node lanes.mjs`.
+// Tests the lanes of a page with workers that never end: `node lanes.mjs`.
 import assert from "node:assert/strict";
 import { Lanes } from "../page/lanes.js";
 
@@ -17,17 +17,17 @@ lanes.module = {};
 const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 for (const [lane, ticket] of [[1, 1], [1, 2], [0, 3]]) assert(lanes.post(lane, ticket, "study", new Uint8Array(4)));
 
-// A task that waits is stopped without the one that runs before it.
+// A waiting task is stopped without affecting the task that runs before it.
 lanes.stop(2, 255);
 await pause(500);
 assert.deepEqual([ended.length, delivered.length, lanes.running(1)], [0, 0, 1]);
-// One that runs and hears nothing takes its worker along; those of other lanes go on.
+// A running task that does not react ends with its worker; those of other lanes continue.
 lanes.stop(1, 255);
 await pause(500);
 assert.deepEqual([ended.length, delivered], [1, [[1, undefined], [2, undefined]]]);
 assert.equal(lanes.running(0), 3);
 
-// A worker that rests is ended if it has much memory, and another one does the next task.
+// An idle worker with much memory is ended, and another one does the next task.
 const before = ended.length;
 lanes.post(2, 40, "study", new Uint8Array(4));
 lanes.post(3, 100, "study", new Uint8Array(4));

@@ -1,4 +1,5 @@
-// The page's numbers and times beside those of the native program: `PAGE=folder NATIVE=program MODELS=folder node numbers.mjs`.
+// Compares numbers and times of the page with those of the native program: `PAGE=folder NATIVE=program MODELS=folder
+// node numbers.mjs`.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -28,7 +29,7 @@ const kinds = {
 
 const folder = mkdtempSync(join(tmpdir(), "ehl-numbers-"));
 const median = (list) => list.sort((a, b) => a - b)[Math.floor(list.length / 2)];
-// What is left of nearly equal numbers: rounding decides.
+// Differences of nearly equal numbers are only rounding errors.
 const ROUNDED = /residual|iterations|error_bound/;
 let contacts = 0;
 let where = "";
@@ -37,7 +38,7 @@ for (const [name, [scene, tolerance, slower]] of Object.entries(kinds)) {
   const file = join(folder, "scene.ron");
   writeFileSync(file, scene);
   spawnSync(NATIVE, ["run", file, "--out", folder], { env: { ...process.env, RAYON_NUM_THREADS: "1" }, stdio: "ignore" });
-  // Commas within quotes are text.
+  // Commas within quotes belong to the text.
   const cells = (line) => line.split(/,(?=(?:[^"]*"[^"]*")*[^"]*$)/);
   const rows = (text) => text.trim().split("\n").map(cells);
   const [titles, ...native] = rows(readFileSync(join(folder, "scene.sweep.csv"), "utf8"));

@@ -1,11 +1,11 @@
-// A plain static server, as any host has: no special headers, under a path of its own.
+// Simple static server like that of any host: no special headers, with its own path.
 import { createServer } from "node:http";
 import { readFileSync } from "node:fs";
 import { extname, join, normalize } from "node:path";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".wasm": "application/wasm" };
 
-// Serves a folder below a path; counts what is transferred, packed by brotli where the client takes it.
+// Serves a folder below a path, and counts the transferred bytes. Uses brotli if the client supports it.
 export function serve(folder, path) {
   const counted = { bytes: 0, files: [], first: null };
   const server = createServer((request, response) => {
@@ -15,7 +15,7 @@ export function serve(folder, path) {
       if (!pathname.startsWith(path) || name.startsWith("..")) throw new Error("elsewhere");
       const packed = (request.headers["accept-encoding"] ?? "").includes("br");
       const content = readFileSync(join(folder, packed ? `${name}.br` : name));
-      // The service worker is asked for after the first picture.
+      // The service worker is requested after the first picture.
       if (name === "offline.js") counted.first ??= { bytes: counted.bytes };
       counted.bytes += content.length;
       counted.files.push(name);

@@ -1,4 +1,4 @@
-//! Contacts with heat in the speed table.
+//! Thermal contacts in the speed table.
 
 use super::{Bench, CURVES, EngineError, POINT_BUDGET, ROW_BUDGET, Timing, cold_and_warm, curve_row, reduced_row};
 use crate::solver::discrete::grid::GridSpec;
@@ -8,18 +8,18 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::reduced::{Online, ReducedOptions};
 use crate::solver::training::random_points;
 
-/// What all rows of contacts with heat are compared with: the cold full solve on the graded grid of their model.
+/// Baseline of the rows of thermal contacts: the full solve from a cold start on the graded grid of their model.
 pub const HEAT_BASELINE: &str = "line/heat/full/cold";
 
-/// Contacts in full, of either start, and by the model.
+/// Numbers of contacts for full solves (cold and warm) and for reduced solves; normal and quick.
 const FULL_POINTS: [usize; 2] = [150, 12];
 const REDUCED_POINTS: [usize; 2] = [1000, 60];
 const SEED: u64 = 2027;
 
-/// The grid of the models with heat, of public reference solutions too.
+/// Grid of the thermal models, also used for reference solutions.
 const GRID: GridSpec = GridSpec::Graded { nodes: 695, domain: (-10.0, 2.0), registered: false };
 
-/// Contacts of one oil between steel bodies.
+/// Returns the range of thermal contacts of one lubricant between steel bodies.
 fn range(m: (f64, f64), highest_pressure_pa: f64) -> ParameterSpace {
     ParameterSpace::of([
         Axis::new(Quantity::M, m),
@@ -35,8 +35,8 @@ fn range(m: (f64, f64), highest_pressure_pa: f64) -> ParameterSpace {
     ])
 }
 
-/// Solves of lines in full, cold and from the nearest other solution, reduced ones with H_c, traction and temperatures, and
-/// whole traction curves; a note where there is no model.
+/// Times full solves of line contacts (cold and from the nearest other solution), reduced solves with H_c, traction and
+/// temperatures, and whole traction curves. Adds a note if there is no model.
 pub(super) fn rows(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, EngineError> {
     let Some(model) = bench.model(HEAT_BASELINE, "line_heat") else { return Ok(Vec::new()) };
     let (lubricant, spec) = (model.domain.lubricant, GRID);
@@ -55,7 +55,7 @@ pub(super) fn rows(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, Engine
     Ok(rows)
 }
 
-/// Reduced solves of balls with H_c, traction and temperatures; a note where there is no model.
+/// Times reduced solves of circular contacts with H_c, traction and temperatures. Adds a note if there is no model.
 pub(super) fn balls(bench: &mut Bench, size: usize) -> Result<Vec<Timing>, EngineError> {
     const NAME: &str = "point/heat/reduced";
     let Some(model) = bench.model(NAME, "point_heat") else { return Ok(Vec::new()) };

@@ -1,4 +1,4 @@
-//! Sliding contacts of oils that thin by Eyring's law in the speed table.
+//! Sliding contacts of Eyring (shear-thinning) lubricants in the speed table.
 
 use super::{Bench, EngineError, POINT_BUDGET, REDUCED_SHEAR_POINTS, Timing, reduced_rows};
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
@@ -8,7 +8,7 @@ use crate::solver::training::random_points;
 
 const SEED: u64 = 2028;
 
-/// Oils and steel bodies of bearings and gears.
+/// Returns the range of lubricants and steel bodies of bearings and gears.
 fn range() -> ParameterSpace {
     ParameterSpace::of([
         Axis::new(Quantity::M, (15.0, 250.0)),
@@ -26,8 +26,8 @@ fn range() -> ParameterSpace {
     ])
 }
 
-/// Reduced solves with H_c and traction, with all fields, and without these ended at a relative step of 1e-3; a note where
-/// there is no model.
+/// Times reduced solves with H_c and traction, with all fields, and with a relative step tolerance of 1e-3 and without
+/// fields. Adds a note if there is no model.
 pub(super) fn rows(
     bench: &mut Bench,
     kind: ContactKind,

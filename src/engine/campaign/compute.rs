@@ -1,4 +1,4 @@
-//! Computing a shard, once, however many processes try.
+//! Computes a shard. It is computed only once, also if several processes try.
 
 use super::error::CampaignError;
 use super::folder::Folder;
@@ -19,16 +19,16 @@ use std::fs::{File, TryLockError};
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
-/// What became of a shard that was asked for.
+/// How a request for a shard ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Done {
     /// It was computed.
     Computed,
-    /// It was there.
+    /// It already existed.
     There,
 }
 
-/// Keeps the rows of a shard.
+/// Observer that stores the rows of a shard.
 struct Rows<'a> {
     observer: &'a dyn Observer,
     rows: Mutex<Vec<StudyRow>>,
@@ -60,10 +60,10 @@ impl StudyObserver for Rows<'_> {
     }
 }
 
-/// Works out the pieces of a shard.
+/// Computes the pieces of a shard.
 ///
 /// # Errors
-/// When something is refused or the observer cancels. What does not converge is part of what came of it.
+/// If something is refused or the observer cancels. A solve that does not converge is part of the result.
 pub(super) fn work(
     scene: &Scene,
     round: usize,
@@ -91,7 +91,8 @@ pub(super) fn work(
     }
 }
 
-/// Full solutions of a training's contacts, as it computes them itself, `judged` by what the grid costs them or not.
+/// Computes full solutions of training contacts in the same way as the training does, with estimated discretisation
+/// errors if `judged` is true.
 fn solve_all(
     grid: GridSpec,
     (lubricant, judged): (impl Fn(&OperatingPoint) -> Lubricant + Sync, bool),
@@ -111,11 +112,12 @@ fn solve_all(
     map_with(points, || ContactSolver::on(&grid), solve)
 }
 
-/// Computes a shard on so many threads, unless it is there already. Where another process computes it, waits for that.
+/// Computes a shard on this number of threads, unless it already exists. If another process is computing it, waits for
+/// that process.
 ///
 /// # Errors
-/// When the program or a file is not what was planned, the work is refused, or the shard cannot be written. The reason
-/// is kept beside the shards as well.
+/// If the program or a file has changed since planning, the work is refused, or the shard cannot be written. The reason
+/// is also written to a file next to the shards.
 pub fn compute(
     folder: &Folder,
     number: usize,
@@ -156,7 +158,7 @@ pub fn compute(
         Ok(atomic_file::replace(&path, &FORMAT.seal(&payload))?)
     };
     let done = computed();
-    // What is told of a failure is worth nothing else: where it cannot be written, nothing is lost.
+    // The failure file is for information only. Errors of writing it are ignored.
     let _told = match &done {
         Ok(()) => std::fs::remove_file(folder.failure_path(number)),
         Err(reason) => std::fs::write(folder.failure_path(number), reason.to_string()),
@@ -165,10 +167,11 @@ pub fn compute(
     done.map(|()| Done::Computed)
 }
 
-/// Keeps two processes from computing the same shard at the same time; without harm where the system knows no locks.
+/// Lock that prevents two processes from computing the same shard at the same time. Without effect on systems without
+/// file locks.
 struct Lock {
     path: PathBuf,
-    // The system gives it back when the process ends, however it does.
+    // The system releases the lock when the process ends, also after a crash.
     _file: Option<File>,
 }
 
@@ -187,7 +190,7 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // One that is left behind is taken over by the next process.
+        // A remaining lock file is reused by the next process.
         let _ = std::fs::remove_file(&self.path);
     }
 }

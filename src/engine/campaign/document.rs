@@ -1,4 +1,4 @@
-//! The documents of a campaign: what people write, and what was planned.
+//! Documents of a campaign: the input written by the user, and the plan.
 
 use super::error::CampaignError;
 use super::program::read;
@@ -6,33 +6,33 @@ use crate::scene::{Scene, Study};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// Version of the files of a campaign.
+/// Version of the campaign files.
 pub(super) const VERSION: u32 = 1;
-/// Shortest shards that may be asked for \[s\]: what a scheduler adds to each is to be next to nothing.
+/// Shortest accepted shard \[s\], so that the overhead of a scheduler is negligible.
 const SHORTEST_S: f64 = 10.0;
-/// Longest shards \[s\].
+/// Longest accepted shard \[s\].
 const LONGEST_S: f64 = 86_400.0;
 
-/// A campaign as people write it, in RON.
+/// Campaign as written by the user, in RON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Campaign {
     /// Version of the format, 1.
     pub version: u32,
-    /// The scene whose work it is; relative to the campaign's folder.
+    /// Scene to compute; relative to the folder of the campaign file.
     pub scene: PathBuf,
-    /// How its work is cut.
+    /// Size of the shards.
     #[serde(default)]
     pub shard: Cut,
 }
 
-/// How large a shard is.
+/// Size of a shard.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Cut {
-    /// Of about so many seconds on this machine, by some pieces that are tried; from 10 to a day.
+    /// Approximate duration in seconds on this machine, based on trial pieces; from 10 s to one day.
     Seconds(f64),
-    /// Of so many pieces.
+    /// Number of pieces.
     Pieces(usize),
 }
 
@@ -42,33 +42,33 @@ impl Default for Cut {
     }
 }
 
-/// What was planned, as the folder of the campaign keeps it.
+/// Plan, as stored in the campaign's folder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
-    /// Version of the files.
+    /// Version of the campaign files.
     pub version: u32,
     /// The scene's title.
     pub title: String,
-    /// What results are called: the name of the scene's file.
+    /// Name of the results: the file name of the scene.
     pub name: String,
     /// Version of the program.
     pub program: String,
-    /// Its hash.
+    /// Hash of the program.
     pub program_hash: String,
     /// Files that the work depends on, with their hashes.
     pub files: Vec<(String, String)>,
-    /// Pieces of a shard.
+    /// Number of pieces per shard.
     pub per_shard: usize,
-    /// Seconds that a piece took when it was tried; none where none was.
+    /// Time per piece \[s\], measured on trial pieces; `None` if none was tried.
     pub seconds_per_piece: Option<f64>,
 }
 
 impl Campaign {
-    /// Reads a campaign's document.
+    /// Reads a campaign file.
     ///
     /// # Errors
-    /// When it cannot be read, with line and column where it is wrong, or naming the field that makes no sense.
+    /// If it cannot be read, is not valid (with line and column), or has a field with an invalid value.
     pub fn read(path: &Path) -> Result<Self, CampaignError> {
         let refused = |reason: String| CampaignError::Document { path: path.to_owned(), reason };
         let text = String::from_utf8(read(path)?).map_err(|_| refused("it is not UTF-8 text".to_owned()))?;
@@ -89,7 +89,7 @@ impl Campaign {
     }
 }
 
-/// Whether a scene asks for a training.
+/// Returns true if a scene is a training.
 pub fn trains(scene: &Scene) -> bool {
     matches!(scene.study, Study::Training(_))
 }

@@ -1,13 +1,13 @@
-//! Why a campaign does not go on, each as one sentence.
+//! Errors of campaigns.
 
 use crate::engine::EngineError;
 use crate::scene::atomic_file::WriteError;
 use std::path::PathBuf;
 
-/// Why a campaign does not go on. What is finished stays.
+/// Reason why a campaign stopped. Finished shards are kept.
 #[derive(Debug, thiserror::Error)]
 pub enum CampaignError {
-    /// The scene is refused, or its work ends with an error.
+    /// The scene is refused, or its computation fails.
     #[error(transparent)]
     Run(#[from] EngineError),
     /// A file cannot be written.
@@ -18,44 +18,44 @@ pub enum CampaignError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason given by the system.
         reason: String,
     },
-    /// A file makes no sense.
+    /// A file has invalid content.
     #[error("{} is refused: {reason}", path.display())]
     Document {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and what would be accepted.
+        /// What is wrong, and what is accepted.
         reason: String,
     },
-    /// A folder holds none.
+    /// The folder contains no campaign.
     #[error("{} holds no campaign; `campaign plan CAMPAIGN.ron --out DIR` makes one", path.display())]
     None {
         /// The folder.
         path: PathBuf,
     },
-    /// A folder holds another one.
+    /// The folder contains another campaign.
     #[error("{} holds the campaign “{title}” already; go on with that one or choose another folder", path.display())]
     Taken {
         /// The folder.
         path: PathBuf,
-        /// What is in it.
+        /// Title of the other campaign.
         title: String,
     },
-    /// Another program's results may differ.
+    /// Another build of the program, whose results may differ.
     #[error(
         "the campaign was planned by another build of the program (version {version}, {planned}; this is {own}); go on with that one or plan it anew"
     )]
     OtherProgram {
-        /// Version of the other one.
+        /// Version of the other program.
         version: String,
-        /// Its hash.
+        /// Hash of the other program.
         planned: String,
-        /// The hash of this one.
+        /// Hash of this program.
         own: String,
     },
-    /// A file of the campaign was changed since it was planned.
+    /// A file of the campaign has changed since planning.
     #[error("{} is not what it was when the campaign was planned; put it back or plan the campaign anew", path.display())]
     Changed {
         /// The file.
@@ -64,47 +64,47 @@ pub enum CampaignError {
     /// There is no such shard.
     #[error("there is no shard {shard}; so far the campaign has {shards}, numbered from 0")]
     NoShard {
-        /// What was asked for.
+        /// Requested shard.
         shard: usize,
-        /// How many there are.
+        /// Number of shards.
         shards: usize,
     },
-    /// A shard's file cannot be taken.
+    /// A shard's file is not valid.
     #[error("{} cannot be merged: {reason}; delete it and compute that shard again", path.display())]
     Shard {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Reason.
         reason: String,
     },
-    /// Not all shards are there.
+    /// Shards are missing.
     #[error(
         "{missing} of {shards} shards are missing, the first of them is shard {first}; compute them, then merge again"
     )]
     Gaps {
-        /// How many.
+        /// Number of missing shards.
         missing: usize,
-        /// Of how many.
+        /// Number of all shards.
         shards: usize,
-        /// The first.
+        /// First missing shard.
         first: usize,
     },
-    /// A shard could not be computed here.
+    /// A shard could not be computed on this machine.
     #[error("shard {shard} was given up after {attempts} attempts: {reason}")]
     GivenUp {
-        /// Which.
+        /// Number of the shard.
         shard: usize,
-        /// How often it was tried.
+        /// Number of attempts.
         attempts: usize,
-        /// What became of the last one.
+        /// Reason of the last failure.
         reason: String,
     },
-    /// No process could be started.
+    /// A process could not be started.
     #[error("cannot start {}: {reason}", program.display())]
     Start {
         /// The program.
         program: PathBuf,
-        /// Why.
+        /// Reason given by the system.
         reason: std::io::Error,
     },
 }

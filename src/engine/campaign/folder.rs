@@ -1,4 +1,4 @@
-//! The folder of a campaign: reading it, and how far it is.
+//! Folder of a campaign: its content and progress.
 
 use super::document::{Plan, VERSION, trains};
 use super::error::CampaignError;
@@ -10,61 +10,61 @@ use crate::scene::{Scene, SceneFileError};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// What was planned.
+/// File of the plan.
 pub const PLAN: &str = "campaign.ron";
-/// The scene.
+/// File of the scene.
 pub const SCENE: &str = "scene.ron";
-/// The rounds.
+/// Folder of the rounds.
 pub const ROUNDS: &str = "rounds";
-/// The shards.
+/// Folder of the shards.
 pub const SHARDS: &str = "shards";
-/// What came of it.
+/// Folder of the result.
 pub const RESULT: &str = "result";
 
-/// A campaign.
+/// Campaign folder.
 #[derive(Clone, Debug)]
 pub struct Folder {
-    /// Where it is.
+    /// Path of the folder.
     pub path: PathBuf,
-    /// What was planned.
+    /// The plan.
     pub plan: Plan,
-    /// Its scene, which refers to files of the folder only.
+    /// The scene. It refers only to files in the folder.
     pub scene: Scene,
-    /// Its rounds so far, each with what its shards are known by.
+    /// Rounds so far, each with the hash that identifies its shards.
     pub rounds: Vec<(Round, String)>,
 }
 
-/// How far a campaign is.
+/// Progress of a campaign.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Status {
     /// The scene's title.
     pub title: String,
-    /// Rounds so far.
+    /// Number of rounds so far.
     pub rounds: usize,
-    /// Shards so far.
+    /// Number of shards so far.
     pub shards: usize,
-    /// Shards that are done.
+    /// Number of finished shards.
     pub done: usize,
-    /// Shards that are to be computed.
+    /// Shards to compute.
     pub open: Vec<usize>,
     /// Shards whose last attempt failed, with the reason.
     pub failed: Vec<(usize, String)>,
-    /// Seconds of one processor that the open shards will take, where some pieces were tried.
+    /// Estimated processor time of the open shards \[s\], if trial pieces were timed.
     pub left_s: Option<f64>,
-    /// Whether everything is merged.
+    /// True if all shards are merged.
     pub merged: bool,
 }
 
 impl Folder {
-    /// Whether the shards hold rows of a study.
+    /// Returns true if the shards contain rows of a study.
     pub fn holds_rows(&self) -> bool {
         !trains(&self.scene)
     }
 
-    /// Reads what a folder holds. The program may be another one: whoever looks only may look.
+    /// Reads a campaign folder. Also possible with another build of the program, for viewing.
     ///
     /// # Errors
-    /// When it holds no campaign, or one that makes no sense.
+    /// If it contains no campaign, or an invalid one.
     pub fn open(path: &Path) -> Result<Self, CampaignError> {
         let place = path.join(PLAN);
         if !place.is_file() {
@@ -108,22 +108,22 @@ impl Folder {
         Ok(Self { path: path.to_owned(), plan, scene, rounds })
     }
 
-    /// The folder that a path means: itself, or the one of its `campaign.ron`; none where that is no campaign.
+    /// Returns the campaign folder for a path to the folder or to its `campaign.ron`; `None` if there is no campaign.
     pub fn meant(path: &Path) -> Option<PathBuf> {
         let own = path.file_name().is_some_and(|name| name == PLAN).then(|| path.parent().unwrap_or(Path::new(".")));
         let folder = own.unwrap_or(path);
         folder.join(PLAN).is_file().then(|| folder.to_owned())
     }
 
-    /// Where its scene lies.
+    /// Returns the path of the scene.
     pub fn scene_path(&self) -> PathBuf {
         self.path.join(SCENE)
     }
 
-    /// Refuses another build of the program.
+    /// Refuses a build of the program other than the one that planned the campaign.
     ///
     /// # Errors
-    /// Naming both.
+    /// With both hashes.
     pub fn check_program(&self) -> Result<(), CampaignError> {
         let own = own_hash()?;
         if own == self.plan.program_hash {
@@ -133,15 +133,15 @@ impl Folder {
         Err(CampaignError::OtherProgram { version, planned, own: own.to_owned() })
     }
 
-    /// Shards so far.
+    /// Returns the number of shards so far.
     pub fn shards(&self) -> usize {
         self.rounds.last().map_or(0, |(round, _)| round.first + round.shards())
     }
 
-    /// The number and content of the round of a shard, and what the shard is known by.
+    /// Returns number and content of the round of a shard, and the hash that identifies its shards.
     ///
     /// # Errors
-    /// When there is none.
+    /// If there is no such shard.
     pub fn round_of(&self, shard: usize) -> Result<(usize, &Round, &str), CampaignError> {
         let holds =
             |(_, (round, _)): &(usize, &(Round, String))| (round.first..round.first + round.shards()).contains(&shard);
@@ -150,47 +150,47 @@ impl Folder {
         found.ok_or(CampaignError::NoShard { shard, shards: self.shards() })
     }
 
-    /// The file of a shard.
+    /// Returns the path of a shard.
     pub fn shard_path(&self, shard: usize) -> PathBuf {
         self.path.join(SHARDS).join(format!("{shard:06}.shard"))
     }
 
-    /// Where it is said why a shard failed.
+    /// Returns the path of the file with the reason why a shard failed.
     pub fn failure_path(&self, shard: usize) -> PathBuf {
         self.shard_path(shard).with_extension("failed")
     }
 
-    /// The folder of what came of it.
+    /// Returns the folder of the result.
     pub fn result_path(&self) -> PathBuf {
         self.path.join(RESULT)
     }
 
-    /// The model of a training, among what came of it.
+    /// Returns the path of the model of a training in the result.
     pub fn model_path(&self) -> PathBuf {
         self.result_path().join(self.model_name())
     }
 
-    /// Name of the file of a training's model.
+    /// Returns the file name of a training's model.
     pub(super) fn model_name(&self) -> String {
         format!("{}.rom", self.plan.name)
     }
 
-    /// Where the state of a training is kept between rounds.
+    /// Returns the path of a training's state between rounds.
     pub fn state_path(&self, round: usize) -> PathBuf {
         self.path.join(ROUNDS).join(format!("{round:03}.training"))
     }
 
-    /// A finished shard.
+    /// Reads a finished shard.
     ///
     /// # Errors
-    /// When it cannot be read, is damaged, or belongs to another program, scene, model or campaign.
+    /// If it cannot be read, is damaged, or belongs to another program, scene, model or campaign.
     pub fn shard(&self, shard: usize) -> Result<Shard, CampaignError> {
         let (_, round, hash) = self.round_of(shard)?;
         let path = self.shard_path(shard);
         Shard::read(&path, shard, (&self.plan, hash), round.part(shard).len())
     }
 
-    /// Numbers of the shards whose files are there, whole or not.
+    /// Returns the numbers of the shards whose files exist, complete or not.
     pub fn done(&self) -> BTreeSet<usize> {
         let number = |entry: std::io::Result<std::fs::DirEntry>| {
             let name = entry.ok()?.file_name();
@@ -199,7 +199,7 @@ impl Folder {
         std::fs::read_dir(self.path.join(SHARDS)).map(|all| all.filter_map(number).collect()).unwrap_or_default()
     }
 
-    /// How far it is.
+    /// Returns the progress.
     pub fn status(&self) -> Status {
         let done = self.done();
         let open: Vec<usize> = (0..self.shards()).filter(|shard| !done.contains(shard)).collect();

@@ -1,4 +1,5 @@
-//! All cores of this machine: a process for each shard, so that one that dies takes nothing with it.
+//! Computes a campaign on all cores of this machine, with one process per shard, so that a crash affects only one
+//! shard.
 
 use super::CampaignError;
 use super::folder::Folder;
@@ -10,22 +11,22 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// How often a shard is tried.
+/// Number of attempts per shard.
 const ATTEMPTS: usize = 3;
-/// How long nobody looks whether a process has ended.
+/// Interval of checks whether a process has ended.
 const LOOK_EVERY: Duration = Duration::from_millis(20);
 
-/// A process at work on a shard.
+/// Process that computes a shard.
 struct Worker {
     shard: usize,
     attempt: usize,
     process: Child,
 }
 
-/// Computes what is open on so many processes of a program, merges, and goes on until everything is there.
+/// Computes the open shards with this number of processes, merges, and repeats this until the campaign is complete.
 ///
 /// # Errors
-/// When a shard cannot be computed, or merging is refused. What is finished stays.
+/// If a shard cannot be computed, or if merging is refused. Finished shards are kept.
 pub fn run(path: &Path, program: &Path, workers: usize, observer: &dyn Observer) -> Result<Whole, CampaignError> {
     loop {
         let folder = Folder::open(path)?;
@@ -54,7 +55,7 @@ fn compute_open(folder: &Folder, program: &Path, workers: usize, observer: &dyn 
         }
         if observer.cancelled() {
             for worker in &mut at_work {
-                // One that has ended already cannot be stopped.
+                // Fails if the process has already ended.
                 let _ended = worker.process.kill();
             }
             return Err(crate::engine::EngineError::Cancelled.into());

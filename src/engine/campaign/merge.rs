@@ -1,4 +1,4 @@
-//! Merging: everything that was computed comes together, and either opens the next round or is the result.
+//! Merges the shards of a campaign, which either opens the next round or gives the result.
 
 use super::CampaignError;
 use super::folder::{Folder, ROUNDS};
@@ -15,31 +15,31 @@ use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
-/// What came of merging.
+/// Outcome of a merge.
 #[derive(Clone, Debug)]
 pub enum Merged {
-    /// The next round is open: these shards are to be computed.
+    /// The next round is open, with these shards to compute.
     Round(std::ops::Range<usize>),
-    /// Everything is there.
+    /// The campaign is complete.
     Result(Box<Whole>),
 }
 
-/// Everything that a campaign gave.
+/// Result of a campaign.
 #[derive(Clone, Debug)]
 pub struct Whole {
-    /// The scene's outcome, with what the clocks of the shards said.
+    /// Outcome of the scene, including the measured times of the shards.
     pub outcome: SceneOutcome,
-    /// Seconds of all shards.
+    /// Total time of all shards \[s\].
     pub seconds: f64,
-    /// Kinds of processors that computed shards.
+    /// Types of processors that computed shards.
     pub processors: BTreeSet<String>,
 }
 
-/// Merges a campaign. What is written follows from program, scene and models alone, byte for byte; seconds are in none
-/// of it.
+/// Merges a campaign. The files written depend only on program, scene and models, byte for byte. They contain no
+/// measured times.
 ///
 /// # Errors
-/// When shards are missing, damaged or foreign, a training gives no model, or something cannot be written.
+/// If shards are missing, damaged or of another campaign, if a training fails, or if a file cannot be written.
 pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, CampaignError> {
     folder.check_program()?;
     let done = folder.done();
@@ -56,7 +56,7 @@ pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, Campaig
         processors.insert(shard.processor.clone());
         match shard.content {
             Content::Rows(_) => rows.extend(Shard::rows(shard)),
-            // Of a training, earlier rounds are part of its state.
+            // For a training, earlier rounds are part of its state.
             Content::Contacts(contacts) if number >= last => {
                 solved.extend(contacts.into_iter().map(|(place, point, solved)| (place, (point, solved))));
             }
@@ -74,7 +74,7 @@ pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, Campaig
                 let row = |wall_s| vec![StudyRow::Training(Row { model: Arc::new(model.clone()), wall_s })];
                 let keep = |beside: &Path| {
                     let path = beside.join(folder.model_name());
-                    // A model that does not solve its own training points is refused.
+                    // Writing fails if the model does not solve its own training points.
                     let written = model_file::write(&model, &path);
                     written.map_err(|reason| EngineError::Model { path, reason: reason.into() })
                 };
@@ -91,7 +91,7 @@ pub fn merge(folder: &Folder, observer: &dyn Observer) -> Result<Merged, Campaig
     finish(folder, (rows, untimed), |_| Ok(()), seconds, processors)
 }
 
-/// A row without what a clock said.
+/// Removes the measured times from a row.
 fn without_seconds(mut row: StudyRow) -> StudyRow {
     row.seconds().into_iter().for_each(|seconds| *seconds = f64::NAN);
     row
@@ -102,13 +102,13 @@ fn open_round(folder: &Folder, pieces: Pieces) -> Result<Merged, CampaignError> 
     let round = Round { first: folder.shards(), per_shard: folder.plan.per_shard, pieces };
     let path = folder.path.join(ROUNDS).join(format!("{number:03}.ron"));
     atomic_file::replace(&path, round.to_text(&path)?.as_bytes())?;
-    // The state that this round goes on from holds all that the one before it did.
+    // The state of this round includes that of the previous one.
     let _gone = std::fs::remove_file(folder.state_path(number - 1));
     Ok(Merged::Round(round.first..round.first + round.shards()))
 }
 
-/// Writes what came of a campaign, and whatever else is to be kept beside it; the folder of results is there when all of
-/// it is.
+/// Writes the result of a campaign and the additional files of `keep`. The result folder appears only when it is
+/// complete.
 fn finish(
     folder: &Folder,
     (rows, untimed): (Vec<StudyRow>, Vec<StudyRow>),
@@ -131,7 +131,7 @@ fn finish(
     Ok(Merged::Result(Box::new(Whole { outcome, seconds, processors })))
 }
 
-/// An outcome without the values, and without the expectations, that only a clock gives.
+/// Removes values that depend on measured times from an outcome, and the expectations about them.
 fn clockless(timed: &SceneOutcome, mut untimed: SceneOutcome) -> SceneOutcome {
     let of_clock = |value: &NamedValue| {
         value.value.is_nan() && timed.found.value(&value.name, value.method.as_ref()).is_some_and(f64::is_finite)
@@ -143,7 +143,7 @@ fn clockless(timed: &SceneOutcome, mut untimed: SceneOutcome) -> SceneOutcome {
     untimed
 }
 
-/// Plans a training up to its first full solutions, and keeps its state for the merge.
+/// Runs a training up to its first full solutions, and stores its state for the merge.
 pub(super) fn first_contacts(folder: &Path, scene: &Scene, spec: TrainingSpec) -> Result<Pieces, CampaignError> {
     let mut state = TrainingState::new(spec);
     let watch = Elsewhere { solved: HashMap::new(), observer: &() };
@@ -154,7 +154,7 @@ pub(super) fn first_contacts(folder: &Path, scene: &Scene, spec: TrainingSpec) -
     }
 }
 
-/// Keeps the state of a training that waits, and gives what it waits for.
+/// Stores the state of a training that waits for full solutions, and returns their contacts.
 fn contacts(path: &Path, state: &TrainingState) -> Result<Pieces, CampaignError> {
     let Some((grid, points)) = state.awaited() else {
         return Err(EngineError::Study("the training waits for nothing".to_owned()).into());
@@ -163,7 +163,7 @@ fn contacts(path: &Path, state: &TrainingState) -> Result<Pieces, CampaignError>
     Ok(Pieces::Contacts { grid, points: points.to_vec() })
 }
 
-/// Gives a training the full solutions of shards, and lets it wait for all others.
+/// Observer that supplies a training with full solutions from shards. The training stops at the first missing ones.
 struct Elsewhere<'a> {
     solved: HashMap<usize, (OperatingPoint, Option<Solved>)>,
     observer: &'a dyn Observer,

@@ -1,20 +1,21 @@
-//! Campaigns: one scene's work in shards that any number of processes and machines compute, and that come together
-//! byte for byte as one machine would have made them.
+//! Campaigns: the work of one scene divided into shards that any number of processes and machines compute. The merged
+//! result is byte for byte that of a single machine.
 //!
-//! A campaign is a folder, and all its state is files in it; whoever dies, dies without harm:
+//! A campaign is a folder, and its files are its complete state. A process that crashes does no harm:
 //!
 //! ```text
-//! campaign.ron            what was planned, with hashes of program, scene and models      ([`plan`])
-//! scene.ron, model_0.rom  the scene and all that it refers to
-//! rounds/000.ron          pieces of the study, or contacts of the training, and how they are cut into shards
-//! shards/000017.shard     what came of a shard: written beside, then put in its place      ([`compute`])
-//! result/                 outcome and tables, or the model                                 ([`merge`])
-//! slurm.sh                the same on a cluster under Slurm                                ([`slurm`])
+//! campaign.ron            plan, with hashes of program, scene and models                  ([`plan`])
+//! scene.ron, model_0.rom  the scene and all files that it refers to
+//! rounds/000.ron          pieces of the study, or contacts of the training, and shard size
+//! rounds/000.training     state of a training between rounds
+//! shards/000017.shard     result of a shard: written to a temporary file, then renamed    ([`compute`])
+//! result/                 outcome and tables, or the model                                ([`merge`])
+//! slurm.sh                script for clusters with Slurm                                  ([`slurm`])
 //! ```
 //!
-//! A study that falls into pieces ([`Divisible`](crate::scene::study::Divisible)) has one round, or a second one that
-//! follows from the first. A training has a round for every set of full solutions that it decides on; what it decides,
-//! and the bases, are worked out between rounds by [`merge`].
+//! A divisible study ([`Divisible`](crate::scene::study::Divisible)) has one round, or a second one that depends on the
+//! first. A training has one round for every set of full solutions that it selects. Between rounds, [`merge`] selects
+//! the next set and computes the bases.
 
 pub mod compute;
 mod document;

@@ -1,4 +1,4 @@
-//! Planning: from a campaign's document to a folder that holds everything its shards need.
+//! Plans a campaign: writes a folder with everything that its shards need.
 
 use super::document::{Campaign, Cut, Plan, VERSION};
 use super::error::CampaignError;
@@ -14,11 +14,11 @@ use crate::solver::observer::{Observer, Progress};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Pieces that are tried for the time they take, and how long at most.
+/// Number of trial pieces, and time limit for them.
 const TRIED: usize = 4;
 const TRYING: Duration = Duration::from_secs(20);
 
-/// Stops once it has taken long enough.
+/// Observer that cancels after the time limit.
 struct Patience(Stopwatch);
 
 impl Observer for Patience {
@@ -29,17 +29,17 @@ impl Observer for Patience {
 impl crate::solver::training::TrainingObserver for Patience {}
 impl crate::scene::StudyObserver for Patience {}
 
-/// Plans a campaign into a folder. The same campaign planned again is left as it is.
+/// Plans a campaign into a folder. If the folder already contains the same campaign, it is unchanged.
 ///
 /// # Errors
-/// When the document or its scene is refused, or the folder cannot be written or holds another campaign.
+/// If the document or its scene is refused, or if the folder cannot be written or contains another campaign.
 pub fn plan(document: &Path, folder: &Path, observer: &dyn Observer) -> Result<Folder, CampaignError> {
     let campaign = Campaign::read(document)?;
     let beside = document.parent().unwrap_or(Path::new(""));
     let source = beside.join(&campaign.scene);
     let mut scene = Scene::read(&source).map_err(EngineError::from)?;
     let base = source.parent().unwrap_or(Path::new(""));
-    // Refused by their own names, before anything is written.
+    // Models are checked before anything is written, so that errors contain their original paths.
     Workbench::on(&Store::default(), base).check_models(&scene)?;
     let files = self_contained(&mut scene, base)?;
     let name = source.file_stem().unwrap_or(source.as_os_str()).to_string_lossy().into_owned();
@@ -89,12 +89,13 @@ pub fn plan(document: &Path, folder: &Path, observer: &dyn Observer) -> Result<F
     let text = ron::ser::to_string_pretty(&plan, config)
         .map_err(|error| CampaignError::Document { path: place.clone(), reason: error.to_string() })?;
     slurm::write(folder, &plan)?;
-    // Written last: a folder with it is whole.
+    // The plan is written last: a folder that contains it is complete.
     atomic_file::replace(&place, (text + "\n").as_bytes())?;
     Folder::open(folder)
 }
 
-/// Makes a scene refer to nothing but files beside it, and gives these; the scene itself is the first.
+/// Changes the references of a scene to files in its own folder, and returns these files. The scene itself is the
+/// first.
 fn self_contained(scene: &mut Scene, base: &Path) -> Result<Vec<(String, Vec<u8>)>, CampaignError> {
     let mut files = Vec::new();
     for method in scene.study.methods_mut() {
@@ -127,8 +128,8 @@ fn self_contained(scene: &mut Scene, base: &Path) -> Result<Vec<(String, Vec<u8>
     Ok(files)
 }
 
-/// Seconds that a piece takes here, by some that lie apart; the first one, which makes grids and reads models, counts
-/// only where it is alone.
+/// Measures the time per piece \[s\] on trial pieces spread over all pieces. The first one includes building grids and
+/// reading models. It is counted only if it is the only one.
 fn tried(scene: &Scene, pieces: &Pieces, bench: &mut Workbench) -> Result<f64, CampaignError> {
     let (count, patience) = (pieces.len(), Patience(Stopwatch::start()));
     let mut seconds = Vec::new();

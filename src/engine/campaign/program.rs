@@ -1,4 +1,4 @@
-//! Which program computes, and on what: results are equal to the last bit where both are.
+//! Identifies the program and the processor. Results are bitwise equal if both are the same.
 
 use super::CampaignError;
 use std::path::Path;
@@ -8,7 +8,7 @@ use xxhash_rust::xxh3::xxh3_64;
 /// Version of this program.
 pub const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
-/// A hash as files write it.
+/// Returns a hash as written in files.
 pub fn hash_of(bytes: &[u8]) -> String {
     format!("{:016x}", xxh3_64(bytes))
 }
@@ -16,15 +16,15 @@ pub fn hash_of(bytes: &[u8]) -> String {
 /// Reads a whole file of a campaign.
 ///
 /// # Errors
-/// When it cannot be read.
+/// If it cannot be read.
 pub fn read(path: &Path) -> Result<Vec<u8>, CampaignError> {
     std::fs::read(path).map_err(|error| CampaignError::Read { path: path.to_owned(), reason: error.to_string() })
 }
 
-/// The hash of the program that runs: of its file, so that no two builds are taken for one.
+/// Returns the hash of the running program's file, which distinguishes different builds.
 ///
 /// # Errors
-/// When its file cannot be read.
+/// If the file cannot be read.
 pub fn own_hash() -> Result<&'static str, CampaignError> {
     static HASH: OnceLock<String> = OnceLock::new();
     if let Some(hash) = HASH.get() {
@@ -36,7 +36,7 @@ pub fn own_hash() -> Result<&'static str, CampaignError> {
     Ok(HASH.get_or_init(|| hash))
 }
 
-/// What sums may depend on in their last bits: the processor's way of adding several numbers at once.
+/// Returns the processor features that affect the rounding of sums (vector instructions).
 pub fn processor() -> String {
     #[cfg(target_arch = "x86_64")]
     let features = [

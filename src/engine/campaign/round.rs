@@ -1,4 +1,4 @@
-//! A round of a campaign: what is computed in it, and how that is cut into shards.
+//! Round of a campaign: its pieces, and their division into shards.
 
 use super::CampaignError;
 use super::program::hash_of;
@@ -7,15 +7,15 @@ use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// A round as its file holds it.
+/// Round, as stored in its file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Round {
     /// Number of its first shard.
     pub first: usize,
-    /// Pieces of each shard but the last one.
+    /// Number of pieces per shard, except the last one.
     pub per_shard: usize,
-    /// What its pieces are.
+    /// The pieces.
     pub pieces: Pieces,
 }
 
@@ -23,35 +23,35 @@ pub struct Round {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Pieces {
-    /// So many pieces of a study, numbered from 0.
+    /// Pieces of a study, numbered from 0 to n − 1.
     All(usize),
     /// Pieces of a study by their numbers.
     Chosen(Vec<usize>),
-    /// Contacts that a training wants solved in full on one grid, each with its place in the order.
+    /// Contacts that a training requests as full solutions on one grid, each with its place in the order.
     Contacts {
-        /// The grid of all.
+        /// Grid of all contacts.
         grid: GridSpec,
         /// The contacts.
         points: Vec<(usize, OperatingPoint)>,
     },
 }
 
-/// The pieces of one shard.
+/// Pieces of one shard.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
-    /// Of a study, by their numbers.
+    /// Pieces of a study, by their numbers.
     Study(Vec<usize>),
     /// Contacts of a training.
     Training(GridSpec, Vec<(usize, OperatingPoint)>),
 }
 
 impl Pieces {
-    /// Pieces of a study.
+    /// Returns the pieces of a study.
     pub fn of_study(numbers: Vec<usize>) -> Self {
         if numbers.iter().copied().eq(0..numbers.len()) { Self::All(numbers.len()) } else { Self::Chosen(numbers) }
     }
 
-    /// How many.
+    /// Returns the number of pieces.
     pub fn len(&self) -> usize {
         match self {
             Self::All(count) => *count,
@@ -62,12 +62,12 @@ impl Pieces {
 }
 
 impl Round {
-    /// How many shards it has.
+    /// Returns the number of shards.
     pub fn shards(&self) -> usize {
         self.pieces.len().div_ceil(self.per_shard.max(1))
     }
 
-    /// The pieces of one of its shards, by its number in the campaign.
+    /// Returns the pieces of a shard, given the shard's number in the campaign.
     pub fn part(&self, shard: usize) -> Part {
         let from = shard.saturating_sub(self.first).saturating_mul(self.per_shard).min(self.pieces.len());
         let to = from.saturating_add(self.per_shard).min(self.pieces.len());
@@ -80,10 +80,10 @@ impl Round {
         }
     }
 
-    /// Its text, and the hash of it under the campaign's.
+    /// Returns the text of the round's file.
     ///
     /// # Errors
-    /// Never for rounds that are planned.
+    /// Does not fail for planned rounds.
     pub fn to_text(&self, path: &Path) -> Result<String, CampaignError> {
         let text = ron::to_string(self).map_err(|error| CampaignError::Document {
             path: path.to_owned(),
@@ -92,10 +92,10 @@ impl Round {
         Ok(text + "\n")
     }
 
-    /// Reads its text.
+    /// Reads the text of a round's file.
     ///
     /// # Errors
-    /// When it makes no sense.
+    /// If it is not valid.
     pub fn from_text(text: &str, path: &Path) -> Result<Self, CampaignError> {
         let refused = |reason: String| CampaignError::Document { path: path.to_owned(), reason };
         let round: Self = ron::from_str(text).map_err(|error| refused(error.to_string()))?;
@@ -108,14 +108,14 @@ impl Round {
         Ok(round)
     }
 
-    /// What a shard of it is known by: the hash of the campaign, and of the round's own text.
+    /// Returns the hash that identifies the shards of a round, from the hash of the campaign and the text of the round.
     pub fn hash(campaign: &str, text: &str) -> String {
         hash_of(format!("{campaign}\n{text}").as_bytes())
     }
 }
 
 impl Part {
-    /// Pieces in it.
+    /// Returns the number of pieces.
     pub fn len(&self) -> usize {
         match self {
             Self::Study(numbers) => numbers.len(),

@@ -1,4 +1,4 @@
-//! A finished shard, and its file.
+//! Finished shard and its file.
 
 use super::document::{Plan, VERSION};
 use super::error::CampaignError;
@@ -9,15 +9,15 @@ use crate::solver::training::Solved;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// Full solutions of the finest grids, as many as a day gives.
+/// File format. The size limit corresponds to the full solutions of one day on the finest grids.
 pub(super) const FORMAT: Format = Format { magic: b"EHLSHD\r\n", version: VERSION, max_payload: 2 << 30 };
 
-/// What came of a shard.
+/// Result of a shard.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Content {
-    /// Rows of a study, in the order of their pieces; seconds in them are kept aside.
+    /// Rows of a study, in the order of their pieces, without measured times.
     Rows(Vec<StudyRow>),
-    /// Contacts of a training with their full solutions, none where the solver did not converge.
+    /// Contacts of a training with their full solutions; `None` if the solver did not converge.
     Contacts(Vec<(usize, OperatingPoint, Option<Solved>)>),
 }
 
@@ -26,33 +26,33 @@ pub enum Content {
 pub struct Shard {
     /// Hash of the program that computed it.
     pub(super) program: String,
-    /// Hashes of the campaign's files.
+    /// Hashes of the campaign files.
     pub(super) files: Vec<String>,
-    /// What its round is known by.
+    /// Hash that identifies the round.
     pub(super) round: String,
-    /// Its number.
+    /// Number of the shard.
     pub(super) number: usize,
-    /// Pieces in it.
+    /// Number of pieces.
     pub(super) pieces: usize,
-    /// What came of it: the same bytes wherever it is computed.
+    /// Result: the same bytes on every machine.
     pub content: Content,
-    /// The seconds of its rows, in their order.
+    /// Measured times of the rows, in order \[s\].
     pub times: Vec<f64>,
-    /// Seconds that all of it took.
+    /// Total time \[s\].
     pub seconds: f64,
-    /// The kind of processor that computed it.
+    /// Type of the processor.
     pub processor: String,
 }
 
 impl Content {
-    /// Takes the seconds out of the rows, so that what is left depends on no clock.
+    /// Removes the measured times from the rows, so that the rest is reproducible, and returns them.
     pub(super) fn take_seconds(&mut self) -> Vec<f64> {
         let Self::Rows(rows) = self else { return Vec::new() };
         let seconds = rows.iter_mut().flat_map(StudyRow::seconds);
         seconds.map(|seconds| std::mem::replace(seconds, f64::NAN)).collect()
     }
 
-    /// Whether its contacts make sense and its solutions are numbers: what a right hash cannot promise.
+    /// Returns true if the contacts are valid and the solutions finite. A correct hash does not guarantee this.
     fn is_sound(&self) -> bool {
         match self {
             Self::Rows(rows) => rows.iter().all(StudyRow::is_sound),
@@ -65,7 +65,7 @@ impl Content {
 }
 
 impl Shard {
-    /// Its rows as they were told, with their seconds.
+    /// Returns the rows with their measured times.
     pub fn rows(mut self) -> Vec<StudyRow> {
         let Content::Rows(rows) = &mut self.content else { return Vec::new() };
         let seconds = rows.iter_mut().flat_map(StudyRow::seconds);

@@ -1,4 +1,5 @@
-//! The script that takes a campaign through Slurm: an array of jobs for the open shards, then a merge, round by round.
+//! Writes the script that computes a campaign with Slurm: a job array for the open shards, then a merge, round by
+//! round.
 
 use super::CampaignError;
 use super::document::Plan;
@@ -15,7 +16,7 @@ pub(super) fn write(folder: &Path, plan: &Plan) -> Result<(), CampaignError> {
     Ok(atomic_file::replace(&folder.join(SCRIPT), text.as_bytes())?)
 }
 
-/// A word that the shell leaves as it is.
+/// Quotes a word for the shell.
 fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', r"'\''"))
 }

@@ -1,4 +1,4 @@
-//! Campaigns against one run, piece by piece and file by file.
+//! Tests that campaigns give the same rows and files as a single run.
 
 use super::CampaignError;
 use super::compute::{Done, compute};
@@ -24,7 +24,7 @@ impl StudyObserver for Rows {
 }
 
 impl Rows {
-    /// Without what a clock says, in the order of their bytes.
+    /// Returns the rows without measured times, as bytes.
     fn bytes(self) -> Vec<Vec<u8>> {
         let mut rows = self.0.into_inner().unwrap();
         rows.iter_mut().flat_map(StudyRow::seconds).for_each(|seconds| *seconds = 0.0);
@@ -62,7 +62,7 @@ fn pieces_in_any_order_give_every_bit_of_one_run() {
             if pieces.is_empty() {
                 break;
             }
-            // Tests are numbered by their order; truths may come as they like.
+            // Tests are numbered by their order; full solutions may arrive in any order.
             let whole = if round == 0 && study.starts_with("Random") { pieces } else { rotated(pieces) };
             for some in whole.chunks(2) {
                 scene.study.work(&experiment, &mut bench, (round, some), &parts).unwrap();
@@ -96,7 +96,7 @@ const ADAPTIVE: &str = "study: Training(title: \"t\", range: (axes: {Radius: (3e
     limit: 8), windows: Given([(m: (1.0, 500.0), grid: Graded(nodes: 240, domain: (-6.0, 1.9), registered: true))]), \
     pressure_loss: 1e-6, deformation_loss: 1e-6, rows_per_mode: 2.0, evidence: 0, seed: 5)";
 
-/// A folder that goes when the test ends.
+/// Folder that is deleted when the test ends.
 struct Scratch(PathBuf);
 
 impl Scratch {
@@ -107,7 +107,7 @@ impl Scratch {
         Self(path)
     }
 
-    /// Plans a campaign of a scene, in shards of so many pieces.
+    /// Plans a campaign of a scene, with this number of pieces per shard.
     fn planned(&self, study: &str, pieces: usize, folder: &str) -> Folder {
         let scene = format!("Scene(version: 1, title: \"t\", at: Moes(m: 20.0, l: 6.0), {study})");
         std::fs::write(self.0.join("a.ron"), scene).unwrap();
@@ -127,7 +127,7 @@ fn shard(folder: &Folder, number: usize) -> Result<Done, CampaignError> {
     compute(folder, number, 1, &(), &|| ())
 }
 
-/// Computes everything, the last shards first, and gives the result's files.
+/// Computes everything, the last shards first, and returns the files of the result.
 fn through(mut folder: Folder) -> (Vec<(String, Vec<u8>)>, usize) {
     loop {
         for number in folder.status().open.into_iter().rev() {
@@ -199,7 +199,7 @@ fn gaps_and_what_is_damaged_or_foreign_are_refused_and_nothing_is_merged() {
     refused("cut off");
     std::fs::write(folder.shard_path(2), b"nonsense").unwrap();
     refused("another kind of file");
-    // Computed again it takes the place of what was there.
+    // A shard that is computed again replaces the existing file.
     assert_eq!(shard(&folder, 2).unwrap(), Done::Computed);
     assert!(matches!(merge(&folder, &()).unwrap(), Merged::Round(_)));
     let leftovers = files(&folder.path.join(SHARDS)).into_iter().filter(|(name, _)| !name.ends_with(".shard")).count();

@@ -1,4 +1,4 @@
-//! Watching a campaign: its rows as its shards come, whoever computes them.
+//! Watches a campaign: reports the rows of shards as soon as they are finished, on any machine.
 
 use super::error::CampaignError;
 use super::folder::{Folder, Status};
@@ -12,21 +12,22 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// How long nobody looks into the folder.
+/// Interval of checks of the folder.
 const LOOK_EVERY: Duration = Duration::from_millis(500);
-/// How long a stop waits at most.
+/// Longest delay of a stop request.
 const HEARD_WITHIN: Duration = Duration::from_millis(50);
 
-/// News of a campaign.
+/// Report about a campaign.
 #[derive(Clone, Debug)]
 pub enum News {
     /// Rows of a shard, by its number.
     Rows(usize, Vec<StudyRow>),
-    /// How far it is.
+    /// Progress.
     Status(Box<Status>),
 }
 
-/// Watches a folder until everything in it is merged. Rows of shards come in the order in which these are finished.
+/// Watches a folder until everything in it is merged. Rows of shards are reported in the order in which the shards are
+/// finished.
 pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
     Job::start("Watching the campaign", wake, move |reporter| {
         let (mut read, mut told): (BTreeSet<usize>, Option<Status>) = Default::default();
@@ -42,14 +43,14 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
                 if folder.holds_rows() {
                     match folder.shard(shard) {
                         Ok(found) => reporter.send(News::Rows(shard, found.rows())),
-                        // One that cannot be read now may be replaced.
+                        // A shard that cannot be read now may be replaced later.
                         Err(CampaignError::Read { .. }) => continue,
                         Err(refused) => return Err(JobError::failed(refused)),
                     }
                 }
                 read.insert(shard);
             }
-            // Of those that were there before nobody knows how long they took.
+            // Shards that were finished before watching started give no time per shard.
             let before = status.done.min(*there.get_or_insert(status.done));
             reporter.stage("new shards", status.done - before, status.shards - before);
             let merged = status.merged && status.open.is_empty();
@@ -75,7 +76,7 @@ pub fn watch(path: PathBuf, wake: Wake) -> Job<News> {
     })
 }
 
-/// The row of a training that was merged, as one run has it: its model, with the seconds of all shards.
+/// Returns the row of a merged training, as a single run would: the model, with the total time of all shards.
 fn trained(folder: &Folder) -> Result<StudyRow, JobError> {
     let path = folder.model_path();
     let model = model_file::read(&path)

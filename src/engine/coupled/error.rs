@@ -1,4 +1,4 @@
-//! Why a contact cannot be a part of another program's simulation, each as one sentence.
+//! Errors of contacts in co-simulations.
 
 use crate::scene::RunError;
 use crate::solver::full::SolveError;
@@ -8,69 +8,69 @@ use crate::solver::reduced::ReducedError;
 use crate::solver::reduced::transient::CoupledError as MarchError;
 use crate::solver::warning::Warning;
 
-/// Why a contact is refused, or has no solution.
+/// Reason why a contact is refused or has no solution.
 #[derive(Debug, thiserror::Error)]
 pub enum CoupledError {
-    /// The model is empty.
+    /// The model contains no local model.
     #[error("the reduced model `{0}` holds no window")]
     NoWindow(String),
-    /// Two half-planes have no approach.
+    /// An approach was given for a line contact. It is not defined for half-planes.
     #[error("the approach of a line contact depends on the size of its bodies; give its load instead")]
     LineApproach,
-    /// Transient models have no approach as input.
+    /// An approach was given for a transient model.
     #[error("a model in time is driven by its load; leave out --approach")]
     ApproachInTime,
-    /// There is no contact to begin with.
+    /// The model solves none of its training points.
     #[error("the reduced model `{0}` solves none of its own training points")]
     NoStart(String),
-    /// A transient model without a reference contact.
+    /// A transient model without reference contact.
     #[error("the model `{0}` knows no contact")]
     NoReference(String),
-    /// An input makes no sense.
+    /// An input is out of range.
     #[error("the {name} is {}{unit}, but must be a finite number{accepted}", Number(*value))]
     Input {
-        /// Its name.
+        /// Name of the input.
         name: &'static str,
-        /// What was given.
+        /// Value that was given.
         value: f64,
-        /// Its unit, after a blank; empty if it has none.
+        /// Unit, after a blank; empty if there is none.
         unit: &'static str,
-        /// The accepted range, after a blank; empty if all numbers are.
+        /// Accepted range, after a blank; empty if all numbers are accepted.
         accepted: &'static str,
     },
-    /// A variable is given a value that is no number.
+    /// A variable was set to a value that is not finite.
     #[error("`{name}` is {value}, but must be a finite number")]
     NoNumber {
-        /// Its name.
+        /// Name of the variable.
         name: &'static str,
-        /// What was given.
+        /// Value that was given.
         value: f64,
     },
     /// A variable is an output.
     #[error("`{0}` follows from the inputs and cannot be set")]
     Output(&'static str),
-    /// The search for a load found none.
+    /// No load was found for the approach.
     #[error("no load was found that gives an approach of {} m", Number(*.0))]
     NoLoad(f64),
-    /// Nothing converges.
+    /// Neither the model nor the full solver converged.
     #[error("neither the reduced model nor the full solver has a solution here: {0}")]
     NoSolution(String),
-    /// An input states no contact.
+    /// The inputs do not define a valid contact.
     #[error("{0}")]
     Stated(String),
-    /// The model was not trained for the contact, or for how its inputs change.
+    /// The contact, or the rate of change of its inputs, is outside the trained range.
     #[error("{}", Warning::joined(.0))]
     Untrained(Vec<Warning>),
     /// The request is refused.
     #[error(transparent)]
     Run(#[from] Box<RunError>),
-    /// It is asked for outputs before it has begun.
+    /// Outputs were requested before the start.
     #[error("the contact in time has not begun")]
     NotBegun,
     /// A state cannot be encoded.
     #[error("the state cannot be written")]
     Unwritable,
-    /// The bytes are no state.
+    /// The bytes are not a valid state.
     #[error("this is no state of this unit")]
     Foreign,
     /// The contact is refused.
@@ -79,10 +79,10 @@ pub enum CoupledError {
     /// The problem is refused.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// The reduced model refuses it.
+    /// The reduced model refuses the problem.
     #[error(transparent)]
     Reduced(#[from] ReducedError),
-    /// The march does not go on.
+    /// The march failed.
     #[error(transparent)]
     March(#[from] MarchError),
 }
@@ -104,7 +104,7 @@ pub(super) fn check(
     if fine { Ok(()) } else { Err(CoupledError::Input { name, value, unit, accepted }) }
 }
 
-/// Refuses a slide-to-roll ratio beyond any sense.
+/// Refuses a slide-to-roll ratio outside −10 to 10.
 pub(super) fn check_sliding(ratio: f64) -> Result<(), CoupledError> {
     check("slide-to-roll ratio", ratio, "", (" between -10 and 10", |ratio| ratio.abs() <= 10.0))
 }

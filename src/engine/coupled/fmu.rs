@@ -1,7 +1,7 @@
-//! A contact as a Functional Mock-up Unit for co-simulation, FMI 2.0: its variables, its description, its archive.
+//! Contact as a Functional Mock-up Unit for co-simulation (FMI 2.0): variables, model description, archive.
 //!
-//! The archive holds `modelDescription.xml`, the model, and a library that knows neither: what it is to be it learns from
-//! the identity that the description repeats to it.
+//! The archive contains `modelDescription.xml`, the model, and a library that is the same for all models. The library
+//! identifies model and input mode by the GUID in the model description.
 
 use super::{Coupled, CoupledError, InTime, Inputs, Outputs, Pressed};
 use crate::engine::SavedModel;
@@ -12,39 +12,39 @@ use std::fmt::Write;
 use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
 
-/// What the library's file is called in the archive, and what simulations call it.
+/// Model identifier and file name of the library.
 pub const IDENTIFIER: &str = "ehl_contact";
-/// Where the model is in the archive.
+/// Path of the model in the archive.
 pub const MODEL: &str = "resources/model.rom";
 
-/// What a variable is to a simulation.
+/// Causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Given from outside at every step.
+    /// Input: may change at every step.
     Input,
-    /// Given once, or changed now and then.
+    /// Parameter: set once, or changed occasionally.
     Parameter,
-    /// What follows.
+    /// Output.
     Output,
 }
 
-/// A real variable; its place in [`REALS`] is its value reference.
+/// Real variable. Its index in [`REALS`] is its value reference.
 pub struct Real {
     /// Its name.
     pub name: &'static str,
-    /// The field of a contact that it gives.
+    /// Contact field that it represents.
     field: Option<Field>,
-    /// Its unit in line contacts and in point contacts where it is no field; empty where it has none.
+    /// Unit for line and for point contacts, if it is not a contact field; empty without unit.
     unit: [&'static str; 2],
-    /// What it is.
+    /// Description.
     pub about: &'static str,
     role: Role,
-    /// Its place among the inputs.
+    /// Corresponding input.
     input: Option<fn(&mut Inputs) -> &mut f64>,
     output: Option<fn(&Outputs) -> f64>,
 }
 
-/// A field of a contact as a variable.
+/// Returns the variable for a contact field.
 const fn given(field: Field, role: Role, input: fn(&mut Inputs) -> &mut f64) -> Real {
     let facts = field.facts();
     Real {
@@ -67,7 +67,7 @@ const fn follows(
     Real { name, field: None, unit, about, role: Role::Output, input: None, output: Some(output) }
 }
 
-/// The distance that belongs to the approach of a line contact.
+/// Name of the reference distance for the approach of a line contact.
 const APPROACH_REFERENCE: &str = "approach_reference";
 
 /// All real variables.
@@ -126,27 +126,27 @@ pub const REALS: [Real; 19] = [
     ),
 ];
 
-/// A truth that follows: name, what it is, and where it is found.
+/// Boolean output: name, description, and getter.
 pub type Truth = (&'static str, &'static str, fn(&Outputs) -> bool);
 
-/// All of them; the place is the value reference.
+/// All boolean outputs. The index is the value reference.
 pub const TRUTHS: [Truth; 2] = [
     (names::TRAINED, "whether the model was trained for the contact", |outputs| outputs.trained),
     ("full", "whether the full solver took over where the model has no solution", |outputs| outputs.full),
 ];
 
 impl Real {
-    /// Its unit in contacts of a kind.
+    /// Returns the unit for a contact kind.
     fn unit_in(&self, kind: ContactKind) -> String {
         let [line, point] = self.field.map_or(self.unit, |field| field.facts().units());
         let unit = if kind == ContactKind::Line { line } else { point };
         unit.replace('·', ".")
     }
 
-    /// What it is to a simulation in the unit of a model; none where the unit has no such variable.
+    /// Returns the causality in the unit of a model; `None` if the unit does not have the variable.
     pub fn role(&self, model: &SavedModel, pressed: Pressed) -> Option<Role> {
         match (self.name, model) {
-            // A model in time is of one contact, of which it lets vary what its trainings did.
+            // A transient model is of one contact. Its inputs are those that vary in its trainings.
             ("load" | names::SRR, SavedModel::InTime(_)) => Some(Role::Input),
             ("speed", SavedModel::InTime(model)) => model.domain.speed.varies().then_some(Role::Input),
             ("radius", SavedModel::InTime(model)) => model.domain.radius.varies().then_some(Role::Input),
@@ -159,7 +159,7 @@ impl Real {
         }
     }
 
-    /// Its value as what it is.
+    /// Returns the value, as input or output.
     pub fn value(&self, role: Role, inputs: &Inputs, outputs: Option<&Outputs>) -> Option<f64> {
         match (role, self.input, self.output) {
             (Role::Output, _, Some(output)) => outputs.map(output),
@@ -168,10 +168,10 @@ impl Real {
         }
     }
 
-    /// Takes a value, which is judged with the others when the contact is solved.
+    /// Sets a value. It is checked when the contact is solved.
     ///
     /// # Errors
-    /// With a sentence where it is no number, or nothing to be given.
+    /// If the value is not finite, or if the variable cannot be set.
     pub fn set(&self, role: Role, inputs: &mut Inputs, value: f64) -> Result<(), CoupledError> {
         let (Some(input), true) = (self.input, role != Role::Output) else {
             return Err(CoupledError::Output(self.name));
@@ -184,7 +184,8 @@ impl Real {
     }
 }
 
-/// What tells a library and a description that they belong together: the model's content and what presses its bodies.
+/// Returns the GUID for a model's content and input mode. It shows that a library's model and a model description
+/// belong together.
 pub fn identity(model: &[u8], pressed: Pressed) -> String {
     let word = match pressed {
         Pressed::Load => "load",
@@ -193,12 +194,12 @@ pub fn identity(model: &[u8], pressed: Pressed) -> String {
     format!("{word}-{:016x}", xxh3_64(model))
 }
 
-/// What presses the bodies of a unit of this identity, if it is that of the model.
+/// Returns the input mode of a GUID, if it belongs to the model.
 pub fn pressed_of(identity_given: &str, model: &[u8]) -> Option<Pressed> {
     [Pressed::Load, Pressed::Approach].into_iter().find(|pressed| identity(model, *pressed) == identity_given)
 }
 
-/// Where the library of this system lies in an archive.
+/// Returns the path of this system's library in the archive.
 pub fn library_place() -> String {
     let (platform, ending) = match std::env::consts::OS {
         "windows" => ("win", "dll"),
@@ -208,15 +209,15 @@ pub fn library_place() -> String {
     format!("binaries/{platform}{}/{IDENTIFIER}.{ending}", usize::BITS)
 }
 
-/// What the file of the library is called where cargo leaves it.
+/// Returns the file name of the library in cargo's output folder.
 pub fn library_file() -> String {
     format!("{}{IDENTIFIER}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX)
 }
 
-/// A unit of a model and the content of its file, with the library that solves it.
+/// Returns the archive of a model, its file content, and the library.
 ///
 /// # Errors
-/// With a sentence where the model has no contact to begin with, or cannot be driven so.
+/// If the model solves no contact to start from, or if the input mode is not possible.
 pub fn archive(
     model: &SavedModel,
     content: Vec<u8>,
@@ -236,10 +237,10 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Inputs from which the unit of a model begins.
+/// Returns the start values of a model's inputs.
 ///
 /// # Errors
-/// With a sentence where the model has no contact to begin with, or cannot be driven so.
+/// If the model solves no contact to start from, or if the input mode is not possible.
 pub fn first_inputs(model: &SavedModel, pressed: Pressed) -> Result<Inputs, CoupledError> {
     let none = || CoupledError::NoStart(model.title().to_owned());
     match model {
@@ -252,7 +253,7 @@ pub fn first_inputs(model: &SavedModel, pressed: Pressed) -> Result<Inputs, Coup
     }
 }
 
-/// `modelDescription.xml` of a model and the content of its file.
+/// Returns `modelDescription.xml` for a model and the content of its file.
 fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<String, CoupledError> {
     let inputs = first_inputs(model, pressed)?;
     let mut text = String::new();
@@ -415,7 +416,7 @@ mod tests {
             assert_eq!(other.solve(&heavier).unwrap().approach_m, heavy.approach_m);
             let stiffness = |from: f64, to: f64| (heavy.load - light.load) / (to - from);
             let own = stiffness(light.approach_m, heavy.approach_m);
-            // Of the dry contact: the film gives way too, by a few percent.
+            // Stiffness of the dry contact. The film adds a few per cent of compliance.
             let point = one.request(&inputs, inputs.load).unwrap().point;
             let dry = |load: f64| {
                 let point = OperatingPoint { load, ..point };
@@ -468,7 +469,7 @@ mod tests {
         let model = SavedModel::from_bytes(bytes).unwrap();
         for pressed in [Pressed::Load, Pressed::Approach] {
             let text = description(&model, bytes, pressed).unwrap();
-            // All but the distance that only line contacts have.
+            // All variables except the reference distance that only line contacts have.
             assert_eq!(text.matches("<ScalarVariable ").count(), REALS.len() - 1 + TRUTHS.len());
             assert_eq!(pressed_of(&identity(bytes, pressed), bytes), Some(pressed));
         }

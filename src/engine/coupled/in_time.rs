@@ -1,7 +1,7 @@
-//! A contact in time as a part of another program's simulation: one reduced model whose state advances with its steps.
+//! Transient contact in a co-simulation: a reduced model whose state advances with each step.
 //!
-//! Inputs go on a straight line from what they were to what they are told to be at the end of a step, which is divided
-//! evenly into steps no longer than those of the model's training ([`CoupledMarch`]).
+//! Within a step, inputs change linearly from their previous values to those given for the end of the step. The step is
+//! divided into equal substeps no longer than those of the model's training ([`CoupledMarch`]).
 
 use super::error::{check, check_sliding};
 use super::{CoupledError, Inputs, Outputs, approach, approach_reference};
@@ -16,39 +16,39 @@ use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Inputs that do not change.
+/// Rate of change of constant inputs.
 const AT_REST: Input = Input { radius: 0.0, speed: 0.0, load: 0.0 };
 
-/// A model in time with all work space; one for each thread.
+/// Transient model with work space. Use one per thread.
 pub struct InTime {
     model: Arc<TrajectoryModel>,
     march: Option<CoupledMarch>,
-    /// How fast its inputs changed in its last step, per unit of T.
+    /// Rate of change of the inputs in the last step, per unit of T.
     rate: Input,
 }
 
-/// All that a contact in time needs to go on.
+/// Complete state of a transient contact.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct InTimeState {
-    /// Reference load \[N/m\]; the rest of the reference contact follows from the model.
+    /// Reference load \[N/m\]. The rest of the reference contact follows from the model.
     load: f64,
     rate: Input,
     march: MarchState,
 }
 
 impl InTimeState {
-    /// Its bytes.
+    /// Serialises the state.
     ///
     /// # Errors
-    /// With a sentence where it cannot be written.
+    /// If it cannot be encoded.
     pub fn to_bytes(&self) -> Result<Vec<u8>, CoupledError> {
         postcard::to_allocvec(self).map_err(|_| CoupledError::Unwritable)
     }
 
-    /// A state of its bytes, which is judged when it is set.
+    /// Deserialises a state. It is checked when it is restored.
     ///
     /// # Errors
-    /// With a sentence where these are no such bytes.
+    /// If the bytes are not a state.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, CoupledError> {
         match postcard::take_from_bytes(bytes) {
             Ok((state, [])) => Ok(state),
@@ -58,12 +58,12 @@ impl InTimeState {
 }
 
 impl InTime {
-    /// A contact by a model that has not begun.
+    /// Returns a contact that has not started yet.
     pub fn new(model: Arc<TrajectoryModel>) -> Self {
         Self { model, march: None, rate: AT_REST }
     }
 
-    /// Inputs under which the first training began.
+    /// Returns the inputs at the start of the first training.
     pub fn first_inputs(model: &TrajectoryModel) -> Option<Inputs> {
         let start = model.starts.first()?;
         let point = point_at(&start.point, start.inputs.at(0.0));
@@ -80,27 +80,27 @@ impl InTime {
         })
     }
 
-    /// Seconds of one unit of T, of the reference contact.
+    /// Returns the duration of one unit of T for the reference contact \[s\].
     pub fn seconds_per_time(point: &OperatingPoint) -> f64 {
         point.hertz().half_width_m / point.speed_m_per_s
     }
 
-    /// Whether it has begun.
+    /// Returns true if the simulation has started.
     pub fn has_begun(&self) -> bool {
         self.march.is_some()
     }
 
-    /// Forgets that it has begun.
+    /// Resets to the state before the start.
     pub fn reset(&mut self) {
         (self.march, self.rate) = (None, AT_REST);
     }
 
-    /// Begins where the contact has rested for ever under some inputs. Its reference contact, whose scales it has, is the
-    /// trained one nearest to their load.
+    /// Starts from the steady contact under the inputs. The reference contact, which defines the scales, is the trained
+    /// one with the nearest load.
     ///
     /// # Errors
-    /// With a sentence where an input makes no sense, the model was not trained for the contact or finds none; nothing has
-    /// changed then.
+    /// If an input is out of range, or if the contact is outside the trained range or not solved. The state is then
+    /// unchanged.
     pub fn begin(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         check_inputs(inputs)?;
         let reference = self.reference(self.reference_load(inputs.load)?)?;
@@ -111,11 +111,11 @@ impl InTime {
         self.outputs(inputs)
     }
 
-    /// Goes on by some seconds, at whose end the inputs are those.
+    /// Advances by a time in seconds. `inputs` are the values at the end.
     ///
     /// # Errors
-    /// With a sentence where an input makes no sense, the model was not trained for it or for how fast it changes, or a
-    /// step cannot be taken; nothing has changed then.
+    /// If an input or its rate of change is out of range or outside the trained range, or if a step fails. The state is
+    /// then unchanged.
     pub fn advance(&mut self, seconds: f64, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         check_inputs(inputs)?;
         let march = self.march.as_ref().ok_or(CoupledError::NotBegun)?;
@@ -132,7 +132,7 @@ impl InTime {
         self.outputs(inputs)
     }
 
-    /// What inputs at T, and their changes per unit of T, leave of what was trained.
+    /// Returns the warnings for inputs at T, and rates of change per unit of T, outside the trained range.
     fn outside(&self, reference: &Problem, time: f64, input: Input, rate: Input) -> Vec<Warning> {
         let domain = &self.model.domain;
         let of_march = domain.outside(time, input, rate).into_iter();
@@ -145,10 +145,11 @@ impl InTime {
         if outside.is_empty() { Ok(()) } else { Err(CoupledError::Untrained(outside)) }
     }
 
-    /// The outputs of the present state; of the inputs only the sliding counts, which moves no film.
+    /// Returns the outputs of the current state. Only the sliding of the inputs is used; it does not affect the film
+    /// thickness.
     ///
     /// # Errors
-    /// With a sentence where it has not begun.
+    /// If the simulation has not started.
     pub fn outputs(&self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         let march = self.march.as_ref().ok_or(CoupledError::NotBegun)?;
         let (moment, reference) = (march.moment(), march.reference());
@@ -181,17 +182,17 @@ impl InTime {
         })
     }
 
-    /// What it needs to go on; none before it has begun.
+    /// Returns the state; `None` before the start.
     pub fn state(&self) -> Option<InTimeState> {
         let march = self.march.as_ref()?;
         let load = march.reference().point.load;
         Some(InTimeState { load, rate: self.rate, march: march.state().clone() })
     }
 
-    /// Goes back, or on, to a state.
+    /// Restores a state.
     ///
     /// # Errors
-    /// With a sentence where it is none of this model; nothing has changed then.
+    /// If it does not belong to this model. The current state is then unchanged.
     pub fn restore(&mut self, state: &InTimeState) -> Result<(), CoupledError> {
         let InTimeState { load, rate, march: kept } = state;
         let finite = [*load, rate.radius, rate.speed, rate.load].iter().all(|value| value.is_finite());
@@ -207,29 +208,29 @@ impl InTime {
         Ok(())
     }
 
-    /// The load of the reference contact where a march begins under a load.
+    /// Returns the load of the reference contact for a march that starts under this load.
     fn reference_load(&self, load: f64) -> Result<f64, CoupledError> {
         let reference = self.model.reference_for(load);
         reference.map(|point| point.load).ok_or_else(|| CoupledError::NoReference(self.model.title.clone()))
     }
 
-    /// The reference problem of a load.
+    /// Returns the reference problem for a load.
     fn reference(&self, load: f64) -> Result<Problem, CoupledError> {
         let point = self.model.reference_for(load);
         let point = point.ok_or_else(|| CoupledError::NoReference(self.model.title.clone()))?;
         Ok(Problem::new(&point, self.model.domain.reference.lubricant)?)
     }
 
-    /// Friction over load at a slide-to-roll ratio, and what must be said of it.
+    /// Returns the friction coefficient at a slide-to-roll ratio, and adds warnings about it.
     fn friction(&self, march: &CoupledMarch, sliding: f64, warnings: &mut Vec<Warning>) -> Result<f64, CoupledError> {
         let (at, moment, reference) = (march.conditions(), march.moment(), march.reference());
-        // The surfaces slide by this over the speed of the reference contact; it may roll the other way.
+        // Slide-to-roll ratio relative to the speed of the reference contact. The rolling direction may be reversed.
         let slide_to_roll_ratio = sliding * at.input.speed;
         if slide_to_roll_ratio == 0.0 {
             return Ok(0.0);
         }
         let sliding = Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: None };
-        // Fields have the scales of this contact.
+        // Contact whose scales the fields have.
         let own = match self.model.frame {
             Frame::Fixed => reference.point,
             Frame::ArbitraryLagrangianEulerian | Frame::Remeshed(_) => {
@@ -258,14 +259,14 @@ impl InTime {
             grid_cost: None,
             heat: None,
         };
-        // Over the load of the moment, not of the contact that lends its scales.
+        // Relative to the current load, not to that of the reference contact.
         let coefficient = solution.traction_coefficient() * own.load / (reference.point.load * at.input.load);
         warnings.extend(problem.doubts_traction(coefficient, &scalars).map(Warning::from));
         Ok(coefficient)
     }
 }
 
-/// Inputs over those of a reference contact.
+/// Returns the inputs relative to those of a reference contact.
 fn over(inputs: &Inputs, reference: &OperatingPoint) -> Input {
     Input {
         radius: inputs.radius_m / reference.radius_m,
@@ -274,7 +275,7 @@ fn over(inputs: &Inputs, reference: &OperatingPoint) -> Input {
     }
 }
 
-/// Refuses inputs that make no sense; the rest is judged where the contact is.
+/// Refuses inputs out of range. Other checks are made when the contact is solved.
 fn check_inputs(inputs: &Inputs) -> Result<(), CoupledError> {
     for (name, value) in [("radius", inputs.radius_m), ("load", inputs.load)] {
         check(name, value, "", (" above zero", |value| value > 0.0))?;
@@ -302,7 +303,7 @@ mod tests {
         Transient { keep: Keep::Every(1), ..own }
     }
 
-    /// A model of two sines of the load.
+    /// Trains a model with two harmonic loads.
     fn trained_at(point: OperatingPoint, frame: Frame) -> Arc<TrajectoryModel> {
         static MODELS: Made<TrajectoryModel> = Made::new();
         MODELS.of(&(point, frame), || {
@@ -355,7 +356,7 @@ mod tests {
             let inputs = Inputs { load: 1.05 * point.load, slide_to_roll_ratio: sliding, ..first };
             let own = InTime::new(Arc::clone(&model)).begin(&inputs).unwrap();
 
-            // The full contact on the same grid, and the force on its film added up in SI units.
+            // Compared with the full solution on the same grid and the friction force integrated in SI units.
             let heavier = Signal::Sampled { times: vec![0.0], values: vec![1.05] };
             let asked = Transient { point, frame, duration: 0.01, ..driven(heavier) };
             let full = solve(GRID, &asked, &()).unwrap();
@@ -377,7 +378,7 @@ mod tests {
                 assert!((own / wanted - 1.0).abs() < 2e-3, "{frame:?}: {own} against {wanted}");
             }
             assert!((own.hertz_pressure_pa / at_rest.hertz().pressure_pa - 1.0).abs() < 1e-12);
-            // That is the stationary contact where the grid has the contact's own scales.
+            // The grid scaled to this contact gives the steady contact.
             let solution = FullSolver::on(GRID.line().unwrap()).solve(
                 &OperatingPoint {
                     sliding: Sliding { slide_to_roll_ratio: sliding, newtonian_plateau_ratio: None },
@@ -418,7 +419,7 @@ mod tests {
             assert!(matches!(refused, CoupledError::Untrained(_)) && refused.to_string().contains(said), "{refused}");
             assert_eq!(format!("{:?}", own.outputs(&first).unwrap()), format!("{kept:?}"));
         }
-        // The same load is reached in more time.
+        // The same load is accepted if it is reached in more time.
         let rested = own.advance(20.0 * step, &fast).unwrap();
         assert!(rested.trained && rested.warnings.is_empty(), "{:?}", rested.warnings);
         let refused = InTime::new(model).begin(&far).unwrap_err().to_string();
@@ -434,7 +435,7 @@ mod tests {
             let signal = Signal::Sampled { times: times.clone(), values };
             solve(GRID, &Transient { point, duration: 1.0, ..driven(signal) }, &()).unwrap()
         };
-        // References of two loads, so that the scales of a contact change with the load under which it begins.
+        // Two reference loads, so that the scales of a contact depend on the load at the start.
         let load = OperatingPoint::TABLE_4_2.load;
         let trainings = [slow(load, 0.05), slow(1.05 * load, -0.05)];
         let settings = TrajectoryTraining { loss: 1e-7, ..TrajectoryTraining::default() };
@@ -444,7 +445,7 @@ mod tests {
         let mut march = InTime::new(Arc::clone(&model));
         let begun = march.begin(&light).unwrap();
         let other = InTime::new(Arc::clone(&model)).begin(&heavy).unwrap();
-        // Slowly to the heavier load, and until the film rests there.
+        // Increases the load slowly, then waits until the film is steady.
         let second = InTime::seconds_per_time(&OperatingPoint::TABLE_4_2);
         march.advance(second, &heavy).unwrap();
         let reached = march.advance(20.0 * second, &heavy).unwrap();
@@ -453,7 +454,7 @@ mod tests {
         assert!((by_units / by_march - 1.0).abs() < 1e-2, "{by_units:e} from two units, {by_march:e} from one march");
         assert_eq!(begun.approach_reference_m, first.radius_m);
         assert!((begun.half_width_m / other.half_width_m - (1.01f64 / 1.02).sqrt()).abs() < 1e-12);
-        // Stationary contacts have the same datum.
+        // Steady contacts have the same reference distance.
         let stationary = |inputs: Inputs| {
             let point = OperatingPoint { load: inputs.load, ..OperatingPoint::TABLE_4_2 };
             let grid = FullSolver::on(GRID.line().unwrap());

@@ -1,8 +1,9 @@
-//! A contact as a part of another program's simulation: one reduced model, inputs that change, outputs that follow.
+//! Contact in a co-simulation: one reduced model with inputs that change and outputs that follow.
 //!
-//! [`Coupled`] needs neither the models of the program nor a bench, so that a library with it stays small. What it
-//! answers is what `solve --method reduced` answers, to the last bit; each contact is solved afresh, so that an answer
-//! hangs on its inputs only. [`InTime`] is the same for models in time, whose state advances. [`fmu`] is what the Functional Mock-up Interface calls such a part.
+//! [`Coupled`] needs neither the embedded models nor a bench, so that a library with it stays small. Its results are
+//! bitwise those of `solve --method reduced`. Each contact is solved from a cold start, so that a result depends only
+//! on the inputs. [`InTime`] is the equivalent for transient models, whose state advances. [`fmu`] exports both as
+//! Functional Mock-up Units.
 
 mod error;
 pub mod fmu;
@@ -22,36 +23,36 @@ use crate::solver::warning::Warning;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// How close the load's logarithm is sought when an approach is given.
+/// Tolerance of ln(load) in the search for an approach.
 const LOAD_FOUND: f64 = 1e-13;
-/// Solves at most to find it.
+/// Largest number of solves of the search.
 const MOST_SOLVES: usize = 80;
-/// What a load is multiplied by while none is known beyond the wanted one.
+/// Factor by which the load changes until the approach is bracketed.
 const WIDER: f64 = 2.0;
 
-/// What presses the bodies together.
+/// Input that presses the bodies together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pressed {
-    /// A load \[N/m\] of a line contact, \[N\] of a point contact.
+    /// Load: \[N/m\] for a line contact, \[N\] for a point contact.
     Load,
-    /// The approach of two points far inside both bodies \[m\], of a point contact; the load follows.
+    /// Approach of points far inside both bodies \[m\], for a point contact. The load is an output.
     Approach,
 }
 
-/// What a contact is driven by. SI units.
+/// Inputs of a contact in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs {
     /// Reduced radius R \[m\].
     pub radius_m: f64,
-    /// R_y/R of a point contact; 1 of a circle, and of a line contact.
+    /// Radius ratio R_y/R of a point contact; 1 for a circular contact and a line contact.
     pub radius_ratio: f64,
     /// Mean entrainment speed u_m \[m/s\].
     pub speed_m_per_s: f64,
     /// Slide-to-roll ratio.
     pub slide_to_roll_ratio: f64,
-    /// Load \[N/m\] or \[N\]; where an approach is given the one from which it is sought.
+    /// Load \[N/m\] or \[N\]. If an approach is given, start value of the search.
     pub load: f64,
-    /// Approach \[m\], where that is given.
+    /// Approach \[m\], if it is an input.
     pub approach_m: f64,
     /// Reduced modulus E′ \[Pa\].
     pub modulus_pa: f64,
@@ -61,42 +62,41 @@ pub struct Inputs {
     pub alpha_per_pa: f64,
 }
 
-/// What follows from it.
+/// Outputs of a contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outputs {
-    /// The load \[N/m\] or \[N\].
+    /// Load \[N/m\] or \[N\].
     pub load: f64,
-    /// Approach of both bodies \[m\]: how far points far from the contact have come together since the undeformed bodies
-    /// touched. In a line contact these are points at the distance [`Outputs::approach_reference_m`].
+    /// Approach of both bodies \[m\]: change of the distance between points far from the contact since the undeformed
+    /// bodies touched. In a line contact, the points are at the distance [`Outputs::approach_reference_m`].
     pub approach_m: f64,
-    /// Distance from a line contact at which its approach is measured, its radius R \[m\]; not a number for a point
-    /// contact, whose elastic deformation vanishes far away.
+    /// Reference distance for the approach of a line contact, its radius R \[m\]. NaN for a point contact, whose
+    /// elastic deformation vanishes far from the contact.
     pub approach_reference_m: f64,
     /// Half width a of the dry contact \[m\].
     pub half_width_m: f64,
-    /// Central film \[m\].
+    /// Central film thickness h_c \[m\].
     pub h_c_m: f64,
-    /// Smallest film \[m\].
+    /// Minimum film thickness h_min \[m\].
     pub h_min_m: f64,
     /// Friction coefficient, positive for a positive slide-to-roll ratio.
     pub friction_coefficient: f64,
-    /// Friction force: coefficient times load.
+    /// Friction force: coefficient times load \[N/m\] or \[N\].
     pub friction_force: f64,
-    /// Largest pressure of the dry contact \[Pa\].
+    /// Maximum Hertzian pressure \[Pa\].
     pub hertz_pressure_pa: f64,
-    /// Bounds on the relative errors of h_c, h_min and friction that hold in 99 of 100 contacts; not a number where none
-    /// is known.
+    /// 99 % empirical bounds of the relative errors of h_c, h_min and friction; NaN if not available.
     pub error_bounds: [f64; 3],
-    /// Whether the model was trained for the contact.
+    /// True if the contact is inside the trained range.
     pub trained: bool,
-    /// Whether the full solver took over, where the model has no solution.
+    /// True if the full solver was used because the model has no solution.
     pub full: bool,
-    /// What a reader must know.
+    /// Warnings.
     pub warnings: Vec<Warning>,
 }
 
 impl Outputs {
-    /// What a simulation reads off a result; `None` without a solution.
+    /// Converts a result; `None` without a solution.
     fn of(result: ContactResult) -> Option<Self> {
         let ContactResult { point, scalars, traction, reduced, warnings, .. } = result;
         let (scalars, friction_coefficient, scale) = (scalars?, traction?, point.film_scale_m());
@@ -120,15 +120,15 @@ impl Outputs {
         })
     }
 
-    /// The warnings as one sentence.
+    /// Returns the warnings as one sentence.
     pub fn warning(&self) -> String {
         Warning::joined(&self.warnings)
     }
 
-    /// Refuses outputs of a contact that the model was not trained for.
+    /// Refuses outputs of a contact outside the trained range.
     ///
     /// # Errors
-    /// With the reason that every interface reports.
+    /// With the same reason as in other interfaces.
     pub fn of_training(self) -> Result<Self, CoupledError> {
         let is_outside = |warning: &&Warning| matches!(warning, Warning::OutsideTrainedRange { .. });
         let outside: Vec<Warning> = self.warnings.iter().filter(is_outside).cloned().collect();
@@ -136,10 +136,11 @@ impl Outputs {
     }
 }
 
-/// Approach of both bodies \[m\], of a contact with the separation h₀ \[m\] of its rigid surfaces: zero where they touch.
+/// Returns the approach of both bodies \[m\] for a separation h₀ \[m\] of their rigid surfaces. It is zero if the
+/// undeformed bodies touch.
 ///
-/// The potential ln(|x − s|/d) of a line load needs a length d, with which h₀ changes. That of h₀ is `length_m`, such as
-/// the half width of (2.27), which changes with the load; that of the approach is [`approach_reference`].
+/// The potential ln(|x − s|/d) of a line load contains a length d, on which h₀ depends. For h₀ it is `length_m`, such
+/// as the half width of (2.27), which changes with the load. For the approach it is [`approach_reference`].
 fn approach(point: &OperatingPoint, separation_m: f64, length_m: f64) -> f64 {
     let elastic = match point.kind {
         ContactKind::Line => 4.0 * point.load / (PI * point.modulus_pa) * (length_m / approach_reference(point)).ln(),
@@ -148,13 +149,13 @@ fn approach(point: &OperatingPoint, separation_m: f64, length_m: f64) -> f64 {
     -separation_m - elastic
 }
 
-/// Distance from a line contact at which its approach is measured: R \[m\], whatever the load.
+/// Returns the reference distance for the approach of a line contact: R \[m\], independent of the load.
 fn approach_reference(point: &OperatingPoint) -> f64 {
     if point.kind == ContactKind::Line { point.radius_m } else { f64::NAN }
 }
 
 impl Inputs {
-    /// The contact that they state under a load.
+    /// Returns the contact that the inputs define under a load.
     fn stated(&self, kind: ContactKind, load: f64) -> ContactSpec {
         let ellipse = kind == ContactKind::Point && self.radius_ratio != 1.0;
         ContactSpec {
@@ -172,7 +173,7 @@ impl Inputs {
     }
 }
 
-/// A model with all work space; one for each thread.
+/// Reduced model with work space. Use one per thread.
 pub struct Coupled {
     model: Arc<ReducedModel>,
     online: Online,
@@ -182,10 +183,10 @@ pub struct Coupled {
 }
 
 impl Coupled {
-    /// A contact by a model, of the lubricant that the model was trained with.
+    /// Returns a contact solved by a model, with the lubricant that the model was trained with.
     ///
     /// # Errors
-    /// With a sentence where the model has no window, or an approach is wanted of a line contact.
+    /// If the model contains no local model, or if an approach is requested for a line contact.
     pub fn new(model: Arc<ReducedModel>, pressed: Pressed) -> Result<Self, CoupledError> {
         if model.windows.is_empty() {
             return Err(CoupledError::NoWindow(model.title.clone()));
@@ -198,16 +199,16 @@ impl Coupled {
         Ok(Self { model, online, full: None, lubricant, pressed })
     }
 
-    /// What presses the bodies together.
+    /// Returns which input presses the bodies together.
     pub fn pressed(&self) -> Pressed {
         self.pressed
     }
 
-    /// Inputs in the midst of what a model was trained for, from which a simulation may begin.
+    /// Returns inputs near the middle of the trained range, as start values of a simulation.
     pub fn first_inputs(model: &Arc<ReducedModel>) -> Option<Inputs> {
         let window = model.windows.get(model.windows.len() / 2)?;
         let points = || window.snapshots.iter().map(|snapshot| snapshot.point);
-        // Some models are trained a little beyond what they declare.
+        // Some models have snapshots slightly outside their declared range.
         let inside = |point: &OperatingPoint| {
             let problem = Problem::new(point, model.domain.lubricant);
             problem.is_ok_and(|problem| model.trust(&problem) == Trust::Trained)
@@ -230,10 +231,10 @@ impl Coupled {
         Some(Inputs { approach_m, ..inputs })
     }
 
-    /// The outputs of some inputs.
+    /// Returns the outputs for some inputs.
     ///
     /// # Errors
-    /// With a sentence where an input makes no sense, or neither the model nor the full solver has a solution.
+    /// If an input is out of range, or if neither the model nor the full solver has a solution.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         match self.pressed {
             Pressed::Load => self.under(inputs, inputs.load),
@@ -241,7 +242,7 @@ impl Coupled {
         }
     }
 
-    /// The outputs under a load.
+    /// Returns the outputs under a load.
     fn under(&mut self, inputs: &Inputs, load: f64) -> Result<Outputs, CoupledError> {
         let request = self.request(inputs, load)?;
         self.online.forget();
@@ -251,7 +252,7 @@ impl Coupled {
         Outputs::of(answered.result).ok_or(CoupledError::NoSolution(why))
     }
 
-    /// The request that inputs describe under a load.
+    /// Returns the request for inputs under a load.
     fn request(&self, inputs: &Inputs, load: f64) -> Result<Request, CoupledError> {
         check_sliding(inputs.slide_to_roll_ratio)?;
         let alpha = self.lubricant.own_coefficient().is_none().then_some(inputs.alpha_per_pa);
@@ -263,7 +264,7 @@ impl Coupled {
         Ok(Request { point, lubricant: self.lubricant, grid, grid_model, method })
     }
 
-    /// The full solution on the model's grid.
+    /// Solves in full on the model's grid.
     fn in_full(&mut self, request: Request) -> Result<Answer, CoupledError> {
         let grid = &self.model.window_at(&request.point).grid;
         let solver = match self.full.take() {
@@ -279,7 +280,7 @@ impl Coupled {
         Err(CoupledError::NoSolution(full.result.warning()))
     }
 
-    /// The outputs at the wanted approach: the load is sought between two that give a smaller and a larger one.
+    /// Returns the outputs at the given approach. The load is bracketed and then refined.
     fn approached(&mut self, inputs: &Inputs) -> Result<Outputs, CoupledError> {
         let wanted = inputs.approach_m;
         check("approach", wanted, " m", (" above zero", |wanted| wanted > 0.0))?;
@@ -303,7 +304,7 @@ impl Coupled {
             near = far;
             far = miss(self, near.0.exp() * factor)?;
         }
-        // Regula falsi in its Illinois form: an end that stays twice counts half.
+        // Regula falsi, Illinois variant: the value of an end point that is retained twice is halved.
         let (mut a, mut b) = ((near.0, near.1), (far.0, far.1));
         let mut best = if near.1.abs() < far.1.abs() { near } else { far };
         while (b.0 - a.0).abs() > LOAD_FOUND && best.1.abs() > LOAD_FOUND {

@@ -1,17 +1,17 @@
-//! Why a job ended early, each as one sentence.
+//! Errors of jobs.
 
 use serde::{Deserialize, Serialize};
 use std::any::Any;
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Why a job ended early.
+/// Reason why a job ended early.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 pub enum JobError {
-    /// The system has no thread left.
+    /// No thread could be started.
     #[error("no thread could be had for this work")]
     NoThread,
-    /// Another instance of the program did the work, and has ended.
+    /// Another instance of the program that did the work has ended.
     #[error("what did this work has ended; try again")]
     Lost,
     /// The work panicked.
@@ -23,7 +23,7 @@ pub enum JobError {
 }
 
 impl JobError {
-    /// The work is refused for a reason.
+    /// Returns the failure with this reason.
     pub fn failed(reason: impl Display) -> Self {
         Self::Failed(reason.to_string())
     }
@@ -35,15 +35,15 @@ impl From<String> for JobError {
     }
 }
 
-/// A panic, as a sentence.
+/// Panic, with its message.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[error("the solver stopped unexpectedly ({0}); the window and your work are not affected")]
 pub struct Panicked(String);
 
-/// Runs something that may panic.
+/// Runs a function and catches panics.
 ///
 /// # Errors
-/// When it does.
+/// If the function panics.
 pub fn guarded<T>(run: impl FnOnce() -> T) -> Result<T, Panicked> {
     catch_unwind(AssertUnwindSafe(run)).map_err(|payload| Panicked(panic_text(&*payload).to_owned()))
 }

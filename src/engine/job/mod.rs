@@ -1,8 +1,8 @@
-//! Work that takes longer than a frame: on a thread of its own, with messages, progress, time left, a stop that is
-//! heard at once, and unable to take anything else down.
+//! Jobs: work on a separate thread, with messages, progress, remaining time and an immediate stop. A panic in a job
+//! does not affect the rest of the program.
 //!
-//! A [`Job`] is what its owner holds, a [`Reporter`] what the work tells it by. Dropping the job stops the work. A
-//! [`Queue`] gives jobs to one thread that keeps only the newest request of each urgency: the live picture.
+//! The owner holds a [`Job`]; the work reports through a [`Reporter`]. Dropping the job stops the work. A [`Queue`]
+//! runs jobs on one thread and keeps only the newest request of each urgency. It is used for the live picture.
 
 mod error;
 mod queue;
@@ -24,67 +24,67 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
-/// Shortest time between two calls of the owner on behalf of one job.
+/// Shortest interval between two wake calls of one job.
 const WAKE_EVERY: Duration = Duration::from_millis(50);
 
-/// How a job ended: with everything, stopped with what there is, or not at all.
+/// End of a job: complete or stopped, or an error.
 pub type Ending = Result<(), JobError>;
 
-/// Calls whoever waits for news of a job; called from the job's thread.
+/// Wakes the owner when a job has news. Called from the job's thread.
 #[derive(Clone)]
 pub struct Wake(Arc<dyn Fn() + Send + Sync>);
 
 impl Wake {
-    /// A call.
+    /// Returns a wake with this function.
     pub fn new(call: impl Fn() + Send + Sync + 'static) -> Self {
         Self(Arc::new(call))
     }
 }
 
 impl Default for Wake {
-    /// Calls nobody: the owner looks by itself.
+    /// Returns a wake without effect, for owners that poll.
     fn default() -> Self {
         Self::new(|| ())
     }
 }
 
-/// How far a job is, for people.
+/// Progress of a job, for display.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Standing {
-    /// What is being done.
+    /// Current stage.
     pub stage: String,
-    /// Work done.
+    /// Number of completed units.
     pub done: usize,
-    /// Work in all of this stage; 0 where that is not known.
+    /// Number of all units of the stage; 0 if unknown.
     pub total: usize,
-    /// Seconds that are left at the present pace.
+    /// Estimated remaining time \[s\].
     pub left_s: Option<f64>,
-    /// Seconds since the job was asked for.
+    /// Time since the request \[s\].
     pub since_s: f64,
 }
 
-/// What a job reports to its owner; a value, so that a job may run in another thread or process.
+/// Report of a job to its owner. It is a plain value, so that a job may run in another thread or process.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Event<M> {
-    /// A row, an answer or whatever else it finishes on its way.
+    /// Result, such as a row or an answer.
     Message(M),
-    /// How far it is.
+    /// Progress.
     Stage(Progress),
-    /// It ended, or failed with a sentence.
+    /// End of the job.
     Ended(Ending),
 }
 
-/// What the owner wants of the work, seen from its threads.
+/// State shared between the owner and the work.
 #[derive(Default)]
 struct Wish {
-    /// How often it was asked to stop.
+    /// Number of stop requests.
     stops: AtomicU8,
     begun: OnceLock<Stopwatch>,
-    /// How long it may work, once something newer waits.
+    /// Time limit that applies once a newer request is waiting.
     patience: OnceLock<Duration>,
-    /// The work, where another instance of the program does it.
+    /// Handle of the work in another instance of the program.
     posted: OnceLock<remote::Posted>,
-    /// In that other instance: what its owner wants.
+    /// Link to the owner, if this is the other instance.
     owner: Option<task::Owner>,
 }
 
@@ -98,7 +98,7 @@ impl Wish {
         self.owner.as_ref().map_or_else(|| self.stops.load(Ordering::Relaxed), task::Owner::stops)
     }
 
-    /// Passes a wish on to another instance.
+    /// Forwards a stop request to another instance.
     fn pass_on(&self, times: u8) {
         if let Some(posted) = self.posted.get() {
             posted.stop(times);
@@ -106,7 +106,7 @@ impl Wish {
     }
 }
 
-/// Work under way, or waiting for its thread.
+/// Job, running or waiting.
 pub struct Job<M> {
     events: Receiver<Event<M>>,
     wish: Arc<Wish>,
@@ -116,11 +116,11 @@ pub struct Job<M> {
 }
 
 impl<M: Send + 'static> Job<M> {
-    /// Starts `work`; `name` is the thread's and the first stage's.
+    /// Starts `work` on a new thread. `name` is the name of the thread and of the first stage.
     pub fn start(name: &str, wake: Wake, work: impl FnOnce(&Reporter<M>) -> Ending + Send + 'static) -> Self {
         let (job, reporter) = Self::waiting(name, wake);
         if worker::THREADS {
-            // Where no thread can be had, the reporter is gone and the next poll says so.
+            // If no thread can be started, the reporter is dropped and the next poll returns an error.
             let _handle = worker::spawn(name, move || reporter.run(work));
         } else {
             reporter.run(work);
@@ -128,7 +128,7 @@ impl<M: Send + 'static> Job<M> {
         job
     }
 
-    /// A job whose `work` begins when `when` calls what it is given: on the thread that calls.
+    /// Returns a job whose `work` starts when `when` calls the function it is given, on the calling thread.
     pub fn once(
         name: &str,
         wake: Wake,
@@ -140,7 +140,7 @@ impl<M: Send + 'static> Job<M> {
         job
     }
 
-    /// A job that has not begun, and what its work will tell it by.
+    /// Returns a job that has not started, and its reporter.
     fn waiting(name: &str, wake: Wake) -> (Self, Reporter<M>) {
         let (sender, events) = channel();
         let (wish, since) = (Arc::new(Wish::default()), Stopwatch::start());
@@ -149,16 +149,16 @@ impl<M: Send + 'static> Job<M> {
         (Self { events, wish, since, stage, stage_since: since }, reporter)
     }
 
-    /// Hands over what came since the last call; returns how the job ended once it has.
+    /// Passes on the messages since the last call. Returns the ending once the job has ended.
     pub fn poll(&mut self, receive: impl FnMut(M)) -> Option<Ending> {
         self.poll_within(Duration::ZERO, receive)
     }
 
-    /// The same, waiting for the end for at most a while.
+    /// As [`Job::poll`], but waits for the end up to a time limit.
     pub fn poll_within(&mut self, patience: Duration, mut receive: impl FnMut(M)) -> Option<Ending> {
         let begin = Stopwatch::start();
         if self.wish.posted.get().is_some() && self.wish.stops() == 0 && self.wish.stopped() {
-            // Nobody else watches how long it takes.
+            // No other code enforces the time limit in this case.
             self.stop();
         }
         loop {
@@ -177,7 +177,7 @@ impl<M: Send + 'static> Job<M> {
         }
     }
 
-    /// How far it is.
+    /// Returns the progress.
     pub fn standing(&self) -> Standing {
         let Progress { stage, done, total } = self.stage.clone();
         let spent = self.stage_since.seconds();
@@ -187,29 +187,29 @@ impl<M: Send + 'static> Job<M> {
 }
 
 impl<M> Job<M> {
-    /// Asks the work to stop; what it has sent stays. Asked again, it is not even to make something of what there is.
+    /// Requests a stop. Messages sent before are kept. A second request also cancels finishing work on partial results.
     pub fn stop(&self) {
         let _ = self.wish.stops.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |stops| stops.checked_add(1));
         self.wish.pass_on(self.wish.stops());
     }
 
-    /// Whether it was asked to stop.
+    /// Returns true after a stop request.
     pub fn stopping(&self) -> bool {
         self.wish.stops.load(Ordering::Relaxed) > 0
     }
 
-    /// Stops the work once it has been at it for so long: something newer waits.
+    /// Stops the work once it has run for this time, because a newer request is waiting.
     pub fn give_up_after(&self, patience: Duration) {
-        // The first wish counts.
+        // Only the first limit counts.
         let _ = self.wish.patience.set(patience);
     }
 
-    /// Whether its work has begun.
+    /// Returns true if the work has started.
     pub fn begun(&self) -> bool {
         self.wish.begun.get().is_some()
     }
 
-    /// When it was asked for.
+    /// Returns the time of the request.
     pub fn since(&self) -> Stopwatch {
         self.since
     }
@@ -222,11 +222,11 @@ impl<M> Drop for Job<M> {
     }
 }
 
-/// Where events go.
+/// Destination of events.
 enum Line<M> {
-    /// To a job of this program.
+    /// Job in this program.
     Here(Sender<Event<M>>),
-    /// To one of another instance; returns whether somebody listens.
+    /// Job in another instance. The function returns true if the job still exists.
     Away(Box<dyn Fn(Event<M>) -> bool + Send + Sync>),
 }
 
@@ -239,7 +239,7 @@ impl<M> Line<M> {
     }
 }
 
-/// The work's line to its job; may be used from all of its threads.
+/// Connection from the work to its job. May be used from several threads.
 pub struct Reporter<M> {
     line: Line<M>,
     wish: Arc<Wish>,
@@ -248,23 +248,23 @@ pub struct Reporter<M> {
 }
 
 impl<M: Send> Reporter<M> {
-    /// Sends a message, and has it shown soon.
+    /// Sends a message and wakes the owner.
     pub fn send(&self, message: M) {
         self.tell(Event::Message(message));
     }
 
-    /// Says how far a stage is.
+    /// Reports the progress of a stage.
     pub fn stage(&self, stage: &str, done: usize, total: usize) {
         self.tell(Event::Stage(Progress { stage: stage.to_owned(), done, total }));
     }
 
-    /// Whether the work is to stop.
+    /// Returns true if the work should stop.
     pub fn cancelled(&self) -> bool {
         self.wish.stopped()
     }
 
-    /// What stops only where nothing is to be made even of what there is: after a second wish, or when nobody waits any
-    /// more.
+    /// Returns an observer that cancels only after a second stop request or when the job has been dropped. It is for
+    /// finishing work on partial results.
     pub fn abandoned(&self) -> Abandoned<'_> {
         Abandoned(&self.wish)
     }
@@ -280,11 +280,11 @@ impl<M: Send> Reporter<M> {
     }
 
     fn begin(&self) {
-        // The first time counts.
+        // Only the first start counts.
         let _ = self.wish.begun.set(Stopwatch::start());
     }
 
-    /// Does the work and says how it ended.
+    /// Runs the work and reports how it ended.
     fn run(&self, work: impl FnOnce(&Self) -> Ending) {
         self.begin();
         let ending = guarded(|| work(self)).unwrap_or_else(|panicked| Err(panicked.into()));
@@ -292,7 +292,7 @@ impl<M: Send> Reporter<M> {
     }
 
     fn end(&self, ending: Ending) {
-        // Nobody listens any more where the job was dropped.
+        // Nobody receives the event if the job was dropped.
         let _gone = self.line.send(Event::Ended(ending));
         (self.wake.0)();
     }
@@ -310,7 +310,7 @@ impl<M: Send> Observer for Reporter<M> {
 
 impl<M: Send> TrainingObserver for Reporter<M> {}
 
-/// See [`Reporter::abandoned`].
+/// Observer returned by [`Reporter::abandoned`].
 pub struct Abandoned<'a>(&'a Wish);
 
 impl Observer for Abandoned<'_> {
@@ -321,9 +321,9 @@ impl Observer for Abandoned<'_> {
 
 impl TrainingObserver for Abandoned<'_> {}
 
-/// A job that can be started ever anew, and why the last one ended early.
+/// Slot for one job at a time, with the error of the last one.
 pub struct Background<M> {
-    /// Why there is nothing, or no more.
+    /// Reason why there is no result or only part of it.
     pub message: Option<String>,
     job: Option<Job<M>>,
 }
@@ -335,13 +335,13 @@ impl<M> Default for Background<M> {
 }
 
 impl<M: Send + 'static> Background<M> {
-    /// Lets a job run in the place of the former one, which stops.
+    /// Starts a job in place of the previous one, which is stopped.
     pub fn run(&mut self, job: Job<M>) {
         self.message = None;
         self.job = Some(job);
     }
 
-    /// The same where there may be a sentence why there is no job.
+    /// As [`Background::run`], or stores the reason why there is no job.
     pub fn start(&mut self, job: Result<Job<M>, impl ToString>) {
         match job {
             Ok(job) => self.run(job),
@@ -349,7 +349,7 @@ impl<M: Send + 'static> Background<M> {
         }
     }
 
-    /// Hands over what came since the last call.
+    /// Passes on the messages since the last call.
     pub fn receive(&mut self, receive: impl FnMut(M)) {
         let Some(job) = &mut self.job else { return };
         if let Some(ending) = job.poll(receive) {
@@ -360,19 +360,19 @@ impl<M: Send + 'static> Background<M> {
         }
     }
 
-    /// What runs.
+    /// Returns the running job.
     pub fn job(&self) -> Option<&Job<M>> {
         self.job.as_ref()
     }
 
-    /// How far it is.
+    /// Returns the progress.
     pub fn standing(&self) -> Option<Standing> {
         self.job.as_ref().map(Job::standing)
     }
 }
 
 impl<M> Background<M> {
-    /// Asks it to stop; what it has sent stays.
+    /// Requests a stop. Messages sent before are kept.
     pub fn stop(&self) {
         if let Some(job) = &self.job {
             job.stop();
@@ -422,7 +422,7 @@ mod tests {
 
     #[test]
     fn a_job_stops_at_its_next_question_and_a_panic_becomes_a_sentence() {
-        // Counted in questions, so that other work on the machine does not matter.
+        // Counts calls instead of time, so that the load of the machine does not matter.
         let asked = Arc::new(AtomicUsize::new(0));
         let asking = Arc::clone(&asked);
         let mut job = Job::start("endless", Wake::default(), move |reporter: &Reporter<()>| {

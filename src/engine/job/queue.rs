@@ -1,4 +1,4 @@
-//! One thread for requests of which only the newest counts.
+//! Queue with one thread that keeps only the newest request of each urgency.
 
 use super::{Ending, Job, Reporter, Task, Wake};
 use crate::engine::Store;
@@ -7,10 +7,11 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-/// A thread that answers requests, the most urgent first. Of each urgency one waits at most: a newer one replaces it.
+/// Thread that handles requests, the most urgent first. At most one request of each urgency waits: a newer one replaces
+/// it.
 pub struct Queue<R, M> {
     shared: Arc<Shared<R, M>>,
-    /// What answers where there is no thread.
+    /// Function that handles requests without a thread.
     answer: Option<Answer<R, M>>,
 }
 
@@ -22,30 +23,30 @@ struct Shared<R, M> {
 }
 
 struct Mail<R, M> {
-    /// By urgency.
+    /// Waiting requests by urgency.
     waiting: Vec<Option<(R, Reporter<M>)>>,
-    /// Whether another instance of the program is at one.
+    /// True while another instance of the program handles a request.
     away: bool,
     closed: bool,
 }
 
 impl<R, M> Shared<R, M> {
     fn lock(&self) -> MutexGuard<'_, Mail<R, M>> {
-        // Every change to it is one assignment: it is whole even where a thread panicked.
+        // Each change is a single assignment, so that a panic does not leave an invalid state.
         self.mail.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl<R, M: Send> Shared<R, M> {
-    /// The next request that waits; none when the queue was closed.
+    /// Takes the next waiting request; `None` if there is none.
     fn waiting(mail: &mut Mail<R, M>) -> Option<(R, Reporter<M>)> {
         let (request, reporter) = mail.waiting.iter_mut().find_map(Option::take)?;
-        // From here on it is not replaced.
+        // From here on, it is not replaced.
         reporter.begin();
         Some((request, reporter))
     }
 
-    /// Waits for the next request; none when the queue was closed.
+    /// Waits for the next request; `None` if the queue was closed.
     fn next(&self) -> Option<(R, Reporter<M>)> {
         let mut mail = self.lock();
         loop {
@@ -61,7 +62,7 @@ impl<R, M: Send> Shared<R, M> {
 }
 
 impl<M: Serialize + DeserializeOwned + Send + 'static, R: Task<Message = M>> Shared<R, M> {
-    /// Has the next request answered by another instance, if that is not at one.
+    /// Sends the next request to another instance, if that is idle.
     fn send_next(shared: &Arc<Self>, store: &Store) {
         let mut mail = shared.lock();
         if mail.away || mail.closed {
@@ -82,7 +83,8 @@ impl<M: Serialize + DeserializeOwned + Send + 'static, R: Task<Message = M>> Sha
 }
 
 impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
-    /// A thread for requests of so many urgencies. Without threads each request is answered as it is handed over.
+    /// Starts a thread for requests with this number of urgencies. On systems without threads, each request is handled
+    /// in [`Queue::submit`].
     pub fn new(name: &str, urgencies: usize, work: impl Fn(R, &Reporter<M>) -> Ending + Send + 'static) -> Self {
         let shared = Self::shared(urgencies);
         if !worker::THREADS {
@@ -100,7 +102,7 @@ impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
                 reporter.run(|reporter| work(request, reporter));
             }
         };
-        // Where no thread can be had, requests stay and the window says that they wait.
+        // If no thread can be started, requests stay in the queue and the window shows that they are waiting.
         let _handle = worker::spawn(name, answer);
         Self { shared, answer: None }
     }
@@ -110,7 +112,7 @@ impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
         Arc::new(Shared { mail: Mutex::new(mail), bell: Condvar::new() })
     }
 
-    /// Hands a request over; urgency 0 comes first. A request that it replaces is never begun ([`Job::begun`]).
+    /// Submits a request. Urgency 0 has the highest priority. A request that is replaced never starts ([`Job::begun`]).
     pub fn submit(&self, urgency: usize, name: &str, wake: Wake, request: R) -> Job<M> {
         let (job, reporter) = Job::waiting(name, wake);
         if let Some(place) = self.shared.lock().waiting.get_mut(urgency) {
@@ -125,7 +127,8 @@ impl<R: Send + 'static, M: Send + 'static> Queue<R, M> {
 }
 
 impl<M: Serialize + DeserializeOwned + Send + 'static, R: Task<Message = M>> Queue<R, M> {
-    /// A thread for tasks of so many urgencies, or another instance of the program where there are no threads.
+    /// Starts a thread for tasks with this number of urgencies, or uses another instance of the program on systems
+    /// without threads.
     pub fn of_tasks(name: &str, urgencies: usize, store: &Store) -> Self {
         let store = store.clone();
         if worker::THREADS {
@@ -162,7 +165,7 @@ mod tests {
         });
         let submit = |urgency, request| queue.submit(urgency, "ask", Wake::default(), request);
         let first = submit(1, 1);
-        // The thread has taken it once its place is empty.
+        // The thread has taken it once its slot is empty.
         while queue.shared.lock().waiting[1].is_some() {
             pause(Duration::from_millis(1));
         }

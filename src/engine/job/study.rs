@@ -1,4 +1,4 @@
-//! The question of a scene as a job, whose messages are the rows of its study.
+//! Study of a scene as a job whose messages are its rows.
 
 use super::{Ending, Job, JobError, Reporter, Task, Wake};
 use crate::engine::{EngineError, Store, Workbench, name_of};
@@ -20,25 +20,25 @@ impl StudyObserver for Reporter<StudyRow> {
     }
 }
 
-/// The question of a scene for another instance of the program.
+/// Scene to run in another instance of the program.
 #[derive(Serialize, Deserialize)]
 pub struct Asked {
     scene: Scene,
-    /// What stands in place of the embedded model of its kind of contact, or of all of them.
+    /// Model that replaces the embedded model of its contact kind, or all embedded models if true.
     model: Option<(Given, bool)>,
 }
 
-/// A reduced model for another instance of the program.
+/// Reduced model for another instance of the program.
 #[derive(Serialize, Deserialize)]
 pub enum Given {
-    /// Name of one of the program.
+    /// Name of an embedded model.
     Program(String),
-    /// Another one.
+    /// Other model.
     Own(Arc<ReducedModel>),
 }
 
 impl Given {
-    /// What to send of a model.
+    /// Returns the form in which a model is sent.
     pub fn of(model: &Arc<ReducedModel>) -> Self {
         match name_of(model) {
             Some(name) => Self::Program(name),
@@ -46,10 +46,10 @@ impl Given {
         }
     }
 
-    /// The model.
+    /// Returns the model.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     pub fn model(&self, store: &Store) -> Result<Arc<ReducedModel>, JobError> {
         match self {
             Self::Program(name) => store.embedded(name).map_err(JobError::failed),
@@ -73,7 +73,7 @@ impl Task for Asked {
     }
 }
 
-/// Models that march along the inputs of a scene's contact in time.
+/// Models to march along the inputs of a scene's transient study.
 #[derive(Serialize, Deserialize)]
 pub struct Replayed {
     scene: Scene,
@@ -97,8 +97,8 @@ impl Task for Replayed {
 }
 
 impl Scene {
-    /// Begins to answer the scene's question on a bench. What the rows say is read off them by [`Scene::outcome`] and
-    /// its study. A job that was stopped ends with the rows that there are.
+    /// Starts the study of the scene on a bench. [`Scene::outcome`] and the study evaluate the rows. A job that is
+    /// stopped keeps the rows received so far.
     pub fn ask(self, mut bench: Workbench, wake: Wake) -> Job<StudyRow> {
         let name = self.title.clone();
         if worker::THREADS {
@@ -110,8 +110,8 @@ impl Scene {
         Job::of(&name, wake, bench.store(), Asked { scene: self, model })
     }
 
-    /// Begins to take models that were made before along the inputs of the scene's contact in time, without the full
-    /// system; nothing where it asks another question.
+    /// Starts marches of existing models along the inputs of the scene's transient study, without the full solver.
+    /// Without effect for other studies.
     pub fn replay(self, models: Vec<Model>, store: &Store, wake: Wake) -> Job<StudyRow> {
         let name = self.title.clone();
         Job::of(&name, wake, store, Replayed { scene: self, models })
@@ -141,7 +141,7 @@ mod tests {
     use std::sync::mpsc::channel;
     use std::time::Duration;
 
-    /// One scene of each kind whose numbers the explorer also draws on tabs of their own.
+    /// One scene of each kind that the explorer also shows on separate tabs.
     const SCENES: [&str; 4] = [
         "study: RandomTest(range: TABLE, tests: 12, seed: 7, method: Reduced(), compare: 3)",
         "study: Sweep(over: [(vary: M, values: Log(from: 10.0, to: 30.0, n: 4))], methods: [Full, Reduced()])",
@@ -151,7 +151,7 @@ mod tests {
          selection: Distance(tolerance: 0.1), weightings: [DualTaylor]))",
     ];
 
-    /// The rows of a scene whose question another instance of the program answers.
+    /// Returns the rows of a scene that runs in another instance of the program.
     fn elsewhere(scene: Scene, store: &Store) -> Vec<StudyRow> {
         let task = rmp_serde::to_vec_named(&Asked { scene, model: None }).unwrap();
         let (sender, events) = channel();
@@ -169,7 +169,7 @@ mod tests {
         rows
     }
 
-    /// Everything but what depends on the clock.
+    /// Returns all values except measured times.
     fn values(outcome: SceneOutcome) -> Vec<(String, u64)> {
         let timed = |name: &str| {
             let last = name.rsplit('.').next().unwrap_or(name);
@@ -190,7 +190,7 @@ mod tests {
             let scene = Scene::from_ron(&text).unwrap_or_else(|refused| panic!("{text}: {refused}"));
             let headless = values(run_scene(&scene, &mut Workbench::new(""), &()).unwrap());
             assert!(headless.len() > 5, "{study}: {headless:?}");
-            // Twice, so that the second one works with what the first has left in the store.
+            // Run twice, so that the second run uses what the first has left in the store.
             for _ in 0..2 {
                 let mut job = scene.clone().ask(Workbench::on(&store, ""), Wake::default());
                 let (begun, mut rows) = (Stopwatch::start(), Vec::new());

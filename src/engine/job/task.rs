@@ -1,4 +1,4 @@
-//! Work as a value: where the program has no threads, another instance of it does the work.
+//! Tasks: work as a serialisable value, which another instance of the program can do on systems without threads.
 
 use super::{Ending, Event, Job, JobError, Line, Reporter, Wake, Wish};
 use crate::engine::Store;
@@ -10,27 +10,27 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Shortest time between two questions what the owner wants.
+/// Shortest interval between two checks for stop requests.
 const ASK_EVERY: Duration = Duration::from_millis(25);
 
-/// Work as a value, and its messages.
+/// Work as a serialisable value.
 pub trait Task: Serialize + DeserializeOwned + Send + 'static {
-    /// Name of the kind of work.
+    /// Name of the kind of task.
     const KIND: &'static str;
-    /// Tasks of one lane are done one after the other, those of different lanes at once.
+    /// Tasks of one lane run one after the other, those of different lanes in parallel.
     const LANE: usize;
-    /// A row, an answer or whatever else it finishes on its way.
+    /// Message, such as a row or an answer.
     type Message: Serialize + DeserializeOwned + Send + 'static;
 
     /// Does the work.
     ///
     /// # Errors
-    /// When there is no result.
+    /// If there is no result.
     fn run(self, store: &Store, reporter: &Reporter<Self::Message>) -> Ending;
 }
 
 impl<M: Serialize + DeserializeOwned + Send + 'static> Job<M> {
-    /// Starts a task: on a thread, or in another instance of the program.
+    /// Starts a task on a thread, or in another instance of the program.
     pub fn of<T: Task<Message = M>>(name: &str, wake: Wake, store: &Store, task: T) -> Self {
         if worker::THREADS {
             let store = store.clone();
@@ -43,8 +43,8 @@ impl<M: Serialize + DeserializeOwned + Send + 'static> Job<M> {
 }
 
 impl<M: Serialize + DeserializeOwned + Send + 'static> Reporter<M> {
-    /// Has a task done by another instance and passes its events on; `ended` is called at its end. Where there is no
-    /// other instance, the task is done here, and `false` is returned.
+    /// Sends a task to another instance and forwards its events. `ended` is called at its end. If there is no other
+    /// instance, the task is done here, and `false` is returned.
     pub(super) fn post<T: Task<Message = M>>(self, store: &Store, task: T, mut ended: impl FnMut() + 'static) -> bool {
         let content = match encoded(&task) {
             Ok(content) => content,
@@ -72,7 +72,7 @@ impl<M: Serialize + DeserializeOwned + Send + 'static> Reporter<M> {
         };
         match remote::post(T::LANE, T::KIND, &content, receive) {
             Some(posted) => {
-                // It is posted once.
+                // Each task is posted only once.
                 let _ = own.wish.posted.set(posted);
                 let stops = own.wish.stops();
                 if stops > 0 {
@@ -88,7 +88,7 @@ impl<M: Serialize + DeserializeOwned + Send + 'static> Reporter<M> {
     }
 }
 
-/// A value for another instance.
+/// Encodes a value for another instance.
 fn encoded(value: &impl Serialize) -> Result<Vec<u8>, JobError> {
     rmp_serde::to_vec_named(value).map_err(JobError::failed)
 }
@@ -97,7 +97,7 @@ fn decoded<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, JobError> {
     rmp_serde::from_slice(bytes).map_err(JobError::failed)
 }
 
-/// What the owner of a task wants, asked across instances.
+/// Link from a task to its owner in another instance.
 pub(super) struct Owner {
     ask: Box<dyn Fn() -> u8 + Send + Sync>,
     stops: AtomicU8,
@@ -109,7 +109,7 @@ impl Owner {
         Self { ask: Box::new(ask), stops: AtomicU8::new(0), asked: Mutex::new(Stopwatch::start()) }
     }
 
-    /// How often it asked to stop.
+    /// Returns the number of stop requests.
     pub(super) fn stops(&self) -> u8 {
         let mut asked = self.asked.lock().unwrap_or_else(PoisonError::into_inner);
         if asked.elapsed() > ASK_EVERY {
@@ -120,11 +120,11 @@ impl Owner {
     }
 }
 
-/// Link of a task to its owner in another instance.
+/// Functions that link a task to its owner in another instance.
 pub struct Performer {
     /// Sends an event.
     pub send: Box<dyn Fn(Vec<u8>) + Send + Sync>,
-    /// How often the owner asked to stop.
+    /// Returns the number of stop requests.
     pub stops: Box<dyn Fn() -> u8 + Send + Sync>,
 }
 

@@ -1,4 +1,4 @@
-//! Calibrations of error bounds in a file: four arrays over the calibrated windows.
+//! Calibrations of error bounds in a model file: four arrays for all calibrated local models.
 
 use super::container::{Contents, Writer};
 use crate::solver::reduced::{Calibration, CalibrationParts, Window};
@@ -8,7 +8,7 @@ const LAWS: &str = "calibration/laws";
 const PLACES: &str = "calibration/places";
 const SURPLUS: &str = "calibration/surplus";
 
-/// Adds the calibrations of windows. Returns `None` if they cannot be encoded, or if their sizes differ.
+/// Adds the calibrations of local models. Returns `None` if they cannot be encoded, or if their sizes differ.
 pub(super) fn write(writer: &mut Writer, windows: &[&Window]) -> Option<()> {
     let calibrated = windows.iter().filter_map(|window| window.calibration.as_ref());
     let parts: Vec<CalibrationParts> = calibrated.map(Calibration::parts).collect();
@@ -31,8 +31,8 @@ pub(super) fn write(writer: &mut Writer, windows: &[&Window]) -> Option<()> {
     writer.table(SURPLUS, &[quantities, evidence], &surplus)
 }
 
-/// Reads the calibrations of windows, given the number of measured errors of each; 0 means no calibration. Returns `None`
-/// if the arrays do not fit or make no sense.
+/// Reads the calibrations of local models, given the number of measured errors of each; 0 means no calibration. Returns
+/// `None` if the arrays are inconsistent or invalid.
 pub(super) fn read(contents: &Contents<'_>, evidence: &[usize]) -> Option<Vec<Option<Calibration>>> {
     let all = evidence.iter().try_fold(0usize, |sum, own| sum.checked_add(*own))?;
     if all == 0 {

@@ -7,14 +7,14 @@ use crate::engine::checked_file::{HEADER, hash_of};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::reduced::Domain;
 
-/// Facts about a model from the directory of its file. No array is decoded.
+/// Properties of a model, read from the directory of its file. No array is decoded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Catalogue {
     /// Steady or transient.
     pub kind: ModelKind,
-    /// Kind of contact.
+    /// Contact kind.
     pub contact: ContactKind,
-    /// Title for people.
+    /// Title.
     pub title: String,
     /// Trained range; for a transient model that of its reference contacts.
     pub domain: Domain,
@@ -28,12 +28,12 @@ impl Catalogue {
     /// Reads the entry from the content of a file. Does not check the hash.
     ///
     /// # Errors
-    /// When it is foreign, of another version, cut off, or its directory is damaged.
+    /// If the file has another format or version, is truncated, or has a damaged directory.
     pub fn of(bytes: &[u8]) -> Result<Self, ModelFileError> {
         Self::from(&Contents::unchecked(bytes)?, bytes)
     }
 
-    /// The same where nothing but header and directory need be there.
+    /// Reads the entry from header and directory alone.
     ///
     /// # Errors
     /// As [`Self::of`].

@@ -1,5 +1,5 @@
-//! Container of a `.rom` file: a header, a directory in JSON, and arrays that decode one by one. The manual describes it
-//! (`assets/manual/model_file.md`).
+//! Container of a `.rom` file: a header, a directory in JSON, and independently encoded arrays. The format is described
+//! in the manual (`assets/manual/model_file.md`).
 
 use super::error::{ModelFileError, damaged};
 use super::multiples;
@@ -17,11 +17,11 @@ use std::collections::BTreeMap;
 
 /// Version of the format. Other versions are refused.
 pub(super) const VERSION: u32 = 20;
-/// Header of the file. The largest payload is far beyond real models, which have a few MB.
+/// Header of the file. The size limit is far above that of real models, which have a few MB.
 pub(super) const FORMAT: Format = Format { magic: b"EHLROM\r\n", version: VERSION, max_payload: 512 << 20 };
-/// Decoded bytes per byte of a file, at most.
+/// Largest number of decoded bytes per byte of a file.
 const MOST: usize = 64;
-/// Bytes of the length of the directory.
+/// Number of bytes for the length of the directory.
 const LENGTH: usize = 8;
 
 /// Kind of the model in a `.rom` file.
@@ -52,7 +52,7 @@ impl Element {
     }
 }
 
-/// A number that arrays are made of.
+/// Number type of arrays.
 pub(super) trait Stored: Number + Default {
     const ELEMENT: Element;
 }
@@ -69,17 +69,17 @@ impl Stored for u32 {
     const ELEMENT: Element = Element::U32;
 }
 
-/// How the numbers of an array become bytes.
+/// Encoding of an array.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum Codec {
-    /// One standalone stream of pco, the last axis running fastest.
+    /// One standalone stream of pco. The last axis varies fastest.
     Pco,
     /// [`multiples`]: three such streams with their lengths in bytes. `across` is the number of nodes across the grid.
     Multiples { across: usize, parts: [usize; 3] },
 }
 
-/// An array in the directory. Offsets count from the end of the directory.
+/// Array in the directory. Offsets count from the end of the directory.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
@@ -97,7 +97,7 @@ impl Entry {
     }
 }
 
-/// Sections of the directory in front of the arrays.
+/// Sections of the directory before the arrays.
 pub(super) struct Heading<'a, D, M> {
     pub kind: ModelKind,
     pub contact: ContactKind,
@@ -116,7 +116,7 @@ struct Directory<'a> {
     kind: ModelKind,
     contact: ContactKind,
     title: String,
-    // As text: the order of its axes matters.
+    // Kept as text because the order of its axes matters.
     #[serde(borrow)]
     domain: &'a RawValue,
     #[serde(borrow)]
@@ -140,7 +140,7 @@ impl Writer {
         self.entries.push((name, Entry { element, shape, codec, offset, bytes }));
     }
 
-    /// Adds an array, the last axis running fastest. Leaves out an empty one. Returns `None` if it cannot be encoded.
+    /// Adds an array. The last axis varies fastest. An empty array is left out. Returns `None` if it cannot be encoded.
     pub fn table<T: Stored>(&mut self, name: impl Into<String>, shape: &[usize], numbers: &[T]) -> Option<()> {
         if !numbers.is_empty() {
             let stream = simple_compress(numbers, &ChunkConfig::default()).ok()?;
@@ -154,13 +154,13 @@ impl Writer {
         self.table(name, &[numbers.len()], numbers)
     }
 
-    /// Adds a list of whole numbers.
+    /// Adds a list of non-negative integers.
     pub fn indices(&mut self, name: impl Into<String>, indices: &[usize]) -> Option<()> {
         let indices = indices.iter().map(|index| u32::try_from(*index).ok());
         self.list(name, &indices.collect::<Option<Vec<u32>>>()?)
     }
 
-    /// Adds a matrix to the last digit.
+    /// Adds a matrix without rounding.
     pub fn exact(&mut self, name: impl Into<String>, matrix: &Mat<f64>) -> Option<()> {
         let numbers: Vec<f64> = matrix.row_iter().flat_map(|row| row.iter().copied()).collect();
         self.table(name, &[matrix.nrows(), matrix.ncols()], &numbers)
@@ -211,7 +211,7 @@ fn json<T: Serialize + ?Sized>(value: &T) -> Option<String> {
     serde_json::to_string(value).ok()
 }
 
-/// Bytes of a file before its arrays.
+/// Returns the number of bytes of a file before its arrays.
 #[cfg(any(test, not(feature = "models")))]
 #[allow(clippy::indexing_slicing, reason = "at compile time, and in tests")]
 pub(in crate::engine) const fn head_length(file: &[u8]) -> usize {
@@ -223,7 +223,7 @@ pub(in crate::engine) const fn head_length(file: &[u8]) -> usize {
     HEADER + LENGTH + length
 }
 
-/// The bytes of a file before its arrays.
+/// Returns the bytes of a file before its arrays.
 #[cfg(not(feature = "models"))]
 #[allow(clippy::indexing_slicing, reason = "at compile time")]
 pub(in crate::engine) const fn head<const N: usize>(file: &[u8]) -> [u8; N] {
@@ -235,7 +235,7 @@ pub(in crate::engine) const fn head<const N: usize>(file: &[u8]) -> [u8; N] {
     head
 }
 
-/// The directory at the beginning of a payload, and what follows it.
+/// Splits a payload into the directory and the arrays.
 fn directory(payload: &[u8]) -> Result<(Directory<'_>, &[u8]), ModelFileError> {
     let (length, rest) = payload.split_first_chunk::<LENGTH>().ok_or(damaged("its directory"))?;
     let length = usize::try_from(u64::from_le_bytes(*length)).ok().filter(|length| *length <= rest.len());
@@ -252,20 +252,20 @@ pub(super) struct Contents<'a> {
 }
 
 impl<'a> Contents<'a> {
-    /// Opens the content of a file. Checks the hash and how much memory the arrays would take.
+    /// Opens the content of a file. Checks the hash and the memory that the arrays would need.
     ///
     /// # Errors
-    /// When it is foreign, of another version, cut off or damaged.
+    /// If the file has another format or version, is truncated or damaged.
     pub fn open(bytes: &'a [u8]) -> Result<Self, ModelFileError> {
         Self::of_payload(FORMAT.open(bytes)?)
     }
 
-    /// The same without the hash.
+    /// Opens the content of a file without checking the hash.
     pub fn unchecked(bytes: &'a [u8]) -> Result<Self, ModelFileError> {
         Self::of_payload(FORMAT.payload(bytes)?)
     }
 
-    /// Opens the directory alone, of a file of which the arrays need not be there.
+    /// Opens only the directory. The arrays may be missing.
     ///
     /// # Errors
     /// As [`Self::open`].
@@ -291,39 +291,40 @@ impl<'a> Contents<'a> {
         Ok(Self { directory, arrays, bytes: payload.len() })
     }
 
-    /// Kind of the model.
+    /// Returns the kind of the model.
     pub fn kind(&self) -> ModelKind {
         self.directory.kind
     }
 
-    /// Kind of contact.
+    /// Returns the contact kind.
     pub fn contact(&self) -> ContactKind {
         self.directory.contact
     }
 
-    /// Title, scene and log. Title and log appear on terminals, so control characters are removed.
+    /// Returns title, scene and log. Control characters are removed from title and log, because they are printed on
+    /// terminals.
     pub fn texts(&self) -> (String, String, Vec<String>) {
         let quiet = |text: &String| text.chars().filter(|letter| !letter.is_control()).collect();
         let Directory { title, scene, log, .. } = &self.directory;
         (quiet(title), scene.clone(), log.iter().map(quiet).collect())
     }
 
-    /// Trained range.
+    /// Returns the trained range.
     pub fn domain<D: DeserializeOwned>(&self) -> Option<D> {
         serde_json::from_str(self.directory.domain.get()).ok()
     }
 
-    /// Everything else that is not an array.
+    /// Returns the section with all other data that are not arrays.
     pub fn model<M: DeserializeOwned>(&self) -> Option<M> {
         serde_json::from_str(self.directory.model.get()).ok()
     }
 
-    /// Shape of an array, or `None` if there is none of this name.
+    /// Returns the shape of an array; `None` if there is no array with this name.
     pub fn shape(&self, name: &str) -> Option<&[usize]> {
         Some(&self.directory.arrays.get(name)?.shape)
     }
 
-    /// Decodes an array, the last axis running fastest; an absent array is empty. Returns `None` if it is damaged or has
+    /// Decodes an array. The last axis varies fastest. A missing array is empty. Returns `None` if it is damaged or has
     /// another type.
     pub fn list<T: Stored>(&self, name: &str) -> Option<Vec<T>> {
         let Some(entry) = self.directory.arrays.get(name) else { return Some(Vec::new()) };
@@ -331,7 +332,7 @@ impl<'a> Contents<'a> {
         unpacked(self.bytes_of(entry).filter(|_| fits)?, entry.count()?)
     }
 
-    /// Decodes an array of `f32` or `f64`; an absent array is empty. Returns `None` if it is damaged.
+    /// Decodes an array of `f32` or `f64`. A missing array is empty. Returns `None` if it is damaged.
     pub fn numbers(&self, name: &str) -> Option<Vec<f64>> {
         match self.directory.arrays.get(name).map(|entry| entry.element) {
             Some(Element::F32) => Some(self.list::<f32>(name)?.into_iter().map(f64::from).collect()),
@@ -339,12 +340,12 @@ impl<'a> Contents<'a> {
         }
     }
 
-    /// Decodes a list of whole numbers.
+    /// Decodes a list of non-negative integers.
     pub fn indices(&self, name: &str) -> Option<Vec<usize>> {
         Some(self.list::<u32>(name)?.into_iter().map(|index| index as usize).collect())
     }
 
-    /// Decodes a matrix of finite numbers with this number of rows. Returns `None` if it is damaged or absent.
+    /// Decodes a matrix of finite numbers with this number of rows. Returns `None` if it is damaged or missing.
     pub fn matrix(&self, name: &str, rows: usize) -> Option<Mat<f64>> {
         let entry = self.directory.arrays.get(name)?;
         let [own, columns] = entry.shape[..] else { return None };
@@ -365,7 +366,7 @@ impl<'a> Contents<'a> {
     }
 }
 
-/// Decodes one stream. Returns `None` if it does not hold `count` numbers.
+/// Decodes one stream. Returns `None` if it does not contain `count` numbers.
 pub(super) fn unpacked<T: Number + Default>(stream: &[u8], count: usize) -> Option<Vec<T>> {
     let mut numbers = vec![T::default(); count];
     let read = simple_decompress_into(stream, &mut numbers).ok()?;
@@ -410,7 +411,7 @@ mod tests {
         writer
     }
 
-    /// A file with another directory.
+    /// Returns a file with a changed directory.
     fn with(bytes: &[u8], change: impl FnOnce(String) -> String) -> Vec<u8> {
         let (length, rest) = FORMAT.open(bytes).unwrap().split_first_chunk::<LENGTH>().unwrap();
         let (directory, arrays) = rest.split_at(u64::from_le_bytes(*length) as usize);
@@ -433,7 +434,7 @@ mod tests {
         assert_eq!(contents.indices("rows").unwrap(), [3, 5, 70_000]);
         assert_eq!((contents.shape("nothing"), contents.numbers("nothing")), (None, Some(Vec::new())));
         assert!(contents.matrix("matrix", 5).unwrap() == Mat::from_fn(5, 2, |i, k| 0.1 * i as f64 - k as f64));
-        // Another type, another number of rows, no such matrix, numbers that are none.
+        // Wrong type, wrong number of rows, missing matrix, values that are not finite.
         assert!(contents.list::<f64>("table").is_none() && contents.list::<f64>("rows").is_none());
         assert!(contents.matrix("matrix", 4).is_none() && contents.matrix("none", 0).is_none());
         assert!(contents.matrix("table", 2).is_none() && contents.matrix("rows", 3).is_none());

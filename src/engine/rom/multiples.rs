@@ -1,6 +1,6 @@
-//! Fields over a grid as whole numbers. Each value is a multiple of 2^(exponent of its row + exponent of its column). A
-//! polynomial through earlier nodes of the same column predicts the multiple; the file stores the difference. For smooth
-//! fields the differences are small.
+//! Encoding of fields on a grid as integers. Each value is a multiple of 2^(exponent of its row + exponent of its
+//! column). The multiple is predicted by a polynomial through earlier nodes of the same column, and the file stores the
+//! difference. For smooth fields the differences are small.
 
 use super::container::unpacked;
 use crate::host::pool::on_all_cores;
@@ -12,19 +12,19 @@ use rayon::prelude::*;
 
 /// Accepted exponents.
 const EXPONENTS: std::ops::RangeInclusive<i16> = -400..=400;
-/// Marks a row without values among the exponents.
+/// Exponent that marks a row without values.
 const NO_VALUES: i16 = i16::MIN;
 /// Highest orders of the prediction along X and across.
 const MOST_ALONG: i16 = 5;
 const MOST_ACROSS: i16 = 2;
 /// Highest class of a row or a column.
 const MOST_CLASS: i16 = 127;
-/// Numbers that are stored together at least, and at most.
+/// Smallest and largest number of values that are stored together.
 const FEWEST_TOGETHER: usize = 2048;
 const MOST_TOGETHER: usize = 1 << 18;
-/// Columns that are decoded before they are moved to their matrix.
+/// Number of columns that are decoded before they are copied into the matrix.
 const TOGETHER: usize = 32;
-/// A prediction of more multiples than this counts as zero.
+/// Predictions above this multiple count as zero.
 const LARGEST: f64 = (1u64 << 62) as f64;
 
 /// Encodes a matrix over a grid with `across` nodes across as three streams:
@@ -63,7 +63,7 @@ pub(super) fn encode(matrix: &Mat<f64>, across: usize, multiples: &Multiples) ->
     Some(if size(&several) < size(&one) { several } else { one })
 }
 
-/// Decodes three streams that stand one after the other. Returns `None` if they do not fit the shape.
+/// Decodes three consecutive streams. Returns `None` if they do not match the shape.
 pub(super) fn decode(bytes: &[u8], parts: &[usize; 3], across: usize, shape: (usize, usize)) -> Option<Mat<f64>> {
     let mut rest = bytes;
     let mut next = |length: usize| {
@@ -117,20 +117,20 @@ pub(super) fn decode(bytes: &[u8], parts: &[usize; 3], across: usize, shape: (us
     Some(matrix)
 }
 
-/// Classes of the rows with values and of the columns. Differences with the same sum of both have about the same size.
-/// Together they take fewer bits than among others.
+/// Classes of the rows with values and of the columns. Differences with the same sum of both classes have similar size.
+/// Stored together, they need fewer bits.
 struct Classes {
     rows: Vec<i16>,
     columns: Vec<i16>,
 }
 
 impl Classes {
-    /// One class for all.
+    /// Returns a single class for all rows and columns.
     fn one(rows: usize, columns: usize) -> Self {
         Self { rows: vec![0; rows], columns: vec![0; columns] }
     }
 
-    /// Classes by the mean of the logarithms, two for each doubling.
+    /// Returns classes by the mean logarithm of the differences, two for each factor of two.
     fn of(differences: &[Vec<i64>], rows: usize) -> Self {
         let size = |difference: &i64| 2.0 * (1.0 + difference.unsigned_abs() as f64).log2();
         let mean = |sum: f64, count: usize| sum / count.max(1) as f64;
@@ -148,7 +148,7 @@ impl Classes {
         }
     }
 
-    /// For each column the places of the first difference of each class of rows among the sorted ones.
+    /// Returns, for each column, the positions of the first difference of each row class in the sorted sequence.
     fn places(&self) -> Vec<Vec<usize>> {
         let mut rows = vec![0usize; MOST_CLASS as usize + 1];
         self.rows.iter().filter_map(|class| usize::try_from(*class).ok()).for_each(|class| {
@@ -173,7 +173,7 @@ impl Classes {
         places.collect()
     }
 
-    /// The differences sorted, and numbers of them that are stored together.
+    /// Returns the sorted differences, and the numbers of differences that are stored together.
     fn sorted(&self, differences: &[Vec<i64>]) -> (Vec<i64>, Vec<usize>) {
         let mut sorted = vec![0; differences.iter().map(Vec::len).sum()];
         let mut counts = vec![0usize; 2 * MOST_CLASS as usize + 1];
@@ -191,7 +191,7 @@ impl Classes {
         let mut open = 0;
         for count in counts {
             open += count;
-            // No more than fit one page of pco, no fewer than its description is worth.
+            // At most as many as fit one page of pco, and enough to outweigh the size of the page header.
             while open > MOST_TOGETHER {
                 together.push(MOST_TOGETHER);
                 open -= MOST_TOGETHER;
@@ -208,7 +208,7 @@ impl Classes {
 /// Rows with values and their steps.
 struct Lattice {
     across: usize,
-    /// Rows with values, each with 2^(its exponent).
+    /// Rows with values, each with 2^(exponent).
     steps: Vec<(usize, f64)>,
 }
 
@@ -235,7 +235,7 @@ impl Lattice {
         coded.min_by_key(size).unwrap_or_default()
     }
 
-    /// Fills a column row by row. `count` returns the multiple of a row, given the row with its step and the predicted
+    /// Fills a column row by row. `count` returns the multiple of a row, given the row, its step and the predicted
     /// multiple.
     fn walk(
         &self,
@@ -244,7 +244,7 @@ impl Lattice {
         orders: [i16; 2],
         mut count: impl FnMut((usize, f64), i64) -> i64,
     ) {
-        // v − (1 − S)^along (1 − S')^across v, with S and S' the shifts by a node along X and across.
+        // Prediction v − (1 − S)^along (1 − S')^across v, with the shifts S and S' by one node along X and across.
         let [along, aside] = orders.map(signed_binomials);
         let mut terms = Vec::new();
         for (i, a) in along.into_iter().enumerate() {
@@ -278,7 +278,7 @@ fn signed_binomials(order: i16) -> Vec<f64> {
     std::iter::once(1.0).chain(rest).collect()
 }
 
-/// Bits of an integer, the sign among them.
+/// Returns the number of bits of an integer, including the sign.
 fn bits(value: i64) -> u32 {
     i64::BITS - ((value << 1) ^ (value >> 63)).leading_zeros()
 }
@@ -288,7 +288,7 @@ mod tests {
     use super::*;
     use crate::solver::reduced::PodBasis;
 
-    /// Modes over 30 × 5 nodes that vanish at the first seven rows and have falling singular values.
+    /// Returns modes on 30 × 5 nodes that vanish in the first seven rows and have decreasing singular values.
     fn basis() -> PodBasis {
         let value = |i: usize, k: usize| ((i / 5 + 3 * k) as f64 * 0.2).sin() * (1.0 + 0.1 * (i % 5) as f64);
         let modes = Mat::from_fn(150, 4, |i, k| if i < 7 { 0.0 } else { value(i, k) });
@@ -314,7 +314,7 @@ mod tests {
             let again = read(&streams, across, (150, 4)).unwrap();
             for (k, sigma) in basis.singular_values.iter().take(4).enumerate() {
                 let off = (0..150).map(|i| (again[(i, k)] - basis.modes[(i, k)]).abs()).fold(0.0, f64::max);
-                // The first mode makes the size of the fields.
+                // The first mode determines the size of the fields.
                 let size = |i: usize| {
                     (0..4).map(|k| (basis.modes[(i, k)] * basis.singular_values[k]).powi(2)).sum::<f64>().sqrt()
                 };
@@ -323,7 +323,7 @@ mod tests {
                 assert!(field > 0.0 && field <= accuracy, "mode {k}: {field:e}");
                 assert!((0..7).all(|i| again[(i, k)] == 0.0));
             }
-            // What was rounded once is stored exactly, in the same bytes.
+            // Values that were rounded before are stored exactly, as the same bytes.
             assert!(coded(&PodBasis { modes: again, ..basis.clone() }, across, accuracy) == streams);
         }
         let bytes = coded(&basis, 5, 1e-6).concat().len();
@@ -361,7 +361,7 @@ mod tests {
 
     #[test]
     fn differences_count_from_the_polynomial_through_the_nodes_before() {
-        // A cubic along X with a parabola across is met exactly from the fifth line on.
+        // A cubic along X times a parabola across is predicted exactly from the fifth line on.
         let (rows, across) = (40, 6);
         let value = |i: usize, j: usize| (i * i * i) as f64 - 40.0 + (j * j) as f64 * (i + 1) as f64;
         let column: Vec<f64> = (0..rows * across).map(|k| value(k / across, k % across)).collect();
@@ -377,7 +377,7 @@ mod tests {
         assert!(missed.iter().enumerate().filter(|(k, _)| within(*k)).all(|(_, miss)| *miss == 0));
         let size = |differences: &[i64]| differences.iter().map(|own| bits(*own)).sum::<u32>();
         assert!(size(&differences) <= size(&missed));
-        // Numbers that follow from nothing are stored as they are.
+        // Random numbers are stored without prediction.
         let mut rng = fastrand::Rng::with_seed(7);
         let noise: Vec<f64> = (0..rows * across).map(|_| f64::from(rng.i32(-506..=506))).collect();
         assert_eq!(lattice.shortest(&noise, 0).0, [0, 0]);

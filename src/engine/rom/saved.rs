@@ -1,4 +1,4 @@
-//! Reading and writing a `.rom` file of either kind.
+//! Reads and writes `.rom` files of steady and transient models.
 
 use super::container::{Contents, FORMAT, ModelKind};
 use super::error::{ModelFileError, damaged};
@@ -12,12 +12,12 @@ use crate::solver::reduced::transient::TrajectoryModel;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A reduced model of either kind.
+/// Reduced model, steady or transient.
 #[derive(Clone)]
 pub enum SavedModel {
-    /// Of steady contacts.
+    /// Model of steady contacts.
     Stationary(Arc<ReducedModel>),
-    /// Of transient contacts.
+    /// Model of transient contacts.
     InTime(Arc<TrajectoryModel>),
 }
 
@@ -25,12 +25,12 @@ impl SavedModel {
     /// Reads a file of either kind.
     ///
     /// # Errors
-    /// When it cannot be read, is foreign, of another version, cut off or damaged.
+    /// If it cannot be read, has another format or version, is truncated or damaged.
     pub fn read(path: &Path) -> Result<Self, ModelFileError> {
         Self::read_with_content(path).map(|(model, _)| model)
     }
 
-    /// Reads a file of either kind and returns its bytes as well.
+    /// Reads a file of either kind and also returns its bytes.
     ///
     /// # Errors
     /// As [`Self::read`].
@@ -39,7 +39,7 @@ impl SavedModel {
         Ok((Self::from_bytes(&content)?, content))
     }
 
-    /// A model from the content of a file.
+    /// Reads a model from the content of a file.
     ///
     /// # Errors
     /// As [`Self::read`].
@@ -49,10 +49,10 @@ impl SavedModel {
         Ok(model)
     }
 
-    /// The content of its file.
+    /// Returns the content of the model's file.
     ///
     /// # Errors
-    /// When it cannot be encoded.
+    /// If it cannot be encoded.
     pub fn to_bytes(&self) -> Result<Vec<u8>, ModelFileError> {
         match self {
             Self::Stationary(model) => to_bytes(model),
@@ -60,18 +60,18 @@ impl SavedModel {
         }
     }
 
-    /// Writes its file as a whole or not at all.
+    /// Writes the model's file as a whole or not at all.
     ///
     /// # Errors
-    /// When the file cannot be written, or would be refused by [`Self::read`].
+    /// If the file cannot be written, or would be refused by [`Self::read`].
     pub fn write(&self, path: &Path) -> Result<(), ModelFileError> {
         write_proven(&self.to_bytes()?, path)
     }
 
-    /// The steady model.
+    /// Returns the steady model.
     ///
     /// # Errors
-    /// When it is a transient one.
+    /// If it is a transient model.
     pub fn stationary(self) -> Result<Arc<ReducedModel>, ModelFileError> {
         match self {
             Self::Stationary(model) => Ok(model),
@@ -79,10 +79,10 @@ impl SavedModel {
         }
     }
 
-    /// The transient model.
+    /// Returns the transient model.
     ///
     /// # Errors
-    /// When it is a steady one.
+    /// If it is a steady model.
     pub fn in_time(self) -> Result<Arc<TrajectoryModel>, ModelFileError> {
         match self {
             Self::Stationary(_) => Err(ModelFileError::Stationary),
@@ -90,7 +90,7 @@ impl SavedModel {
         }
     }
 
-    /// Its title.
+    /// Returns the title.
     pub fn title(&self) -> &str {
         match self {
             Self::Stationary(model) => &model.title,
@@ -98,7 +98,7 @@ impl SavedModel {
         }
     }
 
-    /// Solves contacts that it was trained with, and compares.
+    /// Checks the model by solving contacts that it was trained with.
     pub(super) fn prove(&self, observer: &dyn Observer) -> Result<(), ModelFileError> {
         match self {
             Self::Stationary(model) => on_all_cores(|| steady::prove(model, observer)),
@@ -107,17 +107,17 @@ impl SavedModel {
     }
 }
 
-/// Writes the content of a model file as a whole or not at all.
+/// Writes the content of a model file as a whole or not at all, after checking that it can be read.
 ///
 /// # Errors
 /// As [`SavedModel::write`].
 pub(in crate::engine) fn write_proven(bytes: &[u8], path: &Path) -> Result<(), ModelFileError> {
-    // A file has fewer digits than a model that was just trained.
+    // The file has fewer digits than the model, so that the decoded content must be checked.
     SavedModel::from_bytes(bytes)?;
     Ok(atomic_file::replace(path, bytes)?)
 }
 
-/// Reads the bytes of a model file. Checks the announced size before it allocates memory.
+/// Reads the bytes of a model file. Checks the announced size before memory is allocated.
 fn content(path: &Path) -> Result<Vec<u8>, ModelFileError> {
     FORMAT.read(path).map_err(|reason| match reason {
         Unreadable::Io(source) => ModelFileError::Io { path: path.to_owned(), source },
@@ -125,20 +125,20 @@ fn content(path: &Path) -> Result<Vec<u8>, ModelFileError> {
     })
 }
 
-/// [`SavedModel::read`] while an observer watches.
+/// Reads a file of either kind with an observer, as [`SavedModel::read`].
 ///
 /// # Errors
-/// As there, and when the observer cancels.
+/// As [`SavedModel::read`], and if the observer cancels.
 pub(in crate::engine) fn read_watched(path: &Path, observer: &dyn Observer) -> Result<SavedModel, ModelFileError> {
     let model = from_own_bytes(&content(path)?, observer)?;
     model.prove(observer)?;
     Ok(model)
 }
 
-/// Reads a model from bytes that belong to the program, without solving training contacts.
+/// Reads a model from trusted bytes, without solving training contacts.
 ///
 /// # Errors
-/// As [`SavedModel::from_bytes`], and when the observer cancels.
+/// As [`SavedModel::from_bytes`], and if the observer cancels.
 pub(in crate::engine) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -> Result<SavedModel, ModelFileError> {
     let contents = Contents::open(bytes)?;
     Ok(match contents.kind() {
@@ -147,18 +147,18 @@ pub(in crate::engine) fn from_own_bytes(bytes: &[u8], observer: &dyn Observer) -
     })
 }
 
-/// The content of the file of a steady model.
+/// Returns the content of the file of a steady model.
 ///
 /// # Errors
-/// When it cannot be encoded.
+/// If it cannot be encoded.
 pub(in crate::engine) fn to_bytes(model: &ReducedModel) -> Result<Vec<u8>, ModelFileError> {
     on_all_cores(|| steady::encode(model)).ok_or(damaged("encoding"))
 }
 
-/// The content of the file of a transient model.
+/// Returns the content of the file of a transient model.
 ///
 /// # Errors
-/// When it cannot be encoded.
+/// If it cannot be encoded.
 pub(super) fn in_time_to_bytes(model: &TrajectoryModel) -> Result<Vec<u8>, ModelFileError> {
     on_all_cores(|| transient::encode(model)).ok_or(damaged("encoding"))
 }

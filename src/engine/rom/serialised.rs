@@ -1,4 +1,4 @@
-//! Models in serialised values: as the content of their files.
+//! Serialisation of models as the content of their files.
 
 use super::saved::SavedModel;
 use crate::solver::reduced::ReducedModel;

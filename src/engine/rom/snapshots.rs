@@ -1,4 +1,4 @@
-//! Training solutions in a file: one array for each quantity, over the snapshots of all windows.
+//! Training solutions in a model file: one array per quantity, for the snapshots of all local models.
 
 use super::container::{Contents, Writer};
 use crate::solver::full::GridCost;
@@ -6,12 +6,12 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Sliding;
 use crate::solver::reduced::{ALL_DIGITS, FILM_DIGITS, Snapshot, Window, kept_digits};
 
-/// Bits of the significand of a discretisation error, which is an estimate.
+/// Number of significand bits of a discretisation error, which is only an estimate.
 const FEW_DIGITS: u32 = 8;
 
-/// Quantities, and the bits of the significand that a steady model stores; `None` stores eight bytes. Contacts keep all
-/// bits of a number of four bytes, since some lie on the edges of the trained range. NaN stands for a quantity that a
-/// snapshot does not have. A quantity that no snapshot has is left out.
+/// Quantities, and the number of significand bits stored for steady models; `None` stores eight bytes. Operating points
+/// keep all bits of a four-byte number, since some lie on the edges of the trained range. NaN means that a snapshot
+/// does not have the quantity. A quantity that no snapshot has is left out.
 const QUANTITIES: [(&str, Option<u32>); 13] = [
     ("h_c", Some(FILM_DIGITS)),
     ("h_0", Some(FILM_DIGITS)),
@@ -52,8 +52,8 @@ fn snapshot(kind: ContactKind, values: [f64; QUANTITIES.len()], fronts: Vec<usiz
     Snapshot { point, coefficients: Vec::new(), h_0, h_c, fronts, grid_cost }
 }
 
-/// Adds the snapshots of all windows without their coefficients, `rounded` for a steady model. Returns `None` if they
-/// cannot be encoded.
+/// Adds the snapshots of all local models without their coefficients, `rounded` for a steady model. Returns `None` if
+/// they cannot be encoded.
 pub(super) fn write(writer: &mut Writer, windows: &[&Window], rounded: bool) -> Option<()> {
     let snapshots = || windows.iter().flat_map(|window| &window.snapshots);
     let all: Vec<_> = snapshots().map(values).collect();
@@ -63,7 +63,7 @@ pub(super) fn write(writer: &mut Writer, windows: &[&Window], rounded: bool) -> 
         let (name, constant) = (format!("snapshots/{name}"), column.iter().all(|own| own.to_bits() == first.to_bits()));
         match digits.filter(|_| rounded) {
             _ if column.iter().all(|value| value.is_nan()) => {}
-            // The constants of a lubricant have to be met to the last digit.
+            // Constants of a lubricant must be stored exactly.
             Some(digits) if !constant || k == 0 => {
                 let column: Vec<f32> = column.into_iter().map(|value| kept_digits(value, digits)).collect();
                 writer.list(name, &column)?;
@@ -72,7 +72,7 @@ pub(super) fn write(writer: &mut Writer, windows: &[&Window], rounded: bool) -> 
         }
     }
     let lines = snapshots().next().map_or(0, |snapshot| snapshot.fronts.len());
-    // A boundary that is missing somewhere is refused by whoever reads the rest.
+    // If a boundary is missing, the array is left out, and the reader refuses the file.
     if snapshots().any(|snapshot| snapshot.fronts.len() != lines) {
         return Some(());
     }
@@ -80,12 +80,12 @@ pub(super) fn write(writer: &mut Writer, windows: &[&Window], rounded: bool) -> 
     writer.table("snapshots/fronts", &[all.len(), lines], &fronts.collect::<Option<Vec<u32>>>()?)
 }
 
-/// Reads the snapshots of windows, given the number of each, without their coefficients. Returns `None` if they do not
-/// fit.
+/// Reads the snapshots of local models, given the number of each, without their coefficients. Returns `None` if they
+/// are inconsistent.
 pub(super) fn read(contents: &Contents<'_>, counts: &[usize]) -> Option<Vec<Vec<Snapshot>>> {
     let count = counts.iter().try_fold(0usize, |sum, count| sum.checked_add(*count))?;
     let h_c = contents.shape("snapshots/h_c").unwrap_or(&[0]);
-    // Nothing is allocated for snapshots that are not there.
+    // The number is checked before memory is allocated.
     if h_c != [count] {
         return None;
     }

@@ -7,26 +7,26 @@ use crate::solver::parameters::Quantity;
 use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
 use crate::solver::reduced::Domain;
 
-/// Reads the trained range: the one place where the type of the range meets the file.
+/// Reads the trained range. Only this function depends on both the type of the range and the file.
 ///
 /// # Errors
-/// When it makes no sense.
+/// If it is invalid.
 pub(super) fn domain(contents: &Contents<'_>) -> Result<Domain, ModelFileError> {
     contents.domain().filter(sound_domain).ok_or(damaged("its domain"))
 }
 
-/// Whether a grid has these rows, at least one, in ascending order.
+/// Returns true if these are equations of a grid: at least one, in ascending order.
 pub(super) fn are_rows(rows: &[usize], grid: &ContactGrid) -> bool {
     rows.is_sorted_by(|a, b| a < b) && rows.last().is_some_and(|&row| row < grid.unknowns())
 }
 
-/// Whether two numbers are the ends of an interval within 0…`most`.
+/// Returns true if two numbers are the ends of an interval within 0…`most`.
 pub(super) fn sound_interval((low, high): (f64, f64), most: f64) -> bool {
     0.0 <= low && low <= high && high <= most
 }
 
-/// Whether a range makes sense: one that varies SRR is of a lubricant that thins or warms under shear, and one of such a
-/// lubricant gives SRR.
+/// Returns true if a range is valid. Only the range of a shear-thinning or thermal lubricant may vary SRR, and it must
+/// give SRR.
 fn sound_domain(domain: &Domain) -> bool {
     let (space, slides) = (&domain.space, domain.slides());
     let most = if domain.heats() { LARGEST_HEATED_SRR } else { f64::MAX };
@@ -37,7 +37,7 @@ fn sound_domain(domain: &Domain) -> bool {
         && domain.srr().is_none_or(|ends| sound_interval(ends, most))
 }
 
-/// Entries of node arrays on a grid, without building it.
+/// Returns the length of node arrays on a grid, without building it.
 pub(super) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
     Ok(match grid {
         GridSpec::Graded { nodes, .. } => nodes.saturating_add(1),

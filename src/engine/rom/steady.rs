@@ -20,10 +20,10 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Names of the modes and of the singular values of a basis that all windows share.
+/// Array names of the modes and singular values of the basis that all local models share.
 const SHARED: [&str; 2] = ["shared/pressure", "shared/singular_values"];
 
-/// Section of a steady model: everything that is neither its range nor an array.
+/// Section of a steady model: all data except the trained range and the arrays.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Steady {
@@ -68,7 +68,7 @@ pub(super) fn encode(model: &ReducedModel) -> Option<Vec<u8>> {
 /// Reads a model. Does not solve training contacts.
 ///
 /// # Errors
-/// When its parts do not fit each other, or when the observer cancels.
+/// If its parts are inconsistent, or if the observer cancels.
 pub(super) fn decode(contents: &Contents<'_>, observer: &dyn Observer) -> Result<ReducedModel, ModelFileError> {
     let domain = domain(contents)?;
     let Steady { grids, windows } = contents.model().ok_or(damaged("its windows"))?;
@@ -99,10 +99,10 @@ pub(super) fn decode(contents: &Contents<'_>, observer: &dyn Observer) -> Result
     Ok(ReducedModel { title, domain, windows, scene, log })
 }
 
-/// Solves each window at two of its own snapshots.
+/// Solves each local model at two of its own snapshots.
 ///
 /// # Errors
-/// When a window does not give the H_c that it was trained from, or when the observer cancels.
+/// If a local model does not reproduce H_c of a snapshot, or if the observer cancels.
 pub(super) fn prove(model: &ReducedModel, observer: &dyn Observer) -> Result<(), ModelFileError> {
     let windows = model.windows.par_iter().enumerate();
     let proved = windows.map(|(k, window)| {
@@ -112,20 +112,22 @@ pub(super) fn prove(model: &ReducedModel, observer: &dyn Observer) -> Result<(),
     proved.collect::<Vec<_>>().into_iter().collect()
 }
 
+/// Returns an error if the observer has cancelled.
+///
 /// # Errors
-/// When the observer cancels.
+/// If the observer has cancelled.
 fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
     if observer.cancelled() { Err(ModelFileError::Cancelled) } else { Ok(()) }
 }
 
-/// Refuses windows that do not fit the trained range.
+/// Refuses local models that are inconsistent with the trained range.
 fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFileError> {
     let (ellipses, anchored) = (domain.space.of_ellipses(), domain.space.varies_lubricant());
-    // Ellipses with heat are those of many oils, and none thins under shear.
+    // Thermal elliptical models are lubricant-parameterised, and none is shear-thinning.
     if ellipses && (domain.thins() || (domain.heats() && !anchored)) {
         return Err(damaged("its parts"));
     }
-    // Those of ellipses ascend for each shape, those around anchors with these.
+    // Elliptical models are in ascending order of M only for each shape, and anchored ones are not ordered.
     let from = |window: &WindowEntry| window.m.map_or(f64::NAN, |m| m.0);
     let ascending = ellipses || anchored || windows.is_sorted_by(|a, b| from(a) <= from(b));
     let sound = |window: &WindowEntry| window.m.is_some_and(|m| sound_interval(m, f64::MAX));
@@ -164,9 +166,9 @@ fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFi
     Ok(())
 }
 
-/// Refuses a model that would take more memory than a file of its size can need, before grids and bases are built. A window
-/// has no more modes than snapshots, or, with ranges of thermal constants, than singular values. Each node takes at least
-/// a byte.
+/// Refuses a model that would need more memory than a file of its size justifies, before grids and bases are built. A
+/// local model has no more modes than snapshots or, with ranges of thermal constants, than singular values. Each node
+/// takes at least one byte.
 fn check_sizes(
     contents: &Contents<'_>,
     domain: &Domain,
@@ -194,7 +196,7 @@ fn check_sizes(
     if nodes > contents.bytes { Err(damaged("grids")) } else { Ok(()) }
 }
 
-/// Reads the basis that all windows share, if there is one. Returns `None` if it is damaged.
+/// Reads the basis that all local models share, if there is one. Returns `None` if it is damaged.
 fn shared_basis(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Option<Arc<SharedBasis>>> {
     if contents.shape(SHARED[0]).is_none() {
         return Some(None);
@@ -205,8 +207,8 @@ fn shared_basis(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Optio
     Some(Some(Arc::new(SharedBasis::new(basis, grid))))
 }
 
-/// Reads the deformation basis of each window. A window without one shares that of the first. Returns `None` if one is
-/// damaged.
+/// Reads the deformation basis of each local model. One without its own basis shares that of the first. Returns `None`
+/// if a basis is damaged.
 fn deformations(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Vec<Arc<PodBasis>>> {
     let own = grids.par_iter().enumerate().map(|(k, grid)| read_deformation(contents, k, grid.len()));
     let own: Vec<Option<PodBasis>> = own.collect::<Option<_>>()?;
@@ -218,10 +220,10 @@ fn deformations(contents: &Contents<'_>, grids: &[&ContactGrid]) -> Option<Vec<A
     std::iter::once(Some(Arc::clone(&first))).chain(others).collect()
 }
 
-/// Completes a window with what follows from the trained range.
+/// Completes a local model with data that follow from the trained range.
 ///
 /// # Errors
-/// When it does not fit that.
+/// If it is inconsistent with the range.
 fn of_domain(domain: &Domain, entry: &WindowEntry, mut window: Window) -> Result<Window, ModelFileError> {
     window.anchor = entry.anchor.map(|(m, l)| Moes { m, l });
     if window.anchor.is_some() {

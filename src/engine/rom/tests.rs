@@ -15,8 +15,8 @@ use crate::solver::training::small::{
 use crate::solver::training::{TrainingSpec, WindowSpec, Windows, train};
 use std::path::{Path, PathBuf};
 
-/// `EHL_WRITE_MODELS=FOLDER cargo test --release --lib the_models_of_the_program` writes the models as this program saves
-/// them: after a change of the format, with a reader of the previous one.
+/// `EHL_WRITE_MODELS=FOLDER cargo test --release --lib the_models_of_the_program` writes the embedded models in the
+/// current format. Use it after a change of the format, together with a reader of the previous format.
 #[test]
 fn the_models_of_the_program_are_intact_and_survive_a_round_trip() {
     let folder = std::env::var_os("EHL_WRITE_MODELS").map(PathBuf::from);
@@ -27,7 +27,7 @@ fn the_models_of_the_program_are_intact_and_survive_a_round_trip() {
     });
     let in_time = line_in_time().unwrap();
     for (name, model) in steady.chain([("line_in_time", SavedModel::InTime(in_time))]) {
-        // With it, this is what reading the file of a model does.
+        // Together with this check, it is the same as reading a model's file.
         model.prove(&()).unwrap_or_else(|why| panic!("{name}: {why}"));
         let bytes = model.to_bytes().unwrap();
         match &folder {
@@ -71,10 +71,10 @@ fn everything_but_the_hash_itself_is_under_it_and_nothing_follows() {
     assert!(matches!(from_bytes(&longer), Err(ModelFileError::Damaged { .. })));
 }
 
-/// A change that spoils a model, and what is then refused.
+/// Change that makes a model invalid, and the expected error.
 type Lie<'a> = (&'a dyn Fn(&mut ReducedModel), &'a str);
 
-/// Gives a model's domain another interval.
+/// Changes an interval of a model's trained range.
 fn lie_about(model: &mut ReducedModel, quantity: Quantity, ends: (f64, f64)) {
     model.domain.space = with_ends(&model.domain.space, quantity, ends);
 }
@@ -106,7 +106,7 @@ fn a_payload_that_lies_is_refused_even_with_a_right_hash() {
     for (k, lie) in lies.iter().enumerate() {
         assert!(matches!(refused(lie), Some(ModelFileError::Damaged { .. })), "lie {k}");
     }
-    // Parts that fit each other, but do not belong together.
+    // Parts that are consistent in shape but belong to different models.
     let other = refused(&|m| {
         m.windows[0].reconstruction *= faer::Scale(-1.0);
         m.windows[0].snapshots.iter_mut().for_each(|snapshot| snapshot.h_c *= 2.0);
@@ -268,7 +268,7 @@ fn oils_and_anchors_survive_a_round_trip_and_must_fit_the_windows() {
     let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
     assert_eq!(read.domain, model.domain);
     assert!(read.windows.iter().map(|w| w.anchor).eq(model.windows.iter().map(|w| w.anchor)));
-    // Bounds are measured before a model is written: starts are rounded before.
+    // Starting values are rounded before error bounds are measured.
     for (read, own) in read.windows.iter().zip(&model.windows) {
         for (read, own) in read.snapshots.iter().zip(&own.snapshots) {
             assert_eq!((&read.coefficients, read.h_0, read.h_c), (&own.coefficients, own.h_0, own.h_c));
@@ -299,7 +299,7 @@ fn windows_of_points_keep_one_basis_and_what_their_grid_costs() {
     assert_eq!(read.domain, model.domain);
     for (ours, own) in read.windows.iter().zip(&model.windows) {
         let (kept, made) = (ours.pressure.combined().unwrap(), own.pressure.combined().unwrap());
-        // Rows are chosen and bounds measured before a model is written: modes are rounded before.
+        // Modes are rounded before equations are sampled and error bounds are measured.
         assert!(kept.factors == made.factors && kept.shared.basis.modes == made.shared.basis.modes);
         assert!(ours.pressure.basis().modes == own.pressure.basis().modes);
         for (ours, own) in ours.snapshots.iter().zip(&own.snapshots) {
@@ -307,7 +307,7 @@ fn windows_of_points_keep_one_basis_and_what_their_grid_costs() {
             assert!((ours.total() / own.total() - 1.0).abs() < 4e-3, "an estimate has two digits");
         }
     }
-    // Each would keep 48 modes of its own otherwise.
+    // Otherwise each local model would store 48 modes.
     let apart: usize = model.windows.iter().map(|w| w.pressure.count() * w.grid.len()).sum();
     assert!(bytes.len() < 4 * apart, "{} bytes", bytes.len());
     let mut fewer = model.clone();
@@ -331,7 +331,7 @@ fn the_catalogue_is_read_without_the_arrays() {
             (catalogue.bytes, catalogue.hash.to_le_bytes()),
             (bytes.len(), bytes[20..HEADER].try_into().unwrap())
         );
-        // Nothing behind the directory is looked at, nor need it be there.
+        // Data after the directory are not read, and may be missing.
         let head = head_length(bytes);
         assert_eq!(Catalogue::of_head(&bytes[..head]).unwrap(), catalogue);
         assert!(Catalogue::of_head(&bytes[..head - 1]).is_err() && Catalogue::of(&bytes[..head]).is_err());

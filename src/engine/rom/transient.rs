@@ -1,7 +1,7 @@
 //! Transient models in files.
 //!
-//! Modes are rounded to twelve digits of the pressures, everything else is stored to the last digit. A march with the model
-//! that was read agrees with that of the model that was written to some seven digits.
+//! Modes are rounded to a relative accuracy of 1e-12 of the pressures; everything else is stored exactly. A march with
+//! a model that was read agrees with that of the original model to about seven digits.
 
 use super::container::{Contents, Heading, ModelKind, Writer};
 use super::error::{ModelFileError, damaged};
@@ -20,36 +20,36 @@ use crate::solver::reduced::{SharedBasis, Window};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Entries of a basis at most: real ones have some 10⁵.
+/// Largest number of entries of a basis. Real ones have about 10⁵.
 const MOST_ENTRIES: usize = 5_000_000;
-/// How far, over their own size, the coefficients of a steady contact may lie from those of the training.
+/// Accepted relative deviation of the coefficients of a steady contact from those of the training.
 const PROVEN: f64 = 0.1;
-/// Names of the arrays.
+/// Array names.
 const STARTS: &str = "starts/coefficients";
 const CENTRES: &str = "local/centres";
 
-/// Section of a transient model: everything that is neither the range of its reference contacts nor an array. The first
-/// window covers all states, the others have local bases that combine its modes.
+/// Section of a transient model: all data except the range of its reference contacts and the arrays. The first local
+/// model covers all states; the others have local bases that combine its modes.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TransientModel {
     frame: Frame,
-    /// Trained ranges of the inputs over their references.
+    /// Trained ranges of the inputs relative to their references.
     radius: Reach,
     speed: Reach,
     load: Reach,
-    /// Length of the steps.
+    /// Time step.
     step: f64,
     grid: GridSpec,
     windows: Vec<WindowEntry>,
     starts: Vec<Start>,
 }
 
-/// Beginning of a training and its inputs; the coefficients are an array.
+/// Start of a training and its inputs. The coefficients are in an array.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Start {
-    /// Radius, speed, load, modulus, viscosity and coefficient of a line contact.
+    /// Radius, speed, load, modulus, viscosity and pressure–viscosity coefficient of a line contact.
     point: [f64; 6],
     sliding: Sliding,
     inputs: Inputs,
@@ -103,10 +103,10 @@ pub(super) fn encode(model: &TrajectoryModel) -> Option<Vec<u8>> {
     })
 }
 
-/// Solves the steady contacts where the first and the last training began.
+/// Solves the steady contacts at the start of the first and the last training.
 ///
 /// # Errors
-/// When the model does not find these contacts.
+/// If the model does not reproduce these contacts.
 pub(super) fn prove(model: &Arc<TrajectoryModel>) -> Result<(), ModelFileError> {
     let proven = |start: &TrajectoryStart| {
         let problem = Problem::new(&start.point, model.domain.reference.lubricant).ok()?;
@@ -123,7 +123,7 @@ pub(super) fn prove(model: &Arc<TrajectoryModel>) -> Result<(), ModelFileError> 
 /// Reads a model. Does not solve training contacts.
 ///
 /// # Errors
-/// When its parts do not fit each other.
+/// If its parts are inconsistent.
 pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFileError> {
     let reference = domain(contents)?;
     let stored: TransientModel = contents.model().ok_or(damaged("its windows"))?;
@@ -136,7 +136,7 @@ pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFi
         return Err(damaged("its domain"));
     }
 
-    // Nothing is built that is larger than what the file can hold.
+    // Sizes are checked against the file size before anything is built.
     let nodes = match grid {
         GridSpec::Graded { registered: true, .. } | GridSpec::Plane(_) => return Err(damaged("grid")),
         GridSpec::Uniform { .. } | GridSpec::Graded { .. } => entries(&grid)?,

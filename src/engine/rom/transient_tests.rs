@@ -1,4 +1,4 @@
-//! Transient models in files.
+//! Tests of transient models in files.
 
 use super::container::VERSION;
 use super::{Catalogue, ModelFileError, ModelKind, SavedModel};
@@ -22,7 +22,7 @@ fn from_bytes(bytes: &[u8]) -> Result<Arc<TrajectoryModel>, ModelFileError> {
     SavedModel::from_bytes(bytes)?.in_time()
 }
 
-/// A training of a moment on a coarse grid.
+/// Returns a short training on a coarse grid.
 fn training(frame: Frame, cavitation: Cavitation) -> Transient {
     let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 0.5 });
     let lubricant = Lubricant { cavitation, ..Lubricant::default() };

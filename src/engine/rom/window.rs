@@ -1,4 +1,4 @@
-//! One window of a model in a file: an entry in the directory, and arrays `windows/K/…`.
+//! Local model in a file: an entry in the directory, and arrays `windows/K/…`.
 
 use super::container::{Contents, Writer};
 use super::error::{ModelFileError, damaged};
@@ -14,46 +14,46 @@ use faer::Mat;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Relative accuracy of the deformations of point contacts. Their bases have no rare modes, and no mobility amplifies what
-/// is lost. Deformations of line contacts are stored to the accuracy of pressures.
+/// Relative accuracy of the deformations of point contacts. Their bases have no modes with small singular values, and
+/// no mobility amplifies rounding errors. Deformations of line contacts are stored with the accuracy of pressures.
 const BENT_ACCURACY: f64 = 1e-5;
-/// Accuracies of pressures and deformations of transient models.
+/// Relative accuracies of pressures and deformations of transient models.
 const TRANSIENT: [f64; 2] = [1e-12, 1e-6];
-/// How far, relative to itself, a row of a cubature may lie from a multiple of the modes at its node.
+/// Accepted relative deviation of a column of a cubature matrix from a multiple of the modes at its node.
 const ITS_OWN: f64 = 1e-3;
 
-/// A window in the directory.
+/// Local model in the directory.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WindowEntry {
-    /// Range of M; left out by transient models.
+    /// Range of M; absent in transient models.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub m: Option<(f64, f64)>,
-    /// M and L of the anchor, if it was built around one.
+    /// M and L of the centre, if it was built around one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor: Option<(f64, f64)>,
-    /// R_y/R, if it was trained for ellipses.
+    /// Range of R_y/R, if it was trained for elliptical contacts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_ratio: Option<(f64, f64)>,
-    /// Place among the grids.
+    /// Index of its grid.
     pub grid: usize,
     pub penalty: f64,
     pub sampling: Sampling,
     pub scheme: Scheme,
     /// Number of snapshots.
     pub snapshots: usize,
-    /// True if it has a traction quadrature: that of its arrays, or the trapezoidal rule over all nodes without them.
+    /// True if it has a traction quadrature: that of its arrays, or without them the trapezoidal rule over all nodes.
     pub traction: bool,
     /// Number of measured errors in its calibration; 0 without one.
     pub evidence: usize,
 }
 
-/// Precision of the arrays of a window.
+/// Precision of the arrays of a local model.
 #[derive(Clone, Copy)]
 pub(super) enum Rounding {
-    /// Rounded as steady models are, thermal or isothermal.
+    /// Rounded as for steady models, thermal or isothermal.
     Steady { heat: bool },
-    /// Modes rounded to a given accuracy, everything else stored to the last digit.
+    /// Modes rounded to a given accuracy, everything else stored exactly.
     Transient,
 }
 
@@ -61,7 +61,7 @@ fn name(k: usize, what: &str) -> String {
     format!("windows/{k}/{what}")
 }
 
-/// Adds a basis, given the names of its modes and of its singular values.
+/// Adds a basis, given the array names of its modes and singular values.
 pub(super) fn write_basis(
     writer: &mut Writer,
     names: [&str; 2],
@@ -82,12 +82,13 @@ fn singular_values(contents: &Contents<'_>, name: &str) -> Option<Vec<f64>> {
     contents.list(name).filter(|values: &Vec<f64>| values.iter().all(|value| value.is_finite()))
 }
 
-/// Names of the modes and of the singular values of a window's deformation basis.
+/// Returns the array names of the modes and singular values of a local model's deformation basis.
 fn deformation(k: usize) -> [String; 2] {
     [name(k, "deformation"), name(k, "deformation_singular_values")]
 }
 
-/// Reads the deformation basis of window k, `Some(None)` if it shares that of the first. Returns `None` if it is damaged.
+/// Reads the deformation basis of local model k; `Some(None)` if it shares that of the first. Returns `None` if it is
+/// damaged.
 pub(super) fn read_deformation(contents: &Contents<'_>, k: usize, nodes: usize) -> Option<Option<PodBasis>> {
     let names = deformation(k);
     if k > 0 && contents.shape(&names[0]).is_none() {
@@ -96,7 +97,7 @@ pub(super) fn read_deformation(contents: &Contents<'_>, k: usize, nodes: usize) 
     read_basis(contents, names.each_ref().map(String::as_str), nodes).map(Some)
 }
 
-/// Shapes of the pressure and deformation modes of a window, without decoding them.
+/// Returns the shapes of the pressure and deformation modes of a local model, without decoding them.
 pub(super) fn shapes<'a>(contents: &'a Contents<'_>, k: usize) -> [Option<&'a [usize]>; 2] {
     [contents.shape(&name(k, "pressure")), contents.shape(&deformation(k)[0])]
 }
@@ -109,7 +110,7 @@ impl Rounding {
         }
     }
 
-    /// Accuracies of a window's pressures and deformations.
+    /// Returns the accuracies of a local model's pressures and deformations.
     pub fn accuracies(self, window: &Window) -> [f64; 2] {
         match self.keeping(window).map(Keeping::accuracy) {
             None => TRANSIENT,
@@ -118,7 +119,7 @@ impl Rounding {
         }
     }
 
-    /// Adds the factors that make a window's modes from a shared basis.
+    /// Adds the factors that combine the modes of a shared basis into a local model's modes.
     fn write_factors(self, writer: &mut Writer, k: usize, window: &Window, factors: &Mat<f64>) -> Option<()> {
         if self.keeping(window).is_none() {
             return writer.exact(name(k, "factors"), factors);
@@ -127,7 +128,7 @@ impl Rounding {
         writer.rounded(name(k, "factors"), factors, 1, &scales, factor_accuracy(factors, &scales))
     }
 
-    /// Adds the reconstruction of a window: to the last digit, as the weights of a cubature, or rounded.
+    /// Adds the reconstruction matrix of a local model: exactly, as the weights of a cubature, or rounded.
     fn write_reconstruction(self, writer: &mut Writer, k: usize, window: &Window) -> Option<()> {
         let exact = &window.reconstruction;
         if !self.keeping(window).is_some_and(Keeping::shortens_rules) {
@@ -143,7 +144,7 @@ impl Rounding {
         }
     }
 
-    /// Adds the coefficients of a window's snapshots.
+    /// Adds the coefficients of a local model's snapshots.
     fn write_coefficients(self, writer: &mut Writer, k: usize, window: &Window) -> Option<()> {
         let (snapshots, modes) = (&window.snapshots, window.pressure.count());
         if snapshots.is_empty() {
@@ -162,8 +163,8 @@ impl Rounding {
     }
 }
 
-/// Adds window k, given the place of its grid. `shared` says that there is a shared pressure basis. The deformation basis
-/// is left out if it is that of the `first` window. Returns `None` if the window cannot be encoded.
+/// Adds local model k, given the index of its grid. `shared` is true if there is a shared pressure basis. The
+/// deformation basis is left out if it is that of the `first` local model. Returns `None` if it cannot be encoded.
 pub(super) fn write_window(
     writer: &mut Writer,
     (k, window, grid): (usize, &Window, usize),
@@ -211,10 +212,10 @@ pub(super) fn write_window(
     })
 }
 
-/// Reads window k on its grid, given what it shares with others and its snapshots without coefficients.
+/// Reads local model k on its grid, given the data that it shares with others and its snapshots without coefficients.
 ///
 /// # Errors
-/// When its parts do not fit each other.
+/// If its parts are inconsistent.
 pub(super) fn read_window(
     contents: &Contents<'_>,
     (k, entry): (usize, &WindowEntry),
@@ -268,10 +269,10 @@ fn read_pressure(
     Some(Combined { shared: Arc::clone(shared), factors }.into_modes(singular_values(contents, &values)?))
 }
 
-/// Reads the sampled equations of a window.
+/// Reads the sampled equations of a local model.
 ///
 /// # Errors
-/// When they do not fit its grid, its modes, or each other.
+/// If they are inconsistent with its grid, its modes, or each other.
 fn read_rows(
     contents: &Contents<'_>,
     k: usize,
@@ -307,7 +308,7 @@ fn read_rows(
     Ok(SampledRows { rows, reconstruction, scheme, residual })
 }
 
-/// Reads the coefficients of snapshots. Returns `None` if they do not fit.
+/// Reads the coefficients of snapshots. Returns `None` if they are inconsistent.
 fn give_coefficients(contents: &Contents<'_>, k: usize, snapshots: &mut [Snapshot]) -> Option<()> {
     if snapshots.is_empty() {
         return Some(());
@@ -319,14 +320,14 @@ fn give_coefficients(contents: &Contents<'_>, k: usize, snapshots: &mut [Snapsho
     Some(())
 }
 
-/// All modes at the nodes of sampled equations, equations × modes.
+/// Returns all modes at the nodes of sampled equations, equations × modes.
 fn modes_at(grid: &ContactGrid, pressure: &PressureModes, rows: &[usize]) -> Mat<f64> {
     let nodes: Vec<usize> = rows.iter().map(|&row| grid.node(row)).collect();
     pressure.at(&nodes, pressure.count())
 }
 
-/// Weights of a cubature, to seven digits. Column r of its matrix is a multiple of row r of `modes`; returns `None` if it is
-/// not.
+/// Returns the weights of a cubature, with the precision of `f32`. Column r of its matrix must be a multiple of row r
+/// of `modes`; otherwise returns `None`.
 fn cubature_weights(matrix: &Mat<f64>, modes: &Mat<f64>) -> Option<Vec<f32>> {
     if (matrix.nrows(), matrix.ncols()) != (modes.ncols(), modes.nrows()) {
         return None;
@@ -341,7 +342,7 @@ fn cubature_weights(matrix: &Mat<f64>, modes: &Mat<f64>) -> Option<Vec<f32>> {
     (0..matrix.ncols()).map(weight).collect()
 }
 
-/// Matrix of a cubature from its weights. Returns `None` if there is not one for each row, or if one is not finite.
+/// Returns the matrix of a cubature from its weights; `None` if the number of weights is wrong or one is not finite.
 fn of_weights(weights: &[f32], rows: &[usize], modes: impl FnOnce() -> Mat<f64>) -> Option<Mat<f64>> {
     if weights.len() != rows.len() || weights.iter().any(|weight| !weight.is_finite()) {
         return None;
@@ -352,7 +353,7 @@ fn of_weights(weights: &[f32], rows: &[usize], modes: impl FnOnce() -> Mat<f64>)
     }))
 }
 
-/// True if two windows have the same deformation basis.
+/// Returns true if two local models have the same deformation basis.
 fn shares_deformation(window: &Window, other: &Window) -> bool {
     if Arc::ptr_eq(&window.deformation, &other.deformation) {
         return true;

@@ -1,5 +1,5 @@
-//! Charts on a page for print: sizes in millimetres, axes with their names and units, a legend that covers nothing, a
-//! caption below. Lines differ by dashes as well as by colour, so that they can be told apart in grey.
+//! Charts for print: size in millimetres, axes with names and units, a legend outside the curves, a caption below.
+//! Lines differ by dashes as well as by colour, so that they can be distinguished in greyscale.
 
 mod panel;
 mod scale;
@@ -8,27 +8,27 @@ use super::chart::Chart;
 use super::drawing::{Beside, Drawing, Lettering, Mark, Rgb, Words, wrapped};
 use panel::Panel;
 
-/// Size of the letters \[pt\].
+/// Font size \[pt\].
 const LETTERS: f64 = 8.0;
-/// Size of the caption's letters.
+/// Font size of the caption \[pt\].
 const SMALL: f64 = 6.8;
-/// Distance of lines of text over the size of letters.
+/// Line spacing over font size.
 const LINE: f64 = 1.3;
-/// What a drawing is made for.
+/// Page settings of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Page {
     /// Width \[mm\], 40 to 500.
     pub width_mm: f64,
     /// Height \[mm\], 30 to 500.
     pub height_mm: f64,
-    /// Light letters on a dark ground.
+    /// True for light text on a dark background.
     pub dark: bool,
-    /// What stands below: parameters, source.
+    /// Caption below the chart: parameters, source.
     pub caption: String,
 }
 
 impl Default for Page {
-    /// One column of a journal, for paper.
+    /// Returns the size of one journal column, with a light background.
     fn default() -> Self {
         Self { width_mm: 85.0, height_mm: 65.0, dark: false, caption: String::new() }
     }
@@ -48,7 +48,7 @@ impl Page {
     }
 }
 
-/// Charts on a page, one below the other, with one caption.
+/// Draws charts on a page, one below the other, with one caption.
 pub fn drawn(charts: &[Chart], page: &Page) -> Drawing {
     let mut drawing = Drawing {
         size_mm: [page.width_mm, page.height_mm],
@@ -82,12 +82,13 @@ pub fn drawn(charts: &[Chart], page: &Page) -> Drawing {
 }
 
 impl Chart {
-    /// The chart on a page.
+    /// Draws one chart on a page as SVG.
     pub fn to_svg(&self, page: &Page) -> String {
         drawn(std::slice::from_ref(self), page).to_svg()
     }
 
-    /// Which series stand in each line of the legend, and where: each name once, and none that stands at its curve.
+    /// Returns the series in each line of the legend, and their positions. Each name appears once. Names that are
+    /// written at their curve are left out.
     fn legend(&self, width: f64) -> Vec<Vec<(usize, f64)>> {
         if self.series.len() < 2 && self.series.iter().all(|series| series.name == self.title) {
             return Vec::new();
@@ -139,7 +140,7 @@ mod tests {
             .unwrap()
     }
 
-    /// Abscissae or ordinates of the marks on paper and their values, as they are printed.
+    /// Reads the positions of axis labels in the SVG and the numbers printed there.
     fn marks(svg: &str, class: &str, name: &str) -> Vec<(f64, f64)> {
         let of_class = svg.lines().filter(|line| line.contains(&format!("class=\"{class}\"")));
         let words = |line: &str| line.split_once('>').unwrap().1.split_once('<').unwrap().0.replace('−', "-").parse();
@@ -153,7 +154,7 @@ mod tests {
             let chart = films();
             let svg = chart.to_svg(&Page { width_mm, height_mm, ..Page::default() });
             let (across, up) = (marks(&svg, "x", "x"), marks(&svg, "y", "y"));
-            // Lines of the grid have two points.
+            // Grid lines have two points.
             let drawn = |line: &&str| line.starts_with("<polyline") && line.matches(',').count() > 2;
             let line = svg.lines().find(drawn).unwrap();
             let points: Vec<[f64; 2]> = attribute(line, "points")
@@ -167,7 +168,7 @@ mod tests {
                 let value = place(first.1) + (at - first.0) / (last.0 - first.0) * (place(last.1) - place(first.1));
                 if log { 10f64.powf(value) } else { value }
             };
-            // Numbers stand a little below their marks.
+            // Axis numbers are drawn slightly below their tick marks.
             let lowered = 0.35 * LETTERS;
             for (drawn, [x, y]) in points.iter().zip(&chart.series[0].points) {
                 assert!((between(&across, drawn[0], true) / x - 1.0).abs() < 2e-3, "{x}");

@@ -1,17 +1,17 @@
-//! One chart on its part of a page: axes, curves, words, the legend and the bar of colours.
+//! One chart in its part of a page: axes, curves, text, legend and colour bar.
 
 use super::scale::{Scale, scale_ticks};
 use super::{LETTERS, LINE, Page, SMALL};
 use crate::scene::chart::{Chart, ColorScale, Map, Marks, Note, Series};
 use crate::scene::drawing::{Beside, Lettering, Mark, Pen, Pixels, Rgb, Words, wrapped};
 
-/// How much longer heavy letters are.
+/// Width of bold text over that of regular text.
 const BOLD: f64 = 1.08;
-/// Radius of a dot over the width of its pen.
+/// Radius of a dot over its pen width.
 const DOT: f64 = 1.4;
-/// Width of the bar of a map's colours.
+/// Width of the colour bar.
 const BAR: f64 = 8.0;
-/// Colours by Okabe and Ito that can be told apart by all.
+/// Colours by Okabe and Ito that people with colour blindness can distinguish.
 const COLORS: [Rgb; 6] = [
     [0x00, 0x72, 0xB2],
     [0xD5, 0x5E, 0x00],
@@ -26,7 +26,7 @@ fn width_of(text: &str) -> f64 {
     Words::plain(text).length(LETTERS)
 }
 
-/// The pen of a series that brings none.
+/// Returns the default pen of the k-th series.
 fn pen(k: usize) -> Pen {
     let color = COLORS.get(k % COLORS.len()).copied().unwrap_or_default();
     let dashes = DASHES.get(k % DASHES.len()).map_or_else(Vec::new, |dashes| dashes.to_vec());
@@ -37,19 +37,19 @@ fn thin(color: Rgb, width: f64) -> Pen {
     Pen { color, opacity: 1.0, width, dashes: Vec::new() }
 }
 
-/// A chart as it comes onto its part of a page.
+/// Chart that is drawn into its part of a page.
 pub struct Panel<'a> {
     /// The chart.
     pub chart: &'a Chart,
-    /// What it is drawn for.
+    /// Page settings.
     pub page: &'a Page,
-    /// Where its marks go.
+    /// Output list of marks.
     pub marks: &'a mut Vec<Mark>,
     /// Width of the page.
     pub width: f64,
 }
 
-/// What axes enclose on paper, and their scales.
+/// Plot area and scales of the axes.
 struct Axes {
     left: f64,
     right: f64,
@@ -76,7 +76,7 @@ impl Axes {
         [self.x(x), self.y(y)]
     }
 
-    /// A rectangle between values; one without end reaches to the end of the axes.
+    /// Returns the rectangle between values. An infinite value extends it to the end of the axis.
     fn between(&self, x: (f64, f64), y: (f64, f64)) -> [f64; 4] {
         let or = |value: f64, end: f64| if value.is_finite() { value } else { end };
         let (left, right) = (or(self.x(x.0), self.left), or(self.x(x.1), self.right));
@@ -86,7 +86,7 @@ impl Axes {
 }
 
 impl Panel<'_> {
-    /// Draws it between two heights of the page.
+    /// Draws the chart between two heights of the page.
     pub fn draw(&mut self, top: f64, bottom: f64) {
         let (chart, width) = (self.chart, self.width);
         let title = wrapped(&chart.title, BOLD * LETTERS, width - 8.0);
@@ -127,7 +127,7 @@ impl Panel<'_> {
         }
     }
 
-    /// Where axes stand between both heights of the page.
+    /// Returns the plot area and scales between two heights of the page.
     fn axes(&self, top: f64, bottom: f64) -> Axes {
         let chart = self.chart;
         let bottom = bottom.max(top + 20.0);
@@ -146,7 +146,7 @@ impl Panel<'_> {
             Scale::of(&chart.x, all().map(|p| p[0]).chain(map(|map| map.x)), ((right - left) / 40.0).clamp(2.0, 8.0));
         let mut axes = Axes { left, right, top, bottom, x, y };
         if chart.equal {
-            // One scale for both: what is too long is shortened.
+            // For equal scales, the longer axis is shortened.
             let (across, up) = (axes.x.to - axes.x.from, axes.y.to - axes.y.from);
             let unit = ((axes.right - axes.left) / across).min((axes.bottom - axes.top) / up);
             (axes.right, axes.bottom) = (axes.left + unit * across, axes.top + unit * up);
@@ -174,7 +174,7 @@ impl Panel<'_> {
         }
     }
 
-    /// The frame with numbers and titles.
+    /// Draws the frame with numbers and axis titles.
     fn numbers(&mut self, axes: &Axes) {
         let pen = thin(self.page.ink(), 0.6);
         let mut free = f64::NEG_INFINITY;
@@ -250,7 +250,7 @@ impl Panel<'_> {
         });
     }
 
-    /// What the colours mean, to the right of the axes.
+    /// Draws the colour bar to the right of the axes.
     fn scale(&mut self, axes: &Axes, scale: &ColorScale) {
         let [left, top, high] = [axes.right + 8.0, axes.top, axes.bottom - axes.top];
         let rect = [left, top, BAR, high];

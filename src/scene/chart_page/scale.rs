@@ -1,21 +1,21 @@
-//! Axes as they are drawn: where they begin and end, and which numbers stand at them.
+//! Axis scales: ends, tick marks and numbers.
 
 use crate::scene::chart::{ChartAxis, ColorScale};
 use crate::scene::table::significant;
 
-/// An axis as it is drawn: its ends and its marks, in the coordinate that is linear on paper.
+/// Scale of an axis: ends in the coordinate that is linear on paper (log₁₀ for logarithmic axes), and ticks.
 pub struct Scale {
     log: bool,
-    /// Where it begins.
+    /// Lower end.
     pub from: f64,
-    /// Where it ends.
+    /// Upper end.
     pub to: f64,
-    /// Values with their numbers or names.
+    /// Tick values with their numbers or names.
     pub ticks: Vec<(f64, String)>,
 }
 
 impl Scale {
-    /// The axis with about so many marks, or with its names.
+    /// Returns the scale with about `marks` ticks, or with the axis' names.
     pub fn of(axis: &ChartAxis, values: impl Iterator<Item = f64>, marks: f64) -> Self {
         let scale = Self::counted(axis, values, marks);
         if axis.names.is_empty() { scale } else { Self { ticks: axis.names.clone(), ..scale } }
@@ -49,18 +49,18 @@ impl Scale {
         Self { log, from, to, ticks: if log { decades(from, to) } else { steps(from, to, marks) } }
     }
 
-    /// Where a value lies between both ends, 0 to 1.
+    /// Returns the position of a value between the ends, 0 to 1.
     pub fn share(&self, value: f64) -> f64 {
         ((if self.log { value.log10() } else { value }) - self.from) / (self.to - self.from)
     }
 }
 
-/// A number as it is printed, with a minus in place of a hyphen.
+/// Replaces hyphens by minus signs for print.
 fn printed(number: String) -> String {
     number.replace('-', "−")
 }
 
-/// Marks at multiples of 1, 2 or 5.
+/// Returns ticks at multiples of 1, 2 or 5.
 fn steps(from: f64, to: f64, marks: f64) -> Vec<(f64, String)> {
     let rough = (to - from) / marks;
     let power = 10f64.powf(rough.log10().floor());
@@ -76,7 +76,7 @@ fn steps(from: f64, to: f64, marks: f64) -> Vec<(f64, String)> {
     (first..=last).map(|k| k as f64 * step).map(|value| (value, text(value))).collect()
 }
 
-/// Marks at powers of ten, at 2 and 5 times them where there are few.
+/// Returns ticks at powers of ten, and at 2 and 5 times these on short axes.
 fn decades(from: f64, to: f64) -> Vec<(f64, String)> {
     let (first, last) = (from.floor() as i32, to.ceil() as i32);
     let times: &[f64] = if to - from < 2.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
@@ -88,7 +88,7 @@ fn decades(from: f64, to: f64) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// Numbers beside the colours of a map.
+/// Returns the numbers of a colour bar.
 pub fn scale_ticks(scale: &ColorScale) -> Vec<(f64, String)> {
     if scale.ends.1 > scale.ends.0 { steps(scale.ends.0, scale.ends.1, 5.0) } else { Vec::new() }
 }

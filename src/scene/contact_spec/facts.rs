@@ -1,48 +1,48 @@
-//! What is known of a field of a contact besides its type.
+//! Static description of the fields of a contact.
 
 use super::words::Words;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::Dimension;
 
-/// What the number of a field measures.
+/// Quantity or dimension that a numeric field has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measure {
-    /// A quantity of the contact, with its range.
+    /// Quantity of the contact, with its range.
     Of(Quantity),
-    /// A dimension.
+    /// Dimension.
     In(Dimension),
 }
 
-/// What is known of a field.
+/// Static description of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facts {
-    /// Its word: hyphens in flags and columns, underscores in keywords.
+    /// Name, with hyphens in flags and columns, underscores in keywords.
     pub name: &'static str,
-    /// What it is.
+    /// Description.
     pub about: &'static str,
-    /// What is added to that in a list of options; fields stand in it as `<radius>`.
+    /// Addition to the description in a list of options. Fields are written as `<radius>`.
     pub note: &'static str,
-    /// Its title in a table where that is not its word.
+    /// Title in tables; usually the name.
     pub column: &'static str,
-    /// What people write instead, in lower case and without spaces.
+    /// Other accepted titles, in lower case and without spaces.
     pub titles: &'static [&'static str],
-    /// Its name in a Functional Mock-up Unit where that is not its word.
+    /// Variable name in a Functional Mock-up Unit; usually the name.
     pub variable: &'static str,
-    /// What its number measures.
+    /// Quantity or dimension of a number.
     pub measure: Measure,
-    /// The unit of a number without one, where that is not the SI unit.
+    /// Unit of a number written without one, if it is not the SI unit.
     pub bare: Option<&'static str>,
-    /// What stands for its value in a list of options.
+    /// Placeholder for the value in a list of options.
     pub placeholder: Option<&'static str>,
-    /// Its value where it is left out, for people.
+    /// Default value, for users.
     pub default: Option<&'static str>,
-    /// The interfaces that do not have it.
+    /// Interfaces that do not have the field.
     pub absent: &'static [Words],
 }
 
 impl Facts {
-    /// A plain number, or what is no number.
+    /// Returns the description of a dimensionless number or of a field that is not a number.
     pub(super) const fn new(name: &'static str, about: &'static str) -> Self {
         Self {
             name,
@@ -59,7 +59,7 @@ impl Facts {
         }
     }
 
-    /// What its number measures in contacts of a kind.
+    /// Returns the dimension of the number for a contact kind.
     pub fn dimension_in(&self, kind: ContactKind) -> Dimension {
         match self.measure {
             Measure::Of(quantity) => quantity.dimension(kind),
@@ -67,7 +67,7 @@ impl Facts {
         }
     }
 
-    /// The unit of a bare number in line contacts and in point contacts; empty where it has none.
+    /// Returns the units of a number written without one, for line and point contacts; empty for dimensionless numbers.
     pub fn units(&self) -> [&'static str; 2] {
         let unit = |kind| self.bare.unwrap_or_else(|| self.dimension_in(kind).si_unit());
         [ContactKind::Line, ContactKind::Point].map(unit)

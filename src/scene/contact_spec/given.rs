@@ -1,4 +1,4 @@
-//! The values that fields have, and how they are read from a text.
+//! Types of field values, and how they are read from text.
 
 use crate::scene::grid::Grid;
 use crate::scene::named_lubricant::{NamedLubricant, UnknownLubricant, by_name};
@@ -9,48 +9,48 @@ use serde::{Deserialize, Serialize};
 use std::num::ParseFloatError;
 use std::path::PathBuf;
 
-/// Why a text is no value of a field: a sentence that says what is accepted.
+/// Reason why a text is not a valid value of a field. The message says what is accepted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ValueError {
-    /// It is no number.
+    /// Not a number.
     #[error(transparent)]
     Number(#[from] ParseFloatError),
-    /// It is none of some words.
+    /// Not one of the accepted words.
     #[error("accepted are {}", .0.join(", "))]
     Word(Vec<&'static str>),
-    /// It is a law with constants that no text gives.
+    /// Law with constants, which cannot be given as text.
     #[error(
         "{law} needs constants, which come with the lubricants squalane-pip and pao-650 or with a scene; accepted are {}",
         accepted.join(", ")
     )]
     LawWithConstants {
-        /// The law.
+        /// Name of the law.
         law: &'static str,
         /// Laws without constants.
         accepted: [&'static str; 2],
     },
-    /// It is no named lubricant.
+    /// Not a named lubricant.
     #[error(transparent)]
     Lubricant(#[from] UnknownLubricant),
-    /// It is no viscosity grade.
+    /// Not a viscosity grade.
     #[error("write it like ISO VG 68")]
     Grade,
-    /// It is no domain.
+    /// Not a domain.
     #[error(
         "accepted are the inlet and the outlet with a comma between them, as in -4,2, and after another comma the outer \
          edge of a point contact, as in -4,2,-2"
     )]
     Domain,
-    /// It is no limiting stress.
+    /// Not a limiting stress.
     #[error(
         "accepted are two numbers with a comma between them, as in 5e6,0.05, and after another comma the stress from which \
          the traction of a Newtonian film thins, as in 5e6,0.05,5e6"
     )]
     LimitingStress,
-    /// It is not made of three numbers.
+    /// Not three numbers.
     #[error("accepted are three numbers with commas between them, as in 2000,0.14,870")]
     ThreeNumbers,
-    /// It is no body.
+    /// Not a body.
     #[error(
         "accepted are three numbers, as in 47,460,7850, or one of {}",
         MATERIALS.map(|material| material.word()).join(", ")
@@ -58,40 +58,40 @@ pub enum ValueError {
     Body,
 }
 
-/// Words with what they mean.
+/// Accepted words with their meanings.
 pub type Choices = Vec<(&'static str, &'static str)>;
 
-/// A value of a field.
+/// Type of a field value.
 pub(super) trait Given: Sized {
-    /// Of how many numbers it is made.
+    /// Number of numbers in a value.
     const NUMBERS: usize = 0;
 
-    /// The words it is chosen by.
+    /// Returns the accepted words, if the value is chosen by a word.
     fn choices() -> Choices {
         Vec::new()
     }
 
-    /// Reads it from a text.
+    /// Reads the value from a text.
     ///
     /// # Errors
-    /// A sentence that says what is accepted.
+    /// With a sentence that says what is accepted.
     fn read(text: &str) -> Result<Self, ValueError>;
 
-    /// The value of a number, where it is one.
+    /// Returns the value for a number, if it is numeric.
     fn of_number(_: f64) -> Option<Self> {
         None
     }
 
-    /// Its number, where it is one.
+    /// Returns the value as a number, if it is numeric.
     fn number(&self) -> Option<f64> {
         None
     }
 }
 
-/// Words, their meanings, their values.
+/// Words, meanings and values of a choice.
 type All<T> = &'static [(&'static str, &'static str, T)];
 
-/// A value that is chosen by a word.
+/// Value that is chosen by a word.
 trait Choice: Copy + 'static {
     const ALL: All<Self>;
 }
@@ -107,65 +107,65 @@ impl<T: Choice> Given for T {
     }
 }
 
-/// How a contact is solved.
+/// Solution method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MethodName {
-    /// The full system.
+    /// Full solver.
     Full,
-    /// A reduced model.
+    /// Reduced model.
     Reduced,
 }
 
-/// Laws of shear thinning that can be stated by their constants.
+/// Laws of shear thinning that can be given by their constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ShearName {
-    /// Viscosity does not depend on stress.
+    /// Viscosity independent of stress.
     Newtonian,
-    /// Ree and Eyring's hyperbolic sine.
+    /// Ree–Eyring law (hyperbolic sine).
     Eyring,
-    /// The modified Carreau law (3.40).
+    /// Modified Carreau law (3.40).
     Carreau,
 }
 
 /// Ends of the computational domain.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Domain {
-    /// Inlet and outlet.
+    /// Inlet and outlet end.
     pub x: (f64, f64),
-    /// Outer edge of a point contact.
+    /// Outer edge across, for a point contact.
     pub y: Option<f64>,
 }
 
-/// The number of an ISO viscosity grade.
+/// Number of an ISO viscosity grade.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OilGrade(pub f64);
 
 impl Choice for ContactKind {
     const ALL: All<Self> = &[
         ("line", "Line contact, loads in N/m", Self::Line),
-        ("point", "Point contact, loads in N: a circle, or with a radius across an ellipse", Self::Point),
+        ("point", "Point contact, loads in N: circular, or elliptical if a radius across is given", Self::Point),
     ];
 }
 
 impl Choice for MethodName {
-    const ALL: All<Self> = &[("full", "The full system", Self::Full), ("reduced", "A reduced model", Self::Reduced)];
+    const ALL: All<Self> = &[("full", "Full solver", Self::Full), ("reduced", "Reduced model", Self::Reduced)];
 }
 
 impl Choice for Grid {
     const ALL: All<Self> = &[
         ("uniform", "Equidistant nodes", Self::Usual),
-        ("graded", "The explorer's default", Self::Graded),
-        ("model", "The reduced model's own", Self::Model),
+        ("graded", "Graded grid, the explorer's default", Self::Graded),
+        ("model", "Grid of the reduced model", Self::Model),
     ];
 }
 
 impl Choice for Cavitation {
     const ALL: All<Self> = &[
-        ("penalty", "The penalty term of (2.36)", Self::Penalty),
-        ("complementarity", "No pressure below zero, by a multiplier (appendix D)", Self::Complementarity),
+        ("penalty", "Penalty term (2.36)", Self::Penalty),
+        ("complementarity", "No negative pressure, by a complementarity condition (appendix D)", Self::Complementarity),
         (
             "mass-conserving",
-            "No liquid lost behind the contact: the gap is filled in part (Elrod and Adams)",
+            "Conserves mass: the gap is partially filled where the film cavitates (JFO, Elrod–Adams)",
             Self::MassConserving { supply_film_m: None },
         ),
     ];
@@ -173,9 +173,9 @@ impl Choice for Cavitation {
 
 impl Choice for ShearName {
     const ALL: All<Self> = &[
-        ("newtonian", "Viscosity does not depend on stress", Self::Newtonian),
-        ("eyring", "Ree and Eyring's hyperbolic sine", Self::Eyring),
-        ("carreau", "The modified Carreau law (3.40)", Self::Carreau),
+        ("newtonian", "Viscosity independent of stress", Self::Newtonian),
+        ("eyring", "Ree–Eyring law (hyperbolic sine)", Self::Eyring),
+        ("carreau", "Modified Carreau law (3.40)", Self::Carreau),
     ];
 }
 
@@ -236,7 +236,7 @@ impl Given for ViscosityLaw {
     }
 }
 
-/// A law without constants of its own; one with them is refused by saying where they come from.
+/// Reads a law without constants. A law with constants is refused with a message that says where such laws come from.
 fn law<T>(text: &str, laws: [(&'static str, T); 2], other: &'static str) -> Result<T, ValueError> {
     let accepted = [laws[0].0, laws[1].0];
     laws.into_iter().find(|(word, _)| *word == text).map(|(_, law)| law).ok_or_else(|| match text == other {
@@ -245,7 +245,7 @@ fn law<T>(text: &str, laws: [(&'static str, T); 2], other: &'static str) -> Resu
     })
 }
 
-/// Numbers with commas between them; none where something else stands there.
+/// Reads comma-separated numbers; `None` if a part is not a number.
 fn numbers(text: &str) -> Option<Vec<f64>> {
     text.split(',').map(|part| part.trim().parse().ok()).collect()
 }

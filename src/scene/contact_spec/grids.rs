@@ -1,4 +1,4 @@
-//! The grid that a contact states.
+//! Grid of a contact specification.
 
 use super::fields::{ContactSpec, Field};
 use super::refusal::{Refusal, refuse};
@@ -6,11 +6,11 @@ use crate::scene::grid::Grid;
 use crate::solver::discrete::grid::{GridError, GridSpec, PointGridSpec};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 
-/// Spacing and ends of the dissertation's line grid.
+/// Spacing and ends of the dissertation's grid for line contacts.
 const LINE: (f64, (f64, f64)) = (0.005, (-4.0, 2.0));
 
 impl ContactSpec {
-    /// The grid of a full or a reduced solution.
+    /// Returns the grid of a full or a reduced solution.
     pub(super) fn grid_for(&self, full: bool, point: &OperatingPoint) -> Result<Grid, Refusal> {
         let own = [Field::Dx, Field::Dy, Field::Domain].into_iter().find(|field| self.states(*field));
         if point.kind == ContactKind::Line {
@@ -42,7 +42,7 @@ impl ContactSpec {
         }
     }
 
-    /// The grid of a line contact that states a spacing or ends.
+    /// Returns the grid of a line contact if spacing or ends are stated.
     fn line_grid(&self) -> Result<Grid, Refusal> {
         let ends = self.domain.map(|domain| domain.x);
         match (self.grid, self.dx) {
@@ -62,7 +62,7 @@ impl ContactSpec {
         }
     }
 
-    /// The grid of a point contact that states a spacing or ends.
+    /// Returns the grid of a point contact if spacing or ends are stated.
     fn plane(&self, field: Field) -> Result<Grid, Refusal> {
         let default = match self.grid {
             Some(Grid::Model) => {

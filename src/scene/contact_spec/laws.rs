@@ -1,4 +1,4 @@
-//! The laws of the lubricant that a contact states: density, viscosity, shear thinning, cavitation, heat.
+//! Lubricant laws of a contact specification: density, viscosity, shear thinning, cavitation, heat.
 
 use super::fields::{ContactSpec, Field};
 use super::given::ShearName;
@@ -6,7 +6,7 @@ use super::refusal::{Refusal, refuse};
 use crate::solver::limits::Number;
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, OilHeat, ShearLaw};
 
-/// What has no effect without heat.
+/// Fields that have no effect without heat.
 const THERMAL: [Field; 6] = [
     Field::InletTemperature,
     Field::OilThermal,
@@ -17,12 +17,12 @@ const THERMAL: [Field; 6] = [
 ];
 
 impl ContactSpec {
-    /// The laws that it starts from: those of its named lubricant, or of its scene.
+    /// Returns the laws of the named lubricant or of the scene, to which stated fields are applied.
     pub(super) fn named_laws(&self) -> Lubricant {
         self.lubricant.map(|named| named.laws).or(self.laws).unwrap_or_default()
     }
 
-    /// All laws.
+    /// Returns all laws with the stated fields applied.
     pub(super) fn lubricant(&self) -> Result<Lubricant, Refusal> {
         let mut lubricant = self.sheared(self.named_laws())?;
         lubricant.heat = self.heated()?;
@@ -46,7 +46,7 @@ impl ContactSpec {
         Ok(lubricant)
     }
 
-    /// A lubricant with the stated shear thinning and limiting stress.
+    /// Applies the stated shear thinning and limiting stress.
     fn sheared(&self, lubricant: Lubricant) -> Result<Lubricant, Refusal> {
         let stress = |law: &str| {
             let needed = "needs <shear-stress> in Pa; 5e6 is customary for mineral oils";
@@ -75,12 +75,13 @@ impl ContactSpec {
                 ShearLaw::Carreau { critical_stress, beta: self.shear_beta.unwrap_or(2.0), n, npr }
             }
         };
-        // A law of the film's own takes the place of a stress that only bent the traction.
+        // If a shear-thinning law is stated, it replaces a limiting stress of the lubricant, which affected only the
+        // traction.
         let own_limit = lubricant.limiting_stress.filter(|_| self.shear.is_none() || shear == ShearLaw::Newtonian);
         Ok(Lubricant { shear, limiting_stress: self.limiting_stress.or(own_limit), ..lubricant })
     }
 
-    /// Heat; `None` without it.
+    /// Returns the thermal constants; `None` for an isothermal contact.
     fn heated(&self) -> Result<Option<Heat>, Refusal> {
         if self.heat != Some(true) {
             let without = |field: Field| format!("<{}> has no effect without <heat>; add it", field.facts().name);

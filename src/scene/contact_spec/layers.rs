@@ -1,11 +1,11 @@
-//! A contact over another one: what a line of a table leaves out is its scene's.
+//! Combines two contact specifications: fields that a table line leaves out are those of the scene.
 
 use super::fields::{ContactSpec, Field};
 use crate::scene::at::At;
 use crate::scene::experiment::Experiment;
 use crate::solver::physics::contact::ContactKind;
 
-/// The fields that [`At`] has.
+/// Fields of [`At`].
 const NUMBERS: [Field; 9] = [
     Field::Radius,
     Field::RadiusY,
@@ -19,13 +19,13 @@ const NUMBERS: [Field; 9] = [
 ];
 
 impl ContactSpec {
-    /// Line or point contact.
+    /// Returns the contact kind: line or point.
     pub fn kind(&self) -> ContactKind {
         self.contact.unwrap_or_default()
     }
 
-    /// This contact, with what it leaves out from another one. What says the same thing in other fields takes the place
-    /// of the other one's.
+    /// Fills the fields that this contact leaves out from `base`. Fields of `base` are dropped if this contact states
+    /// the same quantity by other fields.
     pub(super) fn over(self, mut base: Self) -> Self {
         let states = |fields: &[Field]| fields.iter().any(|field| self.states(*field));
         if states(&[Field::MoesM, Field::MoesL]) || base.moes_m.is_some() {

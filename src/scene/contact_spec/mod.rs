@@ -1,9 +1,10 @@
-//! A contact as people state it: SI or Moes' numbers, two bodies, an oil by its grade or its name, laws, heat, a grid.
+//! Contact as users state it: by SI quantities or Moes numbers, two bodies, an oil by grade or name, laws, heat, a
+//! grid.
 //!
-//! [`ContactSpec`] holds what was stated and nothing else. Flags of the command line, columns of load-case tables,
-//! keywords of Python and variables of Functional Mock-up Units are spellings of its [`Field`]s; a scene is one by its
-//! values. [`ContactSpec::request`] checks it and says what is to be solved. A [`Refusal`] names its field, and each
-//! interface prints it in its own [`Words`].
+//! [`ContactSpec`] stores only what was stated. Flags of the command line, columns of load-case tables, keywords of
+//! Python and variables of Functional Mock-up Units are spellings of its [`Field`]s. A scene can be converted into a
+//! specification by its values. [`ContactSpec::request`] checks the specification and returns the request to solve. A
+//! [`Refusal`] names its field, and each interface prints it in its own [`Words`].
 
 mod facts;
 mod fields;

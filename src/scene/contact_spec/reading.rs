@@ -1,15 +1,15 @@
-//! A contact of texts: flags, cells of a table, keywords.
+//! Reads a contact specification from texts: flags, table cells, keywords.
 
 use super::fields::{ContactSpec, Field};
 use super::refusal::{Refusal, refuse};
 use crate::solver::physics::engineering::parse;
 
 impl ContactSpec {
-    /// States a field by a text; a number may have a unit, and one without is in `unit`, or in the field's own where that
-    /// is empty.
+    /// Sets a field from a text. A number without a unit has the unit `unit`, or the field's default unit if `unit` is
+    /// empty.
     ///
     /// # Errors
-    /// When the text is no value of the field.
+    /// If the text is not a valid value of the field.
     pub fn read(&mut self, field: Field, text: &str, unit: &str) -> Result<(), Refusal> {
         let facts = field.facts();
         if field.is_number() {
@@ -27,24 +27,25 @@ impl ContactSpec {
         self.read_plain(field, text.trim()).map_err(refused)
     }
 
-    /// States a field by a text in SI units, as the command line has it.
+    /// Sets a field from a text in SI units, as on the command line.
     ///
     /// # Errors
-    /// When the text is no value of the field.
+    /// If the text is not a valid value of the field.
     pub fn read_si(&mut self, field: Field, text: &str) -> Result<(), Refusal> {
         self.read_plain(field, text).map_err(|why| Refusal::new(field, format!("<{}>: {why}", field.facts().name)))
     }
 
-    /// Reads fields over another contact: texts with or without a unit, each with the unit of numbers that have none.
+    /// Reads fields and fills the others from `base`. Each text may have a unit and is followed by the unit for numbers
+    /// without one.
     ///
     /// # Errors
-    /// With the first field whose text is no value of it.
+    /// With the first field whose text is not a valid value.
     pub fn read_over<'a>(
         base: &Self,
         texts: impl IntoIterator<Item = (Field, &'a str, &'a str)>,
     ) -> Result<Self, Refusal> {
         let mut texts: Vec<_> = texts.into_iter().collect();
-        // The unit of a load depends on the kind of contact, which is the first field.
+        // The contact kind is the first field and must be read first, because the unit of a load depends on it.
         texts.sort_by_key(|(field, ..)| *field);
         let mut own = Self { contact: base.contact, ..Self::default() };
         texts.into_iter().try_for_each(|(field, text, unit)| own.read(field, text, unit))?;

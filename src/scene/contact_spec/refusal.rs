@@ -1,24 +1,24 @@
-//! Why a contact is refused.
+//! Refusal of a contact.
 
 use super::fields::Field;
 use super::words::Words;
 
-/// A field that is refused, and why.
+/// Refused field with the reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
     /// The field.
     pub field: Field,
-    /// The sentence, in which fields stand as `<radius-y>`.
+    /// Reason. Fields are written as `<radius-y>`.
     sentence: String,
 }
 
 impl Refusal {
-    /// Refuses a field with a sentence, in which fields stand as `<radius-y>` or `<grid=model>`.
+    /// Refuses a field with a sentence. Fields are written as `<radius-y>` or `<grid=model>`.
     pub(in crate::scene) fn new(field: Field, sentence: impl Into<String>) -> Self {
         Self { field, sentence: sentence.into() }
     }
 
-    /// The sentence in the words of an interface.
+    /// Returns the sentence with fields spelled as in an interface.
     pub fn in_words(&self, words: Words) -> String {
         words.spelled(&self.sentence)
     }

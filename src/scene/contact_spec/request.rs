@@ -1,4 +1,4 @@
-//! From a stated contact to what is to be solved. Everything is checked here, once.
+//! Converts a contact specification into a request. All checks of the specification are made here.
 
 use super::fields::{ContactSpec, Field};
 use super::given::{MethodName, OilGrade};
@@ -15,17 +15,17 @@ use crate::solver::physics::lubricant::{Lubricant, Sliding};
 
 /// The six SI quantities.
 const SI: [Field; 6] = [Field::Radius, Field::Speed, Field::Load, Field::Modulus, Field::Viscosity, Field::Alpha];
-/// What is known of the motion, with its ranges.
+/// Fields of the motion, with the quantities that define their ranges.
 const SLIDING: [(Field, Quantity); 2] =
     [(Field::Srr, Quantity::SlideToRollRatio), (Field::Npr, Quantity::NewtonianPlateauRatio)];
-/// The constants of one body and of the other one.
+/// Elastic constants of both bodies.
 const BODIES: [Field; 4] = [Field::E1, Field::Nu1, Field::E2, Field::Nu2];
 
 impl ContactSpec {
-    /// What is to be solved, and how.
+    /// Returns the request to solve.
     ///
     /// # Errors
-    /// With the field that contradicts another one, is missing, or outside any sense.
+    /// With the first field that is out of range, missing, or inconsistent with another one.
     pub fn request(&self) -> Result<Request, Refusal> {
         let lubricant = self.lubricant()?;
         let grid_model = self.rom.clone().map_or(ModelSource::Embedded, ModelSource::File);
@@ -42,10 +42,10 @@ impl ContactSpec {
         Ok(Request { point, lubricant, grid, grid_model, method })
     }
 
-    /// The operating point of a contact with these laws.
+    /// Returns the operating point of a contact with these laws.
     ///
     /// # Errors
-    /// With the field that is missing, contradicts another one, or is outside any sense.
+    /// With the first field that is out of range, missing, or inconsistent with another one.
     pub fn operating_point(&self, lubricant: &Lubricant) -> Result<OperatingPoint, Refusal> {
         for (field, quantity) in SLIDING {
             let (low, high) = quantity.range();
@@ -73,7 +73,7 @@ impl ContactSpec {
         Ok(OperatingPoint { sliding: Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: self.npr }, ..point })
     }
 
-    /// The six SI quantities, or Moes' numbers with those of them that are known.
+    /// Returns the six SI quantities, or the Moes numbers with the SI quantities that are given.
     fn numbers(&self, given: [Option<f64>; 6]) -> Result<At, Refusal> {
         let (radius_y, [radius, speed, load, modulus, viscosity, alpha]) = (self.radius_y, given);
         if let (Some(m), Some(l)) = (self.moes_m, self.moes_l) {
@@ -93,7 +93,7 @@ impl ContactSpec {
         refuse(first, format!("the operating point is incomplete: give {marks} too, {instead}"))
     }
 
-    /// E′, as it is stated or of both bodies.
+    /// Returns E′ as stated, or computed from both bodies.
     fn reduced_modulus(&self) -> Result<Option<f64>, Refusal> {
         let Some(stated) = BODIES.into_iter().find(|field| self.states(*field)) else { return Ok(self.modulus) };
         if self.modulus.is_some() {
@@ -110,7 +110,7 @@ impl ContactSpec {
         })
     }
 
-    /// The oil of a grade at its temperature.
+    /// Returns viscosity and α of the stated oil grade at its temperature.
     fn oil_state(&self) -> Result<Option<OilState>, Refusal> {
         let (OilGrade(grade), temperature_k) = match (self.oil, self.temperature) {
             (Some(grade), Some(temperature)) => (grade, temperature),
@@ -128,7 +128,7 @@ impl ContactSpec {
         oil.state().map(Some).map_err(|error| Refusal::new(Field::Oil, format!("<oil>: {error}")))
     }
 
-    /// The refusal of an operating point, of the field that it is about.
+    /// Returns the refusal of an operating point, assigned to the field that causes it.
     fn of_contact(&self, error: &ContactError) -> Refusal {
         let sentence = error.to_string();
         let quantity = match error {

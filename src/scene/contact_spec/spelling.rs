@@ -1,10 +1,10 @@
-//! Fields in the words of each interface.
+//! Spelling of fields in each interface.
 
 use super::fields::Field;
 use super::words::Words;
 
 impl Words {
-    /// The word of a field.
+    /// Returns the spelling of a field.
     pub fn of(self, field: Field) -> String {
         let facts = field.facts();
         match self {
@@ -17,7 +17,7 @@ impl Words {
         }
     }
 
-    /// A field with a value.
+    /// Returns the spelling of a field with a value.
     pub fn with(self, field: Field, value: &str) -> String {
         match self {
             Self::Keywords => format!("{}\"{value}\"", self.of(field)),
@@ -25,7 +25,7 @@ impl Words {
         }
     }
 
-    /// A sentence in which fields stand as `<radius-y>` or `<grid=model>`.
+    /// Replaces fields written as `<radius-y>` or `<grid=model>` in a sentence.
     pub fn spelled(self, sentence: &str) -> String {
         let (mut said, mut rest) = (String::new(), sentence);
         while let Some((before, after)) = rest.split_once('<') {
@@ -44,7 +44,7 @@ impl Words {
         said + rest
     }
 
-    /// The word of what stands between angle brackets; none where that is no field.
+    /// Returns the spelling of the text between angle brackets; `None` if it is not a field.
     fn marked(self, mark: &str) -> Option<String> {
         match mark.split_once('=') {
             None => Field::named(mark).map(|field| self.of(field)),
@@ -52,7 +52,7 @@ impl Words {
         }
     }
 
-    /// What it is, with its unit and its note, for a list of options.
+    /// Returns description, unit and note for a list of options.
     pub fn help(self, field: Field) -> String {
         let facts = field.facts();
         let unit = match facts.units() {

@@ -1,4 +1,4 @@
-//! Fields and their spellings, refusals in the words of each interface, and contacts over others.
+//! Tests of fields and spellings, of refusals in each interface, and of combined specifications.
 
 use super::*;
 use crate::scene::{At, Grid, Scene, names};
@@ -7,7 +7,7 @@ use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, ShearLaw};
 
 const INTERFACES: [Words; 3] = [Words::Flags, Words::Keywords, Words::Columns];
 
-/// A contact of texts, as a table has them.
+/// Reads a contact from texts, as in a table.
 fn stated(texts: &[(Field, &str)]) -> ContactSpec {
     ContactSpec::read_over(&ContactSpec::default(), texts.iter().map(|(field, text)| (*field, *text, ""))).unwrap()
 }
@@ -121,7 +121,7 @@ fn each_interface_names_its_own_words_in_a_refusal() {
     assert_eq!(unread.in_words(Words::Keywords), "contact=: “cube” is none; accepted are line, point");
     let srr = ContactSpec { srr: Some(11.0), ..moes(&[]) }.request().unwrap_err();
     assert_eq!(srr.in_words(Words::Variables), "`srr` is 11, but must be a finite number between -10 and 10");
-    // What is no field stays as it is.
+    // Text that is not a field is unchanged.
     assert_eq!(Words::Flags.spelled("a < b, <name>, <speed>"), "a < b, <name>, --speed");
 }
 
@@ -181,7 +181,7 @@ fn what_is_left_out_is_the_scenes_and_what_says_the_same_takes_its_place() {
     let request = over(&[]).unwrap();
     assert_eq!(request.point, OperatingPoint { sliding: scene.sliding(), ..OperatingPoint::TABLE_2_1 });
     assert_eq!((request.lubricant, request.grid), (scene.laws(), Grid::Graded));
-    // A scene's own inlet stays where a line warms another body, or names another oil.
+    // The scene's inlet temperature is kept if a line changes a body or the lubricant.
     let warm = over(&[(Field::Body1, "glass"), (Field::Lubricant, "mineral-oil")]).unwrap().lubricant.heat.unwrap();
     assert_eq!((warm.inlet_temperature, warm.bodies[0].conductivity), (333.0, 1.1));
     assert_eq!(over(&[(Field::Heat, "no")]).unwrap().lubricant.heat, None);
@@ -193,7 +193,7 @@ fn what_is_left_out_is_the_scenes_and_what_says_the_same_takes_its_place() {
     // The α of a lubricant that determines it replaces the scene's.
     let squalane = over(&[(Field::Lubricant, "squalane-pip")]).unwrap();
     assert_eq!(Some(squalane.point.alpha_per_pa), squalane.lubricant.own_coefficient());
-    // M and L leave nothing of SI quantities.
+    // M and L replace all SI quantities.
     let moes = over(&[(Field::MoesM, "40"), (Field::MoesL, "10")]).unwrap().point;
     assert_eq!(
         moes,

@@ -1,6 +1,6 @@
-//! How each interface spells the fields of a contact.
+//! Interfaces and how they spell the fields of a contact.
 
-/// An interface, by the way it spells fields.
+/// Interface, by its spelling of fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Words {
     /// Flags of the command line: `--radius-y`.

@@ -1,5 +1,5 @@
-//! Drawings for print: lines, areas, words and images at places in points of a printer, written as SVG or, by the same
-//! list, as PNG with any resolution. Letters are those that the program ships, so that nothing depends on a system.
+//! Drawings for print: lines, areas, text and images with positions in points, written as SVG or as PNG with any
+//! resolution. The program ships the font, so that drawings do not depend on the system.
 
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -12,109 +12,109 @@ pub use png::{DPI, PngError, encode};
 pub use svg::escaped;
 pub use words::{Words, wrapped};
 
-/// Points of a printer in a millimetre.
+/// Printer's points (pt) per millimetre.
 pub const PT_PER_MM: f64 = 72.0 / 25.4;
 
-/// A colour: red, green, blue.
+/// Colour: red, green, blue.
 pub type Rgb = [u8; 3];
 
-/// How a line is drawn.
+/// Line style.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pen {
-    /// Its colour.
+    /// Colour.
     pub color: Rgb,
-    /// How much it covers, 0 to 1.
+    /// Opacity, 0 to 1.
     pub opacity: f64,
-    /// Its width \[pt\].
+    /// Width \[pt\].
     pub width: f64,
-    /// Lengths of dashes and of gaps in turn \[pt\]; none for a line without gaps.
+    /// Lengths of dashes and gaps in turn \[pt\]; empty for a solid line.
     pub dashes: Vec<f64>,
 }
 
-/// Where words stand beside their place.
+/// Horizontal alignment of text at a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Beside {
-    /// They begin there.
+    /// Text begins at the position.
     Right,
-    /// Their middle is there.
+    /// Text is centred at the position.
     Middle,
-    /// They end there.
+    /// Text ends at the position.
     Left,
 }
 
-/// Words on a drawing, on one line.
+/// One line of text on a drawing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lettering {
-    /// The words.
+    /// The text.
     pub words: Words,
-    /// Where their baseline begins, is halved, or ends \[pt\].
+    /// Position of the baseline \[pt\].
     pub at: [f64; 2],
-    /// Which of these.
+    /// Alignment at this position.
     pub beside: Beside,
-    /// Whether they run upwards.
+    /// True if the text runs upwards.
     pub upwards: bool,
-    /// Size of their letters \[pt\].
+    /// Font size \[pt\].
     pub size: f64,
-    /// Whether they are heavy.
+    /// True for bold text.
     pub bold: bool,
-    /// Their colour.
+    /// Colour.
     pub color: Rgb,
-    /// What they are, for programs that read the drawing; empty where nobody asks.
+    /// Class for programs that read the SVG; may be empty.
     pub class: Cow<'static, str>,
 }
 
-/// Pixels over a rectangle.
+/// Image in pixels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pixels {
-    /// How many across.
+    /// Number of pixels per row.
     pub width: usize,
-    /// Rows from the top, each from the left: red, green, blue.
+    /// Pixels as red, green, blue, row by row from the top left.
     pub rgb: Vec<u8>,
 }
 
-/// What is drawn. Rectangles are left, top, width and height \[pt\].
+/// Element of a drawing. Rectangles are left, top, width and height \[pt\].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Mark {
-    /// A line through points.
+    /// Line through points.
     Line(Vec<[f64; 2]>, Pen),
-    /// A filled rectangle: its colour, and how much it covers.
+    /// Filled rectangle: rectangle, colour, opacity.
     Area([f64; 4], Rgb, f64),
-    /// The outline of a rectangle.
+    /// Outline of a rectangle.
     Frame([f64; 4], Pen),
-    /// A filled circle: centre, radius, colour.
+    /// Filled circle: centre, radius, colour.
     Dot([f64; 2], f64, Rgb),
-    /// A circle.
+    /// Circle: centre, radius, pen.
     Ring([f64; 2], f64, Pen),
-    /// An image over a rectangle.
+    /// Image in a rectangle.
     Image([f64; 4], Pixels),
-    /// Words.
+    /// Text.
     Words(Lettering),
-    /// What follows is cut off outside a rectangle, until the next of these.
+    /// Clips the following elements to a rectangle, until the next element of this kind.
     Within(Option<[f64; 4]>),
 }
 
-/// A drawing.
+/// Drawing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Drawing {
     /// Width and height \[mm\].
     pub size_mm: [f64; 2],
-    /// What it is called.
+    /// Title.
     pub title: String,
-    /// The paper.
+    /// Background colour.
     pub ground: Rgb,
-    /// What is on it, the first below all others.
+    /// Elements in drawing order: the first one is below all others.
     pub marks: Vec<Mark>,
 }
 
 impl Pixels {
-    /// Rows of pixels.
+    /// Returns the number of rows.
     pub fn height(&self) -> usize {
         self.rgb.len() / (3 * self.width.max(1))
     }
 }
 
 impl Drawing {
-    /// Width and height \[pt\].
+    /// Returns width and height \[pt\].
     pub fn size(&self) -> [f64; 2] {
         self.size_mm.map(|mm| mm * PT_PER_MM)
     }

@@ -1,4 +1,4 @@
-//! Drawings and pixels as PNG.
+//! Writes drawings and pixels as PNG.
 
 use super::words::{LOWERED, font};
 use super::{Beside, Drawing, Lettering, Mark, PT_PER_MM, Pen, Pixels, Rgb};
@@ -12,28 +12,28 @@ use vello_cpu::kurbo::{Affine, BezPath, Circle, Point, Rect, Shape as _, Stroke}
 use vello_cpu::peniko::{Color, ImageQuality, ImageSampler};
 use vello_cpu::{Image, ImageSource, Pixmap, RenderContext, Resources};
 
-/// Resolutions that a PNG can have \[dots per inch\].
+/// Range of accepted resolutions \[dots per inch\].
 pub const DPI: (f64, f64) = (50.0, 1200.0);
-/// Pixels that an image has at most.
+/// Largest number of pixels of an image.
 const MOST_PIXELS: f64 = 60e6;
-/// How much symbols are slanted.
+/// Slant of italic symbols.
 const SLANT: f64 = 0.2;
 
-/// Why there is no image.
+/// Reason why an image cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PngError {
-    /// The resolution is none.
+    /// The resolution is out of range.
     #[error("a resolution of {0} dpi is not within {least} to {most}", least = DPI.0, most = DPI.1)]
     Dpi(f64),
-    /// It would not fit into memory.
+    /// The image has too many pixels.
     #[error("an image of {0:.0} by {1:.0} pixels is too large; a smaller one, or fewer dots per inch, can be made")]
     Large(f64, f64),
 }
 
-/// The file of an image, in true colour; empty where the image is. With a resolution \[dpi\] it says how large it is on
-/// paper.
+/// Encodes an image in true colour; returns nothing for an empty image. With a resolution \[dpi\], the file contains
+/// its size on paper.
 pub fn encode(pixels: &Pixels, dpi: Option<f64>) -> Vec<u8> {
-    // Memory can always be written: only an image without pixels is refused.
+    // Writing to memory does not fail: only an image without pixels is refused.
     written(pixels, dpi).unwrap_or_default()
 }
 
@@ -55,11 +55,11 @@ fn written(pixels: &Pixels, dpi: Option<f64>) -> Result<Vec<u8>, EncodingError> 
 }
 
 impl Drawing {
-    /// The drawing as a file with a resolution \[dpi\]; `drawn` hears that its pixels are there and the file follows.
+    /// Returns the drawing as a PNG file with a resolution \[dpi\]. `drawn` is called after drawing, before encoding.
     ///
     /// # Errors
     ///
-    /// With a resolution beyond [`DPI`], or where there would be too many pixels.
+    /// If the resolution is outside [`DPI`], or if there are too many pixels.
     pub fn to_png(&self, dpi: f64, drawn: impl FnOnce()) -> Result<Vec<u8>, PngError> {
         if !(DPI.0..=DPI.1).contains(&dpi) {
             return Err(PngError::Dpi(dpi));
@@ -69,11 +69,11 @@ impl Drawing {
         Ok(encode(&pixels, Some(dpi)))
     }
 
-    /// The same as pixels, with any resolution.
+    /// Returns the drawing as pixels, with any resolution.
     ///
     /// # Errors
     ///
-    /// Where there would be too many pixels.
+    /// If there are too many pixels.
     pub fn to_pixels(&self, dpi: f64) -> Result<Pixels, PngError> {
         let scale = dpi / 72.0;
         let [width, height] = self.size_mm.map(|mm| (mm * PT_PER_MM * scale).round().max(1.0));
@@ -177,7 +177,7 @@ impl Canvas {
         self.context.reset_paint_transform();
     }
 
-    /// The outlines of letters; heavy ones have their outline drawn over as well.
+    /// Fills the outlines of letters. For bold text, the outlines are also stroked.
     fn words(&mut self, lettering: &Lettering, scale: f64) {
         let Lettering { words, at: [x, y], beside, upwards, size, bold, color: ink, .. } = lettering;
         let Some(font) = font() else { return };
@@ -217,7 +217,7 @@ impl Canvas {
     }
 }
 
-/// An outline with y upwards.
+/// Path of a letter, with y upwards.
 struct Outline(BezPath);
 
 fn point(x: f32, y: f32) -> Point {
@@ -251,7 +251,7 @@ mod tests {
     use super::*;
     use crate::scene::drawing::Words;
 
-    /// Width, height and pixels of a file, and its pixels in a metre.
+    /// Returns width, height, pixels and pixels per metre of a PNG file.
     fn read(file: &[u8]) -> (u32, u32, Vec<u8>, Option<u32>) {
         let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];

@@ -1,10 +1,10 @@
-//! Drawings as SVG.
+//! Writes drawings as SVG.
 
 use super::words::LOWERED;
 use super::{Beside, Drawing, Lettering, Mark, Pen, Pixels, Rgb, encode};
 use std::fmt::Write as _;
 
-/// Text for XML.
+/// Escapes a text for XML.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
@@ -27,7 +27,7 @@ fn stroke(pen: &Pen) -> String {
 }
 
 impl Drawing {
-    /// The drawing as a document of its own, each mark on a line.
+    /// Returns the drawing as a complete SVG document, one element per line.
     pub fn to_svg(&self) -> String {
         let ([width, height], [wide, high]) = (self.size(), self.size_mm);
         let mut lines = vec![
@@ -138,7 +138,7 @@ fn text(lettering: &Lettering) -> String {
     )
 }
 
-/// Base64 of RFC 4648.
+/// Encodes bytes as Base64 (RFC 4648).
 fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);

@@ -1,17 +1,17 @@
-//! Words with symbols, and how much room they take.
+//! Text with symbols, and its width.
 
 use serde::{Deserialize, Serialize};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider as _};
 
-/// Size of a subscript over that of its symbol.
+/// Font size of a subscript over that of its symbol.
 pub(super) const SUBSCRIPT: f64 = 0.72;
-/// How far a subscript stands below, over the size of its symbol.
+/// Offset of a subscript below the baseline, over the font size of its symbol.
 pub(super) const LOWERED: f64 = 0.22;
-/// Width of a letter over its size, about; a little more than most have.
+/// Approximate width of a letter over the font size; larger than that of most letters.
 const LETTER_WIDTH: f64 = 0.56;
 
-/// A piece of words in one look.
+/// Part of a text with one style.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Piece {
     pub text: String,
@@ -19,17 +19,17 @@ pub(super) struct Piece {
     pub subscript: bool,
 }
 
-/// A line of words in which symbols are slanted and subscripts stand below.
+/// Line of text with italic symbols and subscripts.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Words(Vec<Piece>);
 
 impl Words {
-    /// Words as they are.
+    /// Returns plain text.
     pub fn plain(text: impl Into<String>) -> Self {
         Self(vec![Piece { text: text.into(), italic: false, subscript: false }])
     }
 
-    /// Words with symbols in braces: `Pressure {P} = {p}/{p_H}`.
+    /// Parses text with symbols in braces: `Pressure {P} = {p}/{p_H}`.
     pub fn marked(text: &str) -> Self {
         let mut words = Self::default();
         let mut rest = text;
@@ -45,7 +45,7 @@ impl Words {
         words
     }
 
-    /// Adds a piece of one look.
+    /// Adds a part with one style.
     pub fn push(&mut self, text: &str, italic: bool, subscript: bool) {
         if !text.is_empty() {
             self.0.push(Piece { text: text.to_owned(), italic, subscript });
@@ -56,25 +56,25 @@ impl Words {
         &self.0
     }
 
-    /// Without looks; a subscript stands behind a `_`.
+    /// Returns the text without styles. Subscripts follow a `_`.
     pub fn text(&self) -> String {
         let piece = |piece: &Piece| if piece.subscript { format!("_{}", piece.text) } else { piece.text.clone() };
         self.0.iter().map(piece).collect()
     }
 
-    /// How long they are with letters of a size, both in the same unit.
+    /// Returns the width at a font size, both in the same unit.
     pub fn length(&self, size: f64) -> f64 {
         self.0.iter().map(|piece| piece.length(size)).sum()
     }
 }
 
 impl Piece {
-    /// The size of its letters where those of others have `size`.
+    /// Returns the font size of this part if normal text has `size`.
     pub fn size(&self, size: f64) -> f64 {
         if self.subscript { SUBSCRIPT * size } else { size }
     }
 
-    /// How long it is.
+    /// Returns the width of this part.
     pub fn length(&self, size: f64) -> f64 {
         let size = self.size(size);
         let Some(font) = font() else { return self.text.chars().count() as f64 * LETTER_WIDTH * size };
@@ -84,12 +84,12 @@ impl Piece {
     }
 }
 
-/// The letters that the program ships.
+/// Returns the font that the program ships.
 pub(super) fn font() -> Option<FontRef<'static>> {
     FontRef::new(epaint_default_fonts::UBUNTU_LIGHT).ok()
 }
 
-/// Text in lines of at most a width, with letters of a size, both in the same unit; broken between words.
+/// Breaks a text between words into lines of at most `width` at a font size, both in the same unit.
 pub fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -132,7 +132,8 @@ mod tests {
             ]
         );
         assert!(Words::marked("{σ}").pieces().iter().all(|piece| !piece.italic));
-        // As long as their letters: a wide one takes more room than a narrow one, a larger one more than a small one.
+        // Widths are those of the letters: wide letters take more room than narrow ones, a larger font more than a
+        // small one.
         let [wide, narrow] = ["MMM", "iii"].map(|text| Words::plain(text).length(8.0));
         assert!(wide > 2.0 * narrow && (Words::plain("MMM").length(16.0) / wide - 2.0).abs() < 1e-3);
     }

@@ -1,11 +1,11 @@
-//! What the titles of a table say that its columns hold.
+//! Columns of a table of load cases, read from their titles.
 
 use super::error::CasesError;
 use crate::scene::contact_spec::{Field, Words};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{UnitError, parse};
 
-/// What a column holds.
+/// Content of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Column {
     Name,
@@ -13,15 +13,15 @@ pub(super) enum Column {
     Skipped,
 }
 
-/// Titles of the names of contacts, in lower case and without spaces.
+/// Titles of the column with contact names, in lower case and without spaces.
 const NAMES: [&str; 4] = ["name", "case", "id", "loadcase"];
 
-/// The fields that a column may hold.
+/// Returns the titles of all fields that a column may hold.
 pub(super) fn accepted() -> String {
     Field::of(Words::Columns).map(|field| field.facts().column).collect::<Vec<_>>().join(", ")
 }
 
-/// What each column holds, with the unit of its numbers.
+/// Returns the content of each column, with the unit of its numbers.
 pub(super) fn titles(line: usize, cells: &[&str]) -> Result<Vec<(Column, String)>, CasesError> {
     let mut columns: Vec<(Column, String)> = Vec::new();
     for &cell in cells {
@@ -43,7 +43,7 @@ pub(super) fn titles(line: usize, cells: &[&str]) -> Result<Vec<(Column, String)
     Ok(columns)
 }
 
-/// Title and unit of `load [N/mm]` or `load (N/mm)`.
+/// Splits `load [N/mm]` or `load (N/mm)` into title and unit.
 fn split_title(cell: &str) -> (&str, &str) {
     match cell.split_once(['[', '(']) {
         Some((word, unit)) => (word.trim(), unit.trim().trim_end_matches([']', ')']).trim()),
@@ -51,7 +51,7 @@ fn split_title(cell: &str) -> (&str, &str) {
     }
 }
 
-/// The unit of a title must be one of its field, for one of both kinds of contact.
+/// Checks that the unit of a title belongs to its field, for at least one contact kind.
 fn check_unit(column: Column, unit: &str) -> Result<(), UnitError> {
     let Column::Of(field) = column else { return Ok(()) };
     if unit.is_empty() || !field.is_number() {

@@ -1,4 +1,4 @@
-//! Why a table of load cases, or a line of it, is refused.
+//! Errors of a table of load cases and of its lines.
 
 use super::columns::accepted;
 use crate::scene::check::MAX_POINTS;
@@ -8,7 +8,7 @@ use crate::solver::limits::Refused;
 use crate::solver::physics::engineering::UnitError;
 use std::path::PathBuf;
 
-/// Why a whole table is refused.
+/// Reason why a whole table is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CasesError {
     /// The file cannot be read.
@@ -16,15 +16,15 @@ pub enum CasesError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Reason given by the system.
         reason: String,
     },
-    /// It holds nothing.
+    /// The table is empty.
     #[error(
         "the table of load cases is empty; it needs a line of titles, as `radius, speed, load`, and a line for each contact"
     )]
     Empty,
-    /// It holds too much.
+    /// The table has too many lines.
     #[error("the table of load cases has more than {MAX_POINTS} lines")]
     TooLong,
     /// A title is unknown.
@@ -38,7 +38,7 @@ pub enum CasesError {
         /// The title.
         title: String,
     },
-    /// A column is there twice.
+    /// Two columns have the same content.
     #[error("line {line}: two columns say the same thing, “{title}” and one before it")]
     Twice {
         /// Line of the titles.
@@ -46,39 +46,39 @@ pub enum CasesError {
         /// The second title.
         title: String,
     },
-    /// The unit in a title is none of its quantity.
+    /// The unit in a title does not belong to its quantity.
     #[error("line {line}: the column “{title}”: {problem}")]
     Unit {
         /// Line of the titles.
         line: usize,
         /// The title.
         title: String,
-        /// What is wrong, and what would be accepted.
+        /// What is wrong, and what is accepted.
         problem: UnitError,
     },
 }
 
-/// Why a line of a table is refused.
+/// Reason why a line of a table is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LineError {
-    /// It has more cells than there are titles.
+    /// More cells than titles.
     #[error("{cells} cells are there, but {titles} titles")]
     Cells {
-        /// How many cells.
+        /// Number of cells.
         cells: usize,
-        /// How many titles.
+        /// Number of titles.
         titles: usize,
     },
     /// The contact is refused.
     #[error("{}", .0.in_words(Words::Columns))]
     Contact(Refusal),
-    /// The grid of the table's scene is none of its contact.
+    /// The grid of the scene is not valid for the contact.
     #[error(transparent)]
     GridOfScene(Refused),
-    /// Its own grid is refused.
+    /// The grid of the line is refused.
     #[error("{}", grid_of_line(.0))]
     Grid(Refused),
-    /// Its problem is refused.
+    /// The problem is refused.
     #[error(transparent)]
     Solve(#[from] SolveError),
 }
@@ -89,7 +89,7 @@ impl From<Refusal> for LineError {
     }
 }
 
-/// The sentence of a refused grid, whose fields are columns.
+/// Returns the message for a refused grid, with fields named as columns.
 fn grid_of_line(refused: &Refused) -> String {
     match refused.field.strip_prefix("grid.") {
         Some(name) => format!("{} {}", name.split('.').next().unwrap_or(name), refused.problem),

@@ -1,4 +1,4 @@
-//! What one line of a table asks for.
+//! Converts one line of a table into a request.
 
 use super::columns::Column;
 use super::error::LineError;
@@ -8,7 +8,8 @@ use crate::scene::experiment::Experiment;
 use crate::scene::grid;
 use crate::solver::full::Problem;
 
-/// What a line asks for. What it leaves out is the scene's, where that is written in SI units.
+/// Returns the request of a line. Fields that the line leaves out are those of the scene, if the scene is written in SI
+/// units.
 pub(super) fn request(
     columns: &[(Column, String)],
     cells: &[&str],

@@ -1,5 +1,5 @@
-//! A table of load cases as engineers keep them: one contact a line, quantities in columns, units in the titles or in
-//! the cells. A line that makes no sense is refused by itself; the others stand.
+//! Tables of load cases: one contact per line, quantities in columns, units in the titles or in the cells. An invalid
+//! line is refused and does not affect the others.
 //!
 //! ```text
 //! name;       R [mm]; u;       w;        oil;       temperature; SRR

@@ -1,4 +1,4 @@
-//! A table of load cases: where it is, how it is read, and its lines.
+//! Table of load cases: its location, how it is read, and its lines.
 
 use super::columns::{Column, accepted, titles};
 use super::error::{CasesError, LineError};
@@ -12,34 +12,35 @@ use csv_core::ReadFieldResult;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// Largest table that is read \[bytes\].
+/// Largest accepted size of a table \[bytes\].
 const MAX_BYTES: u64 = 32 << 20;
 
-/// Where a table of load cases is.
+/// Location of a table of load cases.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CaseTable {
-    /// In a CSV file.
+    /// CSV file.
     File(PathBuf),
-    /// Here, as it was pasted.
+    /// Text in the scene, as pasted.
     Text(String),
 }
 
-/// One line of a table.
+/// Line of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadCase {
-    /// Its line in the table, from 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// What it is called; empty where it has no name.
+    /// Name; may be empty.
     pub name: String,
-    /// What is to be solved, or why that makes no sense.
+    /// Request, or the reason why the line is refused.
     pub request: Result<Request, LineError>,
 }
 
 impl CaseTable {
-    /// Reads the table; `resolve` finds a file of the scene's.
+    /// Reads the table. `resolve` returns the full path of a file of the scene.
     ///
     /// # Errors
-    /// When it cannot be read, or its titles make no sense. A bad line is refused by itself.
+    /// If the table cannot be read, or if its titles are invalid. An invalid line is refused without affecting the
+    /// others.
     pub fn cases(
         &self,
         experiment: &Experiment,
@@ -51,15 +52,15 @@ impl CaseTable {
         }
     }
 
-    /// The titles that a table may have, besides names.
+    /// Returns the accepted titles, in addition to those of the name column.
     pub fn accepted() -> String {
         accepted()
     }
 
-    /// The table in a file, as a text that can be edited.
+    /// Returns the table of a file as a text that can be edited.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     pub fn pasted(path: &Path) -> Result<Self, CasesError> {
         text_of(path).map(Self::Text)
     }
@@ -77,7 +78,8 @@ fn text_of(path: &Path) -> Result<String, CasesError> {
     String::from_utf8(bytes).map_err(|_| unreadable("it is no UTF-8 text; save it as CSV in UTF-8".to_owned()))
 }
 
-/// What separates cells: tabs where they were pasted from a spreadsheet, semicolons where commas are decimal.
+/// Returns the cell delimiter: tab for tables pasted from a spreadsheet, semicolon for tables with decimal commas, or
+/// comma.
 fn delimiter(text: &str) -> u8 {
     let titles = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
     [b'\t', b';'].into_iter().find(|&mark| titles.contains(char::from(mark))).unwrap_or(b',')
@@ -106,7 +108,7 @@ fn cases(text: &str, experiment: &Experiment) -> Result<Vec<LoadCase>, CasesErro
     if cases.is_empty() { Err(CasesError::Empty) } else { Ok(cases) }
 }
 
-/// The cells of each record, with the line in which it begins, from 1.
+/// Returns the cells of each record, with the line number where it begins, from 1.
 fn records(text: &str) -> Vec<(usize, Vec<String>)> {
     let mut reader = csv_core::ReaderBuilder::new().delimiter(delimiter(text)).build();
     let (mut input, mut out) = (text.as_bytes(), vec![0; text.len() + 1]);
@@ -122,7 +124,7 @@ fn records(text: &str) -> Vec<(usize, Vec<String>)> {
         input = rest;
         cell.extend(out.iter().take(written));
         match result {
-            // At the end of the input the next call ends the field; the output has room for all of it.
+            // At the end of the input, the next call ends the field. The output buffer is as long as the text.
             ReadFieldResult::InputEmpty | ReadFieldResult::OutputFull => {}
             ReadFieldResult::Field { record_end } => {
                 cells.push(String::from_utf8_lossy(&cell).into_owned());

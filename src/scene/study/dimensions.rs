@@ -1,4 +1,4 @@
-//! How many modes the full solutions along a sweep need: Table 3.7.
+//! Dimension study: number of modes needed by the full solutions along a sweep (Table 3.7).
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -13,26 +13,26 @@ use crate::solver::reduced::{PodBasis, deformation_weights};
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
-/// How many modes the full solutions at all combinations of one to three varied quantities need at losses of
-/// information: Table 3.7.
+/// Number of modes needed by the full solutions at all combinations of one to three varied quantities, for given losses
+/// of information (Table 3.7).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dimensions {
-    /// What is varied.
+    /// Varied quantities.
     pub over: Vec<Axis>,
     /// Losses of information, (2.92) and (2.93).
     pub losses: Vec<f64>,
 }
 
-/// Most full solutions that are kept at once, of a line and of a point contact: some hundred MB of fields.
+/// Largest number of full solutions kept at once, for line and point contacts: some hundred MB of fields.
 const MOST_SNAPSHOTS: [usize; 2] = [10_000, 1_000];
 
-/// All dimensions.
+/// Result of the study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Full solutions that converged.
+    /// Number of full solutions that converged.
     pub snapshots: usize,
-    /// Those that did not.
+    /// Number of full solutions that did not converge.
     pub full_failures: usize,
     /// Nodes along X and across.
     pub nodes: (usize, usize),
@@ -40,14 +40,14 @@ pub struct Row {
     pub dimensions: Vec<Dimension>,
 }
 
-/// Numbers of modes at one loss of information.
+/// Numbers of modes for one loss of information.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dimension {
-    /// The loss.
+    /// Loss of information.
     pub loss: f64,
-    /// Pressure modes, (2.92).
+    /// Number of pressure modes, (2.92).
     pub pressure: usize,
-    /// Deformation modes, (2.93).
+    /// Number of deformation modes, (2.93).
     pub deformation: usize,
 }
 

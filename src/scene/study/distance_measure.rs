@@ -1,4 +1,4 @@
-//! Weights of the distance measure by (3.9), with the correlation (3.8) they reach.
+//! Distance-measure study: weights of the distance measure by (3.9), with the correlation (3.8) that they reach.
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -11,51 +11,51 @@ use crate::solver::physics::contact::{ContactKind, Moes};
 use crate::solver::training::distance::{Candidate, DISSERTATION, FURTHER, Fit, correlation, fit};
 use serde::{Deserialize, Serialize};
 
-/// Weights of the distance measure by (3.9) from full solutions at random points (3.17): (3.20).
+/// Weights of the distance measure (3.20), determined by (3.9) from full solutions at random points (3.17).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DistanceMeasure {
-    /// Where the points are drawn.
+    /// Range in which the points are drawn.
     pub range: ParameterSpace,
-    /// How many.
+    /// Number of points.
     pub points: usize,
     /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// The measure.
+/// Result of the study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Full solutions that converged.
+    /// Number of full solutions that converged.
     pub solutions: usize,
-    /// Those that did not.
+    /// Number of full solutions that did not converge.
     pub full_failures: usize,
-    /// The two functions of (3.20).
+    /// Fit with the two functions of (3.20).
     pub two: Fit,
-    /// δ of its own weights.
+    /// Correlation δ with the weights printed in (3.20).
     pub printed: f64,
-    /// All candidates together.
+    /// Fit with all candidate functions.
     pub all: Fit,
-    /// δ of each candidate by itself.
+    /// Correlation δ of each candidate function alone.
     pub alone: Vec<f64>,
     /// All pairs of solutions.
     pub pairs: Vec<Pair>,
 }
 
-/// How different two solutions are, and what the measures say.
+/// Distance of two solutions, and distances by the measures.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pair {
     /// The contacts.
     pub moes: (Moes, Moes),
-    /// (3.6).
+    /// Distance of the solutions, (3.6).
     pub distance: f64,
-    /// (3.20) with its own weights.
+    /// Measure (3.20) with its printed weights.
     pub printed: f64,
-    /// All candidates with their weights.
+    /// Measure of all candidates with their fitted weights.
     pub all: f64,
 }
 
-/// The weights of (3.20) as printed.
+/// Weights printed in (3.20).
 const PRINTED: [f64; 2] = [1.0, 0.001];
 
 fn candidates() -> impl Iterator<Item = Candidate> {
@@ -111,9 +111,9 @@ impl Question for DistanceMeasure {
         Ok(())
     }
 
-    /// Values: `correlation` and `ratio` (weight of (ΔL)² over that of the M-term) for the two functions of (3.20),
-    /// `correlation_printed` for its own weights 1 : 0.001, `correlation_all` and `weight.…` for all candidates
-    /// together, `alone.…` for each by itself.
+    /// Values: `correlation` and `ratio` (weight of (ΔL)² over that of the M term) for the two functions of (3.20),
+    /// `correlation_printed` for their printed weights 1 : 0.001, `correlation_all` and `weight.…` for all candidates
+    /// together, `alone.…` for each candidate alone.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             found.push("points", None, row.solutions as f64);

@@ -1,4 +1,5 @@
-//! Error measures at random points, ordered by the true error (Fig. 3.1), and how well each ranks what is wanted.
+//! Error-measure study: error measures at random points, ordered by the true error (Fig. 3.1), and how well each
+//! measure ranks the errors.
 
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -14,39 +15,39 @@ use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::reduced::{ErrorEstimate, ErrorMeasures, Norm, ReducedOptions};
 use serde::{Deserialize, Serialize};
 
-/// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error: Fig.
-/// 3.1.
+/// Error measures (3.10), (3.14), (3.15) of a reduced model at random points (3.17), ordered by the true error (Fig.
+/// 3.1).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ErrorMeasureStudy {
-    /// Where the points are drawn.
+    /// Range in which the points are drawn.
     pub range: ParameterSpace,
-    /// How many.
+    /// Number of points.
     pub points: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// The measured model.
+    /// Model under test.
     pub model: ModelSource,
-    /// Its online scheme.
+    /// Online scheme of the model.
     #[serde(default)]
     pub online: OnlineScheme,
-    /// The norm of states and residuals.
+    /// Norm of states and residuals.
     #[serde(default)]
     pub norm: Norm,
 }
 
-/// How a reduced model is solved online.
+/// Online solution scheme of a reduced model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum OnlineScheme {
-    /// The explorer's: exact deformation operator, several starts, continuation.
+    /// Explorer: exact deformation operator, several initial guesses, continuation.
     #[default]
     Explorer,
-    /// The dissertation's: δ̃ in the state, the nearest snapshot by (3.20) as the only start.
+    /// Dissertation: δ̃ in the state; the nearest snapshot by (3.20) is the only initial guess.
     Dissertation,
 }
 
 impl OnlineScheme {
-    /// The solver's options for it.
+    /// Returns the solver options of the scheme.
     pub fn options(self) -> ReducedOptions {
         match self {
             Self::Explorer => ReducedOptions::default(),
@@ -55,33 +56,33 @@ impl OnlineScheme {
     }
 }
 
-/// One random point.
+/// Result at one random point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Where it lies.
+    /// Moes numbers of the point.
     pub moes: Moes,
-    /// Whether the reduced iteration converged.
+    /// True if the reduced iteration converged.
     pub reduced: bool,
-    /// Whether the full solver did.
+    /// True if the full solver converged.
     pub full: bool,
-    /// What is measured where both did.
+    /// Measures, if both converged.
     pub measured: Option<Measured>,
 }
 
-/// Measures and errors at one point.
+/// Error measures and true errors at one point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
-    /// The true e_z, (3.10).
+    /// True state error e_z, (3.10).
     pub state: f64,
-    /// e_f of all rows, (3.14).
+    /// Residual e_f of all equations, (3.14).
     pub all_rows: f64,
-    /// e_f^I of the sampled rows, (3.15).
+    /// Residual e_f^I of the sampled equations, (3.15).
     pub sampled_rows: f64,
-    /// |H̃_c/H_c − 1|.
+    /// |H̃_c/H_c − 1|, error of the central film thickness.
     pub h_c: f64,
-    /// |H̃_min/H_min − 1|.
+    /// |H̃_min/H_min − 1|, error of the minimum film thickness.
     pub h_min: f64,
-    /// Calibrated estimates, where the model has them.
+    /// Calibrated error estimates, if the model has them.
     pub estimate: Option<ErrorEstimate>,
 }
 
@@ -96,7 +97,7 @@ const MEASURES: [Named; 3] = [STATE, ALL_ROWS, SAMPLED_ROWS];
 const TRUTHS: [Named; 3] = [STATE, H_C, H_MIN];
 const COLUMNS: [Named; 5] = [STATE, ALL_ROWS, SAMPLED_ROWS, H_C, H_MIN];
 
-/// What was measured, ordered by e_z, with its place.
+/// Returns the measured points, ordered by e_z.
 fn ordered(rows: &[&Row]) -> Vec<(Moes, Measured)> {
     let mut measured: Vec<_> = rows.iter().filter_map(|row| Some((row.moes, row.measured?))).collect();
     measured.sort_by(|a, b| a.1.state.total_cmp(&b.1.state));
@@ -142,8 +143,9 @@ impl Question for ErrorMeasureStudy {
         Ok(())
     }
 
-    /// Values: `e_z_median`, …, `rank.e_f_I.e_z` and its kind: Spearman's correlation of a measure with an error.
-    /// Points at which the reduced iteration fails are counted (`failures`) and take no part.
+    /// Values: `e_z_median`, …, and rank correlations such as `rank.e_f_I.e_z`: Spearman's correlation of a measure
+    /// with an error. Points at which the reduced iteration fails are counted in `failures` and excluded from the other
+    /// values.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let measured = ordered(rows);
         let column = |(_, get): Named| measured.iter().map(|(_, m)| get(m)).collect::<Vec<f64>>();
@@ -165,7 +167,7 @@ impl Question for ErrorMeasureStudy {
         if estimated.is_empty() {
             return;
         }
-        // What the calibrated estimates are worth against the true e_z and errors of H_c and H_min.
+        // Quality of the calibrated estimates: compared with the true e_z and with the errors of H_c and H_min.
         let (states, truths): (Vec<f64>, Vec<f64>) =
             estimated.iter().map(|(estimate, truth)| (estimate.state.likely, truth.state)).unzip();
         found.push("rank.estimate.e_z", None, rank_correlation(&states, &truths));
@@ -180,7 +182,7 @@ impl Question for ErrorMeasureStudy {
         columns.extend(COLUMNS.map(|(name, _)| name.to_owned()));
         columns.extend(MEASURES.map(|(name, _)| format!("{name}_normalised")));
         let largest = |get: fn(&Measured) -> f64| measured.iter().map(|(_, m)| get(m)).fold(0.0, f64::max);
-        // As Fig. 3.1 draws them: each divided by its largest.
+        // As in Fig. 3.1: each measure divided by its largest value.
         let scales = MEASURES.map(|(_, get)| (get, largest(get)));
         let row = |(moes, m): &(Moes, Measured)| {
             let measures = COLUMNS.map(|(_, get)| get(m));

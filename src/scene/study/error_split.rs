@@ -1,4 +1,4 @@
-//! Where the error of a reduced model comes from, at one contact or along the test trajectory.
+//! Error-split study: sources of a reduced model's error, at one contact or along the test trajectory.
 
 use super::path::trajectory_points;
 use super::question::{
@@ -14,17 +14,17 @@ use crate::solver::reduced::{ErrorSplit, ErrorSplitter, Parts, PressureParts, Sp
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Where a reduced model's error comes from: its basis, Galerkin's projection, the sampling of rows, or the grid.
+/// Error of a reduced model split by source: basis, Galerkin projection, sampled equations, grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ErrorSplitStudy {
-    /// Where it is split.
+    /// Contacts at which the error is split.
     pub contacts: Contacts,
     /// The reduced model.
     pub method: Method,
 }
 
-/// Which contacts a study looks at.
+/// Contacts that a study uses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Contacts {
@@ -34,23 +34,23 @@ pub enum Contacts {
     Trajectory {
         /// The box.
         range: ParameterSpace,
-        /// Equidistant values of c, both ends counted.
+        /// Number of equidistant values of c, including both ends.
         points: usize,
     },
 }
 
-/// One contact's error.
+/// Split error at one contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Where on the trajectory; not a number at the scene's own contact.
+    /// Position c on the trajectory; NaN for the scene's own contact.
     pub c: f64,
     /// The contact.
     pub point: OperatingPoint,
-    /// The parts of its error, or why there are none.
+    /// Parts of the error, or the reason why there are none.
     pub split: Result<Arc<ErrorSplit>, String>,
 }
 
-/// The parts of one film's error, relative to the full film.
+/// Parts of the error of a film thickness, relative to the full solution.
 const FILM_PARTS: [Column<Parts>; 6] = [
     ("basis", |parts| parts.basis),
     ("projection", |parts| parts.projection),
@@ -60,7 +60,7 @@ const FILM_PARTS: [Column<Parts>; 6] = [
     ("whole", Parts::whole),
 ];
 
-/// All parts by name: of both films, and of the pressure as lengths in the weighted norm.
+/// Returns all parts with their names: of both film thicknesses, and of the pressure as lengths in the weighted norm.
 fn parts(h_c: &Parts, h_min: &Parts, p: &PressureParts) -> Vec<(String, f64)> {
     let films = [("H_c", h_c), ("H_min", h_min)];
     let of_films =
@@ -70,7 +70,7 @@ fn parts(h_c: &Parts, h_min: &Parts, p: &PressureParts) -> Vec<(String, f64)> {
     of_films.chain(pressure.map(|(part, value)| (format!("e_P.{part}"), value))).collect()
 }
 
-/// The names of all parts.
+/// Returns the names of all parts.
 fn names() -> Vec<String> {
     parts(&Parts::default(), &Parts::default(), &PressureParts::default()).into_iter().map(|(name, _)| name).collect()
 }
@@ -110,7 +110,7 @@ impl Question for ErrorSplitStudy {
         };
         let Some((_, first)) = points.first() else { return Ok(()) };
         let model = setting.bench.model_for(source, first, &experiment.lubricant, observer)?;
-        // A truncation keeps another number of modes in each window.
+        // With a truncation, the number of modes differs between local models.
         let mut splitters: Vec<Option<ErrorSplitter>> = model.windows.iter().map(|_| None).collect();
         for (i, (c, point)) in points.iter().enumerate() {
             setting.step("error splits", i, points.len())?;
@@ -131,9 +131,9 @@ impl Question for ErrorSplitStudy {
         Ok(())
     }
 
-    /// Values: `failures`; for `H_c` and `H_min` and each part `H_c.basis_median`, `H_c.basis_max` and so on (sizes,
-    /// relative to the full film), `e_P.basis_median` likewise; at a single contact also the signed `H_c.basis` and
-    /// `e_P.basis`.
+    /// Values: `failures`; for `H_c` and `H_min` and each part `H_c.basis_median`, `H_c.basis_max` and so on (absolute
+    /// values, relative to the full film thickness), `e_P.basis_median` likewise. For a single contact also the signed
+    /// `H_c.basis` and `e_P.basis`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             if let Err(error) = &row.split {

@@ -1,4 +1,4 @@
-//! The viscosity of the lubricant against shear stress: Fig. 3.10.
+//! Flow-curve study: viscosity of the lubricant over shear stress (Fig. 3.10).
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -7,26 +7,27 @@ use crate::scene::check::{count, interval, number, refuse};
 use crate::solver::physics::lubricant::{Fluidity, ShearLaw};
 use serde::{Deserialize, Serialize};
 
-/// The lubricant's viscosity over that at rest against shear stress, at Newtonian plateau ratios.
+/// Viscosity of the lubricant, relative to its viscosity at zero shear, over shear stress for several Newtonian plateau
+/// ratios.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FlowCurve {
-    /// Newtonian plateau ratios; a curve each.
+    /// Newtonian plateau ratios, one per curve.
     pub plateaus: Vec<f64>,
-    /// Shear stresses from the first to the last \[Pa\].
+    /// First and last shear stress \[Pa\].
     pub stress: (f64, f64),
 }
 
 /// One curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Its plateau ratio.
+    /// Newtonian plateau ratio.
     pub plateau: f64,
-    /// Shear stress \[Pa\], η/μ, and shear rate times μ \[Pa\].
+    /// Shear stress \[Pa\], η/μ, and shear rate times μ \[Pa\]. μ is the viscosity at zero shear.
     pub curve: Vec<[f64; 3]>,
 }
 
-/// Points of a curve.
+/// Number of points per curve.
 const POINTS: usize = 121;
 
 impl Question for FlowCurve {
@@ -58,7 +59,8 @@ impl Question for FlowCurve {
         Ok(())
     }
 
-    /// Values of each curve, from 0 on: `rest_0` … and `end_0` …, the viscosity ratio at the first and the last stress.
+    /// Values of each curve, numbered from 0: `rest_0` … and `end_0` …, the viscosity ratio at the first and the last
+    /// stress.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for (k, row) in rows.iter().enumerate() {
             let of = |point: Option<&[f64; 3]>| point.map_or(f64::NAN, |[_, ratio, _]| *ratio);

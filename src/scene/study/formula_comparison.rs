@@ -1,4 +1,4 @@
-//! Full solutions against a published film formula.
+//! Formula comparison: full solutions and a published film-thickness formula.
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -13,7 +13,7 @@ use crate::solver::physics::contact::{FilmFormula, OperatingPoint};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// Full solutions against a published film formula at all pairs of M and L in the default realisation.
+/// Full solutions compared with a published film-thickness formula at all pairs of M and L in the default realisation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FormulaComparison {
@@ -25,25 +25,26 @@ pub struct FormulaComparison {
     pub l: Vec<f64>,
 }
 
-/// One contact.
+/// Result at one contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Load number.
     pub m: f64,
     /// Lubricant number.
     pub l: f64,
-    /// The film that the formula predicts, of the full solution \[m\]; none where that failed.
+    /// Film thickness of the full solution \[m\], central or minimum as predicted by the formula; `None` if the solve
+    /// failed.
     pub full_m: Option<f64>,
-    /// The same by the formula \[m\].
+    /// Film thickness by the formula \[m\].
     pub formula_m: f64,
-    /// Whether the formula was made for this contact.
+    /// True if the contact is in the range of the formula.
     pub in_range: bool,
-    /// What a reader of the full solution must know.
+    /// Warnings about the full solution.
     pub warnings: Vec<Warning>,
 }
 
 impl Row {
-    /// Full over formula, less 1.
+    /// Returns the full solution over the formula, minus 1.
     pub fn deviation(&self) -> f64 {
         self.full_m.unwrap_or(f64::NAN) / self.formula_m - 1.0
     }
@@ -86,7 +87,8 @@ impl Question for FormulaComparison {
         Ok(())
     }
 
-    /// Values: `failures`, `deviation_median`, `deviation_max` (relative, of full against formula).
+    /// Values: `failures`, `deviation_median`, `deviation_max` (relative deviation of the full solution from the
+    /// formula).
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let of = Some(&Method::Full);
         let failures = rows.iter().filter(|row| row.full_m.is_none()).count();

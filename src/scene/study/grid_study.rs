@@ -1,4 +1,4 @@
-//! Observed order of H_c on ever finer uniform grids, and the value they tend to.
+//! Grid study: observed order of convergence of H_c, central film thickness, and its extrapolated value.
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -13,25 +13,25 @@ use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::Solution;
 use serde::{Deserialize, Serialize};
 
-/// The contact on ever finer uniform grids over the scene's domain: observed order and extrapolated value. A point
-/// contact keeps ΔY.
+/// The contact on a sequence of finer uniform grids over the scene's domain: observed order and extrapolated value. For
+/// a point contact, ΔY is constant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GridStudy {
-    /// Spacings ΔX, falling by one constant factor; at least three.
+    /// Spacings ΔX in descending order with a constant ratio; at least three.
     pub dx: Vec<f64>,
 }
 
-/// Spacing and nodes of a grid, and what its result is compared by.
+/// Columns: spacing and nodes of the grid, and compared results.
 const COLUMNS: [&str; 7] =
     ["dx", "nodes", names::H_C, names::H_MIN, names::P_C, names::NEWTON_ITERATIONS, names::WALL_S];
 
-/// One grid.
+/// Result on one grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// ΔX.
+    /// Spacing ΔX.
     pub dx: f64,
-    /// The full solution on it.
+    /// Full solution on the grid.
     pub result: ContactResult,
 }
 
@@ -46,7 +46,7 @@ impl GridStudy {
         self.dx[0] / self.dx[1]
     }
 
-    /// Richardson's extrapolation of H_c from the two finest grids.
+    /// Returns Richardson's extrapolation of H_c from the two finest grids.
     fn limit(&self, rows: &[&Row]) -> Option<f64> {
         let [.., coarse, fine] = rows else { return None };
         Some(fine.h_c() + (fine.h_c() - coarse.h_c()) / (self.ratio().powi(2) - 1.0))
@@ -88,7 +88,7 @@ impl Question for GridStudy {
         Ok(())
     }
 
-    /// Values: `H_c.1`, … (coarsest first), `order` (of the three finest grids), `order.1`, … (of each three
+    /// Values: `H_c.1`, … (coarsest first), `order` (from the three finest grids), `order.1`, … (from each three
     /// neighbours, coarsest first), `H_c_extrapolated` (Richardson, from the two finest), `H_c_error` (relative, of the
     /// finest).
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {

@@ -1,4 +1,4 @@
-//! How many modes the pressures of a contact in time need in each frame: Fig. 4.5.
+//! Information-loss study: number of modes needed by the pressures of a transient contact in each frame (Fig. 4.5).
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -11,41 +11,40 @@ use crate::solver::reduced::PodBasis;
 use faer::Mat;
 use serde::{Deserialize, Serialize};
 
-/// The loss of information (2.92) against the number of pressure modes, of the states that the contact goes through in
-/// each frame.
+/// Loss of information (2.92) over the number of pressure modes, for the states of a transient contact in each frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct InformationLoss {
-    /// What varies.
+    /// Time-dependent inputs.
     pub inputs: Inputs,
-    /// The last T.
+    /// End time T.
     pub duration: f64,
-    /// Length of the steps.
+    /// Time step.
     pub time_step: f64,
-    /// Every so many steps a state is a snapshot.
+    /// Every n-th step is a snapshot.
     pub every: usize,
-    /// The frames.
+    /// Frames of reference.
     pub frames: Vec<Frame>,
 }
 
-/// Most snapshots of one frame.
+/// Largest number of snapshots of one frame.
 const MOST_SNAPSHOTS: usize = 4000;
-/// Losses below this are rounding.
+/// Smaller losses are rounding errors.
 const LEAST_LOSS: f64 = 1e-12;
 
-/// One frame.
+/// Result in one frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// It.
+    /// The frame.
     pub frame: Frame,
-    /// Snapshots.
+    /// Number of snapshots.
     pub snapshots: usize,
-    /// Number of modes and loss of information.
+    /// Numbers of modes with their losses of information.
     pub losses: Vec<[f64; 2]>,
 }
 
 impl Row {
-    /// The loss with so many modes.
+    /// Returns the loss with this number of modes.
     fn at(&self, modes: usize) -> f64 {
         self.losses.iter().find(|[k, _]| *k == modes as f64).map_or(0.0, |[_, loss]| *loss)
     }
@@ -98,7 +97,8 @@ impl Question for InformationLoss {
         Ok(())
     }
 
-    /// Values of each frame, by its name: `.snapshots`, `.loss_10`, `.loss_20` and `.loss_40` with so many modes.
+    /// Values of each frame, by its name: `.snapshots`, and the losses with 10, 20 and 40 modes `.loss_10`, `.loss_20`,
+    /// `.loss_40`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             let name = row.frame.name();

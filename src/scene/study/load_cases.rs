@@ -1,4 +1,4 @@
-//! A table of load cases: every line a contact of its own, solved cold as a single one is.
+//! Load-case study: a table with one contact per line, each solved from a cold start as if it were alone.
 
 use super::path::tag;
 use super::question::{
@@ -15,27 +15,27 @@ use crate::scene::names;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// Refused lines that are named one by one; the table names all of them.
+/// Number of refused lines that are named in warnings. The table names all of them.
 const NAMED: usize = 20;
 
-/// A table of load cases. Quantities that it leaves out are the scene's.
+/// Table of load cases. Quantities that are missing in the table are those of the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadCases {
     /// The table.
     pub cases: CaseTable,
-    /// How each is solved.
+    /// Methods by which each line is solved.
     pub methods: Vec<Method>,
 }
 
-/// One line of the table.
+/// Result of one line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Its line in the table, from 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// Its name; empty where it has none.
+    /// Name; may be empty.
     pub name: String,
-    /// Its result by each method, or why it is refused.
+    /// Results by each method, or the reason why the line is refused.
     pub results: ByMethods,
 }
 
@@ -54,7 +54,7 @@ impl LoadCases {
         let total = cases.len();
         for (i, LoadCase { line, name, request }) in cases.into_iter().enumerate() {
             setting.step("load cases", i, total)?;
-            // Each line's numbers are those of the same contact solved alone, whatever stands above it.
+            // Drop starting values, so that a line's result does not depend on the lines above it.
             setting.bench.forget();
             let results = match request {
                 Ok(request) => self.solve(setting, &request)?,
@@ -65,7 +65,7 @@ impl LoadCases {
         Ok(())
     }
 
-    /// One contact by each method, or why it is refused.
+    /// Solves one contact by each method, or returns the reason why it is refused.
     fn solve(&self, setting: &mut Setting<'_>, request: &Request) -> Result<ByMethods, RunError> {
         let mut results = Vec::with_capacity(self.methods.len());
         for method in &self.methods {
@@ -80,7 +80,7 @@ impl LoadCases {
     }
 }
 
-/// A piece is a line of the table.
+/// Each piece is one line of the table.
 impl Divisible for LoadCases {
     fn pieces(&self, setting: &mut Setting<'_>, round: usize, _: &[&Row]) -> Result<Vec<usize>, RunError> {
         Ok(if round == 0 { (0..self.read(setting)?.len()).collect() } else { Vec::new() })
@@ -113,7 +113,7 @@ impl Question for LoadCases {
     fn check(&self, experiment: &Experiment) -> Checked {
         check::methods("study.methods", &self.methods)?;
         match &self.cases {
-            // A file is read when it is run: a scene may be written before its table is.
+            // A file is read only when the study runs, so that a scene can be written before its table.
             CaseTable::File(_) => Ok(()),
             CaseTable::Text(_) => {
                 let read = self.cases.cases(experiment, &|path| path.to_owned());
@@ -131,8 +131,8 @@ impl Question for LoadCases {
         self.solve_all(cases, setting, tell)
     }
 
-    /// Values: `cases`, `refused`, of each method `failures`, and of each reduced one `untrained`, the contacts that its
-    /// model was not trained for, and `H_c_error` against the first full one.
+    /// Values: `cases`, `refused`; for each method `failures`; for each reduced method also `untrained`, the number of
+    /// contacts outside the trained range, and `H_c_error` relative to the first full method.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let refused = || rows.iter().filter(|row| row.results.is_err());
         found.push("cases", None, rows.len() as f64);

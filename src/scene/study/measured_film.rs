@@ -1,4 +1,4 @@
-//! The film along the entrainment axis against films that others measured or computed.
+//! Measured-film study: film thickness along the entrainment axis compared with published measurements or computations.
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -9,42 +9,42 @@ use crate::solver::full::Solution;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// The contact's film along Y = 0 against given ones.
+/// Film thickness of the contact along Y = 0, compared with given profiles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredFilm {
-    /// The films.
+    /// Given profiles.
     pub films: Vec<GivenFilm>,
-    /// From where to where they are compared \[m\].
+    /// Interval in which they are compared \[m\].
     pub between: (f64, f64),
 }
 
-/// A film that others found.
+/// Published film-thickness profile.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GivenFilm {
-    /// What it is called, in names of values too.
+    /// Name, also used in names of values.
     pub name: String,
-    /// Where it is from.
+    /// Source.
     pub from: String,
-    /// Place and thickness \[µm, nm\], places ascending.
+    /// Position and film thickness \[µm, nm\], in ascending order of position.
     pub points: Vec<(f64, f64)>,
 }
 
-/// The computed film.
+/// Computed film thickness.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Place and thickness \[m\]; none where the solve failed.
+    /// Position and film thickness \[m\]; empty if the solve failed.
     pub film: Vec<[f64; 2]>,
-    /// What a reader must know of it.
+    /// Warnings.
     pub warnings: Vec<Warning>,
 }
 
-/// Metres in the units of the points.
+/// Units of the given positions and film thicknesses in metres.
 const PLACE_M: f64 = 1e-6;
 const THICKNESS_M: f64 = 1e-9;
 
-/// A polygon's value.
+/// Interpolates linearly between points.
 fn at(line: &[[f64; 2]], x: f64) -> Option<f64> {
     let k = line.partition_point(|[own, _]| *own < x);
     let [x_0, h_0] = *line.get(k.checked_sub(1)?)?;
@@ -53,14 +53,15 @@ fn at(line: &[[f64; 2]], x: f64) -> Option<f64> {
 }
 
 impl MeasuredFilm {
-    /// Place, given and computed thickness where both are known and compared \[m\].
+    /// Returns position, given and computed film thickness \[m\] where both exist in the compared interval.
     fn pairs(&self, film: &GivenFilm, computed: &[[f64; 2]]) -> Vec<[f64; 3]> {
         let metres = film.points.iter().map(|&(x, h)| (PLACE_M * x, THICKNESS_M * h));
         let compared = metres.filter(|(x, _)| (self.between.0..=self.between.1).contains(x));
         compared.filter_map(|(x, given)| Some([x, given, at(computed, x)?])).collect()
     }
 
-    /// Largest and mean deviation of the computed film, and that of its minimum, relative to a given one.
+    /// Returns the largest and mean relative deviation of the computed film thickness from a given one, and the
+    /// deviation of its minimum.
     fn deviations(&self, film: &GivenFilm, computed: &[[f64; 2]]) -> [f64; 3] {
         let pairs = self.pairs(film, computed);
         let off: Vec<f64> = pairs.iter().map(|[_, given, own]| (own / given - 1.0).abs()).collect();
@@ -108,8 +109,8 @@ impl Question for MeasuredFilm {
         Ok(())
     }
 
-    /// Values of each given film, by its name: `.deviation_max`, `.deviation_mean` and `.minimum`, the deviation of the
-    /// least film, all relative to it.
+    /// Values of each given profile, by its name, all relative to it: `.deviation_max`, `.deviation_mean`, and
+    /// `.minimum`, the deviation of the minimum film thickness.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         found.converged &= !rows.is_empty() && rows.iter().all(|row| !row.film.is_empty());
         found.warn("", rows.iter().flat_map(|row| row.warnings.iter().cloned()));

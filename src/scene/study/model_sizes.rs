@@ -1,4 +1,5 @@
-//! What a reduced model's error and time depend on: its pressure modes, and the rows that it looks at.
+//! Model-size study: dependence of a reduced model's error and time on its numbers of pressure modes and sampled
+//! equations.
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -17,35 +18,35 @@ use crate::solver::training::{Plan, TrainingObserver, TrainingSpec, random_point
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Error and time of a reduced model with fewer modes, and with other numbers of sampled rows, at random contacts of the
-/// window that serves the scene's contact.
+/// Error and time of a reduced model with fewer modes, and with other numbers of sampled equations, at random contacts
+/// of the local model that covers the scene's contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelSizes {
-    /// The reduced model. One that knows sliding must say how it was trained.
+    /// Reduced model. A model with sliding must contain its training scene.
     #[serde(default)]
     pub model: ModelSource,
-    /// Random contacts (3.17) of the window, all compared with full solutions on its grid.
+    /// Number of random contacts (3.17) in the local model, all compared with full solutions on its grid.
     pub contacts: usize,
-    /// Seed of the contacts and of the rows.
+    /// Seed of the contacts and of the sampled equations.
     pub seed: u64,
-    /// How many numbers of modes, from a few to all.
+    /// Number of different mode counts, from a few modes to all.
     pub modes: usize,
-    /// Numbers of sampled rows per mode, all modes kept.
+    /// Numbers of sampled equations per mode, with all modes.
     pub rows_per_mode: Vec<f64>,
 }
 
-/// Fewest modes that are tried.
+/// Smallest number of modes.
 const FEWEST_MODES: usize = 6;
-/// Each contact is solved so many times, the quickest counts: other work on the machine only ever adds.
+/// Number of solves per contact. The fastest counts, since other load on the machine only adds time.
 const REPEATED: usize = 3;
 
-/// What was varied.
+/// Varied size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Varied {
-    /// The pressure modes, with the model's own rows.
+    /// Pressure modes, with the model's own sampled equations.
     Modes,
-    /// The sampled rows, with all modes.
+    /// Sampled equations, with all modes.
     Rows,
 }
 
@@ -58,27 +59,27 @@ impl Varied {
     }
 }
 
-/// One size.
+/// Result for one size.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row {
-    /// What was varied.
+    /// Which size was varied.
     pub varied: Varied,
-    /// Pressure modes.
+    /// Number of pressure modes.
     pub modes: usize,
-    /// Sampled rows.
+    /// Number of sampled equations.
     pub rows: usize,
-    /// Contacts that it does not solve.
+    /// Number of contacts that failed.
     pub failures: usize,
-    /// Relative errors of H_c at the others.
+    /// Relative errors of H_c at the other contacts.
     pub errors: Vec<f64>,
-    /// Seconds of single solves.
+    /// Times of single solves \[s\].
     pub seconds: Vec<f64>,
-    /// The model with these rows, where rows were varied.
+    /// Model with these sampled equations, if they were varied.
     pub model: Option<Arc<ReducedModel>>,
 }
 
 impl Row {
-    /// The number that was varied.
+    /// Returns the varied number.
     pub fn size(&self) -> usize {
         match self.varied {
             Varied::Modes => self.modes,
@@ -86,13 +87,13 @@ impl Row {
         }
     }
 
-    /// Median and largest error of H_c, and median seconds of a solve.
+    /// Returns median and largest error of H_c, and median time of a solve \[s\].
     pub fn summary(&self) -> [f64; 3] {
         [median(&self.errors), percentile(&self.errors, 1.0), median(&self.seconds)]
     }
 }
 
-/// What all sizes are measured at.
+/// Contacts and full solutions that all sizes are compared with.
 struct Truth<'a> {
     points: &'a [OperatingPoint],
     full: Vec<Option<Solution>>,
@@ -100,7 +101,7 @@ struct Truth<'a> {
 }
 
 impl Truth<'_> {
-    /// Solves everywhere, one after the other.
+    /// Solves all contacts one after the other. Returns failures, errors of H_c and times.
     fn measure(
         &self,
         model: &Arc<ReducedModel>,
@@ -138,7 +139,7 @@ impl Truth<'_> {
     }
 }
 
-/// Numbers from the least to the most, in about equal ratios.
+/// Returns numbers from `least` to `most` with approximately constant ratio.
 fn ladder(least: usize, most: usize, steps: usize) -> Vec<usize> {
     let least = least.min(most);
     let ratio = (most as f64 / least as f64).max(1.0);
@@ -148,7 +149,7 @@ fn ladder(least: usize, most: usize, steps: usize) -> Vec<usize> {
     all
 }
 
-/// The training that a model was made by: what it says itself, else what can be told of one of its windows.
+/// Returns the training of a model: from its own scene, or otherwise reconstructed from one of its local models.
 fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunError> {
     match Scene::from_ron(&model.scene).ok().and_then(|scene| scene.training()) {
         Some(spec) => Ok(spec),
@@ -183,7 +184,7 @@ impl Question for ModelSizes {
         let k = model.window_for(&point);
         let window = &model.windows[k];
         let spec = training(&model, window)?;
-        // Of the whole range, as many as it takes to fill the window.
+        // Drawn from the whole range, as many as needed to find enough points in the local model.
         let all = random_points(&spec.range, experiment.contact, 100 * self.contacts, self.seed);
         let inside = all.into_iter().filter(|point| model.window_for(point) == k);
         let points: Vec<OperatingPoint> = inside.take(self.contacts).collect();
@@ -210,8 +211,8 @@ impl Question for ModelSizes {
         Ok(())
     }
 
-    /// Values, for every size: `modes[24].failures`, `modes[24].H_c_error_median`, `…_max` and `modes[24].median_s`, and
-    /// the same of `rows[…]`.
+    /// Values, for every size: `modes[24].failures`, `modes[24].H_c_error_median`, `…_max` and `modes[24].median_s`,
+    /// and the same for `rows[…]`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             let name = |what: &str| format!("{}[{}].{what}", row.varied.name(), row.size());

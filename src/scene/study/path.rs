@@ -1,4 +1,4 @@
-//! Contacts along a path, each solved from its neighbour: what a sweep and the test trajectory (3.21) share.
+//! Contacts along a path, each solved from its neighbour. Shared by the sweep and the test trajectory (3.21).
 
 use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, Notice, RunError, Setting, Table, Tell};
 use crate::scene::answer::Request;
@@ -13,34 +13,34 @@ use crate::solver::physics::contact::{OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_P
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// What a reduced method's errors against the first full one are stated of.
+/// Values for which errors of reduced methods relative to the first full method are computed.
 const COMPARED: [&str; 3] = [names::H_C, names::H_MIN, names::TRACTION];
 
-/// Errors of smaller tractions are relative to this.
+/// Lower bound for the reference of relative traction errors.
 const LEAST_TRACTION: f64 = 0.005;
 
-/// One contact of a path by all methods.
+/// One contact of a path, solved by all methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathRow {
-    /// The varied values.
+    /// Values of the varied quantities.
     pub values: Vec<f64>,
-    /// Its result by each method, or why it is refused.
+    /// Result by each method, or the reason why the contact is refused.
     pub results: ByMethods,
-    /// The full solution on the model's grid, where one was asked for.
+    /// Full solution on the model's grid, if requested.
     pub on_model_grid: OnModelGrid,
 }
 
-/// A full solution on a model's own grid.
+/// Full solution on a model's own grid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum OnModelGrid {
-    /// None was asked for.
+    /// Not requested.
     NotAsked,
-    /// Its result.
+    /// Result.
     Solved(Box<ContactResult>),
 }
 
-/// The contacts of a path, after how many of them it begins anew, the name of its stage, whether full solves start cold,
-/// and whether full solutions on the model's grid are wanted.
+/// Path to solve: contacts, number of contacts per line (each line begins with a cold start), name of the stage,
+/// whether all full solves start cold, and whether full solutions on the model's grid are requested.
 pub(super) struct Path<'a> {
     pub name: &'static str,
     pub contacts: Vec<(Vec<f64>, Result<OperatingPoint, RefusedContact>)>,
@@ -50,7 +50,8 @@ pub(super) struct Path<'a> {
     pub on_model_grid: bool,
 }
 
-/// Returns the contacts of the test trajectory (3.21) at equidistant c, 0 ≤ c ≤ 2, but for those that the range excludes.
+/// Returns the contacts of the test trajectory (3.21) at equidistant c, 0 ≤ c ≤ 2, without those that the range
+/// excludes.
 pub(super) fn trajectory_points(
     range: &ParameterSpace,
     experiment: &Experiment,
@@ -59,18 +60,18 @@ pub(super) fn trajectory_points(
     places(count).filter_map(|c| Some((c, range.trajectory(experiment.contact, c)?))).collect()
 }
 
-/// Equidistant c of the test trajectory, both ends counted.
+/// Returns equidistant c of the test trajectory, including both ends.
 pub(super) fn places(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |i| 2.0 * i as f64 / (count - 1) as f64)
 }
 
 impl PathRow {
-    /// Its results; none if it is refused.
+    /// Returns the results; empty if the contact is refused.
     pub fn results(&self) -> &[ContactResult] {
         self.results.as_ref().map_or(&[], Vec::as_slice)
     }
 
-    /// The seconds of its solves.
+    /// Returns the times of its solves \[s\].
     pub(super) fn seconds(&mut self) -> Vec<&mut f64> {
         let on_model_grid = match &mut self.on_model_grid {
             OnModelGrid::Solved(result) => Some(&mut result.wall_s),
@@ -89,7 +90,7 @@ impl Path<'_> {
         for (i, (values, point)) in self.contacts.iter().enumerate() {
             setting.step(self.name, i, self.contacts.len())?;
             if i.is_multiple_of(self.line) {
-                // What was solved before is no neighbour, and lines can be solved in any order.
+                // A new line starts cold: the last contact is not a neighbour, and the order of lines must not matter.
                 former.fill(None);
                 former_on_model_grid = None;
                 setting.bench.forget();
@@ -114,13 +115,13 @@ impl Path<'_> {
             tell(PathRow { values: values.clone(), results, on_model_grid });
         }
         match first_refused {
-            // What none of them can have is a mistake of the study.
+            // If all contacts are refused, the study itself is wrong.
             Some(first) if !some_solved => Err(first.into()),
             _ => Ok(()),
         }
     }
 
-    /// One contact by all methods, from the former solutions of each.
+    /// Solves one contact by all methods, each starting from its previous solution.
     fn at(
         &self,
         point: &OperatingPoint,
@@ -148,9 +149,9 @@ impl Path<'_> {
     }
 }
 
-/// Values: single contacts that are expected, as `H_c[3]`; `points`; of each method `failures` (at plausible
-/// pressures), `failures_beyond` these, Newton steps and seconds; and a reduced one's errors against the first full
-/// one, or against one on the model's grid.
+/// Values: expected values of single contacts, as `H_c[3]`; `points`; for each method `failures` (at plausible
+/// pressures), `failures_beyond` (at higher pressures), Newton steps and times; for a reduced method also its errors
+/// relative to the first full method or to full solutions on the model's grid.
 pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&PathRow], found: &mut Findings) {
     for (i, row) in rows.iter().enumerate() {
         for (method, result) in methods.iter().zip(row.results()) {
@@ -205,19 +206,19 @@ pub(super) fn findings(methods: &[Method], experiment: &Experiment, rows: &[&Pat
     }
 }
 
-/// The relative error of a method at one contact, where it is known.
+/// Returns the relative error of a method at one contact, if it can be computed.
 fn error_of(name: &str, row: &PathRow, method: usize, full: Option<usize>) -> Option<f64> {
     let truth = match &row.on_model_grid {
         OnModelGrid::Solved(result) => result.value(name)?,
         OnModelGrid::NotAsked => row.results().get(full?)?.value(name)?,
     };
     let value = row.results().get(method)?.value(name)?;
-    // Next to nothing has no relative error.
+    // The traction has a lower bound, since a relative error of a value near zero is meaningless.
     let size = if name == names::TRACTION { truth.abs().max(LEAST_TRACTION) } else { truth };
     Some(((value - truth) / size).abs()).filter(|error| error.is_finite())
 }
 
-/// One row per contact: what is varied, the contact, and the result of each method.
+/// Returns a table with one row per contact: varied quantities, contact, and result of each method.
 pub(super) fn table(name: &str, varied: &[String], methods: &[Method], rows: &[&PathRow]) -> Table {
     let of_contact = contact_columns_after(varied);
     let mut columns: Vec<String> =
@@ -230,7 +231,7 @@ pub(super) fn table(name: &str, varied: &[String], methods: &[Method], rows: &[&
         let contact = row.results().iter().take(1).flat_map(|result| result.row(&of_contact));
         let results = row.results().iter().flat_map(|result| result.row(&of_result));
         let numbers = row.values.iter().copied().chain(contact).chain(results);
-        // A refused contact has none.
+        // A refused contact has no numbers.
         numbers.chain(std::iter::repeat(f64::NAN)).take(width).collect()
     };
     Table {
@@ -242,7 +243,7 @@ pub(super) fn table(name: &str, varied: &[String], methods: &[Method], rows: &[&
     }
 }
 
-/// `full`, `reduced`, and with a number where a kind occurs again.
+/// Returns `full` or `reduced`, followed by a number if the same method occurs again.
 pub(super) fn tag(methods: &[Method], k: usize) -> String {
     let name = methods[k].name();
     match methods[..k].iter().filter(|method| method.name() == name).count() {
@@ -251,8 +252,8 @@ pub(super) fn tag(methods: &[Method], k: usize) -> String {
     }
 }
 
-/// Films, traction and pressure along the last varied quantity, a line for each combination of the others and each
-/// method; what failed is left out.
+/// Draws film thickness, traction and pressure over the last varied quantity, with one line for each method and each
+/// combination of the other quantities. Failed solves are left out.
 pub(super) fn charts(x: &ChartAxis, varied: &[String], methods: &[Method], rows: &[&PathRow]) -> Vec<Chart> {
     let chart = |(name, axis): (&str, &str)| {
         let mut chart = Chart::new(axis, x.clone(), ChartAxis::linear(axis));
@@ -292,7 +293,7 @@ fn has_heat(rows: &[&PathRow]) -> bool {
     rows.iter().flat_map(|row| row.results()).any(|result| result.heat.is_some())
 }
 
-/// The values of all varied quantities but the last.
+/// Returns the values of all varied quantities except the last.
 fn others(row: &PathRow) -> &[f64] {
     row.values.split_last().map_or(&[], |(_, others)| others)
 }

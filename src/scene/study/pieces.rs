@@ -1,4 +1,5 @@
-//! Studies in pieces, for campaigns: which studies fall into pieces, and what of their rows a clock and a place say.
+//! Studies divided into pieces, for campaigns: which studies can be divided, and the parts of their rows that depend on
+//! time and order.
 
 use super::question::{Divisible, RunError, Setting};
 use super::sweep::Sweep;
@@ -7,7 +8,8 @@ use crate::scene::contact_result::ContactResult;
 use crate::scene::load_cases::CaseTable;
 
 impl StudyRow {
-    /// The seconds in it: all that two runs of it differ by. None of studies that do not fall into pieces.
+    /// Returns the measured times in the row, the only difference between two runs. Empty for studies that cannot be
+    /// divided.
     pub fn seconds(&mut self) -> Vec<&mut f64> {
         match self {
             Self::Sweep(row) => Sweep::seconds(row),
@@ -17,7 +19,7 @@ impl StudyRow {
         }
     }
 
-    /// Its place among rows that arrive in any order; rows of all other kinds arrive in theirs.
+    /// Returns the index among rows that may arrive in any order. Other rows arrive in order and have index 0.
     pub fn place(&self) -> usize {
         match self {
             Self::RandomTest(random_test::Row::Truth(index, _)) => *index,
@@ -25,8 +27,8 @@ impl StudyRow {
         }
     }
 
-    /// Whether it is of a study that falls into pieces, its contacts make sense, and a result has a film if and only if it
-    /// converged.
+    /// Returns true if the row belongs to a divisible study, its contacts are valid, and each result has film
+    /// thicknesses if and only if it converged.
     pub fn is_sound(&self) -> bool {
         let sound = |result: &ContactResult| {
             let film = result.scalars.is_some_and(|scalars| scalars.h_c.is_finite() && scalars.h_min.is_finite());
@@ -42,7 +44,7 @@ impl StudyRow {
     }
 }
 
-/// Studies that do not fall into pieces.
+/// Error for studies that cannot be divided.
 fn whole() -> RunError {
     let sentence = "a campaign is a sweep, a random test, a table of load cases or a training; this scene asks something \
                     else, which `run` answers on one machine";
@@ -50,11 +52,11 @@ fn whole() -> RunError {
 }
 
 impl Study {
-    /// The pieces of a round, each by a number of the study's own, in the order of their rows; none behind the last
-    /// round. `before` are the rows of the rounds before it, in their order.
+    /// Returns the pieces of a round as numbers defined by the study, in the order of their rows; empty after the last
+    /// round. `before` are the rows of the previous rounds, in order.
     ///
     /// # Errors
-    /// When the study does not fall into pieces, or something is refused.
+    /// If the study cannot be divided, or if something is refused.
     pub fn pieces(
         &self,
         experiment: &Experiment,
@@ -71,8 +73,8 @@ impl Study {
         }
     }
 
-    /// Works out some pieces of a round; the observer is told their rows. Neither other pieces nor threads change a bit
-    /// of them, but rows that are solved at the same time may come in any order.
+    /// Computes some pieces of a round. The observer receives their rows. The rows do not depend on other pieces or on
+    /// threads, bit for bit, but rows that are solved in parallel may arrive in any order.
     ///
     /// # Errors
     /// As [`Study::run`].
@@ -93,7 +95,7 @@ impl Study {
         }
     }
 
-    /// The methods of a study that falls into pieces, to be given other models; none of any other study.
+    /// Returns the methods of a divisible study, so that their models can be replaced; empty for other studies.
     pub fn methods_mut(&mut self) -> &mut [Method] {
         match self {
             Self::Sweep(study) => study.methods_mut(),
@@ -103,7 +105,7 @@ impl Study {
         }
     }
 
-    /// The table of load cases, where it is about one.
+    /// Returns the table of load cases, if the study has one.
     pub fn table_mut(&mut self) -> Option<&mut CaseTable> {
         match self {
             Self::LoadCases(study) => Some(&mut study.cases),

@@ -1,13 +1,13 @@
-//! Plans of snapshot selection side by side: where their snapshots lie (Fig. 3.3), how fast their information decays
-//! (Fig. 3.4), how often their models fail (Table 3.3), how far they are off, also along the trajectory (3.21) (Figs.
-//! 3.5 and 3.7).
+//! Comparison of plans of snapshot selection: positions of their snapshots (Fig. 3.3), decay of the loss of information
+//! (Fig. 3.4), failure rates of their models (Table 3.3), and errors, also along the trajectory (3.21) (Figs. 3.5 and
+//! 3.7).
 //!
-//! Sets of different size are compared as the dissertation does, by the loss of information l(k) of (2.90), each
-//! normalised by its own singular values: a slow decay means that the snapshots have little in common.
-//! `relative_loss_p_40` is l(40) of the pressure over the largest l(40) of all plans, one for the slowest decay;
-//! `modes_per_snapshot` is the efficiency of section 3.1.4, information per full solution. l(k) says what a set knows
-//! of itself; what it knows of the range is told by the best approximation of pressures it has never seen, with as many
-//! modes as the smallest of the bases has (`unseen_…`).
+//! Sets of different size are compared as in the dissertation, by the loss of information l(k) of (2.90), each
+//! normalised by its own singular values. A slow decay means that the snapshots have little in common.
+//! `relative_loss_p_40` is l(40) of the pressure over the largest l(40) of all plans, so that it is 1 for the slowest
+//! decay. `modes_per_snapshot` is the efficiency of section 3.1.4, information per full solution. l(k) measures only
+//! the set itself. How well a set represents the range is measured by the best approximation of pressures that are not
+//! in the set, with as many modes as the smallest of the bases has (`unseen_…`).
 
 use super::error_measures::OnlineScheme;
 use super::path::trajectory_points;
@@ -29,87 +29,87 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Plans of snapshot selection side by side: Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7.
+/// Comparison of plans of snapshot selection (Tables 3.2 and 3.3, Figs. 3.3 to 3.5 and 3.7).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlanComparison {
     /// The plans.
     pub plans: Vec<ComparedPlan>,
-    /// The box of random tests (3.17) and of the trajectory (3.21).
+    /// Range of the random tests (3.17) and of the trajectory (3.21).
     pub range: ParameterSpace,
-    /// Random tests of each.
+    /// Number of random tests per plan.
     pub tests: usize,
     /// Seed of the random tests.
     pub seed: u64,
-    /// Full solutions are compared at this many of them.
+    /// Number of tests that are compared with full solutions.
     pub compare: usize,
-    /// Points along the trajectory.
+    /// Number of points along the trajectory.
     pub trajectory: usize,
-    /// Online scheme of all of them.
+    /// Online scheme of all models.
     #[serde(default)]
     pub online: OnlineScheme,
 }
 
-/// One of the compared plans.
+/// Plan to compare.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ComparedPlan {
-    /// Its name in results.
+    /// Name in results.
     pub name: String,
-    /// The scene of its training; relative paths refer to this scene's folder.
+    /// Scene of the training; relative paths refer to this scene's folder.
     pub training: PathBuf,
-    /// Failure rate as published \[%\].
+    /// Published failure rate \[%\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub published_failure_percent: Option<f64>,
 }
 
-/// What comes of the plans, in their order: first all models, then all tests.
+/// Row: first the models of all plans, then their tests, both in the order of the plans.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Row {
-    /// The model of a plan.
+    /// Model of a plan.
     Trained(Trained),
-    /// How it stood its tests.
+    /// Test result of a plan.
     Tested(Tested),
 }
 
-/// The model of a plan.
+/// Model of a plan.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trained {
     /// The plan.
     pub plan: ComparedPlan,
-    /// Its model, which has one window.
+    /// The model, which has a single local model.
     pub model: Arc<ReducedModel>,
 }
 
-/// How a plan's model stood its tests.
+/// Test result of a plan's model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tested {
     /// The plan.
     pub plan: ComparedPlan,
-    /// Random tests that failed.
+    /// Number of random tests that failed.
     pub failures: usize,
     /// Relative errors of H_c and of H_min at the compared tests.
     pub errors: [Vec<f64>; 2],
-    /// Best approximations of compared pressures with as many modes as the smallest basis has.
+    /// Errors of the best approximations of compared pressures, with as many modes as the smallest basis has.
     pub unseen: Vec<f64>,
-    /// What the model says along the trajectory.
+    /// Results along the trajectory.
     pub along: Vec<Followed>,
-    /// Full solutions that failed, where this plan was the first to need them.
+    /// Number of failed full solutions, if they were computed for this plan first.
     pub full_failures: usize,
 }
 
-/// One contact of the trajectory: full and reduced, each where it is known.
+/// Contact of the trajectory, with full and reduced solution if available.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
-    /// Where on the trajectory.
+    /// Position c on the trajectory.
     pub c: f64,
-    /// The contact.
+    /// Moes numbers of the contact.
     pub moes: Moes,
     /// H_c and P_c of the full solution.
     pub full: Option<(f64, f64)>,
-    /// H_c and P_c of the reduced one, and its e_f^I.
+    /// H_c, P_c and e_f^I of the reduced solution.
     pub reduced: Option<(f64, f64, f64)>,
-    /// e_z.
+    /// State error e_z.
     pub state_error: Option<f64>,
 }
 
@@ -117,13 +117,13 @@ pub struct Followed {
 const LOSSES: [(f64, &str); 2] = [(1e-4, "1e-4"), (1e-6, "1e-6")];
 /// Numbers of modes at which losses of information are compared.
 const MODES: [usize; 2] = [40, 60];
-/// Snapshots below this M count as lightly loaded; above about 50 solutions hardly differ (section 3.1.4).
+/// Snapshots below this M count as lightly loaded. Above about 50, solutions hardly differ (section 3.1.4).
 const LIGHT_M: f64 = 30.0;
 
-/// A number that may not be known at a contact.
+/// Name and value, which may be missing at a contact.
 type Known = (&'static str, fn(&Followed) -> Option<f64>);
 
-/// What the table of the trajectory holds of each plan.
+/// Columns of the trajectory table for each plan.
 const ALONG: [Known; 8] = [
     ("full.H_c", |f| Some(f.full?.0)),
     ("full.P_c", |f| Some(f.full?.1)),
@@ -142,7 +142,7 @@ impl Followed {
 }
 
 impl Trained {
-    /// The only window, which was checked before.
+    /// Returns the only local model; checked before.
     fn window(&self) -> &Window {
         &self.model.windows[0]
     }
@@ -152,7 +152,7 @@ impl Trained {
     }
 }
 
-/// l(k) of a basis, (2.90).
+/// Returns the losses l(k) of a basis, (2.90).
 fn losses(basis: &PodBasis) -> Vec<f64> {
     (0..=basis.singular_values.len()).map(|k| basis.loss(k).max(0.0)).collect()
 }
@@ -164,7 +164,7 @@ struct Truth {
     along: Vec<Option<Solution>>,
 }
 
-/// Modes of the smallest pressure basis.
+/// Returns the number of modes of the smallest pressure basis.
 fn common_modes(plans: &[&Trained]) -> usize {
     plans.iter().map(|plan| plan.window().pressure.count()).min().unwrap_or(0)
 }
@@ -256,9 +256,9 @@ impl Question for PlanComparison {
         Ok(())
     }
 
-    /// Values are named `plan.value`, with the plan's name. `order.as_published` counts pairs of plans whose failure
-    /// rates differ as the published ones do, `order.against` those that differ the other way; equal rates count as
-    /// neither.
+    /// Values are named `plan.value`, with the plan's name. `order.as_published` is the number of pairs of plans whose
+    /// failure rates are in the published order, `order.against` the number of pairs in the opposite order. Pairs with
+    /// equal rates are not counted.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (plans, tested) = (only!(rows, Row::Trained), only!(rows, Row::Tested));
         for Trained { plan, model } in &plans {
@@ -323,7 +323,7 @@ impl Question for PlanComparison {
     }
 }
 
-/// Fig. 3.3: how the snapshots lie.
+/// Adds values about the snapshots (Fig. 3.3).
 fn snapshots(trained: &Trained, found: &mut Findings) {
     let (name, window) = (&trained.plan.name, trained.window());
     let count = window.snapshots.len();
@@ -336,7 +336,7 @@ fn snapshots(trained: &Trained, found: &mut Findings) {
     }
 }
 
-/// Modes that a plan's solutions need at losses of information.
+/// Adds the numbers of modes needed for losses of information.
 fn information(trained: &Trained, found: &mut Findings) {
     let (name, snapshots) = (&trained.plan.name, trained.window().snapshots.len() as f64);
     for (field, basis) in trained.bases() {
@@ -349,7 +349,7 @@ fn information(trained: &Trained, found: &mut Findings) {
     }
 }
 
-/// Losses of information at the same numbers of modes, each over the largest of all plans.
+/// Adds losses of information at the same numbers of modes, each over the largest of all plans.
 fn relative_losses(plans: &[&Trained], found: &mut Findings) {
     for modes in MODES {
         for f in 0..2 {
@@ -359,7 +359,7 @@ fn relative_losses(plans: &[&Trained], found: &mut Findings) {
             for (plan, loss) in plans.iter().zip(losses) {
                 let (name, (field, _)) = (&plan.plan.name, plan.bases()[f]);
                 found.push(format!("{name}.loss_{field}_{modes}"), None, loss);
-                // Where all sets are smaller than that, none of them loses anything.
+                // If all sets are smaller than this, no information is lost.
                 if slowest > 0.0 {
                     found.push(format!("{name}.relative_loss_{field}_{modes}"), None, loss / slowest);
                 }
@@ -368,7 +368,7 @@ fn relative_losses(plans: &[&Trained], found: &mut Findings) {
     }
 }
 
-/// Fig. 3.3: where the snapshots lie. The column `plan` counts the plans from 1.
+/// Returns the positions of the snapshots (Fig. 3.3). The column `plan` numbers the plans from 1.
 fn snapshot_table(plans: &[&Trained]) -> Table {
     let mut table =
         Table::new("snapshots", &["plan", names::M, names::L, names::RADIUS, names::SPEED, names::LOAD, names::ALPHA]);
@@ -382,7 +382,7 @@ fn snapshot_table(plans: &[&Trained]) -> Table {
     table
 }
 
-/// Fig. 3.4: the loss of information l(k) of pressure and deformation, one pair of columns per plan.
+/// Returns the loss of information l(k) of pressure and deformation (Fig. 3.4), one pair of columns per plan.
 fn loss_table(plans: &[&Trained]) -> Table {
     let bases = || plans.iter().flat_map(|plan| plan.bases().map(|(field, basis)| (&plan.plan.name, field, basis)));
     let named = bases().map(|(name, field, _)| format!("{name}.{field}"));
@@ -400,7 +400,7 @@ fn loss_table(plans: &[&Trained]) -> Table {
     }
 }
 
-/// Figs. 3.5 and 3.7: the path through the M–L plane, and what full and reduced models say along it.
+/// Returns the path through the M–L plane, and full and reduced results along it (Figs. 3.5 and 3.7).
 fn trajectory_table(tested: &[&Tested]) -> Table {
     let mut table = Table::new("trajectory", &["c", names::M, names::L]);
     if let Some(first) = tested.first() {
@@ -415,7 +415,7 @@ fn trajectory_table(tested: &[&Tested]) -> Table {
     table
 }
 
-/// ‖P − V_k V_kᵀ W P‖/‖P‖ of full pressures under the grid's weights, with the first k modes.
+/// Returns ‖P − V_k V_kᵀ W P‖/‖P‖ of full pressures P, with the first k modes V_k and the weights W of the grid.
 fn unseen(window: &Window, modes: usize, truth: &[Option<Solution>]) -> Vec<f64> {
     let (basis, weights) = (&window.pressure.basis().modes, window.grid.weights());
     let size = |p: &[f64]| weights.iter().zip(p).map(|(w, p)| w * p * p).sum::<f64>();

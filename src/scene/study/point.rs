@@ -1,4 +1,4 @@
-//! The contact itself, by one or several methods.
+//! Point study: the contact, solved by one or several methods.
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -11,15 +11,15 @@ use crate::solver::full::Solution;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The contact itself.
+/// The contact, solved by one or several methods.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Point {
-    /// How it is solved.
+    /// Methods by which it is solved.
     pub methods: Vec<Method>,
 }
 
-/// One method's answer.
+/// Answer of one method.
 pub type Row = Arc<Answer>;
 
 impl Question for Point {
@@ -43,7 +43,7 @@ impl Question for Point {
         Ok(())
     }
 
-    /// Values: every number of each method's result, and `H_c_error` of a reduced one against the full one.
+    /// Values: every number of each method's result, and `H_c_error` of a reduced method relative to the full one.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             let (method, result) = (&row.request.method, &row.result);
@@ -84,11 +84,11 @@ impl Question for Point {
     }
 }
 
-/// Nodes before a front that the reduced method of appendix D watches.
+/// Number of nodes before the cavitation boundary that the reduced method of appendix D monitors.
 const WATCHED: usize = 5;
 
-/// Where the film of a point contact has ruptured, the front's first node on each line along X, and the nodes before
-/// it: Fig. D.2. None by a penalty, which knows no set.
+/// Draws the cavitated nodes of a point contact, the first cavitated node on each line along X, and the nodes before it
+/// (Fig. D.2). `None` for the penalty model, which does not define a set of cavitated nodes.
 fn sets(solution: &Solution) -> Option<Chart> {
     let (x, y) = (&solution.x, &solution.y);
     if solution.multiplier.is_empty() || y.len() < 2 {

@@ -1,4 +1,4 @@
-//! What every study is made of, and what it is given.
+//! Trait that every study implements, and the services that it receives.
 
 pub use crate::scene::chart::{Chart, ChartAxis, Marks};
 pub(super) use crate::scene::check::Checked;
@@ -13,50 +13,50 @@ use crate::scene::method::Method;
 use crate::solver::observer::Progress;
 use crate::solver::training::TrainingObserver;
 
-/// A question about an experiment. Its rows are all that comes of it: values, tables and charts are read off them, also
-/// while it runs.
+/// Study of an experiment. Its rows are its complete result: values, tables and charts are computed from them, also
+/// while it is running.
 pub trait Question: Sync {
-    /// What it finds out, piece by piece.
+    /// Row of the result.
     type Row;
 
-    /// Refuses what makes no sense, naming the field.
+    /// Refuses invalid values, and names the field.
     ///
     /// # Errors
-    /// With the first such field.
+    /// With the first invalid field.
     fn check(&self, experiment: &Experiment) -> Checked;
 
-    /// The methods it uses, in order.
+    /// Returns the methods that the study uses, in order.
     fn methods(&self) -> &[Method] {
         &[]
     }
 
-    /// Finds out, and tells each row as soon as it is known.
+    /// Runs the study, and passes each row to `tell` as soon as it is computed.
     ///
     /// # Errors
-    /// When something is refused or the observer cancels. What does not converge is a row.
+    /// If something is refused or the observer cancels. A solve that does not converge is a row.
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Self::Row>) -> Result<(), RunError>;
 
-    /// What the rows say.
+    /// Evaluates the rows.
     fn findings(&self, experiment: &Experiment, rows: &[&Self::Row], found: &mut Findings);
 
-    /// The rows in numbers.
+    /// Returns the rows as tables.
     fn tables(&self, rows: &[&Self::Row]) -> Vec<Table>;
 
-    /// How the rows are best looked at.
+    /// Returns charts of the rows.
     fn charts(&self, rows: &[&Self::Row]) -> Vec<Chart>;
 }
 
-/// A question that falls into pieces which know nothing of each other, so that many machines can answer it together: the
-/// same rows come of them, to the last bit, as of one run.
+/// Study that can be divided into independent pieces, so that several machines can compute it together. The rows are
+/// bitwise the same as those of a single run.
 pub trait Divisible: Question {
-    /// The pieces of a round, each by a number of the study's own, in the order of their rows; none behind the last
-    /// round. What a round asks may follow from the rows of the rounds `before` it.
+    /// Returns the pieces of a round as numbers defined by the study, in the order of their rows; empty after the last
+    /// round. A round may depend on the rows of the rounds `before` it.
     ///
     /// # Errors
-    /// When something is refused.
+    /// If something is refused.
     fn pieces(&self, setting: &mut Setting<'_>, round: usize, before: &[&Self::Row]) -> Result<Vec<usize>, RunError>;
 
-    /// Works out some pieces of a round.
+    /// Computes some pieces of a round.
     ///
     /// # Errors
     /// As [`Question::run`].
@@ -68,33 +68,33 @@ pub trait Divisible: Question {
         tell: &Tell<'_, Self::Row>,
     ) -> Result<(), RunError>;
 
-    /// The seconds in a row: all that two runs of it differ by.
+    /// Returns the measured times in a row, the only difference between two runs.
     fn seconds(row: &mut Self::Row) -> Vec<&mut f64>;
 
-    /// The methods it uses, to be given other models.
+    /// Returns the methods that it uses, so that their models can be replaced.
     fn methods_mut(&mut self) -> &mut [Method];
 }
 
-/// Where rows go.
+/// Function that receives rows.
 pub type Tell<'a, Row> = dyn Fn(Row) + Sync + 'a;
 
-/// What a study is about, what it may use, and who watches.
+/// Experiment, bench and observer of a study.
 pub struct Setting<'a> {
-    /// Its contact.
+    /// Contact and solver settings.
     pub experiment: &'a Experiment,
-    /// Whoever solves contacts.
+    /// Services for solving contacts.
     pub bench: &'a mut dyn Bench,
-    /// Who is told how far it is, and may stop it.
+    /// Observer of the progress, which may cancel.
     pub observer: &'a dyn TrainingObserver,
-    /// Whether fields are wanted along the way.
+    /// True if fields of transient contacts are requested as rows.
     pub wants_states: bool,
 }
 
 impl Setting<'_> {
-    /// Tells how far a stage is, and stops where that is wanted.
+    /// Reports the progress of a stage, and stops if the observer has cancelled.
     ///
     /// # Errors
-    /// When it is to stop.
+    /// If the observer has cancelled.
     pub fn step(&self, stage: &str, done: usize, total: usize) -> Result<(), RunError> {
         self.observer.progress(Progress { stage: stage.to_owned(), done, total });
         if self.observer.cancelled() { Err(RunError::Cancelled) } else { Ok(()) }

@@ -1,4 +1,4 @@
-//! Random points (3.17): failures, speed, and errors against full solutions.
+//! Random validation at points (3.17): failures, speed, and errors against full solutions.
 
 mod rows;
 
@@ -24,24 +24,25 @@ use rows::COMPARED;
 use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, PoisonError};
 
-/// Random points (3.17): how often a method fails, how fast it is, and how far a reduced model lies from full
+/// Random validation at points (3.17): failure rate and speed of a method, and errors of a reduced model against full
 /// solutions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RandomTest {
-    /// Where the points are drawn.
+    /// Range in which the points are drawn.
     pub range: ParameterSpace,
-    /// How many.
+    /// Number of points.
     pub tests: usize,
-    /// Seed of the random numbers: the same seed gives the same points.
+    /// Seed of the random numbers. The same seed gives the same points.
     pub seed: u64,
-    /// What is tested; a full method starts cold.
+    /// Method under test. The full method starts cold.
     pub method: Method,
-    /// Full solutions on the model's own grid are compared at this many of the points.
+    /// Number of points that are compared with full solutions on the model's own grid.
     #[serde(default)]
     pub compare: usize,
-    /// Full solutions at this many more, before those: where the method failed, then where it gives no bound, then where
-    /// its bound is largest. They show where to look, and count in no statistics of errors.
+    /// Number of additional points that are compared, before the others: those where the method failed, then those
+    /// without an error bound, then those with the largest error bounds. They point to weaknesses, and are not counted
+    /// in error statistics.
     #[serde(default, skip_serializing_if = "is_none")]
     pub worst: usize,
 }
@@ -50,14 +51,14 @@ fn is_none(count: &usize) -> bool {
     *count == 0
 }
 
-/// What makes seeds of points of the seed of a test.
+/// Constant for deriving the seeds of points from the seed of the test.
 const SCRAMBLE: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// Solves without telling the observer, every so many.
+/// The observer is notified once per this number of solves.
 const REPORT_EVERY: usize = 32;
 
 impl RandomTest {
-    /// The points, in the order they are drawn in.
+    /// Returns the points, in the order in which they are drawn.
     fn points(&self, setting: &Setting<'_>) -> Result<Vec<OperatingPoint>, RunError> {
         let Setting { experiment, observer, .. } = *setting;
         let mut points = all_random_points(&self.range, experiment.contact, self.tests, self.seed, observer)?;
@@ -67,7 +68,8 @@ impl RandomTest {
         Ok(points)
     }
 
-    /// The lubricant of a point, whichever others are tested: the scene's, or one of the range's thermal constants.
+    /// Returns the lubricant of the k-th point, independent of the other points: the scene's, or one with random
+    /// thermal constants from the range.
     fn lubricant(&self, k: usize, own: Lubricant) -> Lubricant {
         self.range.with_random_heat(own, &mut Rng::with_seed(self.seed ^ SCRAMBLE.wrapping_mul(k as u64 + 1)))
     }
@@ -85,7 +87,7 @@ impl RandomTest {
             if i.is_multiple_of(REPORT_EVERY) {
                 setting.step("random tests", i, chosen.len())?;
             }
-            // Its numbers are those of the same contact alone, whichever were tested before it.
+            // Drop starting values, so that the result does not depend on earlier points.
             setting.bench.forget();
             let lubricant = self.lubricant(k, experiment.lubricant);
             let request = Request { lubricant, method: self.method.clone(), ..experiment.request_at(*point) };
@@ -110,7 +112,7 @@ impl RandomTest {
         Ok(())
     }
 
-    /// Which tests are compared with full solutions: the most doubtful ones, and then the others.
+    /// Returns the tests to compare with full solutions: those most in doubt, and then the others.
     fn compared<'a>(&self, rows: impl IntoIterator<Item = &'a Row>) -> [Vec<usize>; 2] {
         if self.method == Method::Full {
             return Default::default();
@@ -147,7 +149,7 @@ impl RandomTest {
     }
 }
 
-/// A piece is a test; in a second round, one of those that are compared with full solutions.
+/// Each piece is one test; in the second round, one comparison with a full solution.
 impl Divisible for RandomTest {
     fn pieces(&self, _: &mut Setting<'_>, round: usize, before: &[&Row]) -> Result<Vec<usize>, RunError> {
         Ok(match round {
@@ -201,7 +203,7 @@ impl Question for RandomTest {
         std::slice::from_ref(&self.method)
     }
 
-    /// Times are those of single solves, one after the other.
+    /// Solves are timed one by one.
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let points = self.points(setting)?;
         let all: Vec<usize> = (0..points.len()).collect();
@@ -215,10 +217,10 @@ impl Question for RandomTest {
         compared.iter().try_for_each(|chosen| self.compare(&points, chosen, setting, tell))
     }
 
-    /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and seconds; of a reduced one
-    /// `untrained`, `without_bound` (answers, where others have one), `compared`, `full_failures`, its errors, and what its
-    /// bounds are worth. `grid_error_max` is the largest share of H_c that the grid costs a full solution; a warning says
-    /// where it is too much.
+    /// Values of the method: `tests`, `failures`, `failure_percent`, Newton steps and times. For a reduced method also
+    /// `untrained`, `without_bound` (answers without an error bound, if others have one), `compared`, `full_failures`,
+    /// its errors, and the reliability of its error bounds. `grid_error_max` is the largest relative discretisation
+    /// error of H_c of a full solution; a warning says where it is too large.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (of, tests) = (Some(&self.method), own(rows));
         let failures = tests.iter().filter(|(test, _)| test.film.is_none()).count();
@@ -286,7 +288,7 @@ impl Question for RandomTest {
         vec![rows::table(&own(rows))]
     }
 
-    /// Where the method fails, and its errors beside what it promised.
+    /// Draws a map of failures, and errors over their bounds.
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let tests = own(rows);
         let mut map =

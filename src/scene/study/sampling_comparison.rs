@@ -1,4 +1,4 @@
-//! Ways of sampling rows side by side: one set of full solutions, one basis, the same random tests.
+//! Comparison of methods of sampling equations, with one set of full solutions, one basis, and the same random tests.
 
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -17,85 +17,85 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Ways of sampling rows, on the same full solutions and basis.
+/// Methods of sampling equations, with the same full solutions and basis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SamplingComparison {
-    /// The scene of the training; relative paths refer to this scene's folder.
+    /// Scene of the training; relative paths refer to this scene's folder.
     pub training: PathBuf,
-    /// The ways.
+    /// Methods to compare.
     pub samplings: Vec<ComparedSampling>,
-    /// The box of random tests (3.17).
+    /// Range of the random tests (3.17).
     pub range: ParameterSpace,
-    /// Random tests of each.
+    /// Number of random tests per method.
     pub tests: usize,
     /// Seed of the random tests.
     pub seed: u64,
-    /// Full solutions are compared at this many of them.
+    /// Number of tests that are compared with full solutions.
     pub compare: usize,
 }
 
-/// One of the compared ways of sampling rows.
+/// Method of sampling equations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ComparedSampling {
-    /// Its name in results.
+    /// Name in results.
     pub name: String,
-    /// How rows are sampled.
+    /// Sampling method.
     pub sampling: Sampling,
-    /// Sampled rows per pressure mode.
+    /// Number of sampled equations per pressure mode.
     pub rows_per_mode: f64,
     /// Penalty factor γ̄ of the reduced equations.
     pub penalty: f64,
-    /// By what the online step is found.
+    /// Scheme of the online solver.
     #[serde(default)]
     pub scheme: Scheme,
-    /// How its films rupture, where that is not as in the full solutions.
+    /// Cavitation model of the reduced equations, if it differs from that of the full solutions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cavitation: Option<Cavitation>,
 }
 
-/// What comes of it.
+/// Row of the study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Row {
-    /// What all ways share.
+    /// Common data of all methods.
     Trained {
-        /// Full solutions.
+        /// Number of full solutions.
         snapshots: usize,
-        /// Pressure modes.
+        /// Number of pressure modes.
         modes: usize,
     },
-    /// One way of sampling.
+    /// Result of one method.
     Way(Way),
 }
 
-/// What one way of sampling is worth.
+/// Result of one method of sampling.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Way {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Sampled rows.
+    /// Number of sampled equations.
     pub rows: usize,
     /// Penalty factor γ̄.
     pub penalty: f64,
-    /// Random tests.
+    /// Number of random tests.
     pub tests: usize,
-    /// Those that failed.
+    /// Number of tests that failed.
     pub failures: usize,
-    /// Those of them that were to be compared.
+    /// Number of failed tests among those to be compared.
     pub failures_compared: usize,
-    /// Newton steps of the others.
+    /// Newton steps of the successful tests.
     pub newton: Vec<f64>,
     /// Relative errors of H_c and of H_min.
     pub errors: [Vec<f64>; 2],
-    /// Seconds of single solves, of some of the tests.
+    /// Times of single solves for some of the tests \[s\].
     pub seconds: Vec<f64>,
 }
 
-/// Solves that are timed.
+/// Number of timed solves.
 const TIMED: usize = 40;
 
-/// Seconds of single solves, one after the other.
+/// Returns the times of solves, run one after the other \[s\].
 fn one_by_one(
     model: &Arc<ReducedModel>,
     options: ReducedOptions,
@@ -148,7 +148,7 @@ impl Question for SamplingComparison {
         }
         let points = all_random_points(&self.range, experiment.contact, self.tests, self.seed, observer)?;
         let own_law = training.lubricant.cavitation;
-        // Errors are measured here, against full solutions.
+        // The study measures errors itself, so that the training needs no validation.
         let mut state = TrainingState::new(TrainingSpec { evidence: 0, ..training });
         let trained = train_resumable(&mut state, observer)?;
         let window = &trained.windows[0];
@@ -178,8 +178,8 @@ impl Question for SamplingComparison {
         Ok(())
     }
 
-    /// Values are named `Cubature.failures`, with the name of the sampling: `rows`, `failures` among the tests,
-    /// `newton_median`, and the errors of H_c and H_min at the first `compare` of them.
+    /// Values are named `Cubature.failures`, with the name of the method: `rows`, `failures` among the tests,
+    /// `newton_median`, and the errors of H_c and H_min at the first `compare` tests.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             match row {

@@ -1,4 +1,4 @@
-//! Ways of reducing a contact in time side by side: the same full marches, the same bases, the same unseen loads.
+//! Comparison of reduction schemes for a transient contact, with the same full marches, bases and test loads.
 
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -15,63 +15,65 @@ use crate::solver::training::{TrajectoryTraining, train_trajectories};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Schemes, ways of sampling rows and laws of rupture for reduced models in time, trained by the same loads.
+/// Schemes, methods of sampling equations, and cavitation models of transient reduced models that are trained with the
+/// same loads.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SchemesInTime {
-    /// What models are trained by.
+    /// Inputs for training.
     pub trainings: Vec<Drive>,
-    /// What they are to follow, by name.
+    /// Inputs for testing, by name.
     pub tests: Vec<Drive>,
-    /// Length of the steps.
+    /// Time step.
     pub time_step: f64,
-    /// The frame.
+    /// Frame of reference.
     #[serde(default)]
     pub frame: Frame,
     /// Loss of information of the bases, (2.90).
     pub loss: f64,
-    /// The ways.
+    /// Schemes to compare.
     pub schemes: Vec<ComparedScheme>,
 }
 
-/// One of the compared ways.
+/// Scheme to compare.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ComparedScheme {
-    /// Its name in results.
+    /// Name in results.
     pub name: String,
-    /// By what a step is found.
+    /// Scheme of the online solver.
     #[serde(default)]
     pub scheme: Scheme,
-    /// How rows are sampled.
+    /// Sampling method.
     pub sampling: Sampling,
-    /// Sampled rows per pressure mode.
+    /// Number of sampled equations per pressure mode.
     pub rows_per_mode: f64,
-    /// How films rupture, in the full marches too, where that is not as the scene says.
+    /// Cavitation model, also of the full marches, if it differs from the scene's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cavitation: Option<Cavitation>,
 }
 
-/// What one way gives along one load.
+/// Result of one scheme for one load.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// The way.
+    /// Name of the scheme.
     pub scheme: String,
-    /// The load.
+    /// Name of the load.
     pub test: String,
-    /// Pressure modes and sampled rows.
+    /// Numbers of pressure modes and of sampled equations.
     pub size: [usize; 2],
-    /// Whether it came to the end.
+    /// True if the march reached the end time.
     pub finished: bool,
-    /// The last T that it reached.
+    /// Last time T that was reached.
     pub reached: f64,
-    /// Relative L2 and greatest difference of H_c from the full march of its law, and L2 of H_min, as far as it came.
+    /// Relative L2 and largest difference of H_c, and relative L2 difference of H_min, from the full march with the
+    /// same cavitation model, up to the time reached.
     pub differences: [f64; 3],
-    /// Newton steps per step in time.
+    /// Newton steps per time step.
     pub newton_per_step: f64,
-    /// Steps that were begun and discarded.
+    /// Number of rejected time steps.
     pub rejected: usize,
-    /// Seconds of a step.
+    /// Time per step \[s\].
     pub step_s: f64,
 }
 
@@ -88,7 +90,7 @@ const COLUMNS: [Column<Row>; 10] = [
     ("step_s_median", |row| row.step_s),
 ];
 
-/// The full marches of one law.
+/// Full marches with one cavitation model.
 struct Full {
     lubricant: Lubricant,
     trainings: Vec<Trajectory>,
@@ -118,13 +120,13 @@ impl Row {
 }
 
 impl SchemesInTime {
-    /// The march along a load, which keeps its fields or not.
+    /// Returns the march for a load, with or without stored fields.
     fn march(&self, drive: &Drive, request: (Transient, Keep)) -> Transient {
         let (transient, keep) = request;
         Transient { inputs: drive.inputs.clone(), duration: drive.duration, frame: self.frame, keep, ..transient }
     }
 
-    /// The full marches under a law.
+    /// Computes the full marches with a cavitation model.
     fn full(&self, own: &Transient, grid: &Arc<ReferenceGrid>, setting: &Setting<'_>) -> Result<Full, RunError> {
         let all = |drives: &[Drive], keep: Keep| {
             let march = |drive: &Drive| {
@@ -202,7 +204,7 @@ impl Question for SchemesInTime {
     }
 
     /// Values are named by scheme and load, as in `lspg.triangle.H_c.difference_l2`: `modes`, `rows`, `failed`,
-    /// `reached`, differences, `newton_per_step`, `rejected_steps`, `step_s_median`; of each scheme `failures`.
+    /// `reached`, differences, `newton_per_step`, `rejected_steps`, `step_s_median`. For each scheme also `failures`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for row in rows {
             for (what, value) in COLUMNS {

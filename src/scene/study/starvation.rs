@@ -1,4 +1,4 @@
-//! How a contact starves: its film against that of the film which its surfaces bring.
+//! Starvation study: film thickness of the contact over the inlet film thickness.
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -12,41 +12,41 @@ use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// The contact under supplied films r times as thick as what it draws when flooded, its central film without the
-/// compression of its oil. Its film ruptures so that mass is conserved.
+/// The contact with inlet film thicknesses that are r times the film thickness drawn in by the flooded contact. The
+/// latter is the central film thickness times the density ratio. Cavitation is mass-conserving.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Starvation {
-    /// The ratios r.
+    /// Ratios r.
     pub ratios: Vec<f64>,
 }
 
-/// r, the supply, the film over the flooded one, the meniscus, and Newton steps.
+/// Columns: r, inlet film thickness, film thickness over the flooded one, position of the meniscus, Newton steps.
 const COLUMNS: [&str; 5] = ["r", names::SUPPLY_FILM, "film_ratio", names::X_MENISCUS, names::NEWTON_ITERATIONS];
 
-/// One supply.
+/// Result for one inlet film thickness.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// r.
+    /// Ratio r.
     pub ratio: f64,
-    /// The film supplied \[m\].
+    /// Inlet film thickness \[m\].
     pub supply_m: f64,
-    /// H_c over that of the flooded contact; none where the solve failed.
+    /// H_c over that of the flooded contact; `None` if the solve failed.
     pub film: Option<f64>,
-    /// X of the meniscus on the axis; none where the inlet is full.
+    /// X of the meniscus on the axis; `None` if the inlet is fully flooded.
     pub meniscus: Option<f64>,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub newton_iterations: usize,
-    /// What a reader must know of it.
+    /// Warnings.
     pub warnings: Vec<Warning>,
 }
 
-/// h_c/h_cff = r/(1 + r^γ)^(1/γ): Chevalier, Lubrecht, Cann, Colin and Dalmaz 1998.
+/// Starvation law h_c/h_cff = r/(1 + r^γ)^(1/γ) by Chevalier, Lubrecht, Cann, Colin and Dalmaz 1998.
 fn law(ratio: f64, exponent: f64) -> f64 {
     ratio / (1.0 + ratio.powf(exponent)).powf(1.0 / exponent)
 }
 
-/// The γ by which the law misses the films least, and by how much.
+/// Returns the γ for which the largest deviation of the law is smallest, and this deviation.
 fn fitted(films: &[[f64; 2]]) -> (f64, f64) {
     let miss = |exponent: f64| films.iter().map(|[r, film]| (law(*r, exponent) - film).abs()).fold(0.0, f64::max);
     let exponents = (100..=5000).map(|hundredths| 0.01 * f64::from(hundredths));
@@ -54,7 +54,7 @@ fn fitted(films: &[[f64; 2]]) -> (f64, f64) {
     (best, miss(best))
 }
 
-/// (r, film ratio) of the rows that were solved.
+/// Returns (r, film thickness ratio) of the solved rows.
 fn films(rows: &[&Row]) -> Vec<[f64; 2]> {
     rows.iter().filter_map(|row| Some([row.ratio, row.film?])).collect()
 }
@@ -98,8 +98,8 @@ impl Question for Starvation {
         Ok(())
     }
 
-    /// Values: `failures`, `gamma` and `law_error_max` (of the published law with that γ), and `film_0`, `film_1` … over
-    /// the flooded film, in the order of the ratios.
+    /// Values: `failures`, `gamma` and `law_error_max` (of the published law with this γ), and `film_0`, `film_1` …,
+    /// film thickness over the flooded one, in the order of the ratios.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let of = Some(&Method::Full);
         let failures = self.ratios.len() - films(rows).len().min(self.ratios.len());

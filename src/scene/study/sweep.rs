@@ -1,4 +1,4 @@
-//! The contact along one to three varied quantities.
+//! Sweep: the contact along one to three varied quantities.
 
 use super::path::{self, Path, PathRow};
 use super::question::{
@@ -14,20 +14,20 @@ use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
-/// The contact along one to three varied quantities, the last one fastest; each solve starts from its neighbour, and the
-/// first one of each line afresh.
+/// The contact along one to three varied quantities; the last one varies fastest. Each solve starts from its neighbour,
+/// and the first one of each line starts cold.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sweep {
-    /// What is varied.
+    /// Varied quantities.
     pub over: Vec<Axis>,
-    /// How each point is solved.
+    /// Methods by which each point is solved.
     pub methods: Vec<Method>,
-    /// Whether full solves start cold instead.
+    /// True to start all full solves cold.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub cold: bool,
-    /// Whether reduced methods are compared with full solutions on the model's own grid: then what the grids differ by
-    /// is no part of the error.
+    /// True to compare reduced methods with full solutions on the model's own grid. The error then excludes differences
+    /// between the grids.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub compare_on_model_grid: bool,
 }
@@ -37,7 +37,8 @@ impl Sweep {
         self.over.iter().map(|axis| names::of_quantity(axis.vary)).collect()
     }
 
-    /// Contacts in a row that know of each other: each starts from the one before it, unless all are full and cold.
+    /// Returns the number of consecutive contacts that depend on each other because each starts from the one before it.
+    /// 1 if all methods are full and start cold.
     fn line(&self) -> usize {
         let alone = self.cold && self.methods.iter().all(|method| *method == Method::Full);
         if alone { 1 } else { self.over.last().map_or(1, |axis| axis.values.len()) }
@@ -93,8 +94,8 @@ impl Question for Sweep {
     }
 }
 
-/// A piece is a line of neighbours: the values of the last quantity at one combination of the others, or one contact
-/// where all are full and cold.
+/// Each piece is a line of neighbours: all values of the last quantity at one combination of the others. If all methods
+/// are full and start cold, each piece is one contact.
 impl Divisible for Sweep {
     fn pieces(&self, _: &mut Setting<'_>, round: usize, _: &[&PathRow]) -> Result<Vec<usize>, RunError> {
         let contacts: usize = self.over.iter().map(|axis| axis.values.len()).product();
@@ -123,10 +124,10 @@ impl Divisible for Sweep {
     }
 }
 
-/// Values of the axes, and their contact or why it is refused.
+/// Values of the axes, and their contact or the reason why it is refused.
 pub(super) type Stated = (Vec<f64>, Result<OperatingPoint, RefusedContact>);
 
-/// All combinations of the values of the axes with their contacts, the last one fastest.
+/// Returns all combinations of the values of the axes with their contacts; the last axis varies fastest.
 pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<Stated>, RunError> {
     let mut contacts = Vec::new();
     for values in Steps::combinations(over.iter().map(|axis| &axis.values)) {
@@ -149,7 +150,7 @@ pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<
         }
         let point = stated.operating_point(&experiment.lubricant);
         let mut point = point.map_err(|refusal| RefusedContact::of(&refusal.in_words(Words::Scene)));
-        // Of a radius that may have followed from M and L.
+        // The radius ratio is applied last, because the radius may follow from M and L.
         for (axis, &value) in over.iter().zip(&values).filter(|(axis, _)| axis.vary == Quantity::RadiusRatio) {
             point = point.and_then(|point| {
                 let point = axis.vary.at(&point, value);
@@ -161,7 +162,7 @@ pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<
     Ok(contacts)
 }
 
-/// What a study varies.
+/// Checks the varied quantities of a study.
 pub(super) fn check_axes(over: &[Axis], experiment: &Experiment) -> Checked {
     count("study.over (how many)", over.len(), 1, 3)?;
     over.iter().try_for_each(check_axis)?;

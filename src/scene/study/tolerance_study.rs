@@ -1,7 +1,7 @@
-//! The adaptive plan cut at each tolerance of its ladder (Fig. 3.6): what every rung costs and what it is worth.
+//! Tolerance study: adaptive training evaluated at each tolerance of its ladder (Fig. 3.6).
 //!
-//! One training runs down the whole ladder. What it had solved when a tolerance was met is the training with that
-//! tolerance as its last: the search does not look ahead.
+//! One training covers the whole ladder. The snapshots it had when a tolerance was reached are those of a training that
+//! ends at this tolerance, because the search does not depend on later tolerances.
 
 use super::error_measures::OnlineScheme;
 use super::path::trajectory_points;
@@ -21,17 +21,17 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// An adaptive training cut at each tolerance of its ladder: Fig. 3.6.
+/// Adaptive training evaluated at each tolerance of its ladder (Fig. 3.6).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToleranceStudy {
-    /// The scene of the training; relative paths refer to this scene's folder.
+    /// Scene of the training; relative paths refer to this scene's folder.
     pub training: PathBuf,
-    /// The box of random tests (3.17) and of the trajectory (3.21).
+    /// Range of the random tests (3.17) and of the trajectory (3.21).
     pub range: ParameterSpace,
-    /// Points along the trajectory, each with a full solution.
+    /// Number of points along the trajectory, each with a full solution.
     pub points: usize,
-    /// Random tests of each cut.
+    /// Number of random tests per tolerance.
     pub tests: usize,
     /// Seed of the random tests.
     pub seed: u64,
@@ -40,47 +40,47 @@ pub struct ToleranceStudy {
     pub online: OnlineScheme,
 }
 
-/// What comes of it.
+/// Row of the study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Row {
-    /// What all rungs share.
+    /// Common data of all tolerances.
     Trained {
-        /// What the training says of itself.
+        /// Log of the training.
         log: Vec<String>,
-        /// Full solutions along the trajectory that failed.
+        /// Number of full solutions along the trajectory that failed.
         full_failures: usize,
     },
-    /// One rung of the ladder.
+    /// Result for one tolerance.
     Rung(Rung),
 }
 
-/// The training cut at one tolerance.
+/// Training up to one tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rung {
-    /// The tolerance that was met.
+    /// Tolerance that was reached.
     pub tolerance: f64,
-    /// Full solutions until then.
+    /// Number of full solutions up to this tolerance.
     pub snapshots: usize,
-    /// How large the model is.
+    /// Size of the model.
     pub size: ModelSize,
-    /// Random tests that failed.
+    /// Number of random tests that failed.
     pub failures: usize,
-    /// What was measured along the trajectory.
+    /// Results along the trajectory.
     pub along: Along,
 }
 
-/// What is measured of a model along the trajectory (3.21).
+/// Results of a model along the trajectory (3.21).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Along {
-    /// Contacts with a full solution and no reduced one.
+    /// Number of contacts with a full but no reduced solution.
     pub failures: usize,
-    /// e_z.
+    /// State errors e_z.
     pub states: Vec<f64>,
-    /// e_f^I.
+    /// Residuals e_f^I.
     pub residuals: Vec<f64>,
-    /// |H̃_c/H_c − 1|.
+    /// Errors |H̃_c/H_c − 1|.
     pub films: Vec<f64>,
-    /// Seconds of the reduced solves.
+    /// Times of the reduced solves \[s\].
     pub seconds: Vec<f64>,
 }
 
@@ -89,7 +89,7 @@ const COLUMNS: [Column<Rung>; 14] = [
     ("snapshots", |rung| rung.snapshots as f64),
     ("basis_p", |rung| rung.size.pressure as f64),
     ("basis_delta", |rung| rung.size.deformation as f64),
-    // The dissertation's count of unknowns (p̃, δ̃, H₀); online, modes + 1 of them are iterated on.
+    // Unknowns as counted in the dissertation (p̃, δ̃, H₀). The online solver iterates on modes + 1 of them.
     ("degrees_of_freedom", |rung| (rung.size.pressure + rung.size.deformation + 1) as f64),
     ("sampled_rows", |rung| rung.size.rows as f64),
     ("failures", |rung| rung.failures as f64),
@@ -132,7 +132,7 @@ impl Question for ToleranceStudy {
         let rungs = state.windows[0].search.rungs.clone();
         for (tolerance, solutions) in tolerances.iter().zip(rungs) {
             let mut cut = state.clone();
-            // The cut models' errors are measured here, against full solutions.
+            // The study measures errors itself, so that the training needs no validation.
             cut.spec.evidence = 0;
             cut.windows[0].solved.truncate(solutions);
             let model = Arc::new(cut.model(observer)?);
@@ -164,8 +164,8 @@ impl Question for ToleranceStudy {
         Ok(())
     }
 
-    /// Values are named `1e1.snapshots`, with the tolerance of the rung. e_z and e_f^I are Euclidean, means along the
-    /// trajectory (3.21).
+    /// Values are named `1e1.snapshots`, with the tolerance. e_z and e_f^I are means along the trajectory (3.21), in
+    /// the Euclidean norm.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let rungs = only!(rows, Row::Rung);
         for rung in &rungs {

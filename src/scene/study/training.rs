@@ -1,4 +1,4 @@
-//! Training a reduced model and saying what came of it.
+//! Training of a reduced model as a study.
 
 use super::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
@@ -11,16 +11,16 @@ use crate::solver::training::TrainingSpec;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The model.
+/// Trained model.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Row {
-    /// What was trained.
+    /// The model.
     pub model: Arc<ReducedModel>,
-    /// Seconds that it took; next to none where another scene of the run has trained it.
+    /// Time of the training \[s\]; almost zero if another scene of the run has trained the same model.
     pub wall_s: f64,
 }
 
-/// What is said of a window.
+/// Columns that describe a local model.
 const WINDOW: [Column<Window>; 7] = [
     ("m_from", |window| window.m.0),
     ("m_to", |window| window.m.1),
@@ -31,7 +31,7 @@ const WINDOW: [Column<Window>; 7] = [
     ("sampled_rows", |window| window.sampled_rows.len() as f64),
 ];
 
-/// A training of films that rupture and warm themselves as a scene says.
+/// Returns the training with cavitation model and heat of the scene.
 fn of_scene(spec: &TrainingSpec, experiment: &Experiment) -> TrainingSpec {
     let Lubricant { cavitation, heat, .. } = experiment.lubricant;
     spec.clone().under(cavitation).heated(heat)
@@ -62,7 +62,7 @@ impl Question for TrainingSpec {
         Ok(())
     }
 
-    /// Values: `windows`, `snapshots`, `basis_p`, `basis_delta`, `sampled_rows` (the largest of all windows), and
+    /// Values: `windows`, `snapshots`, `basis_p`, `basis_delta`, `sampled_rows` (the largest of all local models), and
     /// `training_s`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         for Row { model, wall_s } in rows {

@@ -1,4 +1,4 @@
-//! The test trajectory (3.21) through a box.
+//! Study of the test trajectory (3.21) through a range.
 
 use super::path::{self, Path, PathRow, trajectory_points};
 use super::question::{Chart, ChartAxis, Checked, Experiment, Findings, Question, RunError, Setting, Table, Tell};
@@ -12,11 +12,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trajectory {
-    /// The range, whose first four axes swing; contacts that it excludes are left out.
+    /// The range. Its first four axes vary; contacts that it excludes are left out.
     pub range: ParameterSpace,
-    /// Equidistant values of c, both ends counted.
+    /// Number of equidistant values of c, including both ends.
     pub points: usize,
-    /// How each point is solved.
+    /// Methods by which each point is solved.
     pub methods: Vec<Method>,
 }
 

@@ -1,4 +1,5 @@
-//! Pressure and film of one contact as its load number grows, from rigid bodies to the dry contact: Fig. 2.2.
+//! Transition study: pressure and film thickness of a contact for increasing load number, from rigid bodies to the dry
+//! contact (Fig. 2.2).
 
 use super::question::{
     Chart, ChartAxis, Checked, Experiment, Findings, Marks, Question, RunError, Setting, Table, Tell,
@@ -12,31 +13,31 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// Pressure and film along the entrainment axis at several load numbers, in the default realisation.
+/// Pressure and film thickness along the entrainment axis for several load numbers, in the default realisation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transition {
-    /// The load numbers.
+    /// Load numbers M.
     pub m: Vec<f64>,
-    /// The lubricant number.
+    /// Lubricant number L.
     pub l: f64,
 }
 
-/// One contact.
+/// Result for one load number.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Its load number.
+    /// Load number M.
     pub m: f64,
-    /// X, P and H; none where the solve failed.
+    /// X, P and H; empty if the solve failed.
     pub profile: Vec<(f64, f64, f64)>,
-    /// Deformation at X = 0 less that at X = −1, over the gap of ½ between them: 0 of a rigid body, 1 of one that is
-    /// flat.
+    /// Flattening: deformation at X = 0 minus that at X = −1, over the undeformed gap of ½ between them. 0 for a rigid
+    /// body, 1 for a flat one.
     pub flattening: f64,
-    /// What a reader must know of it.
+    /// Warnings.
     pub warnings: Vec<Warning>,
 }
 
-/// Where profiles are drawn.
+/// Range of X shown in charts.
 const SHOWN: (f64, f64) = (-3.0, 2.0);
 
 impl Question for Transition {
@@ -63,7 +64,7 @@ impl Question for Transition {
         Ok(())
     }
 
-    /// Values: `failures`, and for each load number, from 0 on, `P_max_0` … and `flattening_0` ….
+    /// Values: `failures`, and for each load number, numbered from 0, `P_max_0` … and `flattening_0` ….
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let of = Some(&Method::Full);
         let failures = rows.iter().filter(|row| row.profile.is_empty()).count();
@@ -100,7 +101,7 @@ impl Question for Transition {
     }
 }
 
-/// How much of the gap of the undeformed bodies between X = −1 and X = 0 the deformation takes away.
+/// Returns the part of the gap between X = −1 and X = 0 of the undeformed bodies that the deformation removes.
 fn flattening(profile: &[(f64, f64, f64)]) -> f64 {
     let at = |wanted: f64| {
         let near = profile.iter().min_by(|a, b| (a.0 - wanted).abs().total_cmp(&(b.0 - wanted).abs()));

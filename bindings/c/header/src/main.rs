@@ -1,4 +1,4 @@
-//! Writes `include/ehl_contact.h`; with `--check` only says whether it is that of the library.
+//! Writes `include/ehl_contact.h`. With `--check`, only checks that it is up to date.
 
 use std::error::Error;
 use std::path::Path;

@@ -5,11 +5,11 @@
 >>> result = ehl.solve(contact, method="reduced")
 >>> result.h_c_m, result.pressure.max()
 
-SI units throughout, or texts with a unit; X, P and H are dimensionless as in the dissertation (X = x/a, P = p/p_H,
-H = h R/a**2). What makes no sense is refused by an :class:`EhlError` in one sentence; a march that cannot take a step raises
-:class:`MarchStopped` with what was reached. Work that takes long runs without Python's lock, calls
-``progress(stage, done, total)``, and is stopped by Ctrl-C. Contacts, models and results can be pickled and compared:
-``pool.map(ehl.solve, contacts)`` works in processes that are forked or spawned.
+Numbers are in SI units; texts may have a unit. X, P and H are dimensionless as in the dissertation (X = x/a, P = p/p_H,
+H = h R/a**2). An invalid request raises :class:`EhlError` with one sentence. If a step of a march fails,
+:class:`MarchStopped` is raised with the rows computed so far. Long computations run without Python's global lock, call
+``progress(stage, done, total)``, and are stopped by Ctrl-C. Contacts, models and results can be pickled and compared:
+``pool.map(ehl.solve, contacts)`` works with forked and spawned processes.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ __all__ = [
 ]
 
 if hasattr(os, "register_at_fork"):
-    # A forked process has none of the other threads: they must not be in the middle of something.
+    # A forked process has no other threads. None of them must be changing shared data during the fork.
     os.register_at_fork(
         before=lambda: _native._hold(True),
         after_in_parent=lambda: _native._hold(False),
@@ -48,12 +48,12 @@ if hasattr(os, "register_at_fork"):
 
 
 def sweep(contact, *varied, method=None, model=None, progress=None):
-    """A contact with one or two options varied, each solved from its neighbour, as ``ehl-explorer sweep`` does.
+    """Solves a contact with one or two options varied, each from its neighbour, as ``ehl-explorer sweep`` does.
 
     Each of ``varied`` is a text as on the command line (``"moes-m=10:160:5:log"``) or a pair of a name and its values
-    (``("moes_m", np.geomspace(10, 160, 5))``); the last one changes fastest. Returns a structured array, a row for each
-    contact: varied options, the contact, its result (NaN where a solve did not converge or was refused), and the texts
-    ``status``, ``reason`` and ``warning`` as :func:`solve_many` has them. If all contacts are refused, so is the sweep.
+    (``("moes_m", np.geomspace(10, 160, 5))``); the last one varies fastest. Returns a structured array with one row per
+    contact: varied options, the contact, its result (NaN if the solve did not converge or was refused), and the texts
+    ``status``, ``reason`` and ``warning`` as in :func:`solve_many`. If all contacts are refused, the sweep is refused.
     """
     axes = [axis if isinstance(axis, str) else (axis[0], [float(value) for value in axis[1]]) for axis in varied]
     if not axes:
@@ -64,11 +64,12 @@ def sweep(contact, *varied, method=None, model=None, progress=None):
 def solve_many(contact, *, method=None, model=None, progress=None, **options):
     """Solves a contact with some of its options varied, on all cores: ``solve_many(contact, load=loads, speed=speeds)``.
 
-    Options are those of :class:`Contact` that are numbers; arrays are broadcast against each other. Each contact is solved
-    afresh, so that neither order nor cores matter. Returns a structured array of the broadcast shape: the contact and
-    its result by the names of :func:`sweep`'s columns; ``converged`` and ``reduced.trained`` are 1 or 0, values NaN where
-    a solve did not converge or was refused, ``warning`` is a text. ``status`` is ``"converged"``, ``"not converged"`` or
-    ``"refused"``, and ``reason`` says why; a contact that makes no sense refuses its own row only.
+    Options are the numeric options of :class:`Contact`; arrays are broadcast against each other. Each contact is solved
+    from a cold start, so that results do not depend on order or cores. Returns a structured array of the broadcast
+    shape: the contact and its result by the names of :func:`sweep`'s columns. ``converged`` and ``reduced.trained`` are 1
+    or 0; values are NaN if a solve did not converge or was refused; ``warning`` is a text. ``status`` is
+    ``"converged"``, ``"not converged"`` or ``"refused"``, and ``reason`` explains the latter two. An invalid contact is
+    refused in its own row only.
     """
     if not options:
         raise EhlError("nothing is varied; write solve_many(contact, load=[...])")
@@ -78,11 +79,10 @@ def solve_many(contact, *, method=None, model=None, progress=None, **options):
 
 
 class Outcome:
-    """What a scene gave: ``passed``, ``values`` by name, ``expectations``, ``warnings``, and ``tables``.
+    """Outcome of a scene: ``passed``, ``value`` by name, ``expectations``, ``warnings``, and ``tables``.
 
-    ``tables`` are structured arrays by name; what must be said of a row is their column ``warning``, and ``labels`` are
-    the names of rows, where they have any.
-    ``object`` is what ``run --json`` prints.
+    ``tables`` are structured arrays by name. Their column ``warning`` contains warnings about single rows. ``labels``
+    are the names of rows, if they have names. ``object`` is the object printed by ``run --json``.
     """
 
     def __init__(self, answer: Mapping[str, Any], tables: Mapping[str, Any]):
@@ -96,7 +96,7 @@ class Outcome:
         self.labels = {name: labels for name, (_, labels) in tables.items() if labels}
 
     def value(self, name: str, method: Optional[str] = None) -> float:
-        """The value of a name: of the method where one is given, else the first of that name."""
+        """Returns the value with this name: of the given method, or else the first one with the name."""
         for value in self.object["values"]:
             if value["name"] == name and method in (None, value.get("method")):
                 return value["value"]
@@ -111,8 +111,8 @@ def run(
     model: Union[Model, str, "os.PathLike[str]", None] = None,
     progress: Optional[Callable[[str, int, int], object]] = None,
 ) -> Outcome:
-    """Runs a scene, given by its text or its file, and holds it against its expectations.
+    """Runs a scene, given by its text or its file, and checks its expectations.
 
-    ``model`` stands in place of those of the program. Paths in a scene refer to its file's folder.
+    ``model`` replaces the embedded models. Paths in a scene are relative to its file's folder.
     """
     return Outcome(*_native.run(scene, model, progress))

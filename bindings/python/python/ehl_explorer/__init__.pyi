@@ -1,4 +1,4 @@
-"""Type stubs of ehl_explorer; what everything means stands in the documentation of the module itself."""
+"""Type stubs of ehl_explorer. The documentation is in the module itself."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence

@@ -3,12 +3,12 @@
     ehl-explorer campaign plan CAMPAIGN.ron --out DIR
     python -m ehl_explorer.campaign DIR --scheduler tcp://ADDRESS:8786
 
-Every shard of the campaign becomes a task, which calls the program on a worker and sends the bytes of the finished
-shard back: no disk is shared. The program must be the same file everywhere; a worker with another build says so. What
-has arrived is kept in the folder at once, so that the same command goes on where a former one ended, however it ended.
-Rounds (full solutions to compare with, or those that an adaptive training decides on) follow by themselves.
+Every shard of the campaign becomes a task. It calls the program on a worker and sends the bytes of the finished shard
+back, so that no shared disk is needed. The program must be the same file everywhere; a worker with another build reports
+an error. Finished shards are written to the folder immediately, so that the same command continues an interrupted run.
+Further rounds (full solutions for comparison, or those that an adaptive training selects) follow automatically.
 
-Needs the package ``distributed``; of this package nothing has to be installed on the workers.
+Requires the package ``distributed``. This package need not be installed on the workers.
 """
 
 import argparse
@@ -24,18 +24,18 @@ from pathlib import Path
 
 __all__ = ["CampaignError", "run"]
 
-#: How often a shard is tried, beyond the times that its worker was lost.
+#: Number of attempts per shard, not counting those whose worker was lost.
 ATTEMPTS = 3
-#: Seconds without a scheduler after which it is given up.
+#: Time without a scheduler after which the run stops [s].
 PATIENCE_S = 15.0
 
 
 class CampaignError(RuntimeError):
-    """Why a campaign does not go on, in a sentence. What is finished stays."""
+    """Reason why a campaign stopped, in one sentence. Finished shards are kept."""
 
 
 def _call(program, *arguments):
-    """Output of a command of the program; raises :class:`CampaignError` with its own sentence."""
+    """Returns the output of a command of the program; raises :class:`CampaignError` with its message."""
     command = [program, "campaign", *map(str, arguments)]
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -63,7 +63,7 @@ def _replace(path, content):
 
 
 def _shard(program, files, number):
-    """Computes a shard in a folder of its own, on whatever worker, and returns the bytes of its file."""
+    """Computes a shard on a worker, in a temporary folder, and returns the bytes of its file."""
     with tempfile.TemporaryDirectory(prefix="ehl-campaign-") as folder:
         for name, content in files.items():
             _replace(Path(folder) / name, content)
@@ -73,7 +73,7 @@ def _shard(program, files, number):
 
 
 def _needed(folder):
-    """What a shard is computed from, by its name in the folder."""
+    """Returns the files that a shard is computed from, by their names in the folder."""
     plain = [path for path in folder.iterdir() if path.is_file() and path.suffix in (".ron", ".rom", ".csv")]
     rounds = sorted((folder / "rounds").glob("*.ron"))
     return {str(path.relative_to(folder)): path.read_bytes() for path in plain + rounds}
@@ -84,7 +84,7 @@ def _status(program, folder):
 
 
 def _compute(folder, client, program, worker_program, progress):
-    """Computes the open shards of the present round."""
+    """Computes the open shards of the current round."""
     status = _status(program, folder)
     total, there = status["shards"], status["done"]
     failures = dict.fromkeys(status["open"], 0)
@@ -115,21 +115,21 @@ def _compute(folder, client, program, worker_program, progress):
                 if failures[number] >= ATTEMPTS:
                     reason = future.exception()
                     raise CampaignError(f"shard {number} was given up after {ATTEMPTS} attempts: {reason}")
-            # Neither finished nor failed: it was lost with its worker or scheduler, which is no failure of its own.
+            # Neither finished nor failed: it was lost with its worker or scheduler. This is not counted as a failure.
             waiting.append(number)
         if not ended:
             time.sleep(0.05)
 
 
 def _submit(client, program, folder, numbers):
-    """Tasks for some shards, by their futures."""
-    # Sent again with every attempt: the workers that held it may be gone.
+    """Submits tasks for some shards, and returns the shard numbers by futures."""
+    # The files are sent again with every attempt, because the workers that had them may be lost.
     files = client.scatter(_needed(folder), broadcast=True)
     return {client.submit(_shard, program, files, number, pure=False): number for number in numbers}
 
 
 def _content(future):
-    """The bytes of a finished shard; none where they were lost on the way."""
+    """Returns the bytes of a finished shard; ``None`` if they were lost."""
     from distributed import CancelledError
 
     try:
@@ -146,20 +146,20 @@ def _keep(folder, number, content):
 
 
 def run(folder, client, program=None, worker_program=None, progress=lambda done, total: None):
-    """Takes a planned campaign through a Dask cluster, and merges it.
+    """Computes a planned campaign on a Dask cluster, and merges it.
 
     Parameters
     ----------
     folder : path
-        The campaign, as ``ehl-explorer campaign plan`` made it.
+        Folder of the campaign, made by ``ehl-explorer campaign plan``.
     client : distributed.Client
         The cluster.
     program : str, optional
-        ``ehl-explorer`` here; by default the one of the environment variable ``EHL_EXPLORER``, or on the path.
+        ``ehl-explorer`` on this machine; by default that of the environment variable ``EHL_EXPLORER``, or on the path.
     worker_program : str, optional
-        The same on the workers; by default as here.
+        ``ehl-explorer`` on the workers; by default as on this machine.
     progress : callable, optional
-        Told ``(done, total)`` shards of the rounds so far.
+        Called with ``(done, total)`` shards of the rounds so far.
 
     Returns
     -------
@@ -169,12 +169,12 @@ def run(folder, client, program=None, worker_program=None, progress=lambda done,
     Raises
     ------
     CampaignError
-        With a sentence; what is finished stays in the folder.
+        With a sentence. Finished shards stay in the folder.
     """
     import cloudpickle
 
     if __name__ != "__main__":
-        # Workers need not have this package.
+        # Workers do not need this package.
         cloudpickle.register_pickle_by_value(sys.modules[__name__])
     folder = Path(folder).resolve()
     program = program or os.environ.get("EHL_EXPLORER", "ehl-explorer")
@@ -189,12 +189,12 @@ def run(folder, client, program=None, worker_program=None, progress=lambda done,
 
 
 def main(arguments=None):
-    """The command; returns its exit code: 0 done, 1 an expectation fell short, 2 it does not go on."""
+    """Runs the command. Returns its exit code: 0 done, 1 an expectation was not met, 2 the campaign stopped."""
     parser = argparse.ArgumentParser(prog="python -m ehl_explorer.campaign", description=__doc__.splitlines()[0])
-    parser.add_argument("folder", metavar="DIR", help="the campaign, as `ehl-explorer campaign plan` made it")
+    parser.add_argument("folder", metavar="DIR", help="folder of the campaign, made by `ehl-explorer campaign plan`")
     parser.add_argument("--scheduler", required=True, metavar="ADDRESS", help="the Dask scheduler, tcp://HOST:PORT")
-    parser.add_argument("--program", help="ehl-explorer here (default: EHL_EXPLORER, or on the path)")
-    parser.add_argument("--worker-program", help="ehl-explorer on the workers (default: as here)")
+    parser.add_argument("--program", help="ehl-explorer on this machine (default: EHL_EXPLORER, or on the path)")
+    parser.add_argument("--worker-program", help="ehl-explorer on the workers (default: as on this machine)")
     options = parser.parse_args(arguments)
     try:
         from distributed import CancelledError, Client
@@ -202,7 +202,7 @@ def main(arguments=None):
         print("the package distributed is missing: pip install distributed", file=sys.stderr)
         return 2
 
-    # What the cluster says of its own trouble is said by one sentence below.
+    # Log messages of the cluster are hidden; errors are reported in one sentence below.
     for name in ("distributed", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
 

@@ -1,4 +1,4 @@
-//! The rows of a random test: tests, what they are compared with, and how they compare.
+//! Rows of a random validation: tests, full solutions, and their comparison.
 
 use crate::scene::{Method, Table, names};
 use crate::solver::full::heat::Rises;
@@ -8,54 +8,55 @@ use crate::solver::reduced::ErrorEstimate;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// What comes of a random test.
+/// Row of a random validation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[expect(clippy::large_enum_variant, reason = "most rows are tests")]
 pub enum Row {
-    /// A test; they come in the order they were drawn in.
+    /// A test. Tests arrive in the order in which they are drawn.
     Test(Test),
-    /// What the test with an index is compared with; none where the full solver failed. In any order, after all tests.
+    /// Full solution for the test with this index; `None` if the full solver failed. These rows arrive in any order,
+    /// after all tests.
     Truth(usize, Option<Film>),
 }
 
 /// One test.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Test {
-    /// Where.
+    /// The contact.
     pub point: OperatingPoint,
-    /// What the method found; none where it failed.
+    /// Result of the method; `None` if it failed.
     pub film: Option<Film>,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub newton_iterations: usize,
-    /// Seconds of the solve alone.
+    /// Time of the solve alone \[s\].
     pub wall_s: f64,
-    /// Whether the model was trained for the point; `None` of a full solution.
+    /// True if the point is inside the trained range; `None` for a full solution.
     pub trained: Option<bool>,
-    /// What a reader must know of it.
+    /// Warnings.
     pub warnings: Vec<Warning>,
-    /// Calibrated bounds on the errors, where the model has them.
+    /// Calibrated error bounds, if the model has them.
     pub estimate: Option<ErrorEstimate>,
 }
 
-/// What tests are judged by.
+/// Compared values of a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Film {
-    /// Central film.
+    /// Central film thickness H_c.
     pub h_c: f64,
-    /// Smallest film.
+    /// Minimum film thickness H_min.
     pub h_min: f64,
-    /// Traction coefficient; not a number where it has no meaning.
+    /// Traction coefficient; NaN if it is not meaningful.
     pub traction: f64,
-    /// Rises of temperature at X = 0; none without heat.
+    /// Temperature rises at X = 0; `None` without heat.
     pub rises: Option<Rises>,
-    /// What its grid costs H_c; none of a reduced one.
+    /// Discretisation error of H_c; `None` for a reduced solution.
     pub grid_cost: Option<GridCost>,
 }
 
-/// What a film is compared by.
+/// Names of the compared values.
 pub(super) const COMPARED: [&str; 4] = [names::H_C, names::H_MIN, names::TRACTION, "mid_film_rise"];
 
-/// A column of the contact and the method, and one of the full solution.
+/// Column of the contact and the method, and column of the full solution.
 type Own = (&'static str, fn(&Test) -> f64);
 type Full = (&'static str, fn(&Film) -> f64);
 
@@ -80,7 +81,7 @@ const OWN: [Own; 18] = [
     (names::WALL_S, |test| test.wall_s),
 ];
 
-/// Columns of full solutions, behind `full.`.
+/// Columns of full solutions, prefixed by `full.`.
 const FULL: [Full; 4] = [
     (names::H_C, |full| full.h_c),
     (names::H_MIN, |full| full.h_min),
@@ -92,7 +93,7 @@ impl Film {
     const NONE: Self = Self { h_c: f64::NAN, h_min: f64::NAN, traction: f64::NAN, rises: None, grid_cost: None };
 
     pub(super) fn of_full(full: &Solution) -> Self {
-        // Without a meaning there is nothing to compare: no law was measured above what lubricants endure.
+        // Excluded from comparison: at these temperatures the laws of the lubricant are not valid.
         if full.heat.as_ref().is_some_and(|heat| heat.too_hot().is_some()) {
             return Self::NONE;
         }
@@ -105,8 +106,8 @@ impl Film {
         self.rises.map_or(f64::NAN, |rises| rises.mid_film_k)
     }
 
-    /// Relative errors of H_c, H_min, traction and, of contacts with heat, the rise at mid-film against a full solution;
-    /// none where they are not known. Of a rise of less than a kelvin it is the error in kelvin.
+    /// Returns the relative errors of H_c, H_min, traction and (thermal contacts) temperature rise at mid-film against
+    /// a full solution; `None` for missing values. For a rise below 1 K, the error is in kelvin.
     pub fn errors(&self, full: &Self) -> [Option<f64>; 4] {
         let [h_c, h_min, traction] = [(self.h_c, full.h_c), (self.h_min, full.h_min), (self.traction, full.traction)]
             .map(|(own, full)| Some((own / full - 1.0).abs()).filter(|error| error.is_finite()));
@@ -116,22 +117,22 @@ impl Film {
 }
 
 impl Test {
-    /// Calibrated bounds on the errors of H_c, H_min, traction and the rise at mid-film.
+    /// Returns the calibrated error bounds of H_c, H_min, traction and temperature rise at mid-film.
     pub fn bounds(&self) -> [Option<f64>; 4] {
         let bounds = |e: ErrorEstimate| [Some(e.h_c), Some(e.h_min), e.traction, e.rise].map(|e| e.map(|e| e.bound));
         self.estimate.map_or([None; 4], bounds)
     }
 }
 
-/// A test with what is known of its truth: nothing yet, or a full solution that failed or not.
+/// Test with its comparison: `None` if not compared yet, `Some(None)` if the full solution failed.
 pub type Tested = (Test, Option<Option<Film>>);
 
-/// Errors of H_c, H_min, traction and the rise at mid-film, where a truth is known.
+/// Returns the errors of H_c, H_min, traction and temperature rise at mid-film, if there is a full solution.
 pub fn errors((test, truth): &Tested) -> [Option<f64>; 4] {
     test.film.zip(truth.flatten()).map_or([None; 4], |(film, full)| film.errors(&full))
 }
 
-/// Adds a row to the tests that came before it.
+/// Adds a row to the tests received before.
 pub fn add(tests: &mut Vec<Tested>, row: &Row) {
     match row {
         Row::Test(test) => tests.push((test.clone(), None)),
@@ -143,14 +144,14 @@ pub fn add(tests: &mut Vec<Tested>, row: &Row) {
     }
 }
 
-/// All tests so far.
+/// Collects the tests from the rows so far.
 pub fn tests<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Vec<Tested> {
     let mut tests = Vec::new();
     rows.into_iter().for_each(|row| add(&mut tests, row));
     tests
 }
 
-/// Tests as a table.
+/// Returns the tests as a table.
 pub(super) fn table(tests: &[Tested]) -> Table {
     let own = OWN.iter().map(|(name, _)| (*name).to_owned());
     let columns = own.chain(FULL.iter().map(|(name, _)| names::by(Method::Full.name(), name))).collect();

@@ -1,4 +1,4 @@
-//! What marches in time cost by each method, beside what was published of them: Tables 4.4, 4.6, 4.7 and 4.9.
+//! Cost of transient marches by each method, next to published values (Tables 4.4, 4.6, 4.7 and 4.9).
 
 use super::data::TransientStudy;
 use super::march::{By, March};
@@ -23,8 +23,8 @@ const COLUMNS: [&str; 13] = [
     "published times faster",
 ];
 
-/// The table `costs` of some marches: medians of their steps, whole marches, and how many times faster than the full
-/// one they are; the relative L2 difference of H_c from it.
+/// Returns the table `costs` of some marches: median time per step, total time, speed-up relative to the full march,
+/// and relative L2 difference of H_c from it.
 pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model]) -> Table {
     let mut table = Table::new("costs", &COLUMNS);
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);

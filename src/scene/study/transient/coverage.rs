@@ -1,4 +1,4 @@
-//! Which contacts transient runs cover, in the words of scenes and of interfaces that state a contact.
+//! Contacts that transient runs support, with refusals in the words of scenes and of other interfaces.
 
 use crate::scene::answer::Request;
 use crate::scene::check::{Checked, refuse};
@@ -8,10 +8,10 @@ use crate::scene::grid::Grid;
 use crate::solver::full::transient::Unsupported;
 use crate::solver::limits::Refused;
 
-/// Said of grids that belong to a steady model.
+/// Reason why a full transient run refuses the grid of a steady model.
 const OF_A_MODEL: &str = "a full transient run has a grid of its own";
 
-/// Refuses a scene by the field that transient runs do not cover.
+/// Returns the refusal of a scene, with the unsupported field.
 fn refused(why: Unsupported) -> Refused {
     let (field, wanted) = match why {
         Unsupported::PointContact => ("contact", "must be Line"),
@@ -22,12 +22,12 @@ fn refused(why: Unsupported) -> Refused {
     refuse(field, format!("{wanted}: {why}"))
 }
 
-/// Refuses a contact that transient models do not cover, naming the field of the scene.
+/// Refuses a contact that transient reduced models do not support, and names the field of the scene.
 pub(super) fn check_models(experiment: &Experiment) -> Checked {
     Unsupported::check_model(&experiment.lubricant).map_err(refused)
 }
 
-/// Refuses a contact that full transient runs do not cover, naming the field of the scene.
+/// Refuses a contact that full transient runs do not support, and names the field of the scene.
 pub(in crate::scene::study) fn check(experiment: &Experiment) -> Checked {
     Unsupported::check(experiment.contact, &experiment.lubricant).map_err(refused)?;
     if experiment.grid == Grid::Model {
@@ -36,10 +36,10 @@ pub(in crate::scene::study) fn check(experiment: &Experiment) -> Checked {
     Ok(())
 }
 
-/// Refuses a stated contact that transient runs do not cover: full ones, or those by a reduced model.
+/// Refuses a request that transient runs do not support, full ones or those by a reduced model.
 ///
 /// # Errors
-/// With the field and what it must be.
+/// With the field, and what is accepted.
 pub fn check_request(request: &Request) -> Result<(), Refusal> {
     let by_model = request.method.model().is_some();
     let of_model = || if by_model { Unsupported::check_model(&request.lubricant) } else { Ok(()) };

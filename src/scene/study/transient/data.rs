@@ -1,4 +1,4 @@
-//! A contact in time as part of a scene: what drives it, in which frames and by which models it is followed.
+//! Data of a transient study in a scene: inputs, frames, and the models to compare.
 
 use super::coverage;
 use super::marches::training_contact;
@@ -15,115 +15,116 @@ use crate::solver::training::{LocalBases, TrajectoryTraining};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// What is asked of a contact in time.
+/// Transient study of a contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TransientStudy {
-    /// R̄, ū and w̄ as functions of T; the scene's operating point is the reference.
+    /// R̄, ū and w̄ as functions of T, relative to the scene's operating point.
     #[serde(default, skip_serializing_if = "is_default")]
     pub inputs: Inputs,
-    /// A CSV file whose columns take the place of the inputs of their names; relative paths refer to this scene's folder.
+    /// CSV file whose columns replace the inputs of the same names; relative paths refer to this scene's folder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sampled: Option<PathBuf>,
-    /// The last T, in units of a_ref/u_ref.
+    /// End time T, in units of a_ref/u_ref.
     pub duration: f64,
-    /// Further inputs, each followed by the same models beside the full system.
+    /// Further inputs, each computed by the same models and by the full solver.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further: Vec<Drive>,
-    /// Lengths of the steps of all marches.
+    /// Time step of all marches.
     pub time_step: TimeStep,
-    /// Frames, each marched on its own; the others are compared with the first.
+    /// Frames of reference, each with its own march. The others are compared with the first.
     #[serde(default = "fixed", skip_serializing_if = "is_fixed")]
     pub frames: Vec<Frame>,
-    /// Window of T over which means, amplitudes and differences are taken; the whole duration where there is none.
+    /// Interval of T for means, amplitudes and differences; the whole duration if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub window: Option<(f64, f64)>,
-    /// Inputs that the models are trained by; the study's own where there are none.
+    /// Inputs for training the models; the study's own inputs if empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub trainings: Vec<Drive>,
-    /// Reference loads \[N/m\] at which they are trained; the scene's own where there are none.
+    /// Reference loads \[N/m\] for training; the scene's own load if empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub training_loads: Vec<f64>,
-    /// Reference contacts (M, L) at which they are trained, with the radius and the oil of the scene's own; that one where
-    /// there are none.
+    /// Reference contacts (M, L) for training, with radius and lubricant of the scene's contact; the scene's contact if
+    /// empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub training_contacts: Vec<(f64, f64)>,
-    /// A reduced model of each frame beside the full system.
+    /// Reduced model of each frame, in addition to the full solver.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedTransient>,
-    /// Linearised models in the fixed frame beside the full system.
+    /// Linearised models in the fixed frame, in addition to the full solver.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub linearised: Option<LinearisedTransient>,
-    /// Two places in units of a_ref, between which the balance of mass is drawn up.
+    /// Two positions in units of a_ref between which the mass balance is evaluated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_between: Option<(f64, f64)>,
-    /// What was published of the marches.
+    /// Published data of the marches.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub published: Vec<PublishedMarch>,
 }
 
-/// Inputs over a time.
+/// Inputs over an interval of time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drive {
-    /// The name results go by; trainings need none.
+    /// Name in results; trainings need none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
     /// R̄, ū and w̄ as functions of T.
     pub inputs: Inputs,
-    /// The last T.
+    /// End time T.
     pub duration: f64,
 }
 
-/// A reduced model of a contact in time: trained on the spot or saved before, then marched along all inputs.
+/// Transient reduced model: trained in the study or loaded, then marched along all inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReducedTransient {
-    /// One that was saved, or that another scene trains, in place of one that is trained on the spot.
+    /// Saved model, or model that another scene trains. If absent, the study trains one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelSource>,
     /// Loss of information of the bases, (2.90).
     #[serde(default = "millionth", skip_serializing_if = "is_millionth")]
     pub loss: f64,
-    /// Sampled rows per pressure mode.
+    /// Number of sampled equations per pressure mode.
     #[serde(default = "two", skip_serializing_if = "is_two")]
     pub rows_per_mode: f64,
     /// Seed of the cubature.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub seed: u64,
-    /// Local bases along the trainings in place of one that serves all states.
+    /// Local bases along the trainings. If absent, one basis covers all states.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub local: Option<LocalBases>,
 }
 
-/// Trajectory-piecewise-linear models of a contact in time, (4.27): trained on the spot, then marched along all inputs.
+/// Trajectory-piecewise-linear models of a transient contact, (4.27): trained in the study, then marched along all
+/// inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LinearisedTransient {
-    /// Pressure modes.
+    /// Number of pressure modes.
     pub modes: usize,
-    /// The rule by which moments become operating points.
+    /// Rule that selects operating points among the moments of the training.
     pub selection: Selection,
-    /// Further rules or tolerances, each a model of its own.
+    /// Further rules or tolerances, each for a separate model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further: Vec<Selection>,
-    /// Number of operating points wanted; the rules' tolerances then follow from it.
+    /// Requested number of operating points. If given, it determines the tolerances of the rules.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<usize>,
-    /// Weightings, each a march of its own.
+    /// Weightings, each with its own march.
     #[serde(default = "dual_taylor", skip_serializing_if = "is_dual_taylor")]
     pub weightings: Vec<Weighting>,
 }
 
 impl Default for ReducedTransient {
-    /// A loss of 1e-6, two rows per mode.
+    /// Returns a loss of 1e-6 and two equations per mode.
     fn default() -> Self {
         Self { model: None, loss: millionth(), rows_per_mode: two(), seed: one(), local: None }
     }
 }
 
 impl Default for LinearisedTransient {
-    /// 100 modes, steps missed by 0.001 (4.30), dual Taylor weights.
+    /// Returns 100 modes, a step-error tolerance of 0.001 (4.30), and dual Taylor weights.
     fn default() -> Self {
         let selection = Selection::Step { tolerance: 1e-3 };
         Self { modes: 100, selection, further: Vec::new(), points: None, weightings: dual_taylor() }
@@ -171,24 +172,24 @@ fn is_fixed(frames: &Vec<Frame>) -> bool {
 }
 
 impl Drive {
-    /// What a result of it is called: a frame's or a model's name, behind its own where it has one.
+    /// Returns the name of a result: the name of a frame or model, preceded by the name of the inputs if they have one.
     pub fn result(&self, name: &str) -> String {
         if self.name.is_empty() { name.to_owned() } else { format!("{}.{name}", self.name) }
     }
 }
 
 impl ReducedTransient {
-    /// The model of the program.
+    /// Returns the embedded model.
     pub fn embedded() -> Self {
         Self { model: Some(ModelSource::Embedded), ..Self::default() }
     }
 
-    /// Whether it is the model of the program.
+    /// Returns true for the embedded model.
     pub fn is_embedded(&self) -> bool {
         self.model == Some(ModelSource::Embedded)
     }
 
-    /// What a study trains by it; none where it has a model already.
+    /// Returns the training of the model; `None` if a saved model is given.
     pub fn training(&self) -> Option<TrajectoryTraining> {
         let &Self { ref model, loss, rows_per_mode, seed, local } = self;
         model.is_none().then(|| TrajectoryTraining { loss, rows_per_mode, seed, local, ..Default::default() })
@@ -218,12 +219,12 @@ impl ReducedTransient {
 }
 
 impl LinearisedTransient {
-    /// All rules, its own first.
+    /// Returns all selection rules, starting with the first.
     pub fn selections(&self) -> impl Iterator<Item = Selection> {
         std::iter::once(self.selection).chain(self.further.iter().copied())
     }
 
-    /// The name of the model that a rule gives, as in `step_0.001` or `step_40_points`.
+    /// Returns the name of the model of a rule, as in `step_0.001` or `step_40_points`.
     pub fn label(&self, selection: Selection) -> String {
         match self.points {
             Some(points) => format!("{}_{points}_points", selection.name()),
@@ -261,10 +262,10 @@ impl LinearisedTransient {
 }
 
 impl TransientStudy {
-    /// Refuses values that are not finite or make no sense, naming the field.
+    /// Refuses values that are not finite or out of range, and names the field.
     ///
     /// # Errors
-    /// With the first such field.
+    /// With the first invalid field.
     pub(super) fn check_with(&self, experiment: &Experiment) -> Checked {
         coverage::check(experiment)?;
         count("study.frames (how many)", self.frames.len(), 1, 4)?;
@@ -273,7 +274,7 @@ impl TransientStudy {
         }
         self.check_names()?;
         let drives = self.drives();
-        // A frame that was left out may have been published of.
+        // Data may have been published for a frame that the study leaves out.
         let names = Frame::ALL.iter().flat_map(|&frame| drives.iter().map(move |drive| drive.result(frame.name())));
         let names: Vec<String> = names.collect();
         published::check(&self.published, names.iter().map(String::as_str))?;
@@ -301,7 +302,7 @@ impl TransientStudy {
         self.linearised.iter().try_for_each(|linearised| linearised.check(&self.frames))
     }
 
-    /// Refuses more inputs than make sense, and further ones whose names cannot stand in those of results and of their files.
+    /// Refuses too many inputs, and names of further inputs that cannot be part of result and file names.
     fn check_names(&self) -> Checked {
         count("study.further (how many)", self.further.len(), 0, 63)?;
         count("study.trainings (how many)", self.trainings.len(), 0, 64)?;
@@ -324,7 +325,7 @@ impl TransientStudy {
         Ok(())
     }
 
-    /// Refuses reference contacts of trainings that are none, or that models cannot learn.
+    /// Refuses reference contacts for training that are invalid or that the models do not support.
     fn check_contacts(&self, experiment: &Experiment) -> Checked {
         let Some(first) = self.training_contacts.first() else { return Ok(()) };
         let field = |i: usize| format!("study.training_contacts.{i}");
@@ -345,7 +346,7 @@ impl TransientStudy {
         })
     }
 
-    /// Checks every march that it asks for.
+    /// Checks every march of the study.
     fn check_marches(&self, experiment: &Experiment) -> Checked {
         let point = experiment.point().map_err(|problem| refuse("at", format!("is refused: {problem}")))?;
         let lubricant = experiment.lubricant;

@@ -1,4 +1,4 @@
-//! What a march gives: statistics, differences from another one, costs, its time series.
+//! Result of a march: statistics, differences from another march, cost, time series.
 
 use super::data::TransientStudy;
 use super::timed_march::Timed;
@@ -13,41 +13,41 @@ use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// A march that has ended.
+/// Completed march.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct March {
-    /// What its values begin with.
+    /// Prefix of its values.
     pub name: String,
-    /// By what it was made.
+    /// Method, and the march that it is compared with.
     pub by: By,
-    /// Its moments; no fields.
+    /// Moments, without fields.
     pub trajectory: Trajectory,
-    /// Seconds of each step, without the start.
+    /// Time of each step, without the start \[s\].
     pub seconds: Vec<f64>,
-    /// How far its fields are from keeping the mass between the study's places.
+    /// Relative error of the mass balance between the study's positions.
     pub mass_defect: Option<f64>,
-    /// What the grid costs H_c at the worst of some moments of a full march, and when that is.
+    /// Largest discretisation error of H_c among some moments of a full march, with the time of this moment.
     pub grid_cost: Option<(f64, GridCost)>,
-    /// What each step of a linearised model drew on.
+    /// Operating points used by each step of a linearised model.
     pub record: Option<TpwlRecord>,
-    /// What a reduced model was not trained for.
+    /// Warnings that a reduced model left its trained range.
     pub outside: Vec<Warning>,
 }
 
-/// How the steps of a march are solved.
+/// Solution method of the steps of a march.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MarchedBy {
-    /// The full system.
+    /// Full solver.
     #[default]
     Full,
-    /// A reduced model that was trained beforehand (RNSA).
+    /// Reduced model that was trained before (RNSA).
     Reduced,
-    /// A superposition of linearised systems (TPWL), by one of its weightings.
+    /// Superposition of linearised systems (TPWL) with a weighting.
     Linearised(Weighting),
 }
 
 impl MarchedBy {
-    /// What is being done, in a frame, for those who wait.
+    /// Returns a description of the march for progress reports.
     pub(super) fn stage(self, frame: Frame) -> String {
         let by = match self {
             Self::Full => "full system",
@@ -58,26 +58,26 @@ impl MarchedBy {
     }
 }
 
-/// By what a march was made, and which one it is held against.
+/// Method of a march, and the march that it is compared with.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum By {
-    /// The full system, held against the full march of the same inputs in the first frame, where it is not that.
+    /// Full solver. Compared with the full march of the same inputs in the first frame, unless it is this march.
     Full {
-        /// That one's name.
+        /// Name of that march.
         first: Option<String>,
     },
-    /// A model, held against the full march of its frame and inputs.
+    /// Model. Compared with the full march of the same frame and inputs.
     Model {
-        /// The model's name.
+        /// Name of the model.
         model: String,
         /// `rnsa` or `tpwl`.
         method: Cow<'static, str>,
-        /// The full march's name.
+        /// Name of the full march.
         full: String,
     },
 }
 
-/// Quantities that statistics are taken of, with their names.
+/// Quantities with statistics, and their names.
 const QUANTITIES: [(&str, Quantity); 4] = [
     ("H_c", Quantity::CentralFilm),
     ("H_min", Quantity::MinimumFilm),
@@ -116,13 +116,13 @@ impl March {
         }
     }
 
-    /// Returns what a reader must know of it.
+    /// Returns the warnings about the march.
     pub fn warnings(&self) -> Vec<Warning> {
         let grid = self.grid_cost.and_then(|(time, cost)| cost.warning_in_time(time));
         self.trajectory.warnings().chain(grid).chain(self.outside.iter().cloned()).collect()
     }
 
-    /// The march it is held against, among all of them. One by a model that ended early agrees with nothing.
+    /// Returns the march that this one is compared with. `None` for a model that ended early.
     pub fn reference<'a>(&self, marches: &[&'a Self]) -> Option<&'a Self> {
         let name = match &self.by {
             By::Full { first } => first.as_ref()?,
@@ -131,13 +131,13 @@ impl March {
         marches.iter().copied().find(|march| march.name == *name)
     }
 
-    /// Greatest and L2 difference of a quantity from the march it is held against, relative.
+    /// Returns the largest and the L2 relative difference of a quantity from the compared march.
     pub fn difference(&self, quantity: Quantity, study: &TransientStudy, marches: &[&Self]) -> Option<(f64, f64)> {
         let window = study.window(self.trajectory.transient.duration);
         self.trajectory.difference(&self.reference(marches)?.trajectory, quantity, window)
     }
 
-    /// The full march of the same frame and inputs.
+    /// Returns the full march of the same frame and inputs.
     pub(super) fn full<'a>(&'a self, marches: &[&'a Self]) -> Option<&'a Self> {
         match &self.by {
             By::Full { .. } => Some(self),
@@ -145,17 +145,17 @@ impl March {
         }
     }
 
-    /// The median of its steps \[s\].
+    /// Returns the median time per step \[s\].
     pub fn step_s(&self) -> f64 {
         median(&self.seconds)
     }
 
-    /// Seconds of all steps.
+    /// Returns the time of all steps \[s\].
     pub fn march_s(&self) -> f64 {
         self.seconds.iter().sum()
     }
 
-    /// Moments but for the start.
+    /// Returns the moments after the start.
     pub fn steps(&self) -> &[Moment] {
         self.trajectory.moments.get(1..).unwrap_or(&[])
     }
@@ -199,7 +199,7 @@ impl March {
         }
     }
 
-    /// What to do instead of a linearised march, from the measured errors of H_c.
+    /// Recommends an alternative to a linearised march, based on the measured errors of H_c.
     fn advice(&self, study: &TransientStudy, marches: &[&Self]) -> String {
         let error = |march: &Self| Some(march.difference(Quantity::CentralFilm, study, marches)?.0);
         let full = self.reference(marches).map(|full| full.name.as_str());
@@ -217,7 +217,7 @@ impl March {
         }
     }
 
-    /// Start, mean, offset and amplitude of each quantity within a window.
+    /// Adds start, mean, offset and amplitude of each quantity within a time interval.
     fn statistics(&self, window: (f64, f64), found: &mut Findings) {
         let trajectory = &self.trajectory;
         let Some(start) = trajectory.moments.first() else { return };
@@ -234,7 +234,7 @@ impl March {
         }
     }
 
-    /// Steps and seconds.
+    /// Adds numbers of steps and times.
     fn costs(&self, found: &mut Findings) {
         let steps = self.steps();
         let per_step = |count: fn(&Moment) -> usize| steps.iter().map(count).sum::<usize>() as f64 / steps.len() as f64;
@@ -251,14 +251,14 @@ impl March {
         }
     }
 
-    /// Its time series.
+    /// Returns the time series.
     pub(super) fn series(&self) -> Table {
         series(&self.name, &self.trajectory)
     }
 }
 
-/// The time series of the march of a name. Its last column is the estimated greatest relative error that the lengths of
-/// the steps leave in H_c, the same in every row.
+/// Returns the time series of a named march. The last column is the estimated largest relative error of H_c due to the
+/// time step, the same in every row.
 pub fn series(name: &str, trajectory: &Trajectory) -> Table {
     let mut table = Table::of(format!("transient_{}", name.replace('.', "_")), &SERIES, &trajectory.moments);
     table.columns.push("step_error".to_owned());

@@ -1,19 +1,19 @@
-//! The marches that a study of a contact in time asks for.
+//! Marches that a transient study computes.
 
 use super::data::{Drive, TransientStudy};
 use crate::solver::full::transient::{Frame, Keep, Transient};
 use crate::solver::physics::contact::{ContactError, ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::Lubricant;
 
-/// States of a training trajectory that are kept, about.
+/// Approximate number of states kept of a training trajectory.
 const TRAINING_STATES: f64 = 700.0;
-/// The same where a linearised model is trained, which chooses among them, or local bases, which share them out.
+/// The same for linearised models, which select among the states, and for local bases, which divide them.
 const MANY_TRAINING_STATES: f64 = 3000.0;
 
-/// The contact of Moes numbers (M, L) with the radius, the materials and the oil of another one.
+/// Returns the contact with Moes numbers (M, L), with radius, materials and lubricant of another contact.
 ///
 /// # Errors
-/// When there is no such contact.
+/// If there is no such contact.
 pub(super) fn training_contact(own: &OperatingPoint, (m, l): (f64, f64)) -> Result<OperatingPoint, ContactError> {
     si_from_moes(&MoesRequest {
         radius_m: Some(own.radius_m),
@@ -25,24 +25,24 @@ pub(super) fn training_contact(own: &OperatingPoint, (m, l): (f64, f64)) -> Resu
 }
 
 impl TransientStudy {
-    /// All inputs that are followed: its own, which have no name, and the further ones.
+    /// Returns all inputs: the study's own, which have no name, and the further ones.
     pub fn drives(&self) -> Vec<Drive> {
         let own = Drive { name: String::new(), inputs: self.inputs.clone(), duration: self.duration };
         std::iter::once(own).chain(self.further.iter().cloned()).collect()
     }
 
-    /// The window of statistics of a march of some duration.
+    /// Returns the interval for statistics of a march with this duration.
     pub fn window(&self, duration: f64) -> (f64, f64) {
         self.window.unwrap_or((0.0, duration))
     }
 
-    /// The march along some inputs; it keeps no fields.
+    /// Returns the march along some inputs, without stored fields.
     pub fn march(&self, drive: &Drive, point: OperatingPoint, lubricant: Lubricant, frame: Frame) -> Transient {
         let Drive { inputs, duration, .. } = drive.clone();
         Transient { point, lubricant, inputs, frame, duration, time_step: self.time_step, keep: Keep::Scalars }
     }
 
-    /// The march along its own inputs; it keeps fields where models are to be trained by it.
+    /// Returns the march along the study's own inputs. It stores fields if models are trained from it.
     pub fn own_march(&self, point: OperatingPoint, lubricant: Lubricant, frame: Frame) -> Transient {
         let trains = self.trains_on_itself() && self.trains();
         Transient {
@@ -56,24 +56,24 @@ impl TransientStudy {
         }
     }
 
-    /// Whether models are trained.
+    /// Returns true if the study trains models.
     pub fn trains(&self) -> bool {
         self.linearised.is_some() || self.reduced.as_ref().is_some_and(|reduced| reduced.training().is_some())
     }
 
-    /// Whether models, where there are any to be trained, are so by the march along its own inputs.
+    /// Returns true if models are trained from the march along the study's own inputs.
     pub fn trains_on_itself(&self) -> bool {
         self.trainings.is_empty() && self.training_loads.is_empty() && self.training_contacts.is_empty()
     }
 
-    /// The marches that models of a frame are trained by, contact by contact, where it is not the study's own in that frame,
-    /// which is given.
+    /// Returns the marches for training the models of a frame, contact by contact. Empty if they are trained from the
+    /// study's own march, `own`.
     pub fn training_marches(&self, own: &Transient) -> Vec<Transient> {
         if self.trains_on_itself() {
             return Vec::new();
         }
         let loaded = self.training_loads.iter().map(|&load| OperatingPoint { load, ..own.point });
-        // What is no contact is refused before anything is asked.
+        // Invalid contacts are refused by the check before.
         let chosen = self.training_contacts.iter().filter_map(|contact| training_contact(&own.point, *contact).ok());
         let mut contacts: Vec<OperatingPoint> = loaded.chain(chosen).collect();
         if contacts.is_empty() {
@@ -91,8 +91,7 @@ impl TransientStudy {
         contacts.iter().flat_map(|&point| drives.iter().map(move |drive| march(point, drive))).collect()
     }
 
-    /// Which states a training keeps. Linearised models choose among them and local bases share them out, so that these
-    /// want more than one basis does.
+    /// Returns which states a training stores. Linearised models and local bases need more states than a single basis.
     fn training_states(&self, duration: f64) -> Keep {
         let longest = self.time_step.longest(duration);
         let local = self.reduced.as_ref().is_some_and(|reduced| reduced.local.is_some());

@@ -1,5 +1,4 @@
-//! A contact in time: in every frame and along every input the full system and the models beside it, what each costs, and how far they lie
-//! apart.
+//! Transient study: the full solver and models in every frame and along every input, with cost and differences.
 
 mod costs;
 pub(super) mod coverage;
@@ -30,56 +29,56 @@ use crate::solver::reduced::transient::TrajectoryModel;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What comes of a contact in time.
+/// Row of a transient study.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Row {
-    /// A march begins.
+    /// Start of a march.
     Begun {
-        /// What its values will begin with.
+        /// Prefix of its values.
         march: Arc<str>,
-        /// By what it is made.
+        /// Solution method.
         by: MarchedBy,
-        /// What is marched, with no moment in it yet.
+        /// The march, without moments yet.
         trajectory: Box<Trajectory>,
     },
-    /// A moment of the march that began last.
+    /// Moment of the march that started last.
     Moment {
-        /// The march.
+        /// Name of the march.
         march: Arc<str>,
         /// The moment.
         moment: Moment,
-        /// Seconds of the step that led to it; 0 at the start.
+        /// Time of the step before it \[s\]; 0 at the start.
         seconds: f64,
     },
-    /// Fields of the moment told last, at some moments and where they are wanted.
+    /// Fields of the last reported moment, for some moments and if requested.
     State {
-        /// The march.
+        /// Name of the march.
         march: Arc<str>,
         /// The fields.
         state: Arc<State>,
     },
-    /// A march has ended.
+    /// Completed march.
     Marched(Arc<March>),
-    /// Marches that models of a frame are trained by have ended.
+    /// Completed training marches for the models of a frame.
     Trained {
         /// The frame.
         frame: Frame,
-        /// Seconds of all of them.
+        /// Total time \[s\].
         wall_s: f64,
         /// Their moments.
         moments: Vec<Vec<Moment>>,
-        /// Those that ended early.
+        /// Warnings about marches that ended early.
         cut_short: Vec<Notice>,
     },
-    /// A model was made.
+    /// Trained model.
     Model(Model),
 }
 
-/// What all marches of a study share.
+/// Common data of all marches of a study.
 struct Runner<'a, 'b> {
     study: &'a TransientStudy,
     grid: Arc<ReferenceGrid>,
-    /// The reduced model that the study names, where it trains none.
+    /// Saved reduced model, if the study does not train one.
     saved: Option<Arc<TrajectoryModel>>,
     setting: &'a Setting<'b>,
     tell: &'a Tell<'a, Row>,
@@ -129,22 +128,28 @@ impl Question for TransientStudy {
         Ok(())
     }
 
-    /// Values of a full march stand behind the name of its frame (`fixed`, `ale`, `remeshed`, `remeshed_linear`): `H_c.start`, `H_c.mean`,
-    /// `H_c.amplitude`, `H_c.offset` (mean over start, less 1) over the window, and so on for H_min, P_c, P_max; `steps`, `rejected_steps`,
-    /// `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `march_s`; `mass_defect` where places
-    /// are given; `grid_error`, the share of H_c that the grid costs a contact at rest under the inputs of the start, of
-    /// the thinnest or of the thickest film, the largest of them: beyond a few percent a warning says so. `step_error`, of
-    /// models too, is the estimated greatest relative error of H_c by the lengths of the steps. Of the second frame on:
-    /// `H_c.difference` (greatest, relative) and `H_c.difference_l2` from the first one within the window, and so on.
+    /// Values of a full march are prefixed by the name of its frame (`fixed`, `ale`, `remeshed`, `remeshed_linear`):
     ///
-    /// A reduced model's stand behind `fixed.rnsa`, a linearised one's behind `fixed.tpwl` (with several rules behind `fixed.tpwl.step_0.001`
-    /// and the like, and its marches behind that and `dual_taylor` or `dissertation`): its size, differences from the full
-    /// march, costs, and `speed_up` (medians of the steps); `trained` of a reduced one, 1 or 0: whether it was trained
-    /// for what the march led it to; `reach_median` and `reach_max` of a linearised one: how far steps lie from the trained
-    /// trajectories, in distances between operating points. `training_s` are the seconds of the trainings' full marches, where the study's own is
-    /// not the training.
+    /// - `H_c.start`, `H_c.mean`, `H_c.amplitude`, `H_c.offset` (mean over start, minus 1) within the interval for
+    ///   statistics, and the same for H_min, P_c, P_max;
+    /// - `steps`, `rejected_steps`, `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `march_s`;
+    /// - `mass_defect` if positions are given;
+    /// - `grid_error`, the discretisation error of H_c relative to H_c, the largest among steady contacts under the
+    ///   inputs of the start, of the thinnest and of the thickest film. Beyond a few per cent, a warning is given;
+    /// - `step_error` (also for models), the estimated largest relative error of H_c due to the time step;
+    /// - from the second frame on, `H_c.difference` (largest, relative) and `H_c.difference_l2` from the first frame
+    ///   within the interval, and so on.
     ///
-    /// Values of marches along further inputs have the name of these in front, as in `triangle.fixed.rnsa.H_c.difference_l2`.
+    /// Values of a reduced model are prefixed by `fixed.rnsa`, those of a linearised model by `fixed.tpwl`. With
+    /// several rules, the prefix is `fixed.tpwl.step_0.001` and the like; its marches are further prefixed by
+    /// `dual_taylor` or `dissertation`. The values are size, differences from the full march, cost, and `speed_up`
+    /// (ratio of the medians of the steps). For a reduced model, `trained` is 1 if the march stayed inside the trained
+    /// range and 0 otherwise. For a linearised model, `reach_median` and `reach_max` are distances of steps from the
+    /// trained trajectories, in distances between operating points. `training_s` is the time of the full training
+    /// marches \[s\], if they are not the study's own march.
+    ///
+    /// Values of marches along further inputs are prefixed by the name of the inputs, as in
+    /// `triangle.fixed.rnsa.H_c.difference_l2`.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let (marches, models) = (marches(rows), only!(rows, Row::Model));
         for row in rows {
@@ -161,7 +166,8 @@ impl Question for TransientStudy {
         }
     }
 
-    /// The time series of each march; losses of information; operating points; with models, what all marches cost.
+    /// Returns the time series of each march, losses of information, operating points, and the cost of all marches if
+    /// there are models.
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
         let table = |row: &&Row| match row {
             Row::Marched(march) => Some(march.series()),
@@ -199,12 +205,12 @@ impl Question for TransientStudy {
 }
 
 impl TransientStudy {
-    /// Takes models that were made before along the study's own inputs, and the program's where the study names that,
-    /// without the full system; its rows are those that the study has of them.
+    /// Marches existing models along the study's own inputs, without the full solver. Includes the embedded model if
+    /// the study refers to it. The rows are the same as those of the study.
     ///
     /// # Errors
-    /// When the study or a model is refused, or the observer cancels. A linearised model that does not know the
-    /// reference contact is passed over.
+    /// If the study or a model is refused, or if the observer cancels. A linearised model that does not support the
+    /// reference contact is skipped.
     pub fn replay(
         &self,
         models: &[Model],
@@ -244,12 +250,12 @@ impl TransientStudy {
 }
 
 impl Runner<'_, '_> {
-    /// Who hears of a march of a name.
+    /// Returns the listener for a named march.
     fn told(&self, march: &str, by: MarchedBy) -> Option<Listener<'_>> {
         Some(Listener { march: Arc::from(march), by, tell: self.tell, wants_states: self.setting.wants_states })
     }
 
-    /// A full march, and its fields where they were kept.
+    /// Computes a full march, with its fields if they were stored.
     fn full(&self, drive: &Drive, mut transient: Transient) -> Result<(Arc<March>, Vec<State>), RunError> {
         let (study, frame) = (self.study, transient.frame);
         if study.mass_between.is_some() {

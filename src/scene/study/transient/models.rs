@@ -1,4 +1,4 @@
-//! The models of a contact in time: trained on the spot, then marched beside the full system.
+//! Models of a transient study: trained, then marched and compared with the full solver.
 
 use super::data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 use super::march::{By, March, MarchedBy};
@@ -17,42 +17,42 @@ use crate::solver::training::{TrajectoryTraining, on_one_thread, train_trajector
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Most modes in a table of losses.
+/// Largest number of modes in a table of losses.
 const MOST_LOSSES: usize = 300;
 
-/// A trained model.
+/// Trained model.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Model {
-    /// What its values begin with.
+    /// Prefix of its values.
     pub name: String,
-    /// Its frame.
+    /// Frame of reference.
     pub frame: Frame,
-    /// What it is.
+    /// Kind of model.
     pub kind: Kind,
-    /// Seconds of its making; of a further rule those of its points alone.
+    /// Time of the training \[s\]; for a further rule only that of selecting its points.
     pub wall_s: f64,
 }
 
-/// Which kind of model it is.
+/// Kind of model.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Kind {
-    /// With sampled rows.
+    /// Reduced model with sampled equations.
     Reduced(Arc<TrajectoryModel>),
     /// Trajectory-piecewise-linear.
     Linearised {
         /// The model.
         model: Arc<TpwlModel>,
-        /// The rule of its points, in a word.
+        /// Name of the selection rule.
         label: String,
-        /// Weightings, each a march of its own.
+        /// Weightings, each with its own march.
         weightings: Vec<Weighting>,
     },
 }
 
-/// The linearised model that a study asks for by its first rule, of given trajectories.
+/// Trains the linearised model with the study's first rule from given trajectories.
 ///
 /// # Errors
-/// When the trajectories do not go together.
+/// If the trajectories are inconsistent.
 fn train_linearised(linearised: &LinearisedTransient, trajectories: &[&Trajectory]) -> Result<TpwlModel, TpwlError> {
     let training = TpwlTraining { modes: linearised.modes, selection: linearised.selection };
     match linearised.points {
@@ -61,19 +61,19 @@ fn train_linearised(linearised: &LinearisedTransient, trajectories: &[&Trajector
     }
 }
 
-/// What the values of a reduced model of a frame begin with.
+/// Returns the prefix of the values of a frame's reduced model.
 fn reduced_name(frame: Frame) -> String {
     format!("{}.rnsa", frame.name())
 }
 
 impl Model {
-    /// A reduced one that was made before.
+    /// Returns an existing reduced model.
     pub(super) fn saved(model: Arc<TrajectoryModel>) -> Self {
         let frame = model.frame;
         Self { name: reduced_name(frame), frame, kind: Kind::Reduced(model), wall_s: 0.0 }
     }
 
-    /// Pressure modes.
+    /// Returns the number of pressure modes.
     pub fn modes(&self) -> usize {
         match &self.kind {
             Kind::Reduced(model) => model.modes(),
@@ -81,7 +81,7 @@ impl Model {
         }
     }
 
-    /// Sampled rows or operating points.
+    /// Returns the number of sampled equations or operating points.
     pub fn chosen(&self) -> usize {
         match &self.kind {
             Kind::Reduced(model) => model.rows(),
@@ -89,9 +89,9 @@ impl Model {
         }
     }
 
-    /// Values of a reduced one: `modes` and `rows`, of a local basis at most where it has `bases` of them, `modes_share` (the
-    /// whole basis over the first frame's), `deformation_modes`; of a linearised one `modes`, `points`,
-    /// `tolerance`; of both `model_s`.
+    /// Values of a reduced model: `modes` and `rows` (with local bases the largest, and their number `bases`),
+    /// `modes_share` (the whole basis over that of the first frame), `deformation_modes`. Values of a linearised model:
+    /// `modes`, `points`, `tolerance`. Values of both: `model_s`.
     pub(super) fn findings(&self, models: &[&Self], found: &mut Findings) {
         let (modes, chosen) = (self.modes() as f64, self.chosen() as f64);
         let mut push = |what: &str, value: f64| found.push(format!("{}.{what}", self.name), None, value);
@@ -118,7 +118,8 @@ impl Model {
         push("model_s", self.wall_s);
     }
 
-    /// Loss of information (2.90) of pressure and deformation against the number of modes, Fig. 4.5; or where operating points lie, Fig. 4.10.
+    /// Returns the loss of information (2.90) of pressure and deformation over the number of modes (Fig. 4.5), or the
+    /// positions of operating points (Fig. 4.10).
     pub(super) fn table(&self) -> Table {
         match &self.kind {
             Kind::Reduced(model) => {
@@ -149,7 +150,7 @@ impl Model {
 }
 
 impl Runner<'_, '_> {
-    /// The models of the frame of the study's own full march.
+    /// Trains or loads the models for the frame of the study's own full march.
     pub fn models(&self, own: Trajectory) -> Result<Vec<Model>, RunError> {
         let TransientStudy { reduced, linearised, .. } = self.study;
         let frame = own.transient.frame;
@@ -166,7 +167,7 @@ impl Runner<'_, '_> {
         }
         let trained = self.trainings(&own)?;
         let trainings = Arc::new(if trained.is_empty() { vec![own] } else { trained });
-        // The linearised one is there sooner.
+        // The linearised model is trained first because it takes less time.
         if let Some(linearised) = linearised {
             self.linearised(linearised, frame, &trainings, &mut models)?;
         }
@@ -176,7 +177,7 @@ impl Runner<'_, '_> {
         Ok(models)
     }
 
-    /// Full marches that models are trained by, where it is not the study's own.
+    /// Computes the full marches for training, if they are not the study's own march.
     pub(super) fn trainings(&self, own: &Trajectory) -> Result<Vec<Trajectory>, RunError> {
         let (frame, begun) = (own.transient.frame.name(), Stopwatch::start());
         let transients = self.study.training_marches(&own.transient);
@@ -212,7 +213,7 @@ impl Runner<'_, '_> {
         Ok(model)
     }
 
-    /// One model for each rule; their names tell the rule where there are several.
+    /// Trains one model for each rule. The names contain the rule if there are several.
     fn linearised(
         &self,
         linearised: &LinearisedTransient,
@@ -224,7 +225,7 @@ impl Runner<'_, '_> {
         for selection in linearised.selections() {
             let begun = Stopwatch::start();
             let (asked, known, trainings) = (linearised.clone(), first.clone(), Arc::clone(trainings));
-            // Nothing can interrupt it: a cancel need not wait.
+            // Training cannot be interrupted. It runs on a separate thread, so that a cancel does not wait for it.
             let model = Arc::new(on_one_thread(self.setting.observer, move || match &known {
                 None => train_linearised(&asked, &trainings.iter().collect::<Vec<_>>()),
                 Some(first) => {
@@ -245,7 +246,7 @@ impl Runner<'_, '_> {
         Ok(())
     }
 
-    /// Marches a model along some inputs, to be held against the full march of a name.
+    /// Marches a model along some inputs, for comparison with the named full march.
     pub fn compared(
         &self,
         model: &Model,

@@ -1,43 +1,44 @@
-//! What was published of a march in time, to stand beside what is measured.
+//! Published data of transient marches, for comparison.
 
 use crate::scene::check::{Checked, count, number, refuse};
 use serde::{Deserialize, Serialize};
 
-/// Size and cost of one march, as far as they are known.
+/// Size and cost of a march, as far as published.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedMarch {
-    /// Of what and by which method: a frame, then `full`, `rnsa` or `tpwl`, as in `fixed.rnsa`; behind the name of
-    /// further inputs where it is of these, as in `triangle.fixed.rnsa`.
+    /// Name of the march: a frame, then `full`, `rnsa` or `tpwl`, as in `fixed.rnsa`; preceded by the name of further
+    /// inputs if it uses these, as in `triangle.fixed.rnsa`.
     pub name: String,
-    /// Pressure modes, or unknowns of the reduced system where only these are known.
+    /// Number of pressure modes, or of unknowns of the reduced system if only this is published.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub modes: Option<usize>,
-    /// Sampled rows or operating points.
+    /// Number of sampled equations or operating points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rows: Option<usize>,
-    /// Steps in time.
+    /// Number of time steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
-    /// Seconds of one step.
+    /// Time per step \[s\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub step_s: Option<f64>,
-    /// Seconds of the whole march.
+    /// Time of the whole march \[s\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub march_s: Option<f64>,
 }
 
-/// The methods a march can be published of.
+/// Methods for which marches may be published.
 pub const METHODS: [&str; 3] = ["full", "rnsa", "tpwl"];
 
 impl PublishedMarch {
-    /// Seconds of one step, given or from the whole march's.
+    /// Returns the time per step \[s\], as given or computed from the whole march.
     pub fn seconds_per_step(&self) -> Option<f64> {
         self.step_s.or_else(|| Some(self.march_s? / self.steps? as f64))
     }
 }
 
-/// Refuses numbers without sense, names given twice and names of no march; `subjects` are the names of full marches.
+/// Refuses invalid numbers, duplicate names, and names that are not those of a march. `subjects` are the names of full
+/// marches.
 pub(super) fn check<'a>(published: &[PublishedMarch], subjects: impl Iterator<Item = &'a str> + Clone) -> Checked {
     for (i, march) in published.iter().enumerate() {
         let field = |name: &str| format!("study.published.{i}.{name}");

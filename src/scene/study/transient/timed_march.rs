@@ -1,4 +1,4 @@
-//! A march with the seconds of each of its steps, told moment by moment.
+//! March with the time of each step, reported moment by moment.
 
 use super::{MarchedBy, Row};
 use crate::host::clock::Stopwatch;
@@ -8,30 +8,30 @@ use crate::solver::full::transient::{Marching, Moment, State, Trajectory, Transi
 use crate::solver::observer::{Observer, Progress};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Moments whose fields are told, of each march, where that is wanted.
+/// Number of moments per march whose fields are reported, if requested.
 const PICTURES: f64 = 400.0;
 
-/// A march that was timed.
+/// March with times.
 pub(crate) struct Timed {
-    /// What it gave.
+    /// Result of the march.
     pub trajectory: Trajectory,
-    /// Of each step, without the start.
+    /// Time of each step, without the start \[s\].
     pub seconds: Vec<f64>,
 }
 
-/// Who hears of a march's moments, and of its fields where they are wanted.
+/// Receiver of a march's moments, and of its fields if requested.
 pub(crate) struct Listener<'a> {
-    /// The march.
+    /// Name of the march.
     pub march: Arc<str>,
-    /// By what it is made.
+    /// Solution method.
     pub by: MarchedBy,
-    /// Where its rows go.
+    /// Function that receives the rows.
     pub tell: &'a Tell<'a, Row>,
-    /// Whether fields are wanted.
+    /// True if fields are requested.
     pub wants_states: bool,
 }
 
-/// Marches and times each step; `stage` is what the observer is told.
+/// Runs a march and times each step. `stage` is the description for progress reports.
 pub(crate) fn timed_march(
     model: &mut dyn Marching,
     transient: &Transient,
@@ -53,7 +53,7 @@ pub(crate) fn timed_march(
     Ok(Timed { trajectory, seconds: steps.seconds })
 }
 
-/// Measures every step, and tells how far the march is in thousandths of its duration.
+/// Times every step, and reports progress in thousandths of the duration.
 struct StepClock<'a> {
     observer: &'a dyn Observer,
     stage: String,
@@ -62,7 +62,7 @@ struct StepClock<'a> {
     progress: Mutex<Steps>,
 }
 
-/// When the step under way began, the seconds of those before, the last time reached, and from when on fields are due.
+/// Start of the current step, times of the completed steps, last time T, and the T from which the next fields are due.
 struct Steps {
     begun: Option<Stopwatch>,
     seconds: Vec<f64>,
@@ -100,7 +100,8 @@ impl TransientObserver for StepClock<'_> {
 
     fn wants_state(&self) -> bool {
         let Steps { time, next_picture, .. } = *self.steps();
-        // Rounding must not leave out every second step of as many as there are pictures.
+        // The tolerance prevents rounding errors from skipping fields if the number of steps equals the number of
+        // pictures.
         let wanted = self.told.as_ref().is_some_and(|told| told.wants_states);
         wanted && (time >= next_picture - 1e-9 * self.duration || time >= self.duration)
     }
@@ -112,7 +113,7 @@ impl TransientObserver for StepClock<'_> {
         if let Some(Listener { march, tell, .. }) = &self.told {
             tell(Row::State { march: Arc::clone(march), state: Arc::new(state.clone()) });
         }
-        // The picture is no part of the step.
+        // The time for reporting fields is not part of the step.
         steps.begun = Some(Stopwatch::start());
     }
 }

@@ -1,4 +1,4 @@
-//! Training a reduced model in time to be kept, without the marches that a study compares, and taking one that was kept.
+//! Training of a transient reduced model without the marches of a study, and loading of a saved one.
 
 use super::data::ReducedTransient;
 use super::timed_march::timed_march;
@@ -17,12 +17,12 @@ use crate::solver::training::{TrainingObserver, TrajectoryTraining, train_trajec
 use std::sync::Arc;
 
 impl TransientStudy {
-    /// What it trains a reduced model by; none where it trains none.
+    /// Returns the training of the study's reduced model; `None` if it trains none.
     pub fn training(&self) -> Option<TrajectoryTraining> {
         self.reduced.as_ref().and_then(ReducedTransient::training)
     }
 
-    /// The reduced model that it names; none where it trains one, or has none.
+    /// Loads the reduced model that the study refers to; `None` if it trains one or has none.
     pub(super) fn saved_model(&self, setting: &mut Setting<'_>) -> Result<Option<Arc<TrajectoryModel>>, RunError> {
         let Some(source) = self.reduced.as_ref().and_then(|reduced| reduced.model.as_ref()) else { return Ok(None) };
         let model = setting.bench.trajectory_model(source, setting.observer)?;
@@ -38,16 +38,16 @@ impl TransientStudy {
 }
 
 impl Scene {
-    /// Whether it asks for a contact in time and trains a reduced model for it.
+    /// Returns true if the scene is a transient study that trains a reduced model.
     pub fn trains_in_time(&self) -> bool {
         matches!(&self.study, Study::Transient(study) if study.training().is_some())
     }
 
-    /// The reduced model in time that it trains, of the first of its frames; its full marches are those that the model
-    /// is trained by. Besides, which of these stopped early.
+    /// Trains the transient reduced model of the scene, in the first of its frames. Only the full marches for training
+    /// are computed. Also returns which of them ended early.
     ///
     /// # Errors
-    /// When the scene is refused, trains no such model, the training gives none, or the observer cancels.
+    /// If the scene is refused or trains no such model, if the training fails, or if the observer cancels.
     pub fn train_in_time(
         &self,
         bench: &mut dyn Bench,
@@ -60,7 +60,7 @@ impl Scene {
         if let Some(path) = &study.sampled {
             sampled::read_into(&mut study.inputs, &bench.resolve(path))?;
         }
-        // Linearised models want more states than bases do.
+        // Linearised models would need more states than a basis does.
         study.linearised = None;
         let experiment = self.experiment();
         let request = experiment.request()?;
