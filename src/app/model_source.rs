@@ -2,7 +2,7 @@
 //! the user's own in place of others.
 
 use crate::engine::registry::{alike, best, loads_in_common};
-use crate::engine::{Store, catalogue};
+use crate::engine::{Store, catalogue, name_of};
 use crate::host::pool::on_all_cores;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
@@ -58,6 +58,17 @@ impl Models {
         let later = catalogue().iter().filter(|entry| !there(entry.name));
         known.extend(later.map(|entry| Known::Later(entry.name, &entry.domain)));
         Self { known }
+    }
+
+    /// Gives back the program's models but for that of line contacts. Each is read again when it is next needed.
+    pub fn give_back(&mut self) {
+        for known in &mut self.known {
+            let Some(name) = known.model().and_then(name_of) else { continue };
+            let entry = catalogue().iter().find(|entry| entry.name == name);
+            if let Some(entry) = entry.filter(|entry| entry.name != FIRST[0]) {
+                *known = Known::Later(entry.name, &entry.domain);
+            }
+        }
     }
 
     /// Only this model, or none.

@@ -85,6 +85,11 @@ pub fn name_of(model: &Arc<ReducedModel>) -> Option<String> {
     read().iter().find(|(_, read)| Arc::ptr_eq(read, model)).map(|(name, _)| name.clone())
 }
 
+/// Frees the models that are not in use.
+pub(super) fn forget_unused() {
+    read().retain(|(_, model)| Arc::strong_count(model) > 1);
+}
+
 /// Loads an embedded model. Its consistency is checked by tests, not here.
 ///
 /// # Errors

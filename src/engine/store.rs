@@ -114,6 +114,12 @@ impl Store {
         self.embedded_watched(name, &())
     }
 
+    /// Frees the operators of idle reduced solvers, and the models of the program that nobody uses.
+    pub fn forget_unused_models(&self) {
+        lock(&self.0.online).clear();
+        embedded::forget_unused();
+    }
+
     /// Begins to read a reduced model of the program by its name, once its file is there.
     pub fn read(&self, name: &'static str, wake: Wake) -> Job<Arc<ReducedModel>> {
         let store = self.clone();

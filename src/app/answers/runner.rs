@@ -5,7 +5,7 @@ use super::ask::{Ask, REST_S, quick};
 use super::event::{Event, Wish};
 use super::failure::PassedOver;
 use super::jobs::{FullSolve, GridChoice, JobKind, Running};
-use super::live::Unanswered;
+use super::live::{Live, Unanswered};
 use super::picture::Cuts;
 use super::state::Answers;
 use crate::app::document::Document;
@@ -14,6 +14,7 @@ use crate::app::model_source::Models;
 use crate::app::wake::wake;
 use crate::engine::Store;
 use crate::engine::job::Standing;
+use crate::host::worker;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::Problem;
 use crate::solver::full::point::second_grid;
@@ -134,6 +135,11 @@ impl Answers {
 
     /// Begins to read a model of the program. Until it is there the full solver draws the pictures.
     fn read(&mut self, ctx: &Context, name: &'static str) {
+        if worker::is_crowded() {
+            self.work.models.give_back();
+            self.work.live = Live::new(&self.work.store);
+            self.work.store.forget_unused_models();
+        }
         self.work.reading = Some(self.work.store.read(name, wake(ctx)));
     }
 

@@ -8,6 +8,11 @@ use std::time::Duration;
 /// Whether work can run beside the caller in this process.
 pub const THREADS: bool = true;
 
+/// Returns true if memory is short, so that models that can be read again are given back. Never on a desktop.
+pub fn is_crowded() -> bool {
+    false
+}
+
 /// Starts a thread of this name.
 ///
 /// # Errors

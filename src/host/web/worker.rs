@@ -7,6 +7,16 @@ use std::time::Duration;
 /// Whether work can run beside the caller in this process.
 pub const THREADS: bool = false;
 
+/// Memory of an instance from which on models that can be read again are given back \[bytes\].
+const CROWDED: usize = 160 << 20;
+/// Bytes of a page of WebAssembly's memory.
+const PAGE: usize = 1 << 16;
+
+/// Returns true if memory is short, so that models that can be read again are given back.
+pub fn is_crowded() -> bool {
+    core::arch::wasm32::memory_size::<0>() * PAGE > CROWDED
+}
+
 /// Would start a thread.
 ///
 /// # Errors
