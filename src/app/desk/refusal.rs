@@ -1,4 +1,4 @@
-//! What can be done now, and why the rest cannot.
+//! Availability of commands, and the reasons why a command is not available.
 
 use super::workspace::Desk;
 use crate::app::answers::MOST_PINS;
@@ -13,7 +13,7 @@ const NO_PICTURE: &str = "There is no picture yet";
 const RUNS_ALREADY: &str = "It runs already";
 
 impl Desk {
-    /// Whether what a command switches is on; `None` of commands that switch nothing.
+    /// Returns whether the option that a command switches is on. `None` for commands that switch nothing.
     pub fn state(&self, command: &Command) -> Option<bool> {
         let (profiles, theme) = (&self.tabs.profiles.choices, self.display.theme);
         match command {
@@ -28,7 +28,7 @@ impl Desk {
         }
     }
 
-    /// Why a command cannot be done now, in a few words; `None` where it can.
+    /// Returns a short reason why a command is not available. `None` if it is available.
     pub fn refusal(&self, command: &Command) -> Option<&'static str> {
         let (refused, why) = match command {
             Command::Undo => (!self.history.can_undo(&self.document), "Nothing has been changed"),

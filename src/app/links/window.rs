@@ -1,4 +1,4 @@
-//! The window into which a link is pasted.
+//! Window to paste a link into.
 
 use super::fragment::Fragment;
 use crate::app::command::Command;
@@ -6,7 +6,7 @@ use crate::app::context::Commands;
 use crate::app::controls::message_ui;
 use egui::{Context, Id, Modal, TextEdit};
 
-/// What the window knows.
+/// State of the window.
 #[derive(Default)]
 pub struct LinkWindow {
     text: Option<String>,
@@ -15,17 +15,17 @@ pub struct LinkWindow {
 }
 
 impl LinkWindow {
-    /// Opens it.
+    /// Opens the window.
     pub fn open(&mut self) {
         *self = Self { text: Some(String::new()), message: None, fresh: true };
     }
 
-    /// Whether it is open.
+    /// Returns true if the window is open.
     pub fn is_open(&self) -> bool {
         self.text.is_some()
     }
 
-    /// Draws it.
+    /// Draws the window.
     pub fn ui(&mut self, ctx: &Context, commands: &mut Commands) {
         let Some(text) = &mut self.text else { return };
         let (mut open, mut close) = (false, false);

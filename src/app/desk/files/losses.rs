@@ -1,4 +1,4 @@
-//! The question before something is lost: it says what that is, and is asked only then.
+//! Confirmation before data is lost. It lists what would be lost and is shown only in this case.
 
 use super::open::is_model;
 use super::state::Pending;
@@ -6,7 +6,7 @@ use crate::app::desk::Desk;
 use egui::{Context, Id, Modal};
 
 impl Pending {
-    /// What the answer is called that lets it happen.
+    /// Returns the label of the button that confirms the loss.
     fn consent(&self) -> &'static str {
         match self {
             Self::New | Self::OpenDialog | Self::Open(_) | Self::OpenScene(_) | Self::OpenLink(_) => "Discard changes",
@@ -18,7 +18,7 @@ impl Pending {
 }
 
 impl Desk {
-    /// What would be lost by it, each a sentence.
+    /// Returns what would be lost, one sentence each.
     pub(super) fn losses(&self, pending: &Pending) -> Vec<String> {
         let edits = || {
             let text = "The operating point or its settings have changed since they were last saved.";
