@@ -1,9 +1,9 @@
-//! What a scene asks, in a sentence.
+//! Question of a scene in one sentence.
 
 use crate::scene::{Scene, Study};
 use crate::solver::physics::contact::ContactKind;
 
-/// The question of a scene.
+/// Returns the question of a scene.
 pub fn question(scene: &Scene) -> String {
     let reduced = scene.study.methods().iter().any(|method| method.model().is_some());
     let by = if reduced { "in full and reduced" } else { "in full" };
