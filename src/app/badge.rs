@@ -1,4 +1,4 @@
-//! The trust badge: how far the picture can be believed, in a glance.
+//! Trust badge: a short statement of how far the picture can be trusted.
 
 use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::{Comparison, Origin, Picture};
@@ -13,31 +13,31 @@ use crate::solver::full::GridCost;
 use crate::solver::reduced::ErrorEstimate;
 use egui::{Align, Color32, CornerRadius, Frame, Label, Layout, Margin, RichText, Stroke, Ui, vec2};
 
-/// What the badge says.
+/// Content of the badge.
 pub struct Verdict {
-    /// Its first words.
+    /// Title, in bold.
     pub title: String,
-    /// What follows.
+    /// Text after the title.
     pub detail: String,
-    /// Why, on hover.
+    /// Explanation on hover.
     pub why: String,
     kind: Kind,
 }
 
-/// How far something can be trusted.
+/// Degree of trust.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Kind {
-    /// Nothing is known yet.
+    /// Not determined yet.
     Neutral,
-    /// It was checked.
+    /// Checked against the full solution.
     Verified,
-    /// Right to know.
+    /// Usable with reservation.
     Warning,
     /// Not to be trusted.
     Wrong,
 }
 
-/// What can be said of the picture.
+/// Returns the trust badge for the current picture.
 pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     let make = |title: &str, detail: String, why: String, kind| Verdict { title: title.to_owned(), detail, why, kind };
     if let Some(failure) = answers.failure() {
@@ -57,7 +57,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         () if answers.picture_is_current() && answers.is_quick() => format!("sketch on a quick grid{}", off(picture)),
         () => "full solution".to_owned(),
     };
-    // Of a picture that is still another contact's nothing is said here.
+    // The warnings of a picture that still belongs to another contact are not shown here.
     let warned = answers.current_picture().map_or_else(String::new, Picture::warned);
     match (picture.origin, answers.passed_over()) {
         (_, Some(PassedOver::Outside(why))) => make(
@@ -104,7 +104,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                 let title = if picture.costly_grid { "Grid does not do" } else { "Side lobes unresolved" };
                 make(title, format!("full solution on {}{}", grid(picture), off(picture)), warned, Kind::Warning)
             }
-            // The warnings of a grid begin at the same error of H_c.
+            // The warnings of a grid have the same limit for the error of H_c.
             None if picture.grid_errors().is_some_and(|(_, h_min)| h_min > COARSE) => make(
                 "Roughly right",
                 format!("full solution on {}{}", grid(picture), off(picture)),
@@ -179,10 +179,10 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     }
 }
 
-/// Estimated error of H_min beyond which a grid is called coarse.
+/// Estimated error of H_min above which a grid is called coarse.
 const COARSE: f64 = 0.03;
 
-/// What is said of the errors of a model, and of what its grid costs the film.
+/// Returns the errors of a model together with the discretisation error.
 fn with_grid(errors: String, cost: Option<f64>) -> String {
     match cost {
         Some(cost) => format!("{errors}; the grid costs {{H_c}} {}", numbers::error_percent(cost)),
@@ -190,7 +190,7 @@ fn with_grid(errors: String, cost: Option<f64>) -> String {
     }
 }
 
-/// How a picture stands whose true errors are known, by the larger one of its films.
+/// Returns title and trust for a picture whose true errors are known. The larger error of H_c and H_min decides.
 fn judged(truth: &Comparison, thresholds: Thresholds) -> (&'static str, Kind) {
     match truth.h_c.abs().max(truth.h_min.abs()) {
         error if error <= thresholds.verified => ("Verified", Kind::Verified),
@@ -199,12 +199,12 @@ fn judged(truth: &Comparison, thresholds: Thresholds) -> (&'static str, Kind) {
     }
 }
 
-/// The nodes of a point contact's grid, in words.
+/// Returns the size of a point contact's grid as text.
 fn grid(picture: &Picture) -> String {
     format!("{}×{} nodes", picture.solution.x.len(), picture.solution.y.len())
 }
 
-/// What the grid of a full solution costs its films, as a part of a sentence with symbols in braces.
+/// Returns the discretisation errors of a full solution as part of a sentence, with symbols in braces.
 fn off(picture: &Picture) -> String {
     let Some((h_c, h_min)) = picture.grid_errors() else { return String::new() };
     if h_c.is_nan() {
@@ -214,7 +214,7 @@ fn off(picture: &Picture) -> String {
     format!(", {{H_c}} off by about {h_c}, {{H_min}} by {h_min}")
 }
 
-/// Whether the truth lies within what was promised.
+/// Returns whether the true errors lie within the error bounds shown before.
 fn promised(truth: &Comparison, error: Option<ErrorEstimate>) -> String {
     let Some(e) = error else { return String::new() };
     let held = truth.h_c.abs() <= e.h_c.bound && truth.h_min.abs() <= e.h_min.bound;
@@ -222,10 +222,11 @@ fn promised(truth: &Comparison, error: Option<ErrorEstimate>) -> String {
     format!("The bounds shown before, {h_c} and {h_min}, {}. ", if held { "held" } else { "did not hold" })
 }
 
-/// Height of its row, which is the same whatever it says: nothing below moves.
+/// Height of the badge's row. It is constant so that nothing below moves.
 const HEIGHT: f32 = 26.0;
 
-/// The badge in a row of its own, and beside it whose picture is shown where that is not the sliders'.
+/// Draws the badge in a separate row, followed by a note if the picture belongs to another contact than the
+/// sliders.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let verdict = verdict(context.answers, context.thresholds);
     let other = context.answers.picture().filter(|picture| picture.key != context.document.key());
@@ -242,7 +243,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     });
 }
 
-/// A badge: its first words, what follows them, and why; screen readers know it by a name.
+/// Draws a badge from its title, text and explanation. `name` is its accessible name.
 pub fn pill(ui: &mut Ui, kind: Kind, [title, detail, why]: [&str; 3], name: &str) {
     let palette = Palette::of(ui);
     let color = match kind {
@@ -258,7 +259,7 @@ pub fn pill(ui: &mut Ui, kind: Kind, [title, detail, why]: [&str; 3], name: &str
         .stroke(Stroke::new(1.0, color.gamma_multiply(0.6)))
         .corner_radius(CornerRadius::same(10))
         .inner_margin(Margin::symmetric(10, 2));
-    // Where there is one row only, words give way; elsewhere the badge goes to the next row.
+    // In a layout with a single row the text is truncated. Elsewhere the badge wraps to the next row.
     let wraps = ui.layout().main_wrap;
     let response = frame
         .show(ui, |ui| {

@@ -1,4 +1,4 @@
-//! A contact in one line, and how its picture was obtained, for captions of figures.
+//! Captions of figures: a contact in one line, and the method that computed its picture.
 
 use crate::app::answers::Answers;
 use crate::app::answers::picture::Origin;
@@ -37,7 +37,7 @@ pub fn contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
     )
 }
 
-/// Returns how the picture was obtained and how far it can be trusted; `None` without a picture.
+/// Returns the method that computed the picture and its error. `None` without a picture.
 pub fn means(answers: &Answers) -> Option<String> {
     let picture = answers.picture()?;
     Some(match picture.origin {

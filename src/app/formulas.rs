@@ -1,4 +1,4 @@
-//! Published film formulas beside the current contact.
+//! Comparison of the contact's film thickness with published formulas.
 
 use crate::app::context::Context;
 use crate::app::controls::warning_ui;
@@ -11,7 +11,7 @@ use crate::solver::physics::contact::{FilmFormula, OperatingPoint};
 use crate::solver::physics::lubricant::{HeatReduction, Lubricant};
 use egui::{Grid, RichText, Ui};
 
-/// The comparison for other programs.
+/// Returns the comparison as CSV.
 pub fn csv(context: &Context<'_>) -> String {
     let picture = context.answers.current_picture();
     let point = &context.document.point;
@@ -41,13 +41,13 @@ pub fn csv(context: &Context<'_>) -> String {
     format!("# {}\n{}", describe_contact(point, &context.document.lubricant), table.to_csv())
 }
 
-/// The table under its title.
+/// Draws the table under its title.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     ui.strong("Film by published formulas");
     table(ui, context);
 }
 
-/// The table alone.
+/// Draws the table without title.
 pub fn table(ui: &mut Ui, context: &Context<'_>) {
     let picture = context.answers.current_picture();
     let central = picture.map(|p| p.central_film_m());
@@ -90,7 +90,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
     }
 }
 
-/// With heat: Moes' film as published factors thin it.
+/// Draws the rows of a thermal contact: Moes' film thickness with published thermal reduction factors.
 fn reduced_rows(ui: &mut Ui, context: &Context<'_>, central: Option<f64>) {
     for (by, factor, film, in_range) in reduced(&context.document.point, &context.document.lubricant) {
         let text = |t: String| if in_range { RichText::new(t) } else { RichText::new(t).weak() };
@@ -105,7 +105,8 @@ fn reduced_rows(ui: &mut Ui, context: &Context<'_>, central: Option<f64>) {
     }
 }
 
-/// Factors, the films \[m\] they make of Moes', and whether the contact is in their range; none without heat.
+/// Returns the thermal reduction factors, the resulting film thicknesses \[m\], and whether the contact is in their
+/// range. Empty without heat.
 fn reduced(point: &OperatingPoint, lubricant: &Lubricant) -> Vec<(HeatReduction, f64, f64, bool)> {
     let problem = lubricant.heat.and_then(|_| Problem::new(point, *lubricant).ok());
     let Some(heat) = problem.as_ref().and_then(|problem| problem.heat.as_ref()) else { return Vec::new() };

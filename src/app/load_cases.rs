@@ -1,5 +1,5 @@
-//! The window of load cases: a table is pasted or opened, its lines are read at once, and all of them are solved as a
-//! study of the Results tab.
+//! Window of load cases. The user pastes or opens a table, the window checks its lines, and a study of the Results
+//! tab solves all of them.
 
 use super::command::Command;
 use super::context::Commands;
@@ -14,12 +14,12 @@ use egui::{Button, Checkbox, Context, FontId, ScrollArea, TextEdit, Ui, Window, 
 use std::path::Path;
 use std::sync::Arc;
 
-/// A table to begin with.
+/// Example table.
 const EXAMPLE: &str = include_str!("../../scenes/load_cases/rollers_and_balls.csv");
-/// Refused lines that are named in the window; the results name all of them.
+/// Maximum number of refused lines listed in the window. The results list all of them.
 const NAMED: usize = 50;
 
-/// The window, open or closed, with its table.
+/// Window of load cases with its table.
 pub struct LoadCasesWindow {
     open: bool,
     text: String,
@@ -28,7 +28,7 @@ pub struct LoadCasesWindow {
     read: Option<Reading>,
 }
 
-/// A table as it was read for a document.
+/// Table as it was parsed for a document.
 struct Reading {
     text: String,
     document: Document,
@@ -42,7 +42,7 @@ impl Default for LoadCasesWindow {
 }
 
 impl LoadCasesWindow {
-    /// Whether it is open: then Escape closes it.
+    /// Returns true if the window is open. Escape then closes it.
     pub fn is_open(&self) -> bool {
         self.open
     }
@@ -51,15 +51,15 @@ impl LoadCasesWindow {
         self.open = true;
     }
 
-    /// Closes it; the table stays.
+    /// Closes the window and keeps the table.
     pub fn close(&mut self) {
         self.open = false;
     }
 
-    /// Takes in the table of a file.
+    /// Reads the table from a file.
     ///
     /// # Errors
-    /// A sentence when it cannot be read.
+    /// A sentence if the file cannot be read.
     pub fn read(&mut self, path: &Path) -> Result<(), Refusal> {
         if let CaseTable::Text(text) = CaseTable::pasted(path)? {
             self.text = text;
@@ -67,7 +67,7 @@ impl LoadCasesWindow {
         Ok(())
     }
 
-    /// Shows it where it is open.
+    /// Draws the window if it is open.
     pub fn ui(&mut self, ctx: &Context, document: &Document, commands: &mut Commands) {
         let mut open = self.open;
         let room = ctx.content_rect().size();
@@ -107,7 +107,7 @@ impl LoadCasesWindow {
         });
     }
 
-    /// What is wrong with the table, line by line.
+    /// Draws the refusals of the table, line by line.
     fn reading_ui(&mut self, ui: &mut Ui, document: &Document) {
         if self.text.trim().is_empty() {
             self.read = None;
@@ -158,7 +158,7 @@ impl LoadCasesWindow {
     }
 }
 
-/// The scene that solves a table; what its lines leave out is the document's contact.
+/// Returns the scene that solves a table. Quantities missing in a line are taken from the document's contact.
 fn scene(document: &Document, text: String, methods: Vec<Method>) -> Scene {
     Scene {
         title: "Load cases".to_owned(),
