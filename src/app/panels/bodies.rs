@@ -1,5 +1,5 @@
-//! The two bodies: materials, radii, surface speeds and roughness, which give R, R_y, E′, u_m, SRR, the film ratio and,
-//! with heat, thermal constants.
+//! Panel of the two bodies: materials, radii, surface speeds and roughness. They determine R, R_y, E′, u_m, SRR,
+//! the film ratio and, for a thermal contact, the thermal constants.
 
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, named, row_name, typed_field, warning_ui};
@@ -11,10 +11,10 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{self, Dimension};
 use egui::{CollapsingHeader, ComboBox, Ui};
 
-/// Under this name bodies are refused.
+/// Name under which refusals of the bodies are stored.
 const GROUP: &str = "bodies";
 
-/// A typed value of a body.
+/// Value of a body that can be typed.
 struct Field {
     names: [&'static str; 2],
     row: &'static str,
@@ -65,10 +65,10 @@ const ROWS: [Field; 4] = [
     },
 ];
 
-/// The row that only point contacts have.
+/// Row shown only for point contacts.
 const ACROSS: &str = "Across";
 
-/// The group, folded until it is wanted.
+/// Draws the group. It is collapsed until bodies have been entered.
 pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     CollapsingHeader::new("Two bodies").default_open(document.view.bodies.is_some()).show(ui, |ui| {
         let before = document.bodies();
@@ -117,7 +117,7 @@ fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
 }
 
 impl Field {
-    /// The values of both bodies; returns the name of the one that was entered.
+    /// Draws the values of both bodies. Returns the name of the field that was changed.
     fn ui(&self, ui: &mut Ui, bodies: &mut Bodies, entries: &mut Entries) -> Option<&'static str> {
         let mut entered = None;
         let (unit, scale) = self.unit;
@@ -125,7 +125,7 @@ impl Field {
             row_name(ui, name_and_symbol(ui, self.row, "", ""), self.tip);
             for (body, name) in bodies.0.iter_mut().zip(self.names) {
                 let dimension = (self.dimension)(body);
-                // A plane has no radius: it is shown and typed as infinite.
+                // A plane has no radius. It is shown and typed as infinite.
                 let read = |text: &str| match text.trim().to_lowercase().as_str() {
                     "plane" | "flat" | "∞" | "inf" => Ok(f64::INFINITY),
                     _ => engineering::parse(text, dimension, unit).map(|si| si / scale).map_err(Refusal::from),

@@ -1,4 +1,4 @@
-//! Heat: whether temperatures are computed, and what they need of the oil and of both bodies.
+//! Panel of the thermal contact: the switch for temperatures, and the constants of the oil and of both bodies.
 
 use super::lubricant::{Constant, GROUP, constant, constants_ui};
 use crate::app::context::Commands;
@@ -17,7 +17,7 @@ const CONDUCTIVITY_TIP: &str = "Thermal conductivity of the oil";
 const CAPACITY_TIP: &str = "Specific heat capacity of the oil";
 const OIL_DENSITY_TIP: &str = "Density of the oil at ambient pressure and the inlet’s temperature";
 
-/// The constants of the oil.
+/// Constants of the oil.
 pub(super) const CONSTANTS: [Constant; 6] = [
     constant("Inlet temperature", ("Inlet", "T", "0"), ("K", 1.0), INLET_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.inlet_temperature)
@@ -39,7 +39,7 @@ pub(super) const CONSTANTS: [Constant; 6] = [
     }),
 ];
 
-/// The switch, and below it the constants where it is on.
+/// Draws the switch and, if it is on, the constants.
 pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     let before = document.lubricant;
     let mut on = before.heat.is_some();
@@ -55,7 +55,7 @@ pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, comman
     }
 }
 
-/// The material of each body; those of a scene that are none of the named ones stay as they are.
+/// Draws the material of each body. Bodies of a scene that are no named material keep their constants.
 fn materials_ui(ui: &mut Ui, bodies: &[BodyHeat; 2], commands: &mut Commands) {
     let names = [("Body 1", "Moves with u_m (1 − SRR/2)"), ("Body 2", "Moves with u_m (1 + SRR/2)")];
     Grid::new("bodies with heat").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {

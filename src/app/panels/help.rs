@@ -1,17 +1,17 @@
-//! The Help windows.
+//! Windows of the Help menu.
 
 use crate::app::manual::Manual;
 use egui::{Context, Window};
 
-/// Which Help window is open.
+/// State of the Help windows.
 #[derive(Default)]
 pub struct Help {
     pub manual: Manual,
-    /// What this program is.
+    /// True if the information about the program is shown.
     pub about: bool,
 }
 
-/// The Help windows that are open.
+/// Draws the open Help windows.
 pub fn ui(ctx: &Context, help: &mut Help) {
     help.manual.ui(ctx);
     Window::new("About EHL Explorer").open(&mut help.about).resizable(false).show(ctx, |ui| {

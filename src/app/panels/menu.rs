@@ -1,4 +1,4 @@
-//! The menu bar.
+//! Menu bar.
 
 use crate::app::command::{Command, Item, MENUS};
 use crate::app::context::Commands;
@@ -8,7 +8,7 @@ use crate::app::notice::Notice;
 use crate::app::theme::Palette;
 use egui::{Align, Button, Label, Layout, MenuBar, RichText, Ui};
 
-/// The menu bar; chosen commands are added to `chosen`.
+/// Draws the menu bar and adds the chosen commands.
 pub fn ui(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS.chunk_by(|a, b| a.menu == b.menu) {
@@ -69,7 +69,7 @@ fn recent(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     });
 }
 
-/// What opens the command palette, at the very right.
+/// Draws the button of the command palette at the right end.
 fn palette(ui: &mut Ui, commands: &mut Commands) {
     let quiet = |text: String| RichText::new(text).color(Palette::of(ui).quiet);
     let mut button = Button::new(quiet("Find a command".to_owned()));
@@ -82,7 +82,7 @@ fn palette(ui: &mut Ui, commands: &mut Commands) {
     }
 }
 
-/// Name of the document and what the last file action did, right of the menus.
+/// Draws the name of the document and the last file notice, to the right of the menus.
 fn title(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     let palette = Palette::of(ui);
     let name = match &desk.files.path {

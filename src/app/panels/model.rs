@@ -1,4 +1,4 @@
-//! The reduced model that serves the contact: what it keeps, and how it deforms the bodies.
+//! Panel of the reduced model of the contact: its numbers of modes and equations, and its deformation operator.
 
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{NAME_WIDTH, choice, heading, reserved, warning_ui};
@@ -12,7 +12,7 @@ const NO_MODEL: &str = "No reduced model of this contact; the full solver draws 
 const NO_MODEL_THINS: &str =
     "No reduced model of this contact with a lubricant that thins under shear; the full solver draws the picture.";
 
-/// The group Model.
+/// Draws the group Model.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     heading(ui, "Model");
     model_ui(ui, context, commands);
@@ -26,8 +26,8 @@ fn deformation_operator(projected: bool) -> (&'static str, &'static str) {
     }
 }
 
-/// Every row has its place whether there is a model or not: one that is read on a thread arrives while a field of the
-/// same panel is edited.
+/// Draws the rows of the model. Every row keeps its place with and without a model, because a model may arrive
+/// while a field of the same panel is edited.
 fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {
     let model = answers.model(document);
     let window = model.and_then(|model| model.windows.get(model.window_for(&document.point)));
@@ -64,7 +64,7 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
     });
 }
 
-/// Which model it is, or that there is none, in two lines; what has no room there is read under the pointer.
+/// Draws the title of the model, or that there is none, in two lines. The full text is shown on hover.
 fn title_ui(ui: &mut Ui, model: Option<&ReducedModel>, shear: ShearLaw) {
     let (text, tip) = match (model, shear) {
         (Some(model), _) => (model.title.as_str(), format!("{}\n{}", model.title, model.log.join("\n"))),

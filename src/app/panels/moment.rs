@@ -1,5 +1,4 @@
-//! The read-outs of a contact in time: what it amounts to at the moment that is looked at, by the first method that has
-//! come to it.
+//! Read-outs of a transient contact at the displayed time, from the first method that has reached it.
 
 use super::readouts::cell;
 use crate::app::context::Context;
@@ -10,7 +9,7 @@ use crate::solver::full::transient::Quantity;
 use egui::Ui;
 use std::sync::Arc;
 
-/// The read-outs; whether there are any.
+/// Draws the read-outs. Returns true if there are any.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
     let view = context.transient;
     let time = view.player.time();
@@ -43,7 +42,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
     true
 }
 
-/// Width of the moment in words.
+/// Width of the text about the displayed time.
 const MOMENT: f32 = 190.0;
-/// What the smallest film is.
+/// Tooltip of the minimum film thickness.
 const SMALLEST: &str = "Smallest film of the contact zone at this moment";

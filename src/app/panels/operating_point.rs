@@ -1,4 +1,5 @@
-//! The same state in SI units beside the sliders, what follows what, and the Hertzian contact behind it.
+//! Panel of the operating point: the shape, the sliders, the quantities that follow M and L, the SI quantities, and
+//! the Hertzian contact.
 
 use super::sliders;
 use crate::app::context::{Commands, Context};
@@ -15,7 +16,7 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering;
 use egui::{Grid, RichText, TextWrapMode, Ui};
 
-/// What there is to choose from, and what it is.
+/// Shapes and their tooltips.
 const SHAPES: [(Shape, &str); 3] = [
     (
         Shape::Roller,
@@ -33,10 +34,10 @@ const SHAPES: [(Shape, &str); 3] = [
         R_y/R runs from 0.1 over 1, the circle, to 40, which is nearly a line",
     ),
 ];
-/// Under this name the choice between them is refused.
+/// Name under which refusals of the shape are stored.
 pub const SHAPE: &str = "shape of the contact";
 
-/// The panel's first group.
+/// Draws the first group of the panel.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     heading(ui, "Operating point");
     shape_ui(ui, Shape::of(&context.document.point), commands);
@@ -46,7 +47,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &
     hertz_ui(ui, context.document);
 }
 
-/// Roller, ball or ellipse.
+/// Draws the choice of the shape.
 pub(super) fn shape_ui(ui: &mut Ui, present: Shape, commands: &mut Commands) {
     let mut wanted = present;
     ui.horizontal(|ui| {
@@ -84,7 +85,7 @@ fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
     });
 }
 
-/// The names of the fields of the SI quantities, by which screen readers know them.
+/// Accessible names of the fields of the SI quantities.
 pub const FIELDS: [(Quantity, &str); 7] = [
     (Quantity::Radius, "Radius R"),
     (Quantity::RadiusY, "Across R_y"),
@@ -128,7 +129,7 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
     entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([SHAPE]));
 }
 
-/// The lock of a quantity that is held, or what it follows.
+/// Draws the lock of a held quantity, or the number that a free quantity follows.
 fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'static str), commands: &mut Commands) {
     let (held, follows) = (document.holds(quantity), document.follows(quantity));
     let (name, tip) = match (held, follows) {
@@ -139,7 +140,7 @@ fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'sta
     let response = if held || follows.is_empty() {
         lock_ui(ui, HELD, held)
     } else {
-        // As wide whatever it says, so that nothing beside it moves.
+        // The width is constant, so that nothing next to it moves.
         ui.add_sized(HELD, egui::Button::new(RichText::new(follows).small().weak()).frame(false))
     };
     if named(ui, response, &name).on_hover_text(tip).clicked() {
@@ -147,10 +148,10 @@ fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'sta
     }
 }
 
-/// Room for a lock, or for what a quantity follows.
+/// Size of a lock, or of the number that a quantity follows.
 const HELD: [f32; 2] = [62.0, 22.0];
 
-/// The value in SI units of a typed text with or without unit, inside what is accepted.
+/// Parses a text with or without unit. Returns the value in SI units if it is in the accepted range.
 fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, Refusal> {
     let (unit, scale) = quantity.reading_unit(kind);
     let value = engineering::parse(text, quantity.dimension(kind), unit)?;
@@ -218,7 +219,7 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
     });
     reserved(ui, 1, |ui| {
         if let Some(warning) = Warning::of_hertz_pressure(hertz.pressure_pa) {
-            // The rest of the sentence is read under the pointer.
+            // The full sentence is shown on hover.
             ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
             warning_ui(ui, &warning.to_string());
         }

@@ -1,4 +1,5 @@
-//! The grid of a point contact's full solutions: presets, whether it resolves the side lobes, and what it costs.
+//! Panel of the grid of a point contact's full solutions: presets, resolution of the side lobes, discretisation
+//! error.
 
 use crate::app::answers::jobs::JobKind;
 use crate::app::command::Command;
@@ -12,7 +13,7 @@ use crate::solver::full::point::second_grid;
 use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, Ui};
 
-/// A grid by name, and what is to be said of it.
+/// Presets with name and tooltip.
 const PRESETS: [(PointGridSpec, &str, &str); 5] = [
     (
         PointGridSpec::QUICK,
@@ -33,7 +34,7 @@ const PRESETS: [(PointGridSpec, &str, &str); 5] = [
     (PointGridSpec::FINEST, "Finest, 601×116", "The fine one, four times finer in the side lobes; several seconds"),
 ];
 
-/// The group Grid; nothing for a line contact.
+/// Draws the group Grid. Draws nothing for a line contact.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let Context { document, answers, .. } = *context;
     if document.point.kind == ContactKind::Line {
@@ -60,7 +61,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     if answers.model(document).is_some() {
         ui.weak("Of full solutions outside the reduced model, which has its own grid");
     }
-    // What comes and goes with solves stands last: nothing below it moves.
+    // Content that appears and disappears with solves is placed last, so that nothing below it moves.
     error_ui(ui, context, commands);
     if let Some(warning) = answers.current_picture().and_then(|picture| picture.unresolved.as_ref()) {
         warning_ui(ui, warning);

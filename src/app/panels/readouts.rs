@@ -1,4 +1,4 @@
-//! The read-outs under the plots: what the contact amounts to, and how it differs from the last pin.
+//! Read-outs below the plots: the results of the contact, and their differences from the last pinned curve.
 
 use crate::app::answers::picture::Picture;
 use crate::app::badge::verdict;
@@ -13,7 +13,7 @@ use egui::text::LayoutJob;
 use egui::{RichText, Ui};
 use std::sync::Arc;
 
-/// The read-outs.
+/// Draws the read-outs.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let (answers, document) = (context.answers, context.document);
     let bodies = document.view.bodies.as_ref();
@@ -33,7 +33,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
             ui.disable();
         }
         let s = scalars(picture);
-        // What the grid costs stands beside the value it was estimated for.
+        // Show the discretisation error only next to the value that it was estimated for.
         let shown_is_full = answers.full().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
         let grid_error = answers.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
         let doubt = picture.unphysical;
@@ -108,11 +108,11 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     });
 }
 
-/// Badge and read-outs in words, for people who cannot see them; `None` while the picture follows a change.
+/// Returns badge and read-outs as text for screen readers. `None` while the picture follows a change.
 pub fn spoken(context: &Context<'_>) -> Option<String> {
     let answers = context.answers;
     let verdict = verdict(answers, context.thresholds);
-    // Symbols are marked for the screen.
+    // Remove the markup of symbols.
     let badge = format!("{} {}.", verdict.title, verdict.detail).replace(['{', '}'], "");
     let Some(picture) = answers.current_picture() else { return answers.failure().map(|_| badge) };
     Some(format!(
@@ -124,7 +124,7 @@ pub fn spoken(context: &Context<'_>) -> Option<String> {
     ))
 }
 
-/// A symbol, its value, and this in SI units.
+/// Draws a symbol, its value, and the value in SI units.
 pub(super) fn cell(
     ui: &mut Ui,
     name: LayoutJob,

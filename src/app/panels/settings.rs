@@ -1,4 +1,4 @@
-//! The Settings window: what is set once for all documents, and kept with the session.
+//! Settings window. Settings apply to all documents and are stored with the session.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
@@ -10,7 +10,7 @@ use crate::app::theme::name_and_symbol;
 use crate::solver::physics::engineering::{self, Dimension};
 use egui::{Context, Id, ThemePreference, Ui, Window};
 
-/// The names of the thresholds' fields, and what they mean.
+/// Label, tooltip and accessible name of the fields of the thresholds.
 const THRESHOLDS: [(&str, &str, &str); 2] = [
     (
         "Verified up to",
@@ -28,7 +28,7 @@ const PERCENT: f64 = 0.01;
 const THEMES: [(ThemePreference, &str); 3] =
     [(ThemePreference::System, "As the system"), (ThemePreference::Light, "Light"), (ThemePreference::Dark, "Dark")];
 
-/// The window, open or closed.
+/// Settings window.
 #[derive(Default)]
 pub struct Settings {
     pub open: bool,
@@ -36,7 +36,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Shows it where it is open.
+    /// Draws the window if it is open.
     pub fn ui(&mut self, ctx: &Context, desk: &Desk, commands: &mut Commands) {
         let mut open = self.open;
         let window = Window::new("Settings").id(Id::unique("settings")).open(&mut open).collapsible(false);

@@ -1,4 +1,4 @@
-//! The sliders of M, L, SRR and NPR with their typed entries: one below the other in the panel, side by side in a
+//! Sliders of M, L, SRR and NPR with number fields: one below the other in the panel, side by side in a
 //! presentation.
 
 use crate::app::context::{Commands, Context};
@@ -33,21 +33,21 @@ const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is 
 const RATIO_TIP: &str = "R_y/R, the radius across over that along the rolling direction: 1 is a circle, large ratios are nearly a line, \
     small ones an ellipse that is long along the rolling direction. R stays, R_y follows. Double click: the circle";
 
-/// What has a slider.
+/// Quantities with a slider.
 pub const SLIDERS: [Quantity; 5] =
     [Quantity::M, Quantity::L, Quantity::RadiusRatio, Quantity::SlideToRollRatio, Quantity::NewtonianPlateauRatio];
-/// Under these names entries are refused.
+/// Names under which refusals are stored.
 pub const FIELDS: [&str; 10] =
     ["M", "L", "R_y/R", "SRR", "NPR", "M value", "L value", "R_y/R value", "SRR value", "NPR value"];
-/// Widths of a name, of a typed entry, and of what stands between.
+/// Widths of a name, a number field, and the gaps.
 const NAME_WIDTH: f32 = 84.0;
-/// Width of its symbol alone, and the width from which on a slider has room for its whole name beside others.
+/// Width of the symbol alone, and minimum width of a slider in a row with its whole name.
 const SYMBOL_WIDTH: f32 = 34.0;
 const ROOM_FOR_NAME: f32 = 270.0;
 const ENTRY_WIDTH: f32 = 70.0;
 const GAPS: f32 = 24.0;
 
-/// A slider with all that belongs to it.
+/// Slider with its name and number field.
 struct Row {
     quantity: Quantity,
     entry: &'static str,
@@ -55,10 +55,10 @@ struct Row {
     value: f64,
 }
 
-/// A value that was asked for, and the field it came from.
+/// Requested value, and the field of the request.
 type Wanted = (Quantity, &'static str, f64);
 
-/// Ends of a slider.
+/// Returns the ends of a slider.
 fn range(quantity: Quantity) -> RangeInclusive<f64> {
     let (low, high) = quantity.usual_range();
     low..=high
@@ -70,7 +70,7 @@ fn thins(document: &Document) -> bool {
 
 fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     let (moes, kind) = (document.point.moes(), document.point.kind);
-    // A model of circles has nothing to say of ellipses.
+    // The trained range of a model of circular contacts is not marked for elliptical contacts.
     let domain = answers.model(document).filter(|model| model.is_of(&document.point)).map(|model| &model.domain);
     let srr = document.point.sliding.slide_to_roll_ratio;
     let (npr, own_npr) = (document.plateau_ratio(), document.lubricant.shear.plateau());
@@ -92,7 +92,7 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     let marked = trained(Quantity::NewtonianPlateauRatio);
     let plateau = slider(Quantity::NewtonianPlateauRatio, marked, own_npr, NPR_TIP);
     let ratio = trained(Quantity::RadiusRatio);
-    // A ball is the ellipse in the middle: moving it makes one.
+    // A circular contact has the ratio 1. Moving this slider makes it elliptical.
     let ellipse = (kind == ContactKind::Point).then(|| Row {
         quantity: Quantity::RadiusRatio,
         entry: "R_y/R value",
@@ -111,7 +111,7 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     rows
 }
 
-/// All four, one below the other.
+/// Draws all sliders, one below the other.
 pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let width = (ui.available_width() - NAME_WIDTH - ENTRY_WIDTH - GAPS).clamp(70.0, 420.0);
     let mut wanted = None;
@@ -128,7 +128,7 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     take(commands, wanted);
 }
 
-/// Those that change the picture, side by side.
+/// Draws the sliders that change the picture, side by side.
 pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let document = context.document;
     let slides = thins(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
@@ -141,7 +141,7 @@ pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     side_by_side(ui, context, (&used, &|_| true), entries, commands);
 }
 
-/// Chosen ones side by side; those that are `free` can be moved.
+/// Draws the chosen sliders side by side. Only sliders that are `free` can be moved.
 pub fn side_by_side(
     ui: &mut Ui,
     context: &Context<'_>,
@@ -169,7 +169,7 @@ pub fn side_by_side(
 }
 
 impl Row {
-    /// Name, or its symbol alone, slider and entry; returns what was asked for.
+    /// Draws the name or only its symbol, the slider and the number field. Returns the requested value.
     fn ui(&self, ui: &mut Ui, entries: &mut Entries, width: f32, named: bool) -> Option<Wanted> {
         let tip = self.slider.tooltip;
         let (sign, _) = self.quantity.symbol();
@@ -195,7 +195,7 @@ impl Row {
     }
 }
 
-/// What a slider moves, in a word.
+/// Returns the quantity of a slider in one word.
 fn word(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::M => "Load",
@@ -206,14 +206,14 @@ fn word(quantity: Quantity) -> &'static str {
     }
 }
 
-/// Sets what was asked for.
+/// Submits the requested value.
 fn take(commands: &mut Commands, wanted: Option<Wanted>) {
     if let Some((quantity, field, value)) = wanted {
         commands.edit(Edit::Quantity(quantity, value), field);
     }
 }
 
-/// The slider of a fluid that keeps its viscosity: it stands at 1 and says why it does not move.
+/// Draws the slider of NPR for a Newtonian fluid. It is fixed at 1, and its tooltip says why.
 fn disabled_plateau(ui: &mut Ui, width: f32) {
     let tip = NPR_NEWTONIAN_TIP;
     ui.add_enabled(false, egui::Label::new("Plateau NPR")).on_disabled_hover_text(tip);
