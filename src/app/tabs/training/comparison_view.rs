@@ -1,4 +1,4 @@
-//! The model that was made beside those that were there before it.
+//! View of the comparison of models.
 
 use super::trainings::Training;
 use crate::app::command::Command;
@@ -12,13 +12,13 @@ use crate::app::theme::{Palette, rich};
 use egui::{Grid, Ui};
 use egui_plot::{Line, PlotPoints};
 
-/// A row: its name, what it is, and what one model has there.
+/// Row: its name, its tooltip, and the text for one model.
 type Row = (&'static str, &'static str, fn(&ModelScore) -> String);
 
-/// Height of the errors' distributions.
+/// Height of the distributions of errors.
 const HEIGHT: f32 = 200.0;
 
-/// The table and the distributions of errors, when they are there.
+/// Draws table and distributions of errors if the comparison is complete.
 pub fn ui(ui: &mut Ui, training: &Training, commands: &mut Commands) {
     let Some(comparison) = training.comparison.as_ref().filter(|comparison| comparison.done()) else { return };
     ui.add_space(4.0);
@@ -79,7 +79,7 @@ pub fn ui(ui: &mut Ui, training: &Training, commands: &mut Commands) {
     distributions(ui, &comparison.scores);
 }
 
-/// The share of contacts whose error is no larger, for each model.
+/// Draws the share of contacts whose error does not exceed a value, for each model.
 fn distributions(ui: &mut Ui, scores: &[ModelScore]) {
     let palette = Palette::of(ui);
     let hues =

@@ -1,5 +1,4 @@
-//! The specification of a training as a form: presets, range, plan, reduction. What makes no sense is refused beside
-//! its field.
+//! Form of a training: presets, range, plan, reduction. Invalid entries are refused next to their field.
 
 use super::tab::TrainingTab;
 use crate::app::context::{Commands, Context};
@@ -14,7 +13,7 @@ use crate::solver::reduced::{Sampling, Scheme};
 use crate::solver::training::{Indicator, Plan, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
 
-/// The form.
+/// Draws the form.
 pub fn ui(ui: &mut Ui, tab: &mut TrainingTab, context: &Context<'_>, commands: &mut Commands) {
     let Some(before) = context.document.training_spec() else { return };
     let mut spec = before.clone();
@@ -46,7 +45,7 @@ pub fn ui(ui: &mut Ui, tab: &mut TrainingTab, context: &Context<'_>, commands: &
     }
 }
 
-/// The title, taken when it is left: not every letter is an edit to undo.
+/// Draws the title. It is submitted when the field loses the focus, so that not every letter is an edit to undo.
 fn title_ui(ui: &mut Ui, typed: &mut Option<String>, spec: &mut TrainingSpec) {
     let tip = "What the model will be called";
     row(ui, "Title", tip, |ui| {
@@ -98,12 +97,12 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     ui.weak(described_windows(&spec.windows));
 }
 
-/// The interval of a quantity of a kind of contact.
+/// Draws the interval of a quantity for a kind of contact.
 fn quantity_ui(ui: &mut Ui, form: &mut Form<'_>, (quantity, kind): (Quantity, ContactKind), ends: &mut (f64, f64)) {
     form.interval(ui, quantity.field(), quantity.reading_unit(kind), ends, quantity.meaning(kind));
 }
 
-/// The windows of M in a line.
+/// Returns the local models and the grid in one line.
 fn described_windows(windows: &Windows) -> String {
     let given = match windows {
         Windows::Automatic { modes } => {
@@ -126,7 +125,7 @@ fn described_windows(windows: &Windows) -> String {
     format!("Windows of M: {}{grid}", ranges.join(", "))
 }
 
-/// The same range, as far as it can be, given the other way.
+/// Returns a range of the other form that covers the same contacts as far as possible.
 fn converted(spec: &TrainingSpec) -> ParameterSpace {
     let domain = spec.domain();
     let viscosity = domain.middle_viscosity_pa_s();
@@ -144,7 +143,7 @@ fn converted(spec: &TrainingSpec) -> ParameterSpace {
         .fixing([(Quantity::Viscosity, viscosity)])
 }
 
-/// Which plan.
+/// Kind of plan.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Adaptive,
@@ -175,7 +174,7 @@ impl Kind {
         }
     }
 
-    /// A plan of this kind with as much of another as it can take over.
+    /// Returns a plan of this kind with the settings of another plan that it also has.
     fn plan(self, start: usize, indicator: Indicator, tolerances: &[f64], limit: usize) -> Plan {
         let tolerance = tolerances.last().copied().unwrap_or(1e-3);
         match self {
@@ -282,7 +281,7 @@ fn indicator_ui(ui: &mut Ui, form: &mut Form<'_>, indicator: &mut Indicator) {
     }
 }
 
-/// The tolerances, descending; each shown as a number of its own.
+/// Draws the tolerances in descending order, each as a number field.
 fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
     let tip = "On the indicator, descending: a rung ends with enough good approximations in a row";
     row(ui, "Tolerances", tip, |ui| {
@@ -309,7 +308,7 @@ fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
     form.message(ui, "Tolerances");
 }
 
-/// By what the online step is found.
+/// Draws the choice of the online scheme.
 fn scheme_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     let before = spec.scheme;
     let options = [

@@ -1,4 +1,4 @@
-//! Making a reduced model: what it shall be trained for and how, the training as it runs, and what its model is worth.
+//! Training tab: specification of a reduced model, the running training, and the comparison of its model.
 
 use super::trainings::{Training, TrainingCommand};
 use super::{charts, comparison_view, form};
@@ -17,14 +17,14 @@ use egui::{Button, Label, ProgressBar, ScrollArea, Ui};
 /// Width of the form.
 const FORM_WIDTH: f32 = 316.0;
 
-/// The tab: what is being entered in its form.
+/// Training tab with the state of its form.
 #[derive(Default)]
 pub struct TrainingTab {
-    /// The title while it is typed.
+    /// Title while it is typed.
     pub title: Option<String>,
-    /// The field that was changed last.
+    /// Field that was changed last.
     pub last: LastField,
-    /// Trainings and what came of them.
+    /// Trainings and their results.
     pub work: Training,
 }
 
@@ -117,7 +117,7 @@ fn buttons(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &m
     compare_ui(ui, training, context, commands);
 }
 
-/// A button that asks for something.
+/// Draws a button that submits a command.
 fn button(ui: &mut Ui, commands: &mut Commands, on: bool, (name, tip): (&str, &str), command: Command) {
     let button = ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip);
     if button.clicked() {
@@ -125,7 +125,7 @@ fn button(ui: &mut Ui, commands: &mut Commands, on: bool, (name, tip): (&str, &s
     }
 }
 
-/// What can be done with the model that was made.
+/// Draws the actions on the trained model.
 fn made_ui(ui: &mut Ui, (training, made): (&Training, &Made), context: &Context<'_>, commands: &mut Commands) {
     use TrainingCommand as C;
     let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
@@ -146,7 +146,7 @@ fn made_ui(ui: &mut Ui, (training, made): (&Training, &Made), context: &Context<
     });
 }
 
-/// Which models stand beside each other.
+/// Draws the choice of models to compare.
 fn compare_ui(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &mut Commands) {
     ui.horizontal_wrapped(|ui| {
         let several = training.comparable(context.answers, context.document).len() > 1;
@@ -213,7 +213,7 @@ fn status(ui: &mut Ui, training: &Training) {
     }
 }
 
-/// What runs, how far it is, and how long it may take.
+/// Draws the running job, its progress, and its remaining time.
 fn standing_ui(ui: &mut Ui, standing: Standing, running: Option<&Running>) {
     let Standing { stage, done, total, .. } = standing;
     let count = if total > 0 { format!("{done} of {total}") } else { String::new() };
