@@ -1,5 +1,5 @@
-//! The contact on the screen as a table: what it amounts to by the reduced model and in full, with units, and what
-//! published formulas say. Needs no study.
+//! Table of the contact on the screen: its results by the reduced model and by the full solver, with units, and
+//! published formulas. It needs no study.
 
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::context::Context;
@@ -11,13 +11,13 @@ use crate::scene::Table;
 use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, ScrollArea, Ui};
 
-/// Width from which on the formulas stand beside the table.
+/// Width from which the formulas are placed next to the table.
 const BESIDE: f32 = 860.0;
 
-/// What is less is rounding.
+/// Values below this limit are rounding errors.
 const NOTHING: f64 = 1e-9;
 
-/// A quantity of a picture: name and symbol, a name for files, what it is, its value, and the same in SI units.
+/// Quantity of a picture: name with symbol, name in files, tooltip, value, and value in SI units.
 struct Quantity {
     name: &'static str,
     symbol: &'static str,
@@ -26,7 +26,7 @@ struct Quantity {
     si: String,
 }
 
-/// What is shown, from top to bottom.
+/// Returns the displayed quantities from top to bottom.
 fn quantities(picture: &Picture) -> Vec<Quantity> {
     let (s, point) = (picture.solution.scalars, &picture.key.point);
     let hertz = point.hertz();
@@ -58,7 +58,7 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
     .collect()
 }
 
-/// Rises of temperature and where the heat goes; none without heat.
+/// Returns temperature rises and heat flows. Empty for an isothermal contact.
 fn temperatures(picture: &Picture) -> Vec<Quantity> {
     let Some(heat) = picture.solution.heat.as_deref() else { return Vec::new() };
     let balance = &heat.balance;
@@ -87,19 +87,19 @@ fn temperatures(picture: &Picture) -> Vec<Quantity> {
     ]
 }
 
-/// What rolling resistance is.
+/// Tooltip of the rolling resistance.
 const ROLLING: &str = "½∫h dp of each body, over the load: what rolling costs even where nothing slides";
 
-/// What traction is.
+/// Tooltip of the traction coefficient.
 const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); none in pure rolling";
 
-/// The friction force.
+/// Returns the friction force as text.
 fn friction(picture: &Picture) -> String {
     let force = picture.traction * picture.key.point.load;
     picture.unphysical.map_or_else(|| self::force(force, picture.key.point.kind), |doubt| doubt.mark().to_owned())
 }
 
-/// A force, or one per length of a line contact.
+/// Returns a force as text, per length for a line contact.
 fn force(newtons: f64, kind: ContactKind) -> String {
     match kind {
         ContactKind::Line => numbers::quantity(1e-3 * newtons, "N/mm"),
@@ -107,7 +107,7 @@ fn force(newtons: f64, kind: ContactKind) -> String {
     }
 }
 
-/// What is shown beside each other: the picture, and the full solution where that is another one of the same contact.
+/// Returns the picture, and the full solution of the same contact if it is another one.
 fn columns<'a>(context: &Context<'a>) -> Option<(&'a Picture, Option<&'a Picture>)> {
     let picture = context.answers.picture()?;
     let full = context.answers.full();
@@ -118,7 +118,7 @@ fn name(picture: &Picture) -> &'static str {
     if picture.origin == Origin::Full { "Full solution" } else { "Reduced model" }
 }
 
-/// The page.
+/// Draws the table.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let Some((picture, full)) = columns(context) else {
         ui.weak("The first picture is being computed");
@@ -164,7 +164,7 @@ fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>) {
             ui.label(si);
             if let Some(truth) = truths.get(k).map(|truth| truth.value) {
                 ui.label(numbers::significant(truth)).on_hover_text(tip);
-                // What is to be nothing is as good as nothing by both.
+                // Both values are zero up to rounding, so no deviation is shown.
                 let off = |truth| numbers::percent(value / truth - 1.0);
                 ui.label(Some(truth).filter(|truth| truth.abs() > NOTHING).map_or_else(String::new, off))
                     .on_hover_text("Reduced over full, less one");
@@ -174,7 +174,7 @@ fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>) {
     });
 }
 
-/// The same for the file, where there is anything.
+/// Returns the table as CSV. `None` without a picture.
 pub fn csv(context: &Context<'_>) -> Option<String> {
     let (picture, full) = columns(context)?;
     let mut titles = vec![if picture.origin == Origin::Full { "full" } else { "reduced" }];

@@ -1,5 +1,5 @@
-//! The answer to a scene's question, whatever it is: its study runs on the engine as it does headless, and its charts,
-//! tables and verdicts come as they are found.
+//! Results tab: results of any scene. Its study runs in the engine as from the command line, and charts, tables and
+//! verdicts are updated while it runs.
 
 use super::run::{Campaign, Look, Run};
 use super::{chart, contact, table};
@@ -17,13 +17,13 @@ use crate::scene::{Method, Scene, Study, Table, Verdict};
 use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
 
-/// Width of the verdicts beside the charts.
+/// Width of the verdicts next to the charts.
 const VERDICTS: f32 = 330.0;
 
-/// What running the study does.
+/// Tooltip of the button that runs the study.
 const RUN_TIP: &str = "Answers the question of the open scene here, as “ehl-explorer run” does without a window";
 
-/// What is shown of a study.
+/// Displayed part of the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum ResultsChoice {
     Charts,
@@ -31,10 +31,10 @@ enum ResultsChoice {
     Table(String),
 }
 
-/// The tab's run and what is shown of it.
+/// Results tab: its run and the displayed part.
 pub struct Results {
     run: Option<Run>,
-    /// The document that was on the screen last, as a scene.
+    /// Document of the last frame with its scene.
     seen: Option<(Document, Scene)>,
     shown: ResultsChoice,
     fresh: bool,
@@ -50,40 +50,40 @@ impl Results {
     /// Runs the study of a scene on a bench.
     pub fn start(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
         let shown = match scene.study {
-            // Their lines are what was asked for.
+            // The table of the load cases is the main result.
             Study::LoadCases(_) => ResultsChoice::Table("load_cases".to_owned()),
             _ => ResultsChoice::Charts,
         };
         *self = Self { run: Some(Run::start(scene, bench, wake)), shown, ..Self::default() };
     }
 
-    /// Watches a campaign of a scene: its charts and tables fill as its shards come.
+    /// Watches a campaign of a scene. Charts and tables are updated as its shards arrive.
     pub fn watch(&mut self, scene: Scene, folder: PathBuf, wake: Wake) {
         *self = Self { run: Some(Run::watch(scene, folder, wake)), ..Self::default() };
     }
 
-    /// Forgets what was run: another scene is on the screen.
+    /// Discards the run, because another scene is on the screen.
     pub fn forget(&mut self) {
         *self = Self::default();
     }
 
-    /// How far the study is that runs.
+    /// Returns the progress of the running study.
     pub fn standing(&self) -> Option<Standing> {
         self.run.as_ref()?.standing()
     }
 
-    /// Whether a study runs here whose rows lie nowhere else.
+    /// Returns true if a study runs whose rows are stored nowhere else.
     pub fn would_lose(&self) -> bool {
         self.run.as_ref().is_some_and(|run| run.campaign.is_none() && run.standing().is_some())
     }
 
-    /// Whether everything has been answered, and whether all expectations hold.
+    /// Returns whether all expectations are met. `None` before the study is complete.
     pub fn verdict(&self) -> Option<bool> {
         let look = self.run.as_ref()?.look.as_ref().filter(|look| look.complete)?;
         Some(look.outcome.passed())
     }
 
-    /// A table by its name, of the last look.
+    /// Returns a table of the last evaluation by its name.
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.run.as_ref()?.look.as_ref()?.table(name)
     }
@@ -244,7 +244,8 @@ impl View for Results {
     }
 }
 
-/// How far a campaign is, and why shards failed: two lines that are always there, so that nothing moves when one fails.
+/// Draws the progress of a campaign and the failures of shards. The two lines are always present, so that nothing
+/// moves after a failure.
 fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
     let palette = Palette::of(ui);
     let folder = campaign.folder.display();
@@ -273,7 +274,7 @@ fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
     }
 }
 
-/// Failed shards that are named under the pointer.
+/// Maximum number of failed shards listed on hover.
 const NAMED_FAILURES: usize = 12;
 
 fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {

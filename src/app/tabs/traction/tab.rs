@@ -1,4 +1,5 @@
-//! Traction and film along one quantity, live by the reduced model, and the laws of the fluid behind them.
+//! Traction tab: traction and film thickness along one quantity, live by the reduced model, and the laws of the
+//! fluid.
 
 use super::chart::{self, NEAR_SRR};
 use super::fluid;
@@ -24,10 +25,10 @@ use crate::solver::physics::contact::ContactKind;
 use egui::{Align, Button, Checkbox, ComboBox, Layout, ScrollArea, TextStyle, Ui, vec2};
 use std::sync::Arc;
 
-/// The tab: how it shows things, and the largest shear stress of a solution.
+/// Traction tab with its settings, its curves, and the maximum shear stress of a solution.
 #[derive(Default)]
 pub struct Traction {
-    /// What is drawn, and how.
+    /// Settings of the plots.
     pub choices: Choices,
     /// Curve and full solutions.
     pub sweeps: Sweeps,
@@ -51,7 +52,7 @@ impl View for Traction {
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let choices = &mut self.choices;
-        // An audience looks at the curves.
+        // A presentation shows only the curves.
         if !context.presenting {
             ui.horizontal_wrapped(|ui| {
                 ui.selectable_value(&mut choices.shows_fluid, false, "Traction and film");
@@ -135,13 +136,13 @@ impl View for Traction {
 }
 
 impl Traction {
-    /// Solves contacts along the curve in full.
+    /// Starts full solutions along the curve.
     pub fn solve_along(&mut self, ctx: &egui::Context, document: &Document, answers: &Answers) {
         self.sweeps.start_markers(ctx, document, answers, &self.choices, false);
     }
 }
 
-/// Solves contacts along the curve in full once the sliders rest, if no model was trained for it.
+/// Starts full solutions along the curve when the sliders are idle, if no model was trained for it.
 fn fill(
     ui: &Ui,
     sweeps: &mut Sweeps,
@@ -165,7 +166,7 @@ fn fill(
     }
 }
 
-/// What there is to draw, and what of it is old.
+/// Curves to draw, and whether they are out of date.
 pub struct ShownSweep<'a> {
     pub(super) curve: Option<&'a Curve>,
     pub(super) markers: Option<&'a Markers>,
@@ -188,7 +189,7 @@ impl<'a> ShownSweep<'a> {
             |curve: &&Curve| curve.sweep == *sweep && served.as_ref().is_ok_and(|served| *served == curve.served);
         let curve_stale = curve.filter(present).is_none();
         let markers_stale = markers.is_none_or(|markers| markers.sweep != *sweep);
-        // Full solutions of these very contacts replace the curve of others.
+        // Full solutions of the present contacts replace a curve of others.
         let curve = curve.filter(|_| !curve_stale || markers_stale);
         let key = context.document.key();
         let of = |sweep: &Sweep| sweep.contact_like(&key);
@@ -203,7 +204,7 @@ impl<'a> ShownSweep<'a> {
 }
 
 impl ShownSweep<'_> {
-    /// What the line goes through: the reduced model's curve, or where there is none the full solutions.
+    /// Returns the contacts of the line: the curve of the reduced model, or the full solutions if there is none.
     pub(super) fn samples(&self) -> &[Sample] {
         match (self.curve, self.markers) {
             (Some(curve), _) => &curve.samples,
@@ -217,7 +218,7 @@ impl ShownSweep<'_> {
     }
 }
 
-/// What the laws of the fluid are about, for teaching.
+/// Explanation of the laws of the fluid, for teaching.
 const WHY_FLUID: &str = "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are \
      what this very contact meets: their ends decide how much of both the film feels. Where they end left of the bend the lubricant is as good as Newtonian.";
 
@@ -270,18 +271,18 @@ fn against_ui(ui: &mut Ui, choices: &mut Choices, kind: ContactKind, commands: &
         });
     response.response.labelled_by(label.id).on_hover_text(before.tip());
     if *chosen != before {
-        // Speeds and radii span decades, ratios of speeds do not.
+        // Speeds and radii span decades, SRR and NPR do not.
         choices.logarithmic.0 = !matches!(choices.against, Against::SlideToRoll | Against::Plateau);
         commands.push(Command::FitPlots);
     }
 }
 
-/// Size of the button that begins full solutions, and of the one that stops them.
+/// Size of the buttons that start and stop full solutions.
 const FULL_BUTTON: [f32; 2] = [136.0, 22.0];
-/// Lines that are always kept for what is said above the plots, so that these stand still.
+/// Number of lines reserved above the plots, so that the plots do not move.
 const STATUS_LINES: f32 = 3.0;
 
-/// What runs, what is amiss, and what the curve says in numbers, in a place of a fixed size.
+/// Draws progress, warnings and a summary of the curve in an area of fixed size.
 fn status(
     ui: &mut Ui,
     context: &Context<'_>,
@@ -361,7 +362,7 @@ fn said(
     }
 }
 
-/// Why there are fewer contacts than the curve should have.
+/// Draws a warning if contacts of the curve are missing.
 fn left_out_ui(ui: &mut Ui, failed: usize) {
     let contacts = match failed {
         0 => return,
@@ -371,7 +372,7 @@ fn left_out_ui(ui: &mut Ui, failed: usize) {
     warning_ui(ui, &format!("the reduced model did not converge at {contacts} left out"));
 }
 
-/// Traction here, the largest of the curve, and how far full solutions lie from it.
+/// Returns the traction of the contact, the maximum of the curve, and the difference to full solutions.
 fn summary(context: &Context<'_>, view: &Sweeps, sweep: &Sweep) -> String {
     let mut parts = Vec::new();
     let here = context.answers.picture().filter(|_| context.answers.picture_is_current());
