@@ -1,4 +1,4 @@
-//! What the views of the tab share: toolbars, notes, columns.
+//! Parts shared by the views of the tab: toolbars, notes, columns.
 
 use super::random_tests::{MOST_COMPARED, RandomTests, TESTS};
 use crate::app::controls::{either_button, message_ui, named, standing_ui, warning_ui};
@@ -11,14 +11,14 @@ use crate::scene::names;
 use crate::solver::physics::contact::OperatingPoint;
 use egui::{DragValue, Ui};
 
-/// A number to choose with its name before it.
+/// Draws a count with its name.
 pub fn count(ui: &mut Ui, name: &str, tip: &str, value: &mut usize, range: std::ops::RangeInclusive<usize>) {
     ui.label(name).on_hover_text(tip);
     let response = ui.add(DragValue::new(value).range(range).speed(10.0));
     named(ui, response, name).on_hover_text(tip);
 }
 
-/// Run, or Stop while it runs. Returns whether a run is wanted.
+/// Draws the button Run, or Stop during a run. Returns true if a run is requested.
 pub fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, work: &Background<StudyRow>) -> bool {
     let runs = work.job().is_some();
     let tip = if runs { "What has been found so far stays (Esc)" } else { tip };
@@ -29,7 +29,7 @@ pub fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, work: &Background<StudyRow
     clicked && !runs
 }
 
-/// The row over both views of the random tests.
+/// Draws the toolbar of both views of the random validation.
 pub fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use: &InUse) {
     tests.show(&ui.ctx().clone(), store, in_use);
     ui.horizontal_wrapped(|ui| {
@@ -56,12 +56,12 @@ pub fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use
     }
 }
 
-/// Says that what is shown was made with another model or truncation.
+/// Warns that the results belong to another model or truncation.
 pub fn stale_note(ui: &mut Ui, of: &InUse) {
     warning_ui(ui, &format!("Found with {}; the model or its truncation has changed since", of.describe()));
 }
 
-/// Says why there are no bounds, where there are none.
+/// Draws a note if there are no error bounds.
 pub fn bound_note(ui: &mut Ui, mut bounds: impl Iterator<Item = Option<f64>>) {
     if !bounds.any(|bound| bound.is_some()) {
         let note = "No calibrated bounds: the model is truncated, or its training measured no errors";
@@ -69,17 +69,17 @@ pub fn bound_note(ui: &mut Ui, mut bounds: impl Iterator<Item = Option<f64>>) {
     }
 }
 
-/// Columns that say which contact a row of an exported table is.
+/// Columns of an exported table that identify the contact of a row.
 pub const CONTACT_COLUMNS: [&str; 8] =
     [names::M, names::L, names::RADIUS, names::SPEED, names::LOAD, names::MODULUS, names::VISCOSITY, names::ALPHA];
 
-/// The values of [`CONTACT_COLUMNS`].
+/// Returns the values of [`CONTACT_COLUMNS`].
 pub fn contact_cells(point: &OperatingPoint) -> [f64; 8] {
     let (moes, [r, u, w, e, eta, alpha]) = (point.moes(), point.quantities());
     [moes.m, moes.l, r, u, w, e, eta, alpha]
 }
 
-/// Says why there is nothing yet.
+/// Draws a text in place of missing results.
 pub fn nothing_yet(ui: &mut Ui, text: &str) {
     ui.centered_and_justified(|ui| ui.weak(text));
 }

@@ -1,5 +1,5 @@
-//! How far results can be believed: where the error of this contact comes from, how the model does over its whole
-//! range, what its calibrated bound is worth, and how the last full solve converged.
+//! Accuracy tab: parts of this contact's error, validation of the model over its whole range, quality of its
+//! calibrated bound, and convergence of the last full solve.
 
 use super::random_tests::RandomTests;
 use super::{along, failure_map, residuals, split, truth};
@@ -11,13 +11,13 @@ use crate::scene::StudyRow;
 
 use egui::Ui;
 
-/// A view of the tab.
+/// View of the tab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 enum Part {
-    /// The parts of this contact's error.
+    /// Parts of this contact's error.
     #[default]
     Split,
-    /// Random tests in the M–L plane.
+    /// Random validation in the M–L plane.
     FailureMap,
     /// Calibrated bound against true error.
     Truth,
@@ -41,7 +41,7 @@ impl Part {
     }
 }
 
-/// The tab's studies and what they found.
+/// Accuracy tab: its studies and their results.
 #[derive(Default)]
 pub struct Accuracy {
     part: Part,
@@ -50,12 +50,12 @@ pub struct Accuracy {
     map: failure_map::Map,
     truth: Option<truth::Scatter>,
     along: along::Along,
-    /// Whether the tab was drawn since the last frame.
+    /// True if the tab was drawn since the last frame.
     shown: bool,
 }
 
 impl Accuracy {
-    /// Whether a study runs.
+    /// Returns true while a study runs.
     pub fn works(&self) -> bool {
         self.studies().into_iter().any(|work| work.standing().is_some())
     }
@@ -124,7 +124,7 @@ impl View for Accuracy {
         ]
     }
 
-    /// Studies that nobody asked for stop where nobody looks.
+    /// Receives results. Stops automatically started studies if the tab is hidden.
     fn receive(&mut self) {
         if !std::mem::take(&mut self.shown) {
             self.split.hide();

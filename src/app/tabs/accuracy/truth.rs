@@ -1,4 +1,4 @@
-//! What the calibrated bound is worth: bound against true error of H_c wherever both are known.
+//! View of the quality of the calibrated bound: bound against true error of H_c.
 
 use super::failure_map::{By, is_former, stamp, summary};
 use super::parts::tests_toolbar;
@@ -14,23 +14,23 @@ use crate::engine::{median, rank_correlation};
 use egui::{Grid, Ui, Vec2b};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
-/// Smaller errors are the full solver's own tolerance.
+/// Smaller errors are below the tolerance of the full solver.
 const FLOOR: f64 = 1e-11;
 /// Radius of a test's mark.
 const RADIUS: f32 = 2.8;
-/// By which the plot is known.
+/// Accessible name of the plot.
 const PLOT: &str = "Bound against true error";
 
-/// What a set of pairs (bound, truth) says of the bound.
+/// Quality of the bound, from pairs (bound, true error).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Worth {
-    /// Pairs.
+    /// Number of pairs.
     count: usize,
     /// Spearman's rank correlation.
     correlation: f64,
-    /// Share of pairs whose bound is not below the truth.
+    /// Share of pairs whose true error does not exceed the bound.
     holds: f64,
-    /// Median of bound over truth.
+    /// Median of bound over true error.
     effectivity: f64,
 }
 
@@ -47,20 +47,20 @@ impl Worth {
     }
 }
 
-/// What the view shows, made when something changed.
+/// Content of the view, updated after a change.
 pub struct Scatter {
     of: (usize, usize, By),
     worth: Worth,
-    /// (log10 of the truth, log10 of the bound) where the bound holds.
+    /// (log10 of the true error, log10 of the bound) of pairs where the bound holds.
     holds: Vec<PlotPoint>,
-    /// The same where it is.
+    /// The same for pairs where the bound does not hold.
     fails: Vec<PlotPoint>,
-    /// Where the line of perfect bounds begins and ends.
+    /// Ends of the line of perfect bounds.
     line: (f64, f64),
 }
 
 impl Scatter {
-    /// `None` without any pair.
+    /// Returns the content. `None` without any pair.
     fn new(results: &Results) -> Option<Self> {
         let pairs: Vec<(f64, f64)> = results.pairs().collect();
         if pairs.is_empty() {
@@ -81,7 +81,7 @@ impl Scatter {
     }
 }
 
-/// The view.
+/// Draws the view.
 pub fn ui(
     ui: &mut Ui,
     (shown, tests): (&mut Option<Scatter>, &mut RandomTests),
@@ -168,7 +168,7 @@ fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
                 egui_plot::HoverPosition::Elsewhere { .. } => None,
             });
         axes::show(plot, ui, PLOT, |plot| {
-            // Perfect bounds, as far as there are truths.
+            // Line of perfect bounds, over the range of the true errors.
             let identity = Line::new("bound = truth", vec![[low, low], [high, high]]).color(palette.reference);
             plot.line(identity.width(1.2).style(LineStyle::dashed_dense()).allow_hover(false));
             for (name, points, color, shape) in series.into_iter().filter(|s| !s.1.is_empty()) {

@@ -1,5 +1,5 @@
-//! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on
-//! request.
+//! Profiles tab: pressure and film thickness against X, one above the other on a shared axis, and optionally the
+//! difference to the full solution.
 
 use super::curves::{Scene, key_ui};
 use super::film_shear::{self, FilmShear, FilmShearImage};
@@ -20,26 +20,26 @@ use crate::app::{badge, caption, export, numbers};
 use egui::{Checkbox, ComboBox, Ui};
 use serde::{Deserialize, Serialize};
 
-/// What the tab shows beside the curves, and the image below them.
+/// Profiles tab: its settings and the images below the curves.
 #[derive(Default)]
 pub struct Profiles {
-    /// How they are shown.
+    /// Settings of the display.
     pub choices: Choices,
     image: FilmShearImage,
     warm: TemperatureImage,
 }
 
-/// How profiles are shown; kept with the session.
+/// Settings of the profiles, stored with the session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Choices {
-    /// Draw the full solution over the reduced one.
+    /// True if the full solution is drawn over the reduced one.
     pub overlay: bool,
-    /// Draw the difference below.
+    /// True if the difference is drawn below.
     pub difference: bool,
-    /// What is shown across the film.
+    /// Quantity shown across the film.
     pub film_shear: FilmShear,
-    /// Draw temperatures beside them, of a contact with heat.
+    /// True if temperatures of a thermal contact are drawn next to the profiles.
     pub temperatures: bool,
 }
 
@@ -94,7 +94,7 @@ impl View for Profiles {
             fit: context.fit,
             cuts: context.cuts,
         };
-        // The room is there from the moment on at which heat is asked for.
+        // The space is reserved as soon as heat is switched on.
         let warm = self.choices.temperatures && context.document.lubricant.heat.is_some();
         let gap = 8.0;
         let half = 0.5 * (ui.available_width() - gap);
@@ -188,7 +188,7 @@ impl View for Profiles {
     }
 }
 
-/// The pressure and, as soon as there is a full solution, what the reduced one differs from it by, side by side.
+/// Draws the pressure and, once there is a full solution, the difference of the reduced one to it, side by side.
 pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
     let answers = context.answers;
     let Some(picture) = answers.picture() else {
