@@ -1,4 +1,4 @@
-//! How the contact in time on the screen stands: live by models, checked in full, or not there yet.
+//! Trust badge of the transient contact: live by models, checked against the full solution, or not available yet.
 
 use super::runs::TransientRuns;
 use crate::app::badge::{Kind, pill};
@@ -10,10 +10,10 @@ use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
 use egui::Ui;
 
-/// Width that it may take.
+/// Maximum width.
 const WIDTH: f32 = 300.0;
 
-/// First words, what follows them, and why.
+/// Title, text after it, and explanation.
 struct Verdict {
     kind: Kind,
     title: &'static str,
@@ -21,7 +21,7 @@ struct Verdict {
     why: &'static str,
 }
 
-/// The badge of contacts in time.
+/// Draws the badge of the transient contact.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let Verdict { kind, title, detail, why } = verdict(context.transient, context.thresholds);
     if ui.available_size_before_wrap().x < WIDTH {
@@ -81,7 +81,7 @@ fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
     }
 }
 
-/// What each model errs by, as far as that is known.
+/// Returns the errors of the models as far as they are available.
 fn errors(view: &TransientRuns) -> String {
     let said = |run: &Run| {
         let name = match run.by {

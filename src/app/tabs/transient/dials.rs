@@ -1,4 +1,4 @@
-//! What drives the contact, at the hand: amplitude and period of the input that varies.
+//! Sliders of amplitude and period of the input that varies.
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -11,14 +11,14 @@ use crate::scene::TransientStudy;
 use crate::solver::full::transient::Signal;
 use egui::{DragValue, Label, Ui};
 
-/// Amplitudes that can be dragged to.
+/// Range of the amplitude slider.
 const AMPLITUDES: (f64, f64) = (0.01, 0.5);
-/// Periods that can be dragged to, in units of T.
+/// Range of the period slider in units of T.
 const PERIODS: (f64, f64) = (1.0, 16.0);
 /// Width of a slider.
 const WIDTH: f32 = 110.0;
 
-/// Words of an input, for what is seen and for what is heard.
+/// Returns the label and the accessible names of an input's sliders.
 fn words(input: Input) -> [&'static str; 3] {
     match input {
         Input::Load => ["Load", "Load amplitude", "Load period"],
@@ -27,7 +27,7 @@ fn words(input: Input) -> [&'static str; 3] {
     }
 }
 
-/// Amplitude and period of a function of time, to be changed; of several the first.
+/// Returns amplitude and period of a function of time, to be changed. Of several amplitudes it returns the first.
 fn swing(signal: &mut Signal) -> Option<(&mut f64, &mut f64)> {
     match signal {
         Signal::Harmonic { amplitude, period } | Signal::TriangleToSquare { amplitude, period, .. } => {
@@ -38,7 +38,7 @@ fn swing(signal: &mut Signal) -> Option<(&mut f64, &mut f64)> {
     }
 }
 
-/// What the input does, in a word.
+/// Returns the kind of a function of time as a word.
 fn shape(signal: &Signal) -> &'static str {
     match signal {
         Signal::Constant => "constant",
@@ -49,7 +49,7 @@ fn shape(signal: &Signal) -> &'static str {
     }
 }
 
-/// The dials of the first input that swings; where none does, a button that lets the load breathe.
+/// Draws the sliders of the first input that varies. If none varies, draws a button that makes the load harmonic.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let before = context.document.transient_study();
     let mut study = before.clone();

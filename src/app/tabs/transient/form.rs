@@ -1,5 +1,5 @@
-//! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense
-//! is refused beside its field.
+//! Form of the transient contact: the three inputs with a preview, duration, time steps and frames. Invalid entries
+//! are refused next to their field.
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -18,7 +18,7 @@ use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupporte
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
 
-/// Points of a curve of the preview.
+/// Number of points of a curve of the preview.
 const PREVIEW: usize = 400;
 
 /// Names of the fields of one input.
@@ -32,7 +32,7 @@ struct Names {
     steepness: &'static str,
 }
 
-/// Names of an input's fields from its own.
+/// Builds the names of the fields from the name of the input.
 macro_rules! names {
     ($kind:literal, $tip:literal) => {
         Names {
@@ -60,7 +60,7 @@ fn names(input: Input) -> Names {
     }
 }
 
-/// The form; `last` is the field that was changed last.
+/// Draws the form. `last` is the field that was changed last.
 pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &mut Commands) {
     let mut read_table = false;
     *last = edit(ui, ("transient", *last), context, commands, |ui, form, study| {
@@ -96,7 +96,7 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
     }
 }
 
-/// Which function of time.
+/// Kind of the function of time.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Constant,
@@ -131,7 +131,7 @@ impl Kind {
         }
     }
 
-    /// A function of this kind with as much of another as it can take over.
+    /// Returns a function of this kind with the amplitudes and periods of another one as far as it has them.
     fn signal(self, former: &Signal) -> Signal {
         let (amplitude, period) = match former {
             Signal::Harmonic { amplitude, period } | Signal::TriangleToSquare { amplitude, period, .. } => {
@@ -152,7 +152,7 @@ impl Kind {
     }
 }
 
-/// One input: which function of time, and its constants.
+/// Draws one input: the kind of function and its constants.
 fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signal) {
     let kind = Kind::of(signal);
     let mut wanted = kind;
@@ -192,7 +192,7 @@ fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signa
     }
 }
 
-/// The inputs against time; those that vary are told apart without colour.
+/// Draws the inputs against time. Line styles distinguish them without colour.
 fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
     let palette = Palette::of(ui);
     let looks = [
@@ -204,7 +204,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
         .paper_x("{T}")
         .paper_y("Input over its reference")
         .y_axis_min_width(36.0)
-        // The bar that scrolls the form lies over its edge.
+        // Leave space for the scroll bar of the form.
         .width(ui.available_width() - 14.0)
         .marks_x(4.0)
         .marks_y(2.0)
@@ -263,7 +263,7 @@ fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     }
 }
 
-/// The rule that the lengths of steps follow.
+/// Rule for the time step.
 #[derive(Clone, Copy, PartialEq)]
 enum StepRule {
     Equal,
@@ -295,7 +295,7 @@ impl StepRule {
         }
     }
 
-    /// Steps by this rule in place of others, the longest of which is given.
+    /// Returns the time step by this rule, given its maximum.
     fn steps(self, longest: f64) -> TimeStep {
         match self {
             Self::Equal => TimeStep::Fixed(longest),
@@ -305,7 +305,7 @@ impl StepRule {
     }
 }
 
-/// The frames, each a run of its own.
+/// Draws the choice of frames. Each frame gives a separate run.
 fn frames_ui(ui: &mut Ui, form: &mut Form<'_>, frames: &mut Vec<Frame>) {
     heading(ui, "Frames");
     for frame in Frame::ALL {

@@ -1,5 +1,5 @@
-//! The methods of a contact in time: the full system, which models are trained by and compared with, the reduced model
-//! and the linearised one with their settings, and what they are trained on.
+//! Form of the methods of a transient contact: the full system, which trains and checks the models, the reduced and
+//! the linearised model with their settings, and their training inputs.
 
 use crate::app::controls::heading;
 use crate::app::form::{Form, choose};
@@ -8,7 +8,7 @@ use crate::scene::{Drive, LinearisedTransient, ModelSource, ReducedTransient, Tr
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Checkbox, Ui};
 
-/// All methods.
+/// Draws the choice of all methods.
 pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     heading(ui, "Methods");
     let tip = "Always run: models are trained by it and compared with it";
@@ -37,7 +37,7 @@ pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     trainings_ui(ui, form, study);
 }
 
-/// The linearised model alone.
+/// Draws the settings of the linearised model.
 pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     let mut on = study.linearised.is_some();
     let tip = "Superposes linearised systems of trained moments (TPWL, 4.27): one small linear system per step; in the fixed frame";
@@ -112,7 +112,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
     }
 }
 
-/// What the models are trained on: the run itself, or other inputs that were kept for it.
+/// Draws the training inputs of the models: the run itself, or other inputs that were stored for it.
 pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     if !study.trains() {
         return;

@@ -22,8 +22,8 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, FontId, Label, ScrollArea, Slider, TextStyle, Ui};
 use std::sync::Arc;
 
-/// Shows a form of the document's transient study; returns the field that was changed last. `name` is the name of the
-/// message if a change is refused.
+/// Draws a form of the document's transient study. Returns the field that was changed last. `name` is the name
+/// under which a refusal is stored.
 pub fn edit(
     ui: &mut Ui,
     (name, last): (&'static str, LastField),
@@ -39,7 +39,7 @@ pub fn edit(
     form.ask(edit, "Frames", commands)
 }
 
-/// Lets the transient runs follow the document. Every tab that shows them calls it.
+/// Makes the transient runs follow the document. Every tab that shows them calls it.
 pub fn follow(context: &Context<'_>, commands: &mut Commands) {
     let wanted = Setup::of(context.document, context.file);
     if !context.transient.follows(&wanted) && !context.transient.runs_by_hand() {
@@ -47,7 +47,7 @@ pub fn follow(context: &Context<'_>, commands: &mut Commands) {
     }
 }
 
-/// Says why there are no transient runs of this contact, with a button that changes to a roller if that helps.
+/// Draws the reason why this contact has no transient runs, with a button that changes to a roller if that helps.
 fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Commands) {
     ui.weak(sentence(why));
     let tip = "A line contact with the same quantities";
@@ -58,7 +58,7 @@ fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Comma
     }
 }
 
-/// Returns true if runs are computed or are about to start by themselves.
+/// Returns true if runs are computed or are about to start automatically.
 pub fn is_coming(context: &Context<'_>) -> bool {
     let view = context.transient;
     let wanted = Setup::of(context.document, context.file);
@@ -74,7 +74,7 @@ pub fn grey_where_stale(ui: &mut Ui, context: &Context<'_>, name: &'static str) 
     }
 }
 
-/// Button that starts or stops the runs.
+/// Draws the button that starts or stops the runs.
 pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let view = context.transient;
     let runs = view.runs_by_hand();
@@ -89,9 +89,8 @@ pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     }
 }
 
-/// What runs and how far it is, what was refused, how runs ended that did not reach the end, and whether all of it is
-/// still what the sliders say: in one line that is always there, so that nothing below moves. What does not fit is read
-/// under the pointer.
+/// Draws progress, refusals, early ends, and a warning if the results are out of date. The text takes one line that
+/// is always present, so that nothing below moves. The full text is shown on hover.
 pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoIterator<Item = &'a str>) {
     let view = context.transient;
     let palette = Palette::of(ui);
@@ -113,7 +112,7 @@ pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoItera
     });
 }
 
-/// Returns the messages about the runs, the worst first.
+/// Returns the messages about the runs, the most severe first.
 fn sentences<'a>(
     context: &'a Context<'_>,
     refused: impl IntoIterator<Item = &'a str>,
@@ -139,7 +138,7 @@ fn sentences<'a>(
         warn(Warning::TooSteep { advice: advice(view).to_owned() }.to_string());
     }
     let quiet = palette.quiet;
-    // What several runs share is said once.
+    // A warning that several runs share is shown once.
     let of_runs = view.runs.iter().flat_map(|run| run.warnings.iter().map(move |warning| (run, warning)));
     let mut shared: Vec<(&Warning, String)> = Vec::new();
     for (run, warning) in of_runs.filter(|(_, warning)| !matches!(warning, Warning::MarchStopped { .. })) {
@@ -153,7 +152,7 @@ fn sentences<'a>(
     said
 }
 
-/// Shows a tab: its form, if it has a width, and beside it pictures that scroll if necessary, above the time bar.
+/// Draws a tab: its form, if it has a width, next to its plots, which scroll if necessary, above the time bar.
 pub fn page<T>(
     ui: &mut Ui,
     tab: &mut T,
@@ -177,7 +176,7 @@ pub fn page<T>(
             ui.separator();
         }
         ui.vertical(|ui| {
-            // Wide rows of the pictures do not widen the bar.
+            // Wide rows of the plots must not widen the bar.
             let width = ui.available_width();
             let height = (ui.available_height() - TIME_BAR).max(TIME_BAR);
             let area = ScrollArea::vertical().id_salt(name).auto_shrink(false).max_height(height);
@@ -190,10 +189,10 @@ pub fn page<T>(
     });
 }
 
-/// Height of the time bar with the room above it.
+/// Height of the time bar with the space above it.
 const TIME_BAR: f32 = 32.0;
 
-/// Time bar: a slider over the computed moments, and a button that plays them.
+/// Draws the time bar: a slider over the computed time, and a button to play.
 pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
     let Some(setup) = &view.setup else { return };
     let playing = view.player.playing();
@@ -232,10 +231,10 @@ pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
     });
 }
 
-/// Width of the tab from which on costs stand beside the moment, and their own.
+/// Minimum width of the tab to show computing times next to the time, and their width.
 const COSTS_FROM: f32 = 780.0;
 const COSTS: f32 = 330.0;
-/// Width of the moment in numbers.
+/// Width of the displayed time.
 const TIME: f32 = 120.0;
 
 /// Returns the time per step of each method, as text.

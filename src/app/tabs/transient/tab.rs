@@ -1,4 +1,5 @@
-//! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
+//! Transient tab: the inputs of the contact, the response of film thickness and pressure, and the difference
+//! between frames.
 
 use super::runs::{TransientCommand, TransientRuns};
 use super::{badge, cost, dials, form, profiles};
@@ -13,14 +14,14 @@ use egui::Ui;
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 300.0;
-/// Width from which on the profiles stand beside the series.
+/// Width from which the profiles are placed next to the time series.
 const SIDE_BY_SIDE: f32 = 560.0;
-/// Height of what stands above the series, with the room between plots.
+/// Height of the rows above the time series, with the space between plots.
 const HEADS: f32 = 48.0;
-/// Heights below which plots cannot be read.
+/// Minimum height of a readable plot.
 const LEAST_HEIGHT: f32 = 96.0;
 
-/// The tab: whether its form is shown, what is being entered there, and what is drawn.
+/// Transient tab: its form with the state of its entries, and its plots.
 #[derive(Default)]
 pub struct Transient {
     form: bool,
@@ -116,7 +117,8 @@ impl Transient {
 }
 
 impl Transient {
-    /// The contact over space and time beside its profiles, and the series below; returns the time that was clicked at.
+    /// Draws the map over space and time next to the profiles, and the time series below. Returns the time of a
+    /// click.
     fn plots(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
         let view = context.transient;
         let several = view.setup.as_ref().is_some_and(|setup| setup.runs() > 1);

@@ -1,5 +1,5 @@
-//! How the linearised model is made, at the hand: how many operating points, by which rule, and what combines them; and
-//! whether the inputs are such as it learned.
+//! Controls of the linearised model: number of operating points, selection rule, weights, and a check of the inputs
+//! against the training.
 
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{RangeSlider, choice};
@@ -10,14 +10,14 @@ use crate::app::tabs::transient::reach::beyond;
 use crate::app::theme::{Palette, rich};
 use egui::{Grid, Ui};
 
-/// Under this name the window knows what was refused.
+/// Name under which refusals are stored.
 pub const NAME: &str = "tpwl";
-/// Numbers of points that can be dragged to.
+/// Range of the slider for the number of points.
 const POINTS: (f64, f64) = (4.0, 160.0);
 /// Width of the slider.
 const WIDTH: f32 = 120.0;
 
-/// The dials.
+/// Draws the controls.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let before = context.document.transient_study();
     let mut study = before.clone();
@@ -63,7 +63,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     }
 }
 
-/// A line that is always there: whether the inputs are such as the models learned.
+/// Draws a line, always present, that states whether the inputs are inside the training of the models.
 pub fn inputs_ui(ui: &mut Ui, context: &Context<'_>) {
     let view = context.transient;
     let said = view

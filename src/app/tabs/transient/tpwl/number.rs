@@ -1,4 +1,4 @@
-//! Error against the number of operating points: both rules, both weightings.
+//! Error against the number of operating points for both rules and both weightings.
 
 use super::shown::ShownModel;
 use crate::app::plot::axes;
@@ -10,10 +10,10 @@ use crate::solver::full::transient::Quantity;
 use egui::{Color32, RichText, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
 
-/// Size of what stands above the plot.
+/// Text size above the plot.
 const SIZE: f32 = 11.0;
 
-/// The plot, with logarithmic axes.
+/// Draws the plot with logarithmic axes.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
     let study = &shown.view.number;
     let head = ui.horizontal(|ui| {

@@ -1,4 +1,5 @@
-//! The linearised model: where its operating points lie, which of them carry the present moment, and how many it takes.
+//! TPWL tab: operating points of the linearised model, their weights at the displayed time, and the necessary
+//! number of points.
 
 use super::shown::{Choices, ShownModel};
 use super::table::Sorting;
@@ -21,12 +22,12 @@ use egui::{Grid, Ui};
 
 /// Width of the settings.
 const FORM_WIDTH: f32 = 296.0;
-/// What the tab keeps between frames; none of it belongs to the scene.
+/// State of the tab between frames. It is not part of the scene.
 #[derive(Default)]
 pub struct Tpwl {
     choices: Choices,
     sorting: Sorting,
-    /// Whether settings are shown.
+    /// True if the settings are shown.
     form: bool,
     last: LastField,
 }
@@ -41,7 +42,7 @@ impl Tpwl {
         ui.weak("Inputs, duration and steps are those of the Transient tab.");
     }
 
-    /// Lets the study of numbers run by itself, once for each model.
+    /// Starts the study of the number of points automatically, once for each model.
     fn fill_numbers(&self, context: &Context<'_>, commands: &mut Commands) {
         let view = context.transient;
         let Some(linearised) = &view.linearised else { return };
@@ -105,7 +106,7 @@ impl Tpwl {
         });
     }
 
-    /// What is drawn: quantity, training, coordinates, and what stands below.
+    /// Draws the choices of the plots: quantity, training, coordinates, and the content of the last plot.
     fn choices(&mut self, ui: &mut Ui, linearised: &Linearised) {
         let modes = linearised.model.space.modes();
         let trainings = linearised.trainings.len();
@@ -196,7 +197,7 @@ impl View for Tpwl {
         type Text = fn(&ShownModel<'_>) -> String;
         let table = |name, tip, text: Text| {
             let shown = move |linearised: &&'a Linearised| {
-                // Colours are for the screen only.
+                // The export contains no colours.
                 let palette = Palette::for_visuals(&egui::Visuals::light());
                 text(&ShownModel::new(palette, &self.choices, &context, linearised))
             };
@@ -225,7 +226,7 @@ impl View for Tpwl {
     }
 }
 
-/// What to do where there is no linearised model yet.
+/// Draws what to do if there is no linearised model yet.
 fn nothing_yet(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let mut study = context.document.transient_study();
     if study.linearised.is_none() {
