@@ -1,4 +1,4 @@
-//! Error and time against the numbers of modes and of sampled rows, as curves on which both can be dragged.
+//! Plots of error and time against the numbers of modes and of sampled equations. Both numbers can be dragged.
 
 use super::field::TRUNCATION;
 use crate::app::command::Command;
@@ -22,24 +22,24 @@ use std::sync::Arc;
 
 /// Seed of the contacts.
 const SEED: u64 = 5;
-/// Numbers of modes that are tried.
+/// Number of tested numbers of modes.
 const MODES: usize = 9;
-/// Sampled rows per mode that are tried.
+/// Tested numbers of sampled equations per mode.
 const ROWS_PER_MODE: [f64; 5] = [1.0, 1.25, 1.5, 2.0, 3.0];
-/// How near (in screen points) the pointer must be to take a number along.
+/// Distance in screen points within which the pointer can grab a number.
 const GRAB: f32 = 9.0;
 
-/// What was found of a window of a model.
+/// Results for a local model.
 #[derive(Default)]
 pub struct Sizes {
-    /// The model as it was before its rows were changed, and its window.
+    /// Model before its sampled equations were changed, and the index of its local model.
     of: Option<(Arc<ReducedModel>, usize)>,
     rows: Vec<Row>,
     work: Background<StudyRow>,
 }
 
 impl Sizes {
-    /// How far the study is.
+    /// Returns the progress of the study.
     pub fn standing(&self) -> Option<Standing> {
         self.work.standing()
     }
@@ -48,7 +48,7 @@ impl Sizes {
         self.work.stop();
     }
 
-    /// Takes in what came since the last frame.
+    /// Receives results since the last frame.
     pub fn receive(&mut self) {
         let rows = &mut self.rows;
         self.work.receive(|row| {
@@ -58,7 +58,7 @@ impl Sizes {
         });
     }
 
-    /// Asks for the sizes of a window, unless it has been asked for.
+    /// Requests the study of a local model, unless it has been requested already.
     fn follow(&mut self, ui: &Ui, context: &Context<'_>, model: &Arc<ReducedModel>, window: usize) {
         let same = |other: &Arc<ReducedModel>| Arc::ptr_eq(other, model);
         let resampled = self.rows.iter().filter_map(|row| row.model.as_ref()).any(same);
@@ -80,7 +80,7 @@ impl Sizes {
         self.work.run(in_use.ask(ui.ctx(), context.answers.store(), question));
     }
 
-    /// All sizes of a kind, the model's own among the rows.
+    /// Returns all results of a kind. The model itself is included among the numbers of sampled equations.
     fn varied(&self, varied: Varied) -> Vec<&Row> {
         let own = self.rows.iter().rfind(|row| row.varied == Varied::Modes).filter(|_| varied == Varied::Rows);
         let mut found: Vec<&Row> = self.rows.iter().filter(|row| row.varied == varied).chain(own).collect();
@@ -88,7 +88,7 @@ impl Sizes {
         found
     }
 
-    /// The model with so many rows, or the nearest number of them.
+    /// Returns the model with the number of sampled equations nearest to the wanted one.
     fn with_rows(&self, wanted: f64) -> Option<&Arc<ReducedModel>> {
         let (base, _) = self.of.as_ref()?;
         let far = |row: &&&Row| (row.rows as f64 / wanted).ln().abs();
@@ -98,21 +98,21 @@ impl Sizes {
     }
 }
 
-/// The number that an axis shows.
+/// Returns the number on the horizontal axis.
 fn size(row: &Row, varied: Varied) -> usize {
     if varied == Varied::Modes { row.modes } else { row.rows }
 }
 
-/// A column of plots: what is varied, how its axis is called, the number that the model has now.
+/// Column of plots: the varied number, the title of its axis, and the present number of the model.
 struct Column {
     varied: Varied,
     axis: &'static str,
     present: usize,
-    /// Whether its curves were measured with other settings than those in use.
+    /// True if its curves were computed with other settings than those in use.
     grey: bool,
 }
 
-/// The curves.
+/// Draws the curves.
 pub fn ui(
     ui: &mut Ui,
     own: &mut Sizes,
@@ -142,7 +142,8 @@ pub fn ui(
     if let Some(message) = &own.work.message {
         message_ui(ui, message);
     }
-    // What curves belong to: any number of modes of the model as it was made, any of its rows with all modes.
+    // Owners of the curves: the original model with any number of modes, and the model with any number of sampled
+    // equations and all modes.
     let any_modes = View { pressure_loss: context.document.view.pressure_loss, ..View::default() };
     let made = own.of.as_ref().map_or(model, |(base, _)| base);
     let grey = |name: &'static str, of: InUse| drawn::is_grey(ui.ctx(), name, Owner::Model(of), context);
@@ -168,7 +169,7 @@ pub fn ui(
                 Varied::Modes => {
                     let most = window.pressure.count();
                     let wanted = (to.round().max(1.0) as usize).min(most);
-                    // A little more, so that rounding keeps this many.
+                    // The loss is slightly increased, so that rounding errors do not remove a mode.
                     let loss = (wanted < most).then(|| window.pressure.basis().loss(wanted) * (1.0 + 1e-6));
                     let view = View { pressure_loss: loss, ..context.document.view };
                     if view != context.document.view {
@@ -185,7 +186,7 @@ pub fn ui(
     });
 }
 
-/// Errors or times of a column; returns where the hand takes the present number.
+/// Draws errors or times of a column. Returns the number to which the user drags the present one.
 fn plot(ui: &mut Ui, own: &Sizes, column: &Column, errors: bool, height: f32, fit: bool) -> Option<f64> {
     let palette = Palette::of(ui);
     let Column { varied, axis, present, grey } = *column;

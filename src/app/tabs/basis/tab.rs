@@ -1,5 +1,5 @@
-//! The reduced basis: how fast the singular values fall, what the tolerances keep, what the modes look like, where rows
-//! are sampled.
+//! Reduced basis tab: decay of the singular values, effect of the tolerances, shapes of the modes, sampled
+//! equations.
 
 use super::curves::{Curves, Shown};
 use super::field::TRUNCATION;
@@ -19,15 +19,15 @@ use egui::Ui;
 
 use std::sync::Arc;
 
-/// What stands below the losses.
+/// Content below the losses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 enum Below {
-    /// Shapes of the modes and sampled rows.
+    /// Shapes of the modes and sampled equations.
     #[default]
     Modes,
     /// Error and time against their numbers.
     Sizes,
-    /// The pressure of the contact, and what the reduced one differs by.
+    /// Pressure of the contact, and its difference to the full solution.
     Difference,
 }
 
@@ -39,7 +39,7 @@ impl Below {
     ];
 }
 
-/// State of the tab, with the curves of one window.
+/// State of the tab, with the curves of one local model.
 #[derive(Default)]
 pub struct Basis {
     below: Below,
