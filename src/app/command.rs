@@ -234,7 +234,7 @@ pub static MENUS: &[Item] = {
         item("Run", 0, C::Verify, "Verify now", "full solve check", Some((PLAIN, Key::F5))),
         item("Run", 0, C::EstimateGridError, "Estimate grid error", "accuracy nodes refine", None),
         item("Run", 1, C::SolveAlong, "Full solutions along the traction curve", "", None),
-        item("Run", 1, C::RunInTime, "Run in time", "transient march", None),
+        item("Run", 1, C::RunInTime, "Run transient", "in time march", None),
         item("Run", 1, C::Train, "Start training", "reduced model snapshots", None),
         item("Run", 2, C::Cancel, "Cancel", "stop abort", Some((PLAIN, Key::Escape))),
         item("Help", 0, C::Manual, "Manual", "help documentation tour physics", Some((PLAIN, Key::F1))),

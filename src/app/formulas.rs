@@ -43,7 +43,7 @@ pub fn csv(context: &Context<'_>) -> String {
 
 /// Draws the table under its title.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
-    ui.strong("Film by published formulas");
+    ui.strong("Film thickness by published formulas");
     table(ui, context);
 }
 
@@ -56,7 +56,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
         ui.weak("Formula");
         ui.weak("Of");
         ui.weak("Film");
-        ui.weak("Deviation").on_hover_text("Formula over this contact's film, minus one");
+        ui.weak("Deviation").on_hover_text("Film thickness of the formula over that of this contact, minus one");
         ui.end_row();
         for &formula in FilmFormula::of(context.document.point.kind) {
             let prediction = formula.predict(&context.document.point);
@@ -86,7 +86,11 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
     ui.add_space(4.0);
     ui.weak(RichText::new("Grey: outside the range a formula was fitted to. Sources appear on hover.").small());
     if context.document.point.radius_ratio() < 1.0 {
-        warning_ui(ui, "Hamrock–Dowson is 15–75 % high where R_y is smaller than R: it was fitted to ellipses across");
+        warning_ui(
+            ui,
+            "Hamrock–Dowson is 15–75 % too high for R_y smaller than R: it was fitted to ellipses that are long across \
+             the rolling direction",
+        );
     }
 }
 
@@ -95,7 +99,7 @@ fn reduced_rows(ui: &mut Ui, context: &Context<'_>, central: Option<f64>) {
     for (by, factor, film, in_range) in reduced(&context.document.point, &context.document.lubricant) {
         let text = |t: String| if in_range { RichText::new(t) } else { RichText::new(t).weak() };
         let outside = if in_range { "" } else { ". This contact lies outside its range of validity" };
-        let tip = format!("Moes’ film thinned by heat: {}{outside}", by.source());
+        let tip = format!("Moes’ film thickness with thermal reduction: {}{outside}", by.source());
         ui.label(text(format!("× {} {}", numbers::digits(factor, 3), by.name()))).on_hover_text(&tip);
         ui.label(symbol(ui, "h", "c"));
         ui.label(text(numbers::length(film))).on_hover_text(&tip);

@@ -83,14 +83,14 @@ impl LoadCasesWindow {
 
     fn table_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
         ui.label(
-            "A line of titles, then a contact a line: open a CSV file, or paste what was copied from a spreadsheet. Units \
-             stand in titles or cells. What a line leaves out is that of the contact on the left.",
+            "One line of titles, then one contact per line. Open a CSV file, or paste cells from a spreadsheet. Units \
+             are in titles or cells. Missing quantities are taken from the contact on the left.",
         );
         ui.horizontal(|ui| {
             if ui.button("Open CSV…").clicked() {
                 commands.push(Command::Ask(Purpose::Cases));
             }
-            if ui.button("Ten bearings, gears and rigs").on_hover_text("A table to begin with").clicked() {
+            if ui.button("Ten bearings, gears and rigs").on_hover_text("An example table").clicked() {
                 EXAMPLE.clone_into(&mut self.text);
             }
             if ui.add_enabled(!self.text.is_empty(), Button::new("Clear")).clicked() {
@@ -143,8 +143,8 @@ impl LoadCasesWindow {
         let cases = self.read.as_ref().and_then(|read| read.cases.as_ref().ok());
         let good = cases.map_or(0, |cases| cases.iter().filter(|case| case.request.is_ok()).count());
         ui.horizontal(|ui| {
-            ui.add(Checkbox::new(&mut self.full, "Full")).on_hover_text("Full solutions, as `solve` gives them");
-            let tip = "By the reduced model in the program; where it was not trained the result says so";
+            ui.add(Checkbox::new(&mut self.full, "Full")).on_hover_text("Full solutions, as `solve` returns them");
+            let tip = "By the built-in reduced model. Results outside its trained range carry a warning";
             ui.add(Checkbox::new(&mut self.reduced, "Reduced")).on_hover_text(tip);
             let ready = good > 0 && (self.full || self.reduced);
             if ui.add_enabled(ready, Button::new("Solve all")).clicked() {
@@ -153,7 +153,7 @@ impl LoadCasesWindow {
                 commands.push(Command::OpenScene(Arc::new(scene(document, self.text.clone(), methods))));
                 self.open = false;
             }
-            ui.weak("The table fills in Results, and leaves from there as CSV");
+            ui.weak("The Results tab shows the table and exports it as CSV");
         });
     }
 }

@@ -115,7 +115,7 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
     wait(&mut harness, "the end", |app| !app.training());
     click(&mut harness, "Discard…");
     assert!(kept.exists(), "it asks first");
-    click(&mut harness, "Throw it away");
+    click(&mut harness, "Discard it");
     assert!(!kept.exists());
     assert!(!harness.get_by_label("Start training").accesskit_node().is_disabled());
 }
@@ -152,7 +152,7 @@ fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothi
     click(&mut harness, "Cancel");
     assert!(!harness.state().training() && kept.exists());
     click(&mut harness, "Throw away…");
-    click(&mut harness, "Throw it away");
+    click(&mut harness, "Discard it");
     assert!(!kept.exists() && harness.query_by_label("Save model…").is_none());
     // Now nothing is lost, and nothing asks.
     click(&mut harness, "Start training");

@@ -97,7 +97,7 @@ fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
     // Twice: a stopped run leaves room for the next. How soon it stops is judged without the window, where studies are
     // cancelled.
     for _ in 0..2 {
-        click(&mut harness, "Run in time");
+        click(&mut harness, "Run transient");
         wait(&mut harness, "some steps", |app| !app.marching() || app.transient_moments() > 20);
         assert!(harness.query_by_label("Progress of the contact in time").is_some());
         click(&mut harness, "Stop");
@@ -233,7 +233,7 @@ fn what_has_not_come_to_a_moment_is_not_drawn_there() {
     let (mut harness, folder) = open("moment", &scene(BREATHING, 45.0, frames));
     assert!(!harness.state().marching(), "this takes more than a moment: it waits until it is asked for");
     assert!(shows(&harness, "Run it in time"));
-    click(&mut harness, "Run in time");
+    click(&mut harness, "Run transient");
     wait(&mut harness, "the second frame", |app| !app.marching() || app.transient_moments() > 940);
     click(&mut harness, "Stop");
     rest_in_time(&mut harness);

@@ -71,12 +71,13 @@ impl Origin {
             Self::Reduced { residual_estimate, error, iterations, window, stands_in } => {
                 let bound = match error {
                     Some(e) => format!("error bounds H_c {:e}, H_min {:e}", e.h_c.bound, e.h_min.bound),
-                    None if *stands_in => "no error bound: a window beside the contact's own answers".to_owned(),
+                    None if *stands_in => "no error bound: computed by a neighbouring local model".to_owned(),
                     None => "no calibrated error bound".to_owned(),
                 };
                 let window = window + 1;
                 format!(
-                    "reduced model, window {window}, {iterations} Newton steps, residual estimate {residual_estimate:e}, {bound}"
+                    "reduced model, local model {window}, {iterations} Newton steps, residual estimate \
+                     {residual_estimate:e}, {bound}"
                 )
             }
         }

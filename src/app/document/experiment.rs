@@ -179,7 +179,7 @@ impl Document {
                 self.accept(OperatingPoint { sliding, ..self.point })
             }
             Quantity::RadiusRatio if self.holds(Quantity::RadiusY) => {
-                Err(Refusal::new("R_y is held, so that R_y/R cannot move; free it by its lock"))
+                Err(Refusal::new("R_y is held, so R_y/R cannot change; release R_y with its lock"))
             }
             _ => self.accept(quantity.at(&self.point, value)),
         }
@@ -312,15 +312,13 @@ impl Document {
         let in_time = matches!(scene.study, Study::Transient(_));
         let unsupported = self.unsupported_in_time().filter(|_| in_time);
         if scene.contact != self.point.kind {
-            Some("it is about the other kind of contact")
+            Some("it applies to the other kind of contact")
         } else if unsupported == Some(Unsupported::ShearThinning) {
-            Some("it is answered with Newtonian lubricants only")
+            Some("it supports Newtonian lubricants only")
         } else if unsupported == Some(Unsupported::MassConservingModel) {
-            Some(
-                "its models are answered with the penalty or complementarity only, not with mass-conserving cavitation",
-            )
+            Some("its models support cavitation by penalty or complementarity only, not mass-conserving cavitation")
         } else if unsupported.is_some() || !self.keeps_with_heat(scene) {
-            Some("it is answered without heat only")
+            Some("it supports isothermal contacts only")
         } else {
             None
         }

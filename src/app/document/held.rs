@@ -65,7 +65,7 @@ impl Document {
             let held: Vec<&str> = Quantity::SI.into_iter().filter(|q| self.holds(*q)).map(Quantity::name).collect();
             let moving = if m_moves { "M" } else { "L" };
             let held = held.join(", ");
-            Refusal::new(format!("{moving} cannot move: {held} are held; free one of them by its lock"))
+            Refusal::new(format!("{moving} cannot change: {held} are held; release one of them with its lock"))
         })
     }
 

@@ -67,8 +67,8 @@ impl Document {
         };
         if let Some(rows) = Input::ALL.map(rows).into_iter().max().filter(|rows| *rows > MOST_ROWS) {
             return Err(Refusal::new(format!(
-                "the table has {rows} rows, but a scene that is edited here keeps at most {MOST_ROWS}; thin it out, or name the file \
-                 in the scene as `sampled`"
+                "the table has {rows} rows, but a scene edited here stores at most {MOST_ROWS}; reduce the table, or \
+                 name the file in the scene as `sampled`"
             )));
         }
         self.set_transient(study)

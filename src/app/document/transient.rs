@@ -21,7 +21,7 @@ impl Document {
     /// A sentence if it is invalid. The document is then unchanged.
     pub fn set_transient(&mut self, study: TransientStudy) -> Result<(), Refusal> {
         study.own_march(self.point, self.lubricant, Frame::Fixed).problem()?;
-        let asked = question("Contact in time", &self.key(), self.transient_grid(), Study::Transient(study.clone()));
+        let asked = question("Transient contact", &self.key(), self.transient_grid(), Study::Transient(study.clone()));
         asked.check()?;
         self.transient = Some(study);
         Ok(())

@@ -322,7 +322,7 @@ impl Dialog {
             ui.end_row();
             ui.label("Resolution");
             let dpi = DragValue::new(&mut settings.dpi).range(DPI.0..=DPI.1).suffix(" dpi");
-            let dpi = ui.add(dpi).on_hover_text("Of a PNG; a drawing has none");
+            let dpi = ui.add(dpi).on_hover_text("Resolution of a PNG; an SVG has none");
             named(ui, dpi, "Resolution in dpi");
             ui.end_row();
             ui.label("Theme");

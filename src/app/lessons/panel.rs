@@ -115,7 +115,7 @@ impl Lessons {
             ui.heading("Lessons");
             self.close_ui(ui);
         });
-        ui.weak("Each starts from a contact of its own; Undo brings yours back.");
+        ui.weak("Each lesson starts from its own contact. Undo restores yours.");
         let mut chosen = None;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             for (k, lesson) in LESSONS.iter().chain(&self.own).enumerate() {

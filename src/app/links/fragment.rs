@@ -29,7 +29,7 @@ const LEVEL: u8 = 9;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
     /// The text is no link of this program.
-    #[error("this is no link of EHL Explorer: one begins with # and then 1. or embed=")]
+    #[error("this is not a link of EHL Explorer: a link begins with # and then 1. or embed=")]
     Foreign,
     /// The link was written by another version of the program.
     #[error("this link has version {0}; this program reads version {VERSION}")]
@@ -41,7 +41,7 @@ pub enum LinkError {
     #[error("this link holds no contact: {0}")]
     Document(String),
     /// An embed names an unknown tab, slider or lesson.
-    #[error("this link asks for the {what} {name}, which there is not; there are {known}")]
+    #[error("this link names the unknown {what} {name}; accepted are {known}")]
     Unknown {
         /// Tab, slider or lesson.
         what: &'static str,
@@ -282,7 +282,7 @@ mod tests {
         assert!(read.lesson == Some(2) && read.document.is_none() && read.tree.is_none());
         for text in ["#embed=pictures", "#embed=profiles&sliders=load", "#lesson=99", "#lesson=0"] {
             let why = Fragment::read(text).err().unwrap();
-            assert!(matches!(why, LinkError::Unknown { .. }) && why.to_string().contains("there are"), "{why}");
+            assert!(matches!(why, LinkError::Unknown { .. }) && why.to_string().contains("accepted are"), "{why}");
         }
     }
 }

@@ -32,7 +32,7 @@ impl LinkWindow {
         let response = Modal::new(Id::unique("link")).show(ctx, |ui| {
             ui.set_width(440.0);
             ui.heading("Open a link");
-            let label = ui.label("An address with a # in it, or what begins with the #");
+            let label = ui.label("An address with #, or its part from # on");
             let edit = ui.add(TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
             if std::mem::take(&mut self.fresh) {
                 edit.request_focus();

@@ -56,13 +56,13 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
     entries.extend(Shape::ALL.map(|shape| {
         let edit = Command::Edit(Edit::Shape(shape), SHAPE);
         let entry = Entry::new("Contact", shape.name().to_owned(), shape.synonyms(), edit);
-        entry.refused_where(shape == present, "It is one")
+        entry.refused_where(shape == present, "It is already selected")
     }));
     let present = of_laws(&desk.document.lubricant).filter(|_| !desk.own_lubricant);
     entries.extend(NAMED.iter().map(|named| {
         let name = format!("Lubricant: {}", named.title);
         let entry = Entry::new("Lubricant", name, named.about, Command::Edit(Edit::Named(named), GROUP));
-        entry.refused_where(present == Some(named), "It is the present one")
+        entry.refused_where(present == Some(named), "It is already selected")
     }));
     entries.extend(desk.files.recent.iter().map(|path| {
         let name =

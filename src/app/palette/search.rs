@@ -68,7 +68,7 @@ mod tests {
         let found = find(&entries, "contact");
         let at = |name: &str| found.iter().position(|entry| entry.name == name).unwrap();
         assert!(at("Ball") < at("Roller"));
-        assert_eq!(found[at("Roller")].refusal, Some("It is one"));
+        assert_eq!(found[at("Roller")].refusal, Some("It is already selected"));
         let undo = find(&entries, "undo")[0];
         assert_eq!((undo.name.as_str(), undo.refusal), ("Undo", Some("Nothing has been changed")));
         // Without a picture, no curve can be pinned.
@@ -76,6 +76,6 @@ mod tests {
         assert_eq!(why("Pin curve"), Some("There is no picture yet"));
         assert_eq!(why("Remove all pins"), Some("Nothing is pinned"));
         assert_eq!(why("Cancel"), Some("Nothing runs"));
-        assert_eq!(why("Run in time"), None);
+        assert_eq!(why("Run transient"), None);
     }
 }

@@ -104,7 +104,7 @@ impl Open {
         let edit = named(ui, edit, "Find a command");
         let found = search::find(entries, &self.query);
         if found.is_empty() {
-            ui.weak("Nothing is called that.");
+            ui.weak("No command has this name.");
             return None;
         }
         // Arrow keys wrap around at both ends, page keys stop there.

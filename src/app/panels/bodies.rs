@@ -39,8 +39,8 @@ const ROWS: [Field; 4] = [
         names: ["Radius across of body 1", "Radius across of body 2"],
         row: ACROSS,
         unit: ("mm", 1e-3),
-        tip: "Radius of curvature across the rolling direction; negative for a groove, “plane” for none. \
-            Equal to that along it makes a body round, and keeps it so",
+        tip: "Radius of curvature across the rolling direction; negative for a groove, “plane” for none. If it equals \
+              the radius along, the body is round and stays round",
         dimension: |_| Dimension::Length,
         get: Body::transverse_radius_m,
         set: |body, radius| *body = body.with_transverse_radius_m(radius),
@@ -84,9 +84,9 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
         if document.view.bodies.is_some() && document.bodies_in_force().is_none() {
             warning_ui(
                 ui,
-                "R, R_y, E’, u_m, SRR or thermal constants were changed since: they are no longer these bodies’",
+                "R, R_y, E’, u_m, SRR or thermal constants have been changed and no longer match these bodies",
             );
-            if ui.button("Take the bodies’ values").clicked() {
+            if ui.button("Use the bodies’ values").clicked() {
                 commands.edit(Edit::Bodies(before), GROUP);
             }
         }
@@ -97,7 +97,11 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
 fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
     let mut chosen = None;
     ui.horizontal(|ui| {
-        row_name(ui, name_and_symbol(ui, "Material", "", ""), "E and ν give E’ (2.5); with Heat k, c and ρ count too");
+        row_name(
+            ui,
+            name_and_symbol(ui, "Material", "", ""),
+            "E and ν determine E’ (2.5). With Heat, k, c and ρ are used as well",
+        );
         for (body, name) in bodies.0.iter_mut().zip(["Material of body 1", "Material of body 2"]) {
             let present = body.material();
             let text = present.map_or("Own", |material| material.name);

@@ -7,15 +7,16 @@ use crate::app::document::{Document, Edit};
 use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
 use egui::{Checkbox, Grid, Ui};
 
-const TIP: &str = "Temperatures across and along the film and of both bodies, and what they do to film and traction: by \
-    full solutions, of lines and circles also by a reduced model that was trained with heat";
+const TIP: &str = "Computes temperatures across and along the film and of both bodies, and their effect on film \
+                   thickness and traction. By full solutions; for line and circular contacts also by a reduced thermal \
+                   model";
 
-const INLET_TIP: &str = "Temperature of the oil and of both bodies in front of the contact; η₀ and α are those at it";
-const VISCOSITY_TIP: &str = "β = −d ln η/dT at ambient pressure; Doolittle’s law has constants of its own";
-const DENSITY_TIP: &str = "−d ln ρ/dT at ambient pressure; Tait’s law has constants of its own";
+const INLET_TIP: &str = "Temperature of the oil and of both bodies in front of the contact, at which η₀ and α apply";
+const VISCOSITY_TIP: &str = "β = −d ln η/dT at ambient pressure; Doolittle’s law has its own constants";
+const DENSITY_TIP: &str = "−d ln ρ/dT at ambient pressure; Tait’s law has its own constants";
 const CONDUCTIVITY_TIP: &str = "Thermal conductivity of the oil";
 const CAPACITY_TIP: &str = "Specific heat capacity of the oil";
-const OIL_DENSITY_TIP: &str = "Density of the oil at ambient pressure and the inlet’s temperature";
+const OIL_DENSITY_TIP: &str = "Density of the oil at ambient pressure and inlet temperature";
 
 /// Constants of the oil.
 pub(super) const CONSTANTS: [Constant; 6] = [
@@ -65,7 +66,7 @@ fn materials_ui(ui: &mut Ui, bodies: &[BodyHeat; 2], commands: &mut Commands) {
             let own = known.is_none().then_some(None);
             let options: Vec<Option<Material>> = MATERIALS.into_iter().map(Some).chain(own).collect();
             choice(ui, name, tip, &mut wanted, &options, |material| {
-                material.map_or(("Own", "Constants of its own"), |material| (material.name, material.source))
+                material.map_or(("Own", "Custom constants"), |material| (material.name, material.source))
             });
             if let Some(material) = wanted.filter(|_| wanted != known) {
                 commands.edit(Edit::Material(body, material), GROUP);

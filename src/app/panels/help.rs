@@ -19,8 +19,8 @@ pub fn ui(ctx: &Context, help: &mut Help) {
         ui.heading("EHL Explorer");
         ui.label(format!("Version {}", env!("CARGO_PKG_VERSION")));
         ui.label(
-            "Drag an elastohydrodynamic contact and watch pressure and film answer at once. \
-             Profiles come from a reduced model and are checked by a full solve in the background.",
+            "Change an elastohydrodynamic contact and see pressure and film thickness at once. Profiles come from a \
+             reduced model and are checked by a full solve in the background.",
         );
         ui.label("Licensed under MIT or Apache-2.0, as you prefer.");
     });

@@ -28,11 +28,12 @@ const LIMITING: LimitingStress = LimitingStress { ambient: 5e6, slope: 0.05, eyr
 const LIMITING_TIP: &str = "The film carries at most τ_L = τ_L0 + Λ p (Bair & Winer 1979): beyond it the lubricant slips or yields. \
     It limits the traction; pressure and film are computed without it";
 
-const RUPTURE_TIP: &str = "How the film ruptures in full solutions, where the gap opens behind the contact. Reduced models keep the \
-    penalty they were trained with; flooded films differ by less than a millionth";
+const RUPTURE_TIP: &str = "Cavitation model of full solutions, where the gap opens behind the contact. Reduced models \
+                           keep the penalty they were trained with; the film thickness of flooded contacts differs by \
+                           less than a millionth";
 
-const SUPPLY_TIP: &str = "Thickness of the film that the surfaces bring to the inlet; without one the inlet is flooded. What is \
-    thinner than the contact draws starves it";
+const SUPPLY_TIP: &str = "Inlet film thickness: the oil layer that the surfaces carry to the inlet. Without it the \
+                          inlet is flooded. A layer thinner than the contact needs causes starvation";
 /// Default inlet film thickness \[m\], similar to usual film thicknesses in the contact.
 const SUPPLY_M: f64 = 200e-9;
 
@@ -55,9 +56,9 @@ pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut E
     match known {
         Some(lubricant) => {
             ui.weak(sentence(lubricant.about));
-            let tip = "Bodies, speed and load in which its source studies it; undo brings the present ones back";
+            let tip = "Bodies, speed and load of the contact in its source. Undo restores the present ones";
             if let Some(point) = lubricant.studied_contact(kind)
-                && ui.button("Take its published contact").on_hover_text(tip).clicked()
+                && ui.button("Use its published contact").on_hover_text(tip).clicked()
             {
                 commands.edit(Edit::Contact(point, Box::new(*laws)), GROUP);
             }
@@ -79,10 +80,11 @@ fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Opti
     let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain([Pick::Own]).collect();
     let of = |name: &str| NAMED.iter().find(|named| named.name == name);
     Grid::new("lubricant").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        let tip = "The laws of density, viscosity and shear. A lubricant with a viscosity of its own brings that; the contact stays";
+        let tip = "Laws of density, viscosity and shear. A lubricant that defines its viscosity also sets it; the \
+                   contact does not change";
         choice(ui, "Fluid", tip, &mut wanted, &options, |pick| match pick {
             Pick::Named(name) => of(name).map_or(("", ""), |named| (named.title, named.about)),
-            Pick::Own => ("Own", "Laws and constants as you like, beginning with those of the present lubricant"),
+            Pick::Own => ("Own", "Custom laws and constants, starting from those of the present lubricant"),
         });
     });
     if wanted == before {
@@ -126,11 +128,13 @@ const NANOMETRES: (&str, f64) = ("nm", 1e-9);
 
 const BULK_TIP: &str = "Tait’s initial bulk modulus K₀ (3.37)";
 const RATE_TIP: &str = "Rate of change of the bulk modulus with pressure, K’₀ (3.37)";
-const B_TIP: &str = "Doolittle’s parameter B (3.39): how strongly the viscosity answers to the free volume";
-const OCCUPIED_TIP: &str = "Occupied volume over the volume at ambient pressure (3.39). Where the relative volume falls to it the viscosity is infinite";
+const B_TIP: &str = "Doolittle’s parameter B (3.39): how strongly the viscosity depends on the free volume";
+const OCCUPIED_TIP: &str = "Occupied volume over the volume at ambient pressure (3.39). The viscosity is infinite if \
+                            the relative volume falls to this value";
 const VOLUME_BULK_TIP: &str = "Bulk modulus of the volume in Doolittle’s law, which is not that of the density law";
 const VOLUME_RATE_TIP: &str = "Its rate of change with pressure";
-const CRITICAL_TIP: &str = "Shear stress from which on the viscosity falls: G_c of (3.40), the stress of half the viscosity (Ellis), or τ_E (Eyring)";
+const CRITICAL_TIP: &str = "Shear stress above which the viscosity falls: G_c of (3.40), the stress of half the \
+                            viscosity (Ellis), or τ_E (Eyring)";
 const BETA_TIP: &str = "How sharply the viscosity turns at the critical stress, β_c of (3.40)";
 const N_TIP: &str = "Power-law exponent, stress over rate, n_c of (3.40); 1 is Newtonian";
 
@@ -171,9 +175,11 @@ const LIMITS: [Constant; 3] = [
 ];
 
 const SUPPLY: [Constant; 1] =
-    [constant("Supplied film thickness", ("Film", "h", "in"), NANOMETRES, SUPPLY_TIP, |l| match &mut l.cavitation {
-        Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
-        Cavitation::Penalty | Cavitation::Complementarity => None,
+    [constant("Inlet film thickness", ("Inlet film", "h", "in"), NANOMETRES, SUPPLY_TIP, |l| {
+        match &mut l.cavitation {
+            Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
+            Cavitation::Penalty | Cavitation::Complementarity => None,
+        }
     })];
 
 fn critical_stress(laws: &mut Lubricant) -> Option<&mut f64> {
@@ -299,14 +305,15 @@ fn rupture(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut 
     let mut wanted = laws.cavitation;
     Grid::new("rupture").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let options = [Cavitation::Penalty, Cavitation::Complementarity, supplied];
-        choice(ui, "Rupture", RUPTURE_TIP, &mut wanted, &options, |law| match law {
-            Cavitation::Penalty => ("Penalty", "Pressures below zero are pushed back, Λ = −γ min(P, 0) (2.36)"),
+        choice(ui, "Cavitation", RUPTURE_TIP, &mut wanted, &options, |law| match law {
+            Cavitation::Penalty => ("Penalty", "A penalty limits negative pressures, Λ = −γ min(P, 0) (2.36)"),
             Cavitation::Complementarity => {
-                ("Complementarity", "P ≥ 0 and λ ≥ 0 with P λ = 0 (appendix D): no pressure below zero, half the steps")
+                ("Complementarity", "P ≥ 0 and λ ≥ 0 with P λ = 0 (appendix D): no negative pressure, half the steps")
             }
             Cavitation::MassConserving { .. } => (
                 "Mass-conserving",
-                "P ≥ 0, and where P = 0 the gap is filled to a fraction θ (Elrod & Adams 1974): no oil is lost",
+                "P ≥ 0; where P = 0 oil fills the gap to a fraction θ, so that mass is conserved (JFO, Elrod & Adams \
+                 1974)",
             ),
         });
     });
@@ -314,7 +321,7 @@ fn rupture(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut 
     let mut field = GROUP;
     if let Cavitation::MassConserving { supply_film_m } = &mut wanted.cavitation {
         let mut starves = supply_film_m.is_some();
-        if ui.add(Checkbox::new(&mut starves, "Supplied film")).on_hover_text(SUPPLY_TIP).changed() {
+        if ui.add(Checkbox::new(&mut starves, "Starved inlet")).on_hover_text(SUPPLY_TIP).changed() {
             *supply_film_m = starves.then_some(SUPPLY_M);
         }
         field = constants_ui(ui, entries, &SUPPLY, &mut wanted);

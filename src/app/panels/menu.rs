@@ -76,7 +76,7 @@ fn palette(ui: &mut Ui, commands: &mut Commands) {
     if let Some(shortcut) = Command::Palette.shortcut() {
         button = button.shortcut_text(quiet(ui.ctx().format_shortcut(&shortcut)));
     }
-    let response = ui.add(button).on_hover_text("Everything that can be done now, by typing a part of its name");
+    let response = ui.add(button).on_hover_text("All commands, found by typing part of their name");
     if named(ui, response, "Command palette").clicked() {
         commands.push(Command::Palette);
     }

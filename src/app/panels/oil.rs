@@ -104,8 +104,8 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
     Grid::new("oil").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         grade_ui(ui, &mut wanted);
         if let Some(oil) = &mut wanted {
-            let tip = "What the oil is made of: its pressure–viscosity coefficient follows a published correlation";
-            choice(ui, "Made of", tip, &mut oil.family, &OilFamily::ALL, |family| (family.name(), family.source()));
+            let tip = "Base oil. A published correlation gives its pressure–viscosity coefficient";
+            choice(ui, "Base oil", tip, &mut oil.family, &OilFamily::ALL, |family| (family.name(), family.source()));
             if before.is_some_and(|former| former.family != oil.family) {
                 oil.density_15 = oil.family.usual_density();
             }
@@ -216,8 +216,8 @@ fn state_ui(ui: &mut Ui, document: &Document, oil: Oil, commands: &mut Commands)
         ui.weak(text).on_hover_text(sentence(oil.family.source()));
     }
     if !document.oil_counts() {
-        warning_ui(ui, "η₀ or α were changed since: they are no longer this oil’s");
-        if ui.button("Take the oil’s values").clicked() {
+        warning_ui(ui, "η₀ or α have been changed and no longer match this oil");
+        if ui.button("Use the oil’s values").clicked() {
             commands.edit(Edit::Oil(Some(oil)), GROUP);
         }
     }

@@ -27,7 +27,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entrie
                 }
                 let pins = context.answers.pins().len();
                 let buttons = [
-                    ("Undo", true, "Take the last change back", Command::Undo),
+                    ("Undo", true, "Reverts the last change", Command::Undo),
                     ("Unpin", pins > 0, "Remove all pinned curves", Command::Unpin),
                     ("Pin", true, "Keep this curve for comparison", Command::Pin),
                 ];
@@ -37,7 +37,10 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entrie
                     }
                 }
                 let lock = ui.selectable_label(locked, Command::LockAxes.name());
-                if lock.on_hover_text("What changes is seen to change (F8); F2 fits the axes once").clicked() {
+                if lock
+                    .on_hover_text("Locks the axes, so that changes are visible (F8). F2 fits the axes once")
+                    .clicked()
+                {
                     commands.push(Command::LockAxes);
                 }
                 ui.add(Label::new(RichText::new("Drag a slider; Esc ends").weak()).truncate());

@@ -14,7 +14,7 @@ use egui::{Context, Id, ThemePreference, Ui, Window};
 const THRESHOLDS: [(&str, &str, &str); 2] = [
     (
         "Verified up to",
-        "Largest error of H_c or H_min, against a full solution on the same grid, that is called Verified",
+        "Maximum error of H_c or H_min, against a full solution on the same grid, that is called Verified",
         "Error that is verified",
     ),
     (
@@ -85,7 +85,7 @@ impl Settings {
 
 fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {
     ui.horizontal(|ui| {
-        row_name(ui, name_and_symbol(ui, "Colours", "", ""), "Light, dark, or as the system has it");
+        row_name(ui, name_and_symbol(ui, "Colours", "", ""), "Light, dark, or the setting of the system");
         for (theme, name) in THEMES {
             if ui.selectable_label(display.theme == theme, name).clicked() {
                 commands.push(Command::Theme(theme));
@@ -93,9 +93,9 @@ fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {
         }
     });
     ui.horizontal(|ui| {
-        row_name(ui, name_and_symbol(ui, "Presentation", "", ""), "What F11 shows over the full screen");
+        row_name(ui, name_and_symbol(ui, "Presentation", "", ""), "Display in presentation mode (F11)");
         let mut light = display.light_presentation;
-        let tip = "Whatever the colours of the window: a projector shows no black";
+        let tip = "Light colours in any theme, because a projector cannot show black";
         if ui.checkbox(&mut light, "Light, for a projector").on_hover_text(tip).changed() {
             commands.push(Command::LightPresentation);
         }

@@ -21,17 +21,20 @@ const M_POINT_TIP: &str = "Load number M = w/(E’R²) · (2η₀u_m/(E’R))^(�
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
 const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
     Double click: L 10";
-const SRR_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25): how fast the surfaces slide past each other for their rolling. \
-    Negative values are typed: the film stays, the traction turns round. Double click: pure rolling";
-const SRR_NEWTONIAN_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25). The lubricant is Newtonian: sliding changes neither \
-    pressure nor film, only the traction. Double click: pure rolling";
-const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of its viscosity that the lubricant keeps however fast it is sheared. \
-    1 is Newtonian. Double click: the lubricant’s own";
-const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, which is a Newtonian plateau ratio NPR of 1; \
-    choose a lubricant that thins under shear below";
+const SRR_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25): sliding speed over rolling speed. Type negative \
+                       values: the film thickness is the same, the traction changes its sign. Double click: pure \
+                       rolling";
+const SRR_NEWTONIAN_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25). The lubricant is Newtonian: sliding \
+                                 changes neither pressure nor film thickness, only the traction. Double click: pure \
+                                 rolling";
+const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of the viscosity that remains at any shear \
+                       rate. 1 is Newtonian. Double click: the value of the lubricant";
+const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, with a Newtonian plateau \
+                                 ratio NPR of 1. Choose a shear-thinning lubricant below";
 
-const RATIO_TIP: &str = "R_y/R, the radius across over that along the rolling direction: 1 is a circle, large ratios are nearly a line, \
-    small ones an ellipse that is long along the rolling direction. R stays, R_y follows. Double click: the circle";
+const RATIO_TIP: &str = "R_y/R, radius across over radius along the rolling direction: 1 is a circular contact, large \
+                         ratios are nearly a line contact, small ratios an ellipse that is long along the rolling \
+                         direction. R is kept, R_y follows. Double click: circular contact";
 
 /// Quantities with a slider.
 pub const SLIDERS: [Quantity; 5] =

@@ -65,14 +65,14 @@ pub fn cuts_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
             "at {X}",
             &mut cuts.x,
             domain.0..=domain.1,
-            "Where the profile across the contact is taken; drag the line in the map",
+            "Position X of the profile across the contact; drag the line in the map",
         ),
         (
             "Cut along at Y",
             "at {Y}",
             &mut cuts.y,
             domain.2..=-domain.2,
-            "Where the profile along X is taken; drag the line in the map",
+            "Position Y of the profile along X; drag the line in the map",
         ),
     ] {
         // In a toolbar that wraps, name and value stay in one row.

@@ -24,7 +24,7 @@ fn units_ui(ui: &mut Ui, there: bool, units: Units, commands: &mut Commands) {
     let switch = egui::Button::selectable(units == Units::Si && there, "SI");
     let switch = ui.add_enabled(there, switch);
     let tip = "Axes and exports in SI units, or dimensionless (F7)";
-    let none = "Errors, ratios and counts have no unit, and what has one is in SI units on this tab always";
+    let none = "Errors, ratios and counts have no unit, and all other quantities of this tab are always in SI units";
     if switch.on_hover_text(tip).on_disabled_hover_text(none).clicked() {
         commands.push(Command::SiUnits);
     }
@@ -76,14 +76,14 @@ impl Behavior<Tab> for Frame<'_> {
         }
         let has_units = self.desk.tabs.of(tab).about().has_units;
         units_ui(ui, has_units, self.desk.display.units, self.commands);
-        let (locked, tip) = (self.desk.locked.contains(&tab), "The axes of this tab stand still (F8)");
+        let (locked, tip) = (self.desk.locked.contains(&tab), "Locks the axes of this tab (F8)");
         let lock = lock_ui(ui, [20.0, 22.0], locked);
         if named(ui, lock, &format!("Lock the axes of {}", tab.title())).on_hover_text(tip).clicked() {
             self.commands.push(Command::LockAxesOf(tab));
         }
         // A narrow bar leaves its space to the tabs. The menu View also has this command.
         if !presenting && !self.narrow {
-            let tip = "What is seen in a tab and why it is so, in three sentences";
+            let tip = "Explains the content of the tab in three sentences";
             if ui.selectable_label(self.desk.display.why, "Why").on_hover_text(tip).clicked() {
                 self.commands.push(Command::ShowWhy);
             }

@@ -50,7 +50,7 @@ pub fn menu<'a>(ui: &mut Ui, tab: Tab, offers: impl FnOnce() -> Vec<Offer<'a>>, 
     let shown = ui.menu_button("Export", |ui| {
         let item = |ui: &mut Ui, name: &str, tip: &str, there: bool| {
             let response = ui.add_enabled(there, Button::new(name)).on_hover_text(tip);
-            let clicked = response.on_disabled_hover_text("There is nothing of it yet").clicked();
+            let clicked = response.on_disabled_hover_text("Not available yet").clicked();
             if clicked {
                 ui.close();
             }
@@ -70,8 +70,8 @@ pub fn menu<'a>(ui: &mut Ui, tab: Tab, offers: impl FnOnce() -> Vec<Offer<'a>>, 
         }
         ui.separator();
         for form in Form::ALL {
-            let tip = "Inputs with units, results, how they were checked, published formulas beside: of the contact on the \
-                       screen, in full and by the reduced model";
+            let tip = "Inputs with units, results, checks and published formulas for the contact on the screen, in \
+                       full and by the reduced model";
             if item(ui, form.name(), tip, true) {
                 commands.push(Command::ExportSheet(form));
             }

@@ -10,9 +10,9 @@ impl Pending {
     fn consent(&self) -> &'static str {
         match self {
             Self::New | Self::OpenDialog | Self::Open(_) | Self::OpenScene(_) | Self::OpenLink(_) => "Discard changes",
-            Self::Quit => "Quit all the same",
-            Self::Train => "Start all the same",
-            Self::DiscardTraining | Self::ThrowModelAway => "Throw it away",
+            Self::Quit => "Quit anyway",
+            Self::Train => "Start anyway",
+            Self::DiscardTraining | Self::ThrowModelAway => "Discard it",
         }
     }
 }
@@ -25,11 +25,11 @@ impl Desk {
             self.dirty().then(|| text.to_owned())
         };
         let study = || {
-            let text = "The study of the scene runs: what it has found so far is not saved.";
+            let text = "The study of the scene is running. Its results so far are not saved.";
             self.tabs.results.would_lose().then(|| text.to_owned())
         };
         let march = || {
-            let text = "The contact is being followed in time: what was computed so far is not saved.";
+            let text = "A transient run is being computed. Its results so far are not saved.";
             self.transient.runs_by_hand().then(|| text.to_owned())
         };
         match pending {
@@ -41,7 +41,7 @@ impl Desk {
             Pending::Train => self.tabs.training.work.replaced(),
             Pending::DiscardTraining => {
                 let solutions = self.tabs.training.work.unfinished.as_ref().map_or(0, |state| state.solutions());
-                vec![format!("{solutions} full solutions of the training that was stopped are forgotten.")]
+                vec![format!("{solutions} full solutions of the stopped training will be discarded.")]
             }
             Pending::ThrowModelAway => self.tabs.training.work.unsaved().into_iter().collect(),
         }

@@ -104,7 +104,7 @@ impl Desk {
             ui.horizontal(|ui| {
                 let exists = window.overwrite.is_some() && !window.purpose.reads();
                 act |= ui.button(if exists { "Replace the file" } else { action }).clicked();
-                again = ui.button("Browse…").on_hover_text("The system's file dialog, where there is one").clicked();
+                again = ui.button("Browse…").on_hover_text("The file dialog of the system, if there is one").clicked();
                 close = ui.button("Cancel").clicked();
             });
         });
@@ -170,8 +170,7 @@ impl Desk {
             Purpose::Cases => self.load_cases.read(&path),
             Purpose::Beside => self.tabs.training.work.add_beside(self.answers.store(), &path),
             Purpose::Notes(sheet) => atomic_file::replace_all(&sheet.notes(&path)).map_err(Refusal::from).map(|()| {
-                self.files.notice =
-                    Some(Notice::Done(format!("Exported {} with its figures beside it", path.display())))
+                self.files.notice = Some(Notice::Done(format!("Exported {} and its figures", path.display())))
             }),
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };

@@ -163,7 +163,7 @@ pub fn ui(ui: &mut Ui, along: &mut Along, context: &Context<'_>, in_use: &InUse)
     along.show(&ctx, context.answers.store(), in_use);
     let kind = in_use.model.contact();
     ui.horizontal_wrapped(|ui| {
-        let through = ui.label("Through").on_hover_text("The range in which the parameters swing by (3.21)");
+        let through = ui.label("Through").on_hover_text("The range in which the parameters vary by (3.21)");
         let choice =
             ComboBox::from_id_salt("through").selected_text(along.wanted.through.name(kind)).show_ui(ui, |ui| {
                 for option in [Through::Dissertation, Through::Trained] {
@@ -181,7 +181,7 @@ pub fn ui(ui: &mut Ui, along: &mut Along, context: &Context<'_>, in_use: &InUse)
         message_ui(ui, message);
     }
     let Some(results) = &along.results else {
-        super::parts::nothing_yet(ui, "Follow the trajectory to see film and error along it");
+        super::parts::nothing_yet(ui, "Follow the trajectory to see film thickness and error along it");
         return;
     };
     let stale = drawn::is_grey(ui.ctx(), "trajectory", Owner::Model(results.in_use.clone()), context);
@@ -203,7 +203,7 @@ fn summary(results: &Followed) -> String {
     let excluded = if results.open { 0 } else { wanted.points.saturating_sub(steps.len()) };
     let worst = steps.iter().filter_map(Step::error).fold(0.0, f64::max);
     let mut text = format!(
-        "{} of {} contacts through {}, {failures} failures, largest error of {{H_c}} {}",
+        "{} of {} contacts through {}, {failures} failures, maximum error of {{H_c}} {}",
         steps.len() + excluded,
         wanted.points,
         wanted.through.name(results.in_use.model.contact()),
@@ -213,7 +213,7 @@ fn summary(results: &Followed) -> String {
         text.push_str(&format!(", {outside} outside the trained range"));
     }
     if excluded > 0 {
-        text.push_str(&format!(", {excluded} left out beyond its largest pressure"));
+        text.push_str(&format!(", {excluded} omitted above its pressure limit"));
     }
     text
 }

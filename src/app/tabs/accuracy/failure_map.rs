@@ -101,7 +101,7 @@ fn at(moes: Moes) -> PlotPoint {
 }
 
 /// Accessible name of the plot.
-const MAP: &str = "Map of the random tests";
+const MAP: &str = "Map of the random validation";
 /// Name under which the refusal of a chosen contact is stored.
 const FIELD: &str = "failure map";
 
@@ -118,7 +118,7 @@ pub fn ui(
     let Some(results) = &tests.results else {
         super::parts::nothing_yet(
             ui,
-            "Run tests to see where the model fails and how large its error is over its whole range",
+            "Run the validation to see where the model fails and how large its error is over its whole range",
         );
         return;
     };
@@ -128,7 +128,7 @@ pub fn ui(
         ui.selectable_value(&mut map.by, By::Bound, bound);
         let truth = rich("true error of {H_c}", 13.5, ui.visuals().text_color());
         ui.selectable_value(&mut map.by, By::Truth, truth)
-            .on_hover_text("Only tests that were compared with full solutions have a colour");
+            .on_hover_text("Only contacts that were compared with full solutions have a colour");
         ui.weak(summary(results));
     });
     if map.by == By::Bound {
@@ -183,7 +183,7 @@ pub fn summary(results: &Results) -> String {
     let (as_they_came, beyond) = results.tests.split_at(results.wanted.compared.min(made));
     let worst = match of_truth(beyond) {
         0 => String::new(),
-        count => format!(", {count} more that look worst"),
+        count => format!(", {count} more with the largest expected errors"),
     };
     format!("{made} of {wanted} tests, {failures}, {} compared{worst}", of_truth(as_they_came))
 }
@@ -248,7 +248,7 @@ fn label(results: &Results, place: PlotPoint) -> Option<String> {
     let point = &tested.0.point;
     let error = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numbers::error_percent);
     Some(format!(
-        "{}, α {}/GPa\nerror of H_c within {}, truly {}\nclick to go there",
+        "{}, α {}/GPa\nerror bound of H_c {}, true error {}\nclick to go to this contact",
         numbers::moes(point.moes()),
         numbers::digits(point.alpha_per_pa * 1e9, 3),
         error(bound_of(tested)),

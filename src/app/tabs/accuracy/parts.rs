@@ -21,7 +21,7 @@ pub fn count(ui: &mut Ui, name: &str, tip: &str, value: &mut usize, range: std::
 /// Draws the button Run, or Stop during a run. Returns true if a run is requested.
 pub fn run_or_stop(ui: &mut Ui, run: &str, tip: &str, work: &Background<StudyRow>) -> bool {
     let runs = work.job().is_some();
-    let tip = if runs { "What has been found so far stays (Esc)" } else { tip };
+    let tip = if runs { "Keeps the results so far (Esc)" } else { tip };
     let clicked = either_button(ui, [run, "Stop"], runs).on_hover_text(tip).clicked();
     if clicked && runs {
         work.stop();
@@ -34,19 +34,19 @@ pub fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use
     tests.show(&ui.ctx().clone(), store, in_use);
     ui.horizontal_wrapped(|ui| {
         let wanted = &mut tests.wanted;
-        let tip = "Reduced solves at random contacts (3.17) of the range the model was trained for";
-        count(ui, "Random tests", tip, &mut wanted.tests, TESTS);
-        let tip = "How many of them are compared with full solutions on the model’s own grid; up to 20 that look worst come \
-                   first, beside them";
+        let tip = "Reduced solves at random contacts (3.17) of the trained range";
+        count(ui, "Random contacts", tip, &mut wanted.tests, TESTS);
+        let tip = "Number of contacts compared with full solutions on the model’s grid. Up to 20 further contacts with \
+                   the largest expected errors come first";
         count(ui, "Compared in full", tip, &mut wanted.compared, 0..=MOST_COMPARED);
         let tip = "The same seed gives the same contacts";
         ui.label("Seed").on_hover_text(tip);
         let seed = ui.add(DragValue::new(&mut wanted.seed));
         named(ui, seed, "Seed").on_hover_text(tip);
-        if run_or_stop(ui, "Run tests", "Tests the model as it is truncated now", &tests.work) {
+        if run_or_stop(ui, "Run validation", "Validates the model with its present truncation", &tests.work) {
             tests.start(&ui.ctx().clone(), store, in_use);
         }
-        standing_ui(ui, tests.work.standing(), "Progress of the random tests");
+        standing_ui(ui, tests.work.standing(), "Progress of the random validation");
     });
     if let Some(message) = &tests.work.message {
         message_ui(ui, message);
@@ -58,7 +58,7 @@ pub fn tests_toolbar(ui: &mut Ui, store: &Store, tests: &mut RandomTests, in_use
 
 /// Warns that the results belong to another model or truncation.
 pub fn stale_note(ui: &mut Ui, of: &InUse) {
-    warning_ui(ui, &format!("Found with {}; the model or its truncation has changed since", of.describe()));
+    warning_ui(ui, &format!("Results of {}; the model or its truncation has changed since", of.describe()));
 }
 
 /// Draws a note if there are no error bounds.

@@ -118,7 +118,7 @@ impl RandomTests {
         let (range, compare) = (in_use.trained_range(), compared.min(tests));
         let worst = compare.min(MOST_WORST);
         let study = Study::RandomTest(RandomTest { range, tests, seed, method: in_use.method(), compare, worst });
-        let question = in_use.question("Random tests", study).map_err(|why| why.to_string());
+        let question = in_use.question("Random validation", study).map_err(|why| why.to_string());
         self.work.start(question.map(|question| in_use.ask(ctx, store, question)));
     }
 

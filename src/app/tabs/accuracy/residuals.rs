@@ -36,14 +36,14 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         ui.strong("Last full solve");
         ui.label(format!("{}: {}", numbers::moes(moes), report.termination.describe()));
         if !current {
-            ui.weak("(of other parameters than the sliders’)");
+            ui.weak("(other parameters than the sliders)");
         }
     });
     Grid::new("solve").num_columns(4).spacing([14.0, 3.0]).show(ui, |ui| {
         let cells = [
             ("Newton steps", report.newton_iterations.to_string()),
             ("Krylov steps", report.linear_iterations.to_string()),
-            ("Starts tried", report.attempts.to_string()),
+            ("Initial guesses", report.attempts.to_string()),
             ("Final residual", numbers::digits(report.residual_norm, 3)),
         ];
         for (name, _) in &cells {
@@ -76,7 +76,7 @@ fn running_ui(ui: &mut Ui, job: &Running, context: &Context<'_>) {
     let current = !drawn::is_grey(ui.ctx(), "residuals", Owner::Contact(job.key), context);
     ui.horizontal_wrapped(|ui| {
         ui.strong(job.kind.name());
-        ui.label(format!("{}: at work", numbers::contact(&job.key.point)));
+        ui.label(format!("{}: running", numbers::contact(&job.key.point)));
         if let Some(step) = job.steps.last() {
             ui.weak(format!("Newton step {}, residual {}", step.iteration, numbers::digits(step.residual, 3)));
         }

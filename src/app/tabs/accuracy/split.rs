@@ -32,25 +32,29 @@ const NAMES: f32 = 152.0;
 const ROWS: [(&str, &str); 6] = [
     (
         "Basis",
-        "The full solution’s best approximation in the pressure basis, under the basis’ own weights, against the full \
-         solution: no reduced solution has a nearer pressure. More snapshots or modes lower it",
+        "Difference between the full solution and its best approximation in the pressure basis, in the norm of the \
+         basis. No reduced solution has a smaller pressure error. More snapshots or modes reduce it",
     ),
     (
         "Projection",
-        "The reduced solution with all rows of the Reynolds equation against that best approximation: Galerkin’s \
-         conditions choose another element of the same basis, often one with a better film",
+        "Difference between the reduced solution with all Reynolds equations and that best approximation. Galerkin’s \
+         conditions select another element of the same basis, often one with a better film thickness",
     ),
     (
         "Sampling",
-        "The reduced solution with its sampled rows against the one with all rows. More or better rows lower it",
+        "Difference between the reduced solution with sampled equations and the one with all equations. More or better \
+         sampled equations reduce it",
     ),
-    ("Reduced against full", "The three above together, with their signs: what the verification shows"),
+    (
+        "Reduced against full",
+        "Sum of the three parts above with their signs, as the check against the full solution shows it",
+    ),
     (
         "Discretisation",
-        "The full solution on the model’s grid against the value to which this grid and the next finer one tend \
-         (Richardson, order two). No reduced model can be nearer to the equations than its grid",
+        "Difference between the full solution on the model’s grid and the limit of this and the next finer grid \
+         (Richardson, order two). No reduced model can be more accurate than its grid",
     ),
-    ("Reduced against the limit", "All four together, with their signs"),
+    ("Reduced against the limit", "Sum of all four parts with their signs"),
 ];
 
 /// Contact and model of a split.
@@ -90,7 +94,7 @@ impl Split {
             // One contact has one row, so the study is complete.
             self.work = Background::default();
         } else if worked && self.work.job().is_none() && self.work.message.is_none() {
-            refused = Some("stopped before it was done".to_owned());
+            refused = Some("stopped before it was complete".to_owned());
         }
         if refused.is_some() {
             self.work.message = refused;
@@ -124,7 +128,8 @@ pub fn ui(ui: &mut Ui, own: &mut Split, context: &Context<'_>, in_use: &InUse) {
     let now = SplitOf { key: context.document.key(), in_use: in_use.clone() };
     start_when_rested(ui, own, context, &now);
     ui.horizontal_wrapped(|ui| {
-        let tip = "Solves this contact reduced, reduced with all rows, in full, and in full on the next finer grid";
+        let tip = "Solves this contact by the reduced model, by the reduced model with all equations, in full, and in \
+                   full on the next finer grid";
         if run_or_stop(ui, "Split the error", tip, &own.work) {
             own.start(&ctx, context.answers.store(), now.clone(), false);
         }
@@ -139,7 +144,7 @@ pub fn ui(ui: &mut Ui, own: &mut Split, context: &Context<'_>, in_use: &InUse) {
         warning_ui(ui, &format!("{why}; the split is made on request only"));
     }
     let Some((asked, split)) = &own.found else {
-        super::parts::nothing_yet(ui, "The parts appear when the sliders rest");
+        super::parts::nothing_yet(ui, "The parts appear when the sliders are idle");
         return;
     };
     let owner = Owner::ContactByModel(asked.key, asked.in_use.clone());

@@ -90,7 +90,7 @@ pub fn ui(
 ) {
     tests_toolbar(ui, context.answers.store(), tests, in_use);
     let Some(results) = &tests.results else {
-        super::parts::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
+        super::parts::nothing_yet(ui, "Run the validation with full solutions to see the quality of the bound");
         return;
     };
     let stale = is_former(ui, results, context);
@@ -114,17 +114,17 @@ fn worth_ui(ui: &mut Ui, worth: &Worth) {
         (
             "Rank correlation",
             numbers::digits(worth.correlation, 3),
-            "Spearman’s: 1 when the bound orders all errors rightly",
+            "Spearman’s rank correlation: 1 if the bound orders all errors correctly",
         ),
         (
             "Bound holds",
             format!("{}{}%", numbers::digits(100.0 * worth.holds, 3), numbers::THIN),
-            "Share of tests whose true error is not larger; the promise is 99 %",
+            "Share of contacts whose true error does not exceed the bound; nominally 99 %",
         ),
         (
             "Median effectivity",
             numbers::digits(worth.effectivity, 3),
-            "Bound over true error: 1 would be perfect, below 10 it is worth something",
+            "Bound over true error: 1 is ideal, below 10 is useful",
         ),
     ];
     Grid::new("worth").num_columns(cells.len()).spacing([22.0, 2.0]).show(ui, |ui| {
@@ -153,7 +153,7 @@ fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
         let sample = if *shape == MarkerShape::Down { Sample::Down(RADIUS) } else { Sample::Dot(RADIUS) };
         Entry::new(*name, *color, sample)
     });
-    let entries = entries.chain([Entry::new("bound = truth", palette.reference, Sample::Dashed(1.2))]);
+    let entries = entries.chain([Entry::new("bound = true error", palette.reference, Sample::Dashed(1.2))]);
     key::over(ui, height, entries, |ui, height| {
         let plot = axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
             .decades_x(8.0)
@@ -169,7 +169,7 @@ fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
             });
         axes::show(plot, ui, PLOT, |plot| {
             // Line of perfect bounds, over the range of the true errors.
-            let identity = Line::new("bound = truth", vec![[low, low], [high, high]]).color(palette.reference);
+            let identity = Line::new("bound = true error", vec![[low, low], [high, high]]).color(palette.reference);
             plot.line(identity.width(1.2).style(LineStyle::dashed_dense()).allow_hover(false));
             for (name, points, color, shape) in series.into_iter().filter(|s| !s.1.is_empty()) {
                 let points = Points::new(name, PlotPoints::Borrowed(points));

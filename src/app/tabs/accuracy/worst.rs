@@ -40,7 +40,7 @@ impl Worst {
 pub fn ui(ui: &mut Ui, worst: &Worst, results: &Results) -> Option<OperatingPoint> {
     let palette = Palette::of(ui);
     let mut wanted = None;
-    ui.strong("Worst cases").on_hover_text("Failures first. A click on M and L goes there");
+    ui.strong("Worst cases").on_hover_text("Failures first. Click on M and L to go to the contact");
     ScrollArea::vertical().id_salt("worst").auto_shrink(false).show(ui, |ui| {
         Grid::new("worst").num_columns(4).spacing([10.0, 3.0]).striped(true).show(ui, |ui| {
             for title in ["", "{M}, {L}", "Bound", "True Δ{H_c}"] {
@@ -53,7 +53,7 @@ pub fn ui(ui: &mut Ui, worst: &Worst, results: &Results) -> Option<OperatingPoin
                 ui.weak((place + 1).to_string());
                 let text = format!("{}, {}", numbers::digits(moes.m, 3), numbers::digits(moes.l, 3));
                 let tip = format!(
-                    "Go there: {}, α {}/GPa (Ctrl+Z comes back)",
+                    "Go to this contact: {}, α {}/GPa (Ctrl+Z returns)",
                     numbers::moes(moes),
                     numbers::digits(point.alpha_per_pa * 1e9, 3)
                 );

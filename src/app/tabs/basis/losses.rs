@@ -86,7 +86,8 @@ pub fn loss_plot(
         },
     );
     let transform = shown.transform;
-    let tip = "Drag the dashed tolerance: the model is truncated at once and profiles, error and time per solve answer";
+    let tip = "Drag the dashed tolerance. The model is truncated at once, and profiles, error and time per solve are \
+               updated";
     let response = shown.response;
     let near = |y: f32| {
         lines.iter().find(|(_, level)| (transform.position_from_point(&PlotPoint::new(0.0, *level)).y - y).abs() < GRAB)

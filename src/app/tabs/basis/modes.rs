@@ -47,9 +47,11 @@ pub fn ui(ui: &mut Ui, view: &mut Shown, fit: bool, window: &Window, height: f32
         view.first_mode = number.clamp(1, most + 1) - 1;
         let rows = window.sampled_rows.len();
         let said = match (of_points, rows == window.grid.unknowns()) {
-            (_, true) => format!("all {rows} rows are used"),
-            (true, false) => format!("{rows} of {} rows are sampled, the marks in the plane", window.grid.unknowns()),
-            (false, false) => format!("{rows} sampled rows as marks along ξ"),
+            (_, true) => format!("all {rows} equations are used"),
+            (true, false) => {
+                format!("{rows} of {} equations are sampled, the marks in the plane", window.grid.unknowns())
+            }
+            (false, false) => format!("{rows} sampled equations as marks along ξ"),
         };
         // There is little space next to another tab.
         ui.add(egui::Label::new(egui::RichText::new(said).weak()).truncate());
@@ -105,7 +107,7 @@ fn shapes(
         let (color, width) = look(*k);
         Entry::new(format!("mode {}", k + 1), color, Sample::Line(width))
     });
-    let marks = rows.map(|(_, color)| Entry::new("sampled rows", color, Sample::Up(MARK)));
+    let marks = rows.map(|(_, color)| Entry::new("sampled equations", color, Sample::Up(MARK)));
     let entries: Vec<Entry> = modes.chain(marks).collect();
     key::over(ui, height, entries, |ui, height| {
         let plot = axes::plot(ui, id, height, x_title, "Mode, scaled to 1").default_x_bounds(-2.2, 1.6);
@@ -117,7 +119,7 @@ fn shapes(
                 plot.line(line.color(color).width(width));
             }
             if let Some((rows, color)) = rows {
-                let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
+                let marks = Points::new("Sampled equations", PlotPoints::Borrowed(rows));
                 plot.points(marks.color(color).radius(MARK).shape(MarkerShape::Up));
             }
         });

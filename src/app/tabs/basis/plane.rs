@@ -16,7 +16,7 @@ const SHADES: usize = 257;
 /// Initial range of X and Y.
 const RANGE: (f64, f64) = (-1.5, 1.5);
 /// Accessible name of the plot.
-const PLOT: &str = "Mode and sampled rows on the plane";
+const PLOT: &str = "Mode and sampled equations on the plane";
 
 /// Image of one mode, kept while it is displayed.
 #[derive(Default)]
@@ -44,7 +44,7 @@ impl ModeMap {
             self.made_of = Some((field, mode, ground));
         }
         let entries = [
-            Entry::new("sampled rows", palette.accent, Sample::Dot(2.0)),
+            Entry::new("sampled equations", palette.accent, Sample::Dot(2.0)),
             Entry::new("dry contact (Hertz)", palette.reference, Sample::Dashed(1.0)),
         ];
         let shown = key::over(ui, height, entries, |ui, height| {
@@ -64,12 +64,12 @@ impl ModeMap {
                 let hertz = PlotPoints::from_parametric_callback(circle, 0.0..=std::f64::consts::TAU, 181);
                 let hertz = Line::new("", hertz).id("hertz").color(palette.reference).width(1.0);
                 plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
-                let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
+                let marks = Points::new("Sampled equations", PlotPoints::Borrowed(rows));
                 plot.points(marks.color(palette.accent).radius(1.6).shape(MarkerShape::Circle));
             })
         });
-        let tip = "The first of the chosen modes, coloured where it is positive and grey where it is negative; marks are the sampled rows of \
-            the Reynolds equation and their mirror images, the dashed circle is the Hertzian contact";
+        let tip = "The first of the chosen modes, coloured where it is positive and grey where it is negative. Marks \
+                   are the sampled equations and their mirror images, the dashed circle is the Hertzian contact";
         shown.response.on_hover_text(tip);
     }
 }

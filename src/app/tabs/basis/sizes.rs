@@ -74,7 +74,7 @@ impl Sizes {
             rows_per_mode: ROWS_PER_MODE.to_vec(),
         };
         let key = Key { point: context.document.point, lubricant: model.domain.lubricant };
-        let question = question("Modes and rows", &key, Grid::Model, Study::ModelSizes(study));
+        let question = question("Modes and equations", &key, Grid::Model, Study::ModelSizes(study));
         let in_use = InUse::new(model, &View::default());
         *self = Self { of: Some((Arc::clone(model), window)), ..Self::default() };
         self.work.run(in_use.ask(ui.ctx(), context.answers.store(), question));
@@ -123,17 +123,17 @@ pub fn ui(
     own.follow(ui, context, model, at);
     let modes = context.answers.options(context.document).pressure_modes.unwrap_or(window.pressure.count());
     ui.horizontal_wrapped(|ui| {
-        let label =
-            ui.label("Median (line) and largest (dots) of random contacts of this window. Drag the upright lines");
-        let tip = "Numbers of modes are tried with the model’s own rows, numbers of rows with all modes, both with the \
-                   exact deformation. Grey: that is not what is in use now";
+        let label = ui
+            .label("Median (line) and maximum (dots) of random contacts of this local model. Drag the vertical lines");
+        let tip = "Numbers of modes are tested with the model’s own equations, numbers of equations with all modes, \
+                   both with the exact deformation. Grey: not the settings in use";
         label.on_hover_text(tip);
         if ui.add_enabled(!own.rows.is_empty(), egui::Button::new("Export sizes…")).clicked() {
             commands.push(Command::csv(csv(own)));
         }
         let (base, _) = own.of.as_ref().map_or((None, 0), |(base, k)| (Some(base), *k));
         let changed = base.filter(|base| !Arc::ptr_eq(base, model));
-        let back = ui.add_enabled(changed.is_some(), egui::Button::new("The model’s own rows"));
+        let back = ui.add_enabled(changed.is_some(), egui::Button::new("The model’s own equations"));
         if let (true, Some(base)) = (back.clicked(), changed) {
             commands.push(Command::UseModel(InUse::new(base, &context.document.view)));
         }
@@ -153,7 +153,7 @@ pub fn ui(
     ];
     let columns = [
         Column { varied: Varied::Modes, axis: "Pressure modes {k}", present: modes, grey: grey[0] },
-        Column { varied: Varied::Rows, axis: "Sampled rows", present: window.sampled_rows.len(), grey: grey[1] },
+        Column { varied: Varied::Rows, axis: "Sampled equations", present: window.sampled_rows.len(), grey: grey[1] },
     ];
     let height = (0.5 * ui.available_height() - 4.0).max(80.0);
     let width = 0.5 * ui.available_width() - 6.0;
@@ -191,7 +191,7 @@ fn plot(ui: &mut Ui, own: &Sizes, column: &Column, errors: bool, height: f32, fi
     let palette = Palette::of(ui);
     let Column { varied, axis, present, grey } = *column;
     let (y_title, what) = if errors { ("Error of {H_c}", "Error") } else { ("Time [ms]", "Time") };
-    let against = if varied == Varied::Modes { "modes" } else { "rows" };
+    let against = if varied == Varied::Modes { "modes" } else { "equations" };
     let name = format!("{what} against {against}");
     let rows = own.varied(varied);
     let point = |row: &&Row, value: f64| [size(row, varied) as f64, if errors { value.log10() } else { 1e3 * value }];
@@ -248,7 +248,7 @@ fn csv(own: &Sizes) -> String {
         let numbers = [row.modes as f64, row.rows as f64, row.failures as f64, middle, largest, seconds];
         numbers.map(Some).to_vec()
     };
-    let header = ["modes", "rows", "failures", "H_c_error_median", "H_c_error_max", "median_s"];
+    let header = ["modes", "equations", "failures", "H_c_error_median", "H_c_error_max", "median_s"];
     let comment = own.of.as_ref().map_or_else(String::new, |(model, window)| {
         format!("{}, window {}, random contacts with seed {SEED}", model.title, window + 1)
     });

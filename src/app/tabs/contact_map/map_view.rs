@@ -36,9 +36,10 @@ impl Shown {
             Self::Film => "H over the plane, bright where the film is thin: the horseshoe with its side lobes",
             Self::Pressure => "P over the plane",
             Self::Interferogram => {
-                "What an optical rig shows: a glass disc in place of one body, light reflected at both sides of the film"
+                "Image of an optical rig: a glass disc replaces one body, and light is reflected at both sides of the \
+                 film"
             }
-            Self::Temperature => "The rise of temperature at mid-film over the plane",
+            Self::Temperature => "The temperature rise at mid-film over the plane",
         }
     }
 }

@@ -25,8 +25,8 @@ const fn dial(symbol: &'static str, name: &'static str, range: (f64, f64), speed
 }
 
 const WAVELENGTH_TIP: &str = "Wavelength of the monochromatic light in vacuum";
-const INDEX_TIP: &str = "Of the oil; under 1 GPa it is some per cent higher";
-const PHASE_TIP: &str = "What the reflections at coating and ball add; 180° makes touching surfaces dark";
+const INDEX_TIP: &str = "Refractive index of the oil; a few per cent higher at 1 GPa";
+const PHASE_TIP: &str = "Phase shift by the reflections at coating and ball; at 180° touching surfaces are dark";
 const VISIBILITY_TIP: &str = "Contrast of the fringes: 1 where both beams are equally strong";
 
 const WAVELENGTH: Dial =

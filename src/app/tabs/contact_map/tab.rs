@@ -54,11 +54,11 @@ impl ContactMap {
     /// time.
     fn line(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
-            let tip = "A point contact with the same quantities, whose film differs over the plane";
-            if ui.button("Show a ball instead").on_hover_text(tip).clicked() {
+            let tip = "A circular contact with the same quantities";
+            if ui.button("Show a circular contact").on_hover_text(tip).clicked() {
                 commands.edit(Edit::Shape(Shape::Ball), "contact");
             }
-            ui.weak("A line contact is the same at every Y: what it has is its film over time.");
+            ui.weak("A line contact is the same at every Y. The map shows its film thickness over time.");
         });
         if let Some(why) = context.document.no_transient() {
             ui.weak(sentence(why));
@@ -91,7 +91,7 @@ impl ContactMap {
             let field = self.view.shown != Shown::Interferogram;
             ui.add_enabled(field, egui::Checkbox::new(&mut self.view.contours, "Contours"))
                 .on_hover_text("Lines of equal value")
-                .on_disabled_hover_text("Fringes are lines of equal film already");
+                .on_disabled_hover_text("Fringes are lines of equal film thickness already");
             cut_line::cuts_ui(ui, context, commands);
         });
     }
@@ -101,10 +101,9 @@ const ABOUT: About = About {
     keywords: "interferogram fringes contours horseshoe side lobes",
     page: "tour.md",
     has_units: true,
-    why: "Seen from above the film has a flat middle and a horseshoe of thin film around its sides and its outlet, \
-          where pressure drives oil out. The thinnest places are the two side lobes: there surfaces touch first. \
-          The interferogram shows the same film as a rig with a glass disc photographs it, each colour one \
-          thickness.",
+    why: "Seen from above, the film is flat in the middle and thin in a horseshoe around the sides and the outlet, \
+          where pressure drives oil out. The film is thinnest in the two side lobes, where surfaces touch first. The \
+          interferogram shows the same film as photographed in a rig with a glass disc, each colour one thickness.",
 };
 
 impl View for ContactMap {
@@ -158,7 +157,7 @@ impl View for ContactMap {
             return vec![space_time::offer(context)];
         }
         let picture = context.answers.picture().filter(|picture| picture.has_plane());
-        let tip = "X, Y, P, H of all nodes of both halves, with their SI twins";
+        let tip = "X, Y, P, H of all nodes of both halves, dimensionless and in SI units";
         let image = || Command::Ask(Purpose::Write(Written::Png, self.images.png().into()));
         vec![
             Offer::table("Map as CSV…", tip, picture, |picture| export::csv(picture, context.answers.means())),
@@ -341,10 +340,10 @@ fn spoken(picture: &Picture, view: &MapView) -> String {
     let (s, scale) = (picture.solution.scalars, picture.key.point.film_scale_m());
     let heat = picture.solution.heat.as_deref();
     let warms = heat.map_or_else(String::new, |heat| {
-        format!(", the film warms by {} at most", numbers::quantity(heat.largest.mid_film_k, "K"))
+        format!(", maximum temperature rise {}", numbers::quantity(heat.largest.mid_film_k, "K"))
     });
     format!(
-        "{} of {}: central film {}, smallest {} at X {}, Y ±{}{warms}",
+        "{} of {}: central film thickness {}, minimum {} at X {}, Y ±{}{warms}",
         view.shown.name(),
         numbers::contact(&picture.key.point),
         numbers::length(s.h_c * scale),

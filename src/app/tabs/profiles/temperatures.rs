@@ -194,8 +194,8 @@ fn balance_ui(ui: &mut Ui, balance: &HeatBalance, hues: [Color32; 3]) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         ui.weak("Heat").on_hover_text(
-            "Of what shear and compression make up to where the film ruptures; what flows back out of the inlet leaves \
-             with the oil",
+            "Shares of the heat from shear and compression up to the cavitation boundary. Heat of the backflow in the \
+             inlet leaves with the oil",
         );
         let (area, _) = ui.allocate_exact_size(vec2(70.0, 11.0), Sense::hover());
         let mut left = area.left();

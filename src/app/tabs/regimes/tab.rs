@@ -107,7 +107,7 @@ impl Regimes {
                 None => _ = ui.label(rich(hint, 12.5, palette.quiet)),
             }
             let clear = ui.add_enabled(self.trail.points().len() > 1, egui::Button::new("Clear the trail"));
-            if clear.on_hover_text("Forget where the contact has been").clicked() {
+            if clear.on_hover_text("Removes the path of the contact from the chart").clicked() {
                 self.trail.clear();
             }
         });
@@ -209,10 +209,10 @@ const ABOUT: About = About {
     keywords: "chart film formulas Moes asymptotes",
     page: "physics.md",
     has_units: false,
-    why: "Load, speed, size and stiffness act on a film only by two numbers: how heavily it is loaded, M, and how \
-          strongly its viscosity rises with pressure, L. Where bodies stay rigid or the oil stays thin other laws \
-          rule, and the colours say which one does. Every published formula fits a part of this chart, so look \
-          where you stand before you use one.",
+    why: "Load, speed, size and stiffness determine the film thickness only through two numbers: the load number M, \
+          and the lubricant number L, which measures how strongly the viscosity rises with pressure. Different laws \
+          apply for rigid bodies and for constant viscosity, and the colours show these regimes. Every published \
+          formula is valid in a part of this chart, so check the position of your contact before you use one.",
 };
 
 impl View for Regimes {
@@ -245,7 +245,8 @@ impl View for Regimes {
 
     fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
         let lines = self.lines.as_ref().map(|(_, lines)| lines);
-        let tip = "Each published formula with its film, its range, its source and how far this contact is from it";
+        let tip = "Each published formula with its film thickness, its range, its source and the deviation from this \
+                   contact";
         vec![
             Offer::table("Chart as CSV…", "Contours, boundaries and snapshots", lines, |lines| lines.csv()),
             Offer::table("Formulas as CSV…", tip, Some(*context), formulas::csv),

@@ -36,13 +36,31 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
     let rolling = picture.solution.rolling_resistance();
     let one = |name, symbol, tip, value, si| Quantity { name, symbol, tip, value, si };
     vec![
-        one("Central film {H_c}", "H_c", "Film at X = 0, and Y = 0; H = hR/a² (2.22)", s.h_c, film(s.h_c)),
-        one("Smallest film {H_min}", "H_min", "Smallest film of the contact zone", s.h_min, film(s.h_min)),
-        one("at {X}", "X_H_min", "Where the film is smallest", s.x_h_min, place(s.x_h_min)),
-        one("Central pressure {P_c}", "P_c", "Pressure at X = 0, and Y = 0; P = p/p_H (2.22)", s.p_c, pressure(s.p_c)),
-        one("Largest pressure {P_max}", "P_max", "Largest pressure of all nodes", s.p_max, pressure(s.p_max)),
-        one("at {X}", "X_P_max", "Where the pressure is largest", s.x_p_max, place(s.x_p_max)),
-        one("Displacement {H_0}", "H_0", "Of both bodies, with the kernel of (2.27) or (2.25)", s.h_0, String::new()),
+        one(
+            "Central film thickness {H_c}",
+            "H_c",
+            "Film thickness at X = 0 and Y = 0; H = hR/a² (2.22)",
+            s.h_c,
+            film(s.h_c),
+        ),
+        one(
+            "Minimum film thickness {H_min}",
+            "H_min",
+            "Minimum film thickness of the contact zone",
+            s.h_min,
+            film(s.h_min),
+        ),
+        one("at {X}", "X_H_min", "Position of the minimum film thickness", s.x_h_min, place(s.x_h_min)),
+        one("Central pressure {P_c}", "P_c", "Pressure at X = 0 and Y = 0; P = p/p_H (2.22)", s.p_c, pressure(s.p_c)),
+        one("Maximum pressure {P_max}", "P_max", "Maximum pressure of all nodes", s.p_max, pressure(s.p_max)),
+        one("at {X}", "X_P_max", "Position of the maximum pressure", s.x_p_max, place(s.x_p_max)),
+        one(
+            "Rigid separation {H_0}",
+            "H_0",
+            "Rigid-body separation, with the kernel of (2.27) or (2.25)",
+            s.h_0,
+            String::new(),
+        ),
         one("Traction coefficient {µ}", "traction", TRACTION, picture.traction, friction(picture)),
         one(
             "Rolling resistance",
@@ -51,7 +69,13 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
             rolling / point.load,
             force(rolling, point.kind),
         ),
-        one("Load left over", "load_residual", "Of the load, relative to it", s.load_residual, String::new()),
+        one(
+            "Load residual",
+            "load_residual",
+            "Load-balance residual, relative to the load",
+            s.load_residual,
+            String::new(),
+        ),
     ]
     .into_iter()
     .chain(temperatures(picture))
@@ -66,32 +90,47 @@ fn temperatures(picture: &Picture) -> Vec<Quantity> {
     let rise = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::quantity(value, "K") };
     let share = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::percent(value) };
     vec![
-        rise("Rise at mid-film", "mid_film_rise_k", "Above the inlet’s temperature, at X = 0", heat.central.mid_film_k),
-        rise("Rise of body 1", "surface_1_rise_k", "Of its surface, at X = 0", heat.central.surfaces_k[0]),
-        rise("Rise of body 2", "surface_2_rise_k", "Of its surface, at X = 0", heat.central.surfaces_k[1]),
-        rise("Largest rise", "mid_film_rise_max_k", "At mid-film under pressure", heat.largest.mid_film_k),
+        rise("Rise at mid-film", "mid_film_rise_k", "Above the inlet temperature, at X = 0", heat.central.mid_film_k),
+        rise(
+            "Rise of body 1",
+            "surface_1_rise_k",
+            "Temperature rise of its surface at X = 0",
+            heat.central.surfaces_k[0],
+        ),
+        rise(
+            "Rise of body 2",
+            "surface_2_rise_k",
+            "Temperature rise of its surface at X = 0",
+            heat.central.surfaces_k[1],
+        ),
+        rise("Maximum rise", "mid_film_rise_max_k", "At mid-film under pressure", heat.largest.mid_film_k),
         share(
             "Heat into body 1",
             "heat_into_body_1",
-            "Of what shear and compression make",
+            "Share of the heat from shear and compression",
             balance.into_bodies[0] / made,
         ),
         share(
             "Heat into body 2",
             "heat_into_body_2",
-            "Of what shear and compression make",
+            "Share of the heat from shear and compression",
             balance.into_bodies[1] / made,
         ),
         share("Heat with the oil", "heat_with_the_oil", "Carried out of the contact", balance.carried / made),
-        share("Heat left over", "energy_balance", "Made, and gone nowhere", balance.residual()),
+        share(
+            "Heat residual",
+            "energy_balance",
+            "Heat-balance residual: heat generated minus heat removed",
+            balance.residual(),
+        ),
     ]
 }
 
 /// Tooltip of the rolling resistance.
-const ROLLING: &str = "½∫h dp of each body, over the load: what rolling costs even where nothing slides";
+const ROLLING: &str = "½∫h dp of each body, over the load; it is present in pure rolling too";
 
 /// Tooltip of the traction coefficient.
-const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); none in pure rolling";
+const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); zero in pure rolling";
 
 /// Returns the friction force as text.
 fn friction(picture: &Picture) -> String {
@@ -167,7 +206,7 @@ fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>) {
                 // Both values are zero up to rounding, so no deviation is shown.
                 let off = |truth| numbers::percent(value / truth - 1.0);
                 ui.label(Some(truth).filter(|truth| truth.abs() > NOTHING).map_or_else(String::new, off))
-                    .on_hover_text("Reduced over full, less one");
+                    .on_hover_text("Reduced over full, minus one");
             }
             ui.end_row();
         }

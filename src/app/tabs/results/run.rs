@@ -214,7 +214,7 @@ impl Run {
         let wall_s = self.wall_s.unwrap_or_else(|| self.begun.seconds());
         let taken = self.look.as_ref().map_or(Duration::ZERO, |look| look.took);
         self.next_look = now + LOOK_EVERY.max(taken * LOOK_SHARE);
-        self.looking.run(Job::start("Looking at the rows", self.wake.clone(), move |reporter| {
+        self.looking.run(Job::start("Evaluating the rows", self.wake.clone(), move |reporter| {
             rows.sort();
             let look = Look::at(&scene, &rows.rows, wall_s, complete);
             reporter.send((rows, look));

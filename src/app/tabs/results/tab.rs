@@ -21,7 +21,7 @@ use std::path::PathBuf;
 const VERDICTS: f32 = 330.0;
 
 /// Tooltip of the button that runs the study.
-const RUN_TIP: &str = "Answers the question of the open scene here, as “ehl-explorer run” does without a window";
+const RUN_TIP: &str = "Runs the study of the open scene, as “ehl-explorer run” does without a window";
 
 /// Displayed part of the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -99,7 +99,7 @@ impl Results {
         self.toolbar(ui, commands);
         if let Some(why) = context.document.lost_question() {
             let title = &context.document.title;
-            warning_ui(ui, &format!("The question of “{title}” gives way to the contact itself: {why}"));
+            warning_ui(ui, &format!("The study of “{title}” is replaced by the contact itself: {why}"));
         }
         let Some(run) = &self.run else {
             ui.separator();
@@ -115,11 +115,11 @@ impl Results {
         let changed = !drawn::asks_the_same(&run.scene, scene);
         drawn::note(ui.ctx(), "results of a study", Owner::Question(Box::new(run.scene.clone())), changed);
         if changed {
-            warning_ui(ui, "These results belong to the scene as it was when it was run; it has changed since");
+            warning_ui(ui, "These results belong to a previous state of the scene, which has changed since");
         }
         ui.separator();
         let Some(look) = &run.look else {
-            ui.weak("Nothing has been found yet");
+            ui.weak("There are no results yet");
             return;
         };
         if changed {
@@ -150,7 +150,7 @@ impl Results {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
             let runs = standing.is_some();
-            let tip = if runs { "What has been found so far stays (Esc)" } else { RUN_TIP };
+            let tip = if runs { "Keeps the results so far (Esc)" } else { RUN_TIP };
             let watches = self.run.as_ref().is_some_and(|run| run.campaign.is_some());
             let stop = if watches { "Stop watching" } else { "Stop" };
             if either_button(ui, ["Run the study", stop], runs).on_hover_text(tip).clicked() {
@@ -189,9 +189,9 @@ const ABOUT: About = About {
     keywords: "study scene run expectations verdicts table",
     page: "scenes.md",
     has_units: false,
-    why: "A scene is an experiment with a question, and here its answer comes in while it is computed. What the \
-          scene expects, and from where, stands beside what was found. The same scene gives the same numbers from \
-          the command line.",
+    why: "A scene is an experiment with a question, and this tab shows its results while they are computed. The values \
+          that the scene expects, with their sources, are listed next to the results. The same scene gives the same \
+          numbers from the command line.",
 };
 
 impl View for Results {
@@ -253,12 +253,12 @@ fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
         None => (format!("Campaign: reading {folder}"), [].as_slice()),
         Some(status) => {
             let left = match status.left_s.filter(|_| !status.open.is_empty()) {
-                Some(left) => format!(", {} of one processor to go in it", numbers::duration(left)),
+                Some(left) => format!(", {} of processor time left in it", numbers::duration(left)),
                 None => String::new(),
             };
             let merged = if status.merged { "; merged" } else { "" };
             let (done, shards, round) = (status.done, status.shards, status.rounds);
-            let text = format!("Campaign: {done} of {shards} shards are there, round {round}{left}{merged}");
+            let text = format!("Campaign: {done} of {shards} shards complete, round {round}{left}{merged}");
             (text, status.failed.as_slice())
         }
     };
@@ -288,7 +288,7 @@ fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {
             if charts.is_empty() {
                 match look.outcome.tables.first() {
                     Some(first) => table::ui(ui, first),
-                    None => _ = ui.weak("There is nothing to draw of it yet"),
+                    None => _ = ui.weak("There is no chart yet"),
                 }
                 return;
             }
@@ -311,7 +311,7 @@ fn verdicts_ui(ui: &mut Ui, look: &Look) {
     ScrollArea::vertical().id_salt("verdicts").auto_shrink(false).show(ui, |ui| {
         ui.strong("Expectations");
         let (text, color) = match (look.complete, outcome.verdicts.len()) {
-            (false, _) => (format!("Not all is known yet: {} rows", look.rows), palette.quiet),
+            (false, _) => (format!("Not complete yet: {} rows", look.rows), palette.quiet),
             (true, 0) if outcome.passed() => ("The scene expects nothing; all converged".to_owned(), palette.verified),
             (true, 0) => ("Some solves did not converge".to_owned(), palette.warning),
             (true, all) if outcome.passed() => (format!("All {all} hold"), palette.verified),
@@ -348,7 +348,7 @@ fn verdict_ui(ui: &mut Ui, verdict: &Verdict, complete: bool, palette: &Palette)
     };
     ui.label(rich(mark, 11.0, color));
     let expected = &verdict.expected;
-    let tip = format!("Wanted {}; {}", expected.wanted(), expected.from);
+    let tip = format!("Expected {}; {}", expected.wanted(), expected.from);
     ui.label(of_method(&expected.name, expected.method.as_ref())).on_hover_text(&tip);
     let value = verdict.value.map_or_else(|| "–".to_owned(), numbers::counted);
     ui.label(value).on_hover_text(tip);

@@ -181,8 +181,8 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
         id: "film",
         titles: (below, "Film in µm"),
         curves: &[
-            Drawn { name: "central film", of: CENTRAL, color: palette.film, width: LIVE_WIDTH },
-            Drawn { name: "smallest film", of: SMALLEST, color: palette.film, width: 1.6 },
+            Drawn { name: "central film thickness", of: CENTRAL, color: palette.film, width: LIVE_WIDTH },
+            Drawn { name: "minimum film thickness", of: SMALLEST, color: palette.film, width: 1.6 },
         ],
         here: here.map(|picture| (picture.central_film_m() / MICRO, false)),
     };
@@ -308,8 +308,11 @@ impl LinkedPlot<'_> {
         }
         let last = axes.points(samples.iter().filter(|sample| mark(sample).is_none()), curve.of);
         if let Some([x, y]) = last.into_iter().rfind(|point| axes.shows(point[0])) {
-            let name =
-                if sketch { format!("{}, not trained for it  ", curve.name) } else { format!("{}  ", curve.name) };
+            let name = if sketch {
+                format!("{}, outside the trained range  ", curve.name)
+            } else {
+                format!("{}  ", curve.name)
+            };
             let text = Text::new("", PlotPoint::new(x, y), rich(&name, axes::TITLE_SIZE, palette.ink(color)));
             // The name of the lower curve is placed below it.
             let anchor = if k == 0 { Align2::RIGHT_BOTTOM } else { Align2::RIGHT_TOP };

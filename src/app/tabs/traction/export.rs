@@ -14,8 +14,8 @@ pub fn describe(sweep: &Sweep) -> Vec<String> {
 /// Returns the notes that follow the description of the first contact.
 fn notes(sweep: &Sweep) -> impl Iterator<Item = String> {
     let of = match sweep.base.lubricant.heat {
-        Some(_) => "a film with heat over the area under pressure",
-        None => "an isothermal film over the whole domain, (3.41)",
+        Some(_) => "a thermal contact over the area under pressure",
+        None => "an isothermal contact over the whole domain, (3.41)",
     };
     std::iter::once(format!("traction is that of {of}; the first contact is described above")).chain(sweep.unphysical())
 }
@@ -31,7 +31,7 @@ pub fn parameters(view: &Sweeps) -> Option<(&Key, Vec<String>)> {
 /// Returns a note if the contacts of a curve are outside the trained range.
 fn untrained(served: &Served) -> Option<String> {
     let why = served.untrained.as_ref()?;
-    Some(format!("the reduced model was not trained for this curve ({why}): no bound on its errors is known"))
+    Some(format!("this curve is outside the trained range of the reduced model ({why}): there is no error bound"))
 }
 
 fn described(sweep: &Sweep) -> String {

@@ -46,9 +46,9 @@ pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &
     let picture = context.answers.picture().filter(|picture| picture.key == key);
     let pressure_pa = picture.map_or(key.point.hertz().pressure_pa, |picture| picture.largest_pressure_pa());
     let met = Met { problem, pressure_pa, stress_pa };
-    let mut text = format!("This contact meets pressures up to {}", numbers::pressure(pressure_pa));
+    let mut text = format!("Pressures in this contact reach {}", numbers::pressure(pressure_pa));
     if let Some(stress) = stress_pa {
-        text.push_str(&format!(" and shear stresses up to {} on its surfaces", numbers::pressure(stress)));
+        text.push_str(&format!(", shear stresses on its surfaces {}", numbers::pressure(stress)));
     }
     ui.weak(text);
     let fit = context.fit;
@@ -93,7 +93,7 @@ fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
         (0..SAMPLES).map(|k| end * k as f64 / (SAMPLES - 1) as f64).map(|p| [1e-9 * p, viscosity(p).log10()]).collect();
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 8.0));
     axes::show(
-        logarithmic(ui, "viscosity and pressure", height, "Pressure {p} in GPa", "Viscosity at rest µ in Pa·s")
+        logarithmic(ui, "viscosity and pressure", height, "Pressure {p} in GPa", "Low-shear viscosity µ in Pa·s")
             .marks_x(marks)
             .label_formatter(|at| {
                 Some(format!(

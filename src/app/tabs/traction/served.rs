@@ -45,9 +45,9 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
             },
             None => {
                 let what = match varied {
-                    Varied::RadiusRatio => "circles only",
+                    Varied::RadiusRatio => "circular contacts only",
                     Varied::Plateau => "one plateau ratio only",
-                    Varied::SlideToRoll | Varied::Speed => "no such speed",
+                    Varied::SlideToRoll | Varied::Speed => "other speeds",
                 };
                 (varied.everywhere(&point), Err(Refusal::new(format!("the reduced model was trained for {what}"))))
             }

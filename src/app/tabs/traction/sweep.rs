@@ -230,9 +230,11 @@ impl Against {
             Self::SlideToRoll => "SRR = (u₂ − u₁)/u_m in percent (3.25)",
             Self::Plateau => "Newtonian plateau ratio NPR of (3.40)",
             Self::Speed => "Mean entrainment speed u_m at constant load",
-            Self::Stribeck => "η₀ u_m/w at constant load, as Stribeck drew friction",
-            Self::LoadNumber => "M, (3.19) or (3.22), by the speed at constant load",
-            Self::RadiusRatio => "R_y/R at constant load: from ellipses along the rolling direction to nearly lines",
+            Self::Stribeck => "Stribeck number η₀ u_m/w at constant load",
+            Self::LoadNumber => "M, (3.19) or (3.22), varied by the speed at constant load",
+            Self::RadiusRatio => {
+                "R_y/R at constant load: from ellipses along the rolling direction to nearly line contacts"
+            }
         }
     }
 

@@ -53,8 +53,8 @@ impl SlideView {
     /// All views with their names and tooltips.
     pub const ALL: [(Self, &'static str, &'static str); 3] = [
         (Self::Near, "0–10 %", "Where traction rises"),
-        (Self::Whole, "0–100 %", "All of the sliding that the curve knows"),
-        (Self::Logarithmic, "Log", "All of it; equal ways along are equal ratios"),
+        (Self::Whole, "0–100 %", "The whole range of the curve"),
+        (Self::Logarithmic, "Log", "The whole range on a logarithmic axis"),
     ];
 }
 

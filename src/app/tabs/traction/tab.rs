@@ -39,10 +39,10 @@ const ABOUT: About = About {
     keywords: "friction Stribeck slide-to-roll fluid viscosity",
     page: "physics.md",
     has_units: false,
-    why: "Surfaces that slide shear the film, and its shear stress, summed up over the contact, is the traction. \
-          Pressure makes the oil so stiff that it would soon carry more than any lubricant can: it bends at its \
-          Eyring stress and slips at its limiting one, and the curve levels off. Where neither is known the result \
-          is Newtonian, and under high pressure it is no physics.",
+    why: "Sliding surfaces shear the film, and the shear stress integrated over the contact is the traction. High \
+          pressure raises the viscosity so much that a Newtonian film would carry more stress than any lubricant can; \
+          above the Eyring stress the curve bends, and at the limiting stress it levels off. If neither stress is \
+          given, the result is Newtonian and unphysical at high pressure.",
 };
 
 impl View for Traction {
@@ -87,7 +87,7 @@ impl View for Traction {
         if shown.curve.is_none() && shown.markers.is_none() {
             let waits = match served {
                 Ok(_) if !self.sweeps.curve_is_current() => "The curve is being computed",
-                Ok(_) => "The reduced model has no answer along here: full solutions draw the curve",
+                Ok(_) => "The reduced model has no solution here: full solutions draw the curve",
                 Err(_) => "Full solutions draw the curve here",
             };
             ui.centered_and_justified(|ui| ui.weak(waits));
@@ -102,7 +102,7 @@ impl View for Traction {
         let view = &self.sweeps;
         let there = view.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
             || view.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
-        let tip = "The curve and the full solutions, every contact with its traction and films";
+        let tip = "The curve and the full solutions, every contact with its traction and film thicknesses";
         let text = |view: &&Sweeps| export::csv(view).unwrap_or_default();
         vec![Offer::table("Curve as CSV…", tip, there.then_some(view), text)]
     }
@@ -219,8 +219,10 @@ impl ShownSweep<'_> {
 }
 
 /// Explanation of the laws of the fluid, for teaching.
-const WHY_FLUID: &str = "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are \
-     what this very contact meets: their ends decide how much of both the film feels. Where they end left of the bend the lubricant is as good as Newtonian.";
+const WHY_FLUID: &str = "Pressure in the contact raises the viscosity by many orders of magnitude, and shear stress \
+                         reduces it again. The shaded ranges occur in this contact, and their upper ends determine how \
+                         strong both effects are. If they end to the left of the bend, the lubricant behaves like a \
+                         Newtonian one.";
 
 fn toolbar(
     ui: &mut Ui,
@@ -238,19 +240,20 @@ fn toolbar(
                 ui.selectable_value(&mut choices.slide, view, name).on_hover_text(tip);
             }
         } else {
-            ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
+            ui.add(Checkbox::new(along, "Log x")).on_hover_text("Logarithmic horizontal axis");
         }
         if choices.slide != before {
             commands.push(Command::FitPlots);
         }
-        ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
+        ui.add(Checkbox::new(up, "Log y")).on_hover_text("Logarithmic axes of traction and film thickness");
         if sweeps.full.standing().is_some() {
-            let stop = ui.add_sized(FULL_BUTTON, Button::new("Stop")).on_hover_text("Full solutions so far stay (Esc)");
+            let stop =
+                ui.add_sized(FULL_BUTTON, Button::new("Stop")).on_hover_text("Keeps the full solutions so far (Esc)");
             if stop.clicked() {
                 sweeps.stop_markers();
             }
         } else {
-            let tip = "Eleven full solutions along the curve, set on it as rings";
+            let tip = "Computes eleven full solutions along the curve, drawn as rings";
             let button = ui.add_enabled(there, Button::new("Add full solutions").min_size(FULL_BUTTON.into()));
             if button.on_hover_text(tip).clicked() {
                 commands.push(Command::SolveAlong);
@@ -260,7 +263,7 @@ fn toolbar(
 }
 
 fn against_ui(ui: &mut Ui, choices: &mut Choices, kind: ContactKind, commands: &mut Commands) {
-    let label = ui.label("Against").on_hover_text("What traction and film are drawn against");
+    let label = ui.label("Against").on_hover_text("Quantity on the horizontal axis");
     let before = choices.against;
     let chosen = &mut choices.against;
     let response =
@@ -308,14 +311,14 @@ fn said(
 ) {
     ui.label(rich(&summary(context, view, sweep), 12.5, Palette::of(ui).quiet)).on_hover_text(
         match sweep.base.lubricant.heat {
-            Some(_) => "Of the traction coefficient over the area under pressure, with heat",
-            None => "Of the traction coefficient over the whole domain of an isothermal film (3.41)",
+            Some(_) => "Traction coefficient of the thermal contact over the area under pressure",
+            None => "Traction coefficient of the isothermal contact over the whole domain (3.41)",
         },
     );
     let place = choices.against.of(&context.document.key());
     if choices.against == Against::SlideToRoll && choices.slide == SlideView::Near && place > NEAR_SRR {
         let place = numbers::quantity(place, "%");
-        ui.weak(format!("The contact on the screen slides at {place}, beyond this view"));
+        ui.weak(format!("The contact on the screen slides at {place}, outside this view"));
     }
     standing_ui(ui, view.full.standing(), "Progress of the full solutions");
     match served {
@@ -323,14 +326,14 @@ fn said(
         Ok(Served { untrained: Some(why), .. }) => warning_ui(
             ui,
             &format!(
-                "the curve is a sketch, for the model was not trained for it: {why}. It solves the equations of these contacts, but no bound on \
-                 its errors is known; full solutions check it"
+                "the curve is a sketch, because it is outside the trained range: {why}. The model solves the equations \
+                 of these contacts, but there is no error bound; full solutions check it"
             ),
         ),
         Err(why) => warning_ui(ui, &format!("no curve by the reduced model: {}", why.trim_end_matches('.'))),
     }
     if let Some(unphysical) = sweep.unphysical() {
-        warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or take less load"));
+        warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or reduce the load"));
     } else {
         let doubts = || view.curve.iter().flat_map(|curve| &curve.samples).filter_map(|sample| sample.unphysical);
         if doubts().any(|doubt| matches!(doubt, TractionDoubt::Coefficient(_))) {
@@ -358,7 +361,7 @@ fn said(
         view.markers.as_ref().filter(|markers| markers.sweep != *sweep && !markers.samples.is_empty())
     {
         let of = numbers::contact(&markers.sweep.base.point);
-        ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, beginning at {of}")));
+        ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, starting at {of}")));
     }
 }
 
