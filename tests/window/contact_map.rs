@@ -71,7 +71,7 @@ fn a_line_contact_shows_its_film_over_time_and_a_ball_with_one_click() {
     wait(&mut harness, "the ball", |app| app.central_film().is_some());
     assert!(shows(&harness, "Map of the contact"));
     click(&mut harness, "Transient");
-    click(&mut harness, "Show a roller instead");
+    click(&mut harness, "Show a line contact");
     assert!(!harness.state().is_point() && shows(&harness, "Load amplitude"));
 }
 

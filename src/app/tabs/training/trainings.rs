@@ -86,7 +86,7 @@ impl Training {
     pub fn replaced(&self) -> Vec<String> {
         let unfinished = self.unfinished.iter().map(|state| {
             format!(
-                "The training “{}”, which stopped at {} full solutions, gives way to the new one.",
+                "The training “{}”, stopped at {} full solutions, is replaced by the new one.",
                 state.spec.title,
                 state.solutions()
             )
@@ -97,9 +97,12 @@ impl Training {
     /// Returns what is lost when the window closes, each as a sentence.
     pub fn unkept(&self) -> Vec<String> {
         let folder = self.files.is_some();
-        let runs = self.job.is_some().then(|| "A training runs, and no folder keeps its full solutions.".to_owned());
+        let runs = self
+            .job
+            .is_some()
+            .then(|| "A training is running, and its full solutions are not stored on disk.".to_owned());
         let stopped = self.unfinished.as_ref().map(|state| {
-            format!("The training “{}” was stopped, and no folder keeps its full solutions.", state.spec.title)
+            format!("The training “{}” was stopped, and its full solutions are not stored on disk.", state.spec.title)
         });
         let in_memory = runs.into_iter().chain(stopped).filter(|_| !folder);
         let model = self.unsaved().filter(|_| self.made.as_ref().is_some_and(|made| !made.kept));
@@ -304,7 +307,7 @@ impl Training {
         });
         if let Some(made) = left {
             let title = &made.model.title;
-            let text = format!("The model “{title}” of a former session is not saved: save it, or throw it away");
+            let text = format!("The model “{title}” of a previous session is not saved: save or discard it");
             self.notices.push(Notice::Short(text));
             self.made = Some(made);
         }
@@ -369,8 +372,8 @@ fn missed_tolerances(state: &TrainingState) -> Vec<String> {
         let missed = tolerances.get(window.search.rungs.len())?;
         let round = |m: f64| (m * 1e3).round() / 1e3;
         Some(format!(
-            "The tolerance {missed:e} could not be met for M {}…{} within the limit of {limit} full solutions; \
-             the model is made of what there is",
+            "The tolerance {missed:e} could not be met for M {}…{} within the limit of {limit} full solutions; the \
+             model is made of the present solutions",
             round(window.window.m.0),
             round(window.window.m.1)
         ))

@@ -213,7 +213,7 @@ impl TrainingObserver for Watched<'_> {
 
 /// Starts the search for files of a previous session. The job sends nothing if there are none.
 pub fn look(ctx: &egui::Context, files: Files) -> Job<Found> {
-    Job::start("Looking for what was left", wake(ctx), move |reporter| {
+    Job::start("Searching for unfinished trainings", wake(ctx), move |reporter| {
         // Read the model first, because an unreadable model must not hide a training.
         let model = files.model.exists().then(|| found_model(&files.model));
         if let Some(Ok(made)) = model {

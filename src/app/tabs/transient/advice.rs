@@ -16,8 +16,10 @@ pub fn advice(view: &TransientRuns) -> &'static str {
 
 fn by_errors(reduced: Option<f64>, linearised: Option<f64>) -> &'static str {
     match (reduced, linearised) {
-        (Some(reduced), Some(linearised)) if reduced < linearised => "use the reduced model, which errs less here",
-        (Some(_), Some(_)) => "train on inputs like these; the reduced model errs no less here",
+        (Some(reduced), Some(linearised)) if reduced < linearised => {
+            "use the reduced model, which has smaller errors here"
+        }
+        (Some(_), Some(_)) => "train on inputs like these; the reduced model is not more accurate here",
         _ => "train on inputs like these, or tick Reduced model to compare both",
     }
 }

@@ -30,19 +30,21 @@ pub fn ui(ui: &mut Ui, view: &TransientRuns) {
         title(ui, "", "");
         title(ui, "", "");
         if wide {
-            title(ui, "{H_c}", "Central film at this moment");
-            title(ui, "{P_c}", "Central pressure at this moment");
+            title(ui, "{H_c}", "Central film thickness at the displayed time");
+            title(ui, "{P_c}", "Central pressure at the displayed time");
         }
-        let tip = "Over the scene’s window or else the second half of the duration, against the stationary start";
+        let tip = "Mean over the scene’s window, otherwise over the second half of the duration, relative to the \
+                   steady start";
         title(ui, "Mean {H_c}", tip);
-        let tip = "Greatest relative difference of {H_c}: of a frame from the first run, of a model from the full system in its frame";
+        let tip = "Maximum relative difference of {H_c}: of a frame from the first run, of a model from the full \
+                   system in its frame";
         title(ui, "Δ{H_c}", &tip.replace(['{', '}'], ""));
         if wide {
             title(ui, "Steps", "Steps taken, and those discarded");
-            title(ui, "Step error", "Estimated greatest relative error of H_c by the lengths of the steps");
+            title(ui, "Step error", "Estimated maximum relative error of H_c due to the time steps");
         }
         title(ui, "Per step", "Median of the time per step");
-        title(ui, "In all", "Time of the whole run");
+        title(ui, "Total", "Time of the whole run");
         ui.end_row();
         for (k, run) in view.runs.iter().enumerate() {
             row(ui, view, k, run, wide);

@@ -56,7 +56,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let swings = Input::ALL.into_iter().find(|input| swing(input.of_mut(&mut study.inputs)).is_some());
     let Some(input) = swings else {
         let tip = "1 + A sin(2π T/T_ex), (2.49), with a tenth and a period of 4";
-        if study.inputs.load == Signal::Constant && ui.button("Let the load breathe").on_hover_text(tip).clicked() {
+        if study.inputs.load == Signal::Constant && ui.button("Harmonic load").on_hover_text(tip).clicked() {
             study.inputs.load = Signal::Harmonic { amplitude: 0.1, period: 4.0 };
             commands.edit(Edit::Transient(Box::new(study)), "transient");
         }
@@ -75,7 +75,7 @@ fn swing_ui(ui: &mut Ui, input: Input, study: &mut TransientStudy, scale_s: f64)
     ui.strong(name);
     ui.weak(kind);
     let Some((amplitude, period)) = swing(input.of_mut(&mut study.inputs)) else { return };
-    let tip = "How far it swings, relative to the sliders’ own";
+    let tip = "Amplitude relative to the value of the sliders";
     ui.label("amplitude").on_hover_text(tip);
     let slider = |name: &'static str, (low, high): (f64, f64), home, logarithmic, tooltip: &'static str| RangeSlider {
         name,
@@ -94,7 +94,7 @@ fn swing_ui(ui: &mut Ui, input: Input, study: &mut TransientStudy, scale_s: f64)
     if named(ui, entry, &format!("{amplitude_name} value")).changed() {
         *amplitude = 0.01 * percent;
     }
-    let tip = "How long one swing takes, in units of a/u_m";
+    let tip = "Period in units of a/u_m";
     ui.label("period").on_hover_text(tip);
     if let Some(moved) = slider(period_name, PERIODS, 4.0, true, tip).show(ui, *period, WIDTH) {
         *period = numbers::rounded(moved.clamp(PERIODS.0, PERIODS.1), 3);

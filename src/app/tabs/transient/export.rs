@@ -28,9 +28,8 @@ pub fn series(view: &TransientRuns) -> Option<String> {
         (name(run), rows.collect())
     });
     let estimated = view.runs.iter().filter_map(|run| Some((run, run.trajectory.step_error?)));
-    let errors: Vec<String> = estimated
-        .map(|(run, error)| format!("{}: the lengths of the steps leave H_c off by about {error:.1e}", name(run)))
-        .collect();
+    let errors: Vec<String> =
+        estimated.map(|(run, error)| format!("{}: time-step error of H_c about {error:.1e}", name(run))).collect();
     Some(table(setup, &errors, &COLUMNS, blocks.collect()))
 }
 

@@ -54,7 +54,7 @@ fn names(input: Input) -> Names {
     match input {
         Input::Load => names!("Load", "w over that of the sliders, as a function of time (2.20)"),
         Input::Speed => {
-            names!("Speed", "u_m over that of the sliders, as a function of time (2.19); it may turn round")
+            names!("Speed", "u_m over that of the sliders, as a function of time (2.19); it may change its sign")
         }
         Input::Radius => names!("Radius", "R over that of the sliders, as a function of time (2.18)"),
     }
@@ -71,7 +71,7 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
         let tip = "A table with a title line: T and any of radius, speed, load, each relative to its reference";
         read_table = ui.button("Inputs from CSV…").on_hover_text(tip).clicked();
         if let Some(path) = &study.sampled {
-            ui.weak(format!("At every run, inputs are read from {}.", path.display()));
+            ui.weak(format!("Every run reads its inputs from {}.", path.display()));
         }
         preview(ui, &study.inputs, study.duration);
         if !study.further.is_empty() {
@@ -85,10 +85,10 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
     if !context.document.saves_transient() && context.document.transient.is_some() {
         ui.weak(match context.document.unsupported_in_time() {
             Some(Unsupported::MassConservingModel) => {
-                "Models cover cavitation by the penalty and by complementarity: with mass-conserving cavitation the scene \
+                "Models support cavitation by penalty and complementarity. With mass-conserving cavitation the scene \
                  is saved without this set-up."
             }
-            _ => "The open scene asks another question: it is saved without this set-up.",
+            _ => "The open scene has another study and is saved without this set-up.",
         });
     }
     if read_table {
@@ -121,7 +121,7 @@ impl Kind {
 
     fn describe(self) -> (&'static str, &'static str) {
         match self {
-            Self::Constant => ("Constant", "Its reference throughout"),
+            Self::Constant => ("Constant", "The reference value"),
             Self::Harmonic => ("Harmonic", "1 + A sin(2π T/T_ex), (2.49)"),
             Self::TwoScale => ("Two-scale", "1 + A₁ sin(2π T/T₁) + A₂ sin(2π T/T₂), (4.33)"),
             Self::TriangleToSquare => {
@@ -241,7 +241,7 @@ fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     study.window = study.window.filter(|window| window.1 <= study.duration);
     let mut rule = StepRule::of(study.time_step);
     let present = rule;
-    choose(ui, "Steps", "How long the steps are", &mut rule, &StepRule::ALL, StepRule::words);
+    choose(ui, "Steps", "Rule for the time steps", &mut rule, &StepRule::ALL, StepRule::words);
     if rule != present {
         study.time_step = rule.steps(study.time_step.longest(study.duration));
         form.changed = Some("Steps");
@@ -252,12 +252,12 @@ fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
             form.row(ui, "Step {ΔT}", plain, step, "A twentieth of the shortest period is coarse, a hundredth fine");
         }
         TimeStep::Adaptive { tolerance, longest } => {
-            let tip = "How far P may lie from its extrapolation, relative";
+            let tip = "Permitted relative distance of P from its extrapolation";
             form.row(ui, "Tolerance", plain, tolerance, tip);
-            form.row(ui, "Longest {ΔT}", plain, longest, "The longest step, and the first");
+            form.row(ui, "Longest {ΔT}", plain, longest, "Maximum step, and the first one");
         }
         TimeStep::Controlled(tolerance) => {
-            let tip = "Estimated error of H_c that the steps may leave, relative";
+            let tip = "Permitted relative error of H_c due to the time steps";
             form.row(ui, "Tolerance", plain, tolerance, tip);
         }
     }
@@ -286,12 +286,11 @@ impl StepRule {
         match self {
             Self::Equal => ("All the same", "The duration is divided evenly"),
             Self::Adaptive => {
-                ("Adaptive", "As long as the solution stays near the straight line through the two former ones")
+                ("Adaptive", "Limited by the distance of the solution from the extrapolation of the previous two")
             }
-            Self::Controlled => (
-                "By their error",
-                "So short that the estimated error of H_c stays below a tolerance; takes several runs",
-            ),
+            Self::Controlled => {
+                ("By their error", "Limited by a tolerance for the estimated error of H_c; needs several runs")
+            }
         }
     }
 

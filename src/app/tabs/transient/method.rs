@@ -28,12 +28,12 @@ pub fn frame_name(frame: Frame) -> &'static str {
 pub fn frame_meaning(frame: Frame) -> &'static str {
     match frame {
         Frame::Fixed => "The grid stays where it is (2.23)",
-        Frame::ArbitraryLagrangianEulerian => "The nodes move with the dry contact of the moment (4.9)",
+        Frame::ArbitraryLagrangianEulerian => "The nodes move with the present dry contact (4.9)",
         Frame::Remeshed(Interpolation::CubicSpline) => {
-            "A grid of its own for every step; former steps are carried over by a cubic spline (4.10)"
+            "A new grid for every step; previous steps are interpolated with a cubic spline (4.10)"
         }
         Frame::Remeshed(Interpolation::Linear) => {
-            "The same with straight lines, which smear: the dissertation’s Fig. 4.4 shows how much"
+            "The same with linear interpolation, which smears the solution (the dissertation’s Fig. 4.4)"
         }
     }
 }

@@ -42,7 +42,7 @@ pub fn beyond(inputs: &Inputs, duration: f64, trainings: &[Drive]) -> Option<Str
     if steeper > ROOM {
         Some(format!("The inputs are {} × steeper than trained", said(steeper)))
     } else if wider > ROOM {
-        Some(format!("The inputs swing {} × farther than trained", said(wider)))
+        Some(format!("The inputs have {} × larger amplitudes than trained", said(wider)))
     } else {
         None
     }
@@ -64,6 +64,6 @@ mod tests {
         assert_eq!(said(0.05, 4.0), None);
         assert!(said(0.14, 4.0).unwrap().contains("1.4 × steeper"));
         assert!(said(0.1, 2.0).unwrap().contains("2.0 × steeper"));
-        assert!(said(0.2, 8.0).unwrap().contains("2.0 × farther"));
+        assert!(said(0.2, 8.0).unwrap().contains("2.0 × larger amplitudes"));
     }
 }

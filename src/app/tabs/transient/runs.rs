@@ -201,7 +201,7 @@ impl TransientRuns {
         };
         self.linearised = Some(Linearised { model: Arc::clone(model), trainings, own, other: None });
         let model = Arc::clone(model);
-        let name = "Looking into the linearised model";
+        let name = "Analysing the linearised model";
         self.looking.run(Job::of(name, wake(ctx), &Store::default(), OtherRuleTask(model)));
     }
 

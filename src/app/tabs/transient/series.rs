@@ -68,13 +68,17 @@ impl Along {
         let palette = Palette::of(ui);
         ui.horizontal_wrapped(|ui| {
             let options = [
-                (Against::Together, "Together", "Central film, central pressure and the inputs, relative to the start"),
-                (Against::Film, "Film", "Central film in its own scale"),
+                (
+                    Against::Together,
+                    "Together",
+                    "Central film thickness, central pressure and the inputs, relative to the start",
+                ),
+                (Against::Film, "Film", "Central film thickness"),
                 (
                     Against::Pressure,
                     "Pressure",
-                    "Central pressure in its own scale; below it how far the whole pressure is off, and, dotted, the \
-                     least that any pressure of the reduced basis could be: the projection of the full one",
+                    "Central pressure, with the error of the whole pressure below. Dotted: the smallest error that the \
+                     reduced basis permits, that of the projected full pressure",
                 ),
             ];
             for (option, name, tip) in options {
@@ -113,7 +117,7 @@ impl Along {
                 let (color, width, line_style) = style(view, k, palette.pressure, &palette);
                 let own = Line::new(run.name(), PlotPoints::Owned(percent(&errors.own))).id((k, "own"));
                 plot.line(own.color(color).width(width).style(line_style).allow_band(false));
-                let name = format!("{}: the least that its modes can miss", run.name());
+                let name = format!("{}: projection error", run.name());
                 let least = Line::new(name, PlotPoints::Owned(percent(&errors.least))).id((k, "least"));
                 plot.line(least.color(palette.reference).width(1.6).style(LineStyle::dotted_dense()).allow_band(false));
             }
@@ -129,7 +133,7 @@ pub fn deviation(ui: &mut Ui, view: &TransientRuns, height: f32) -> Option<f64> 
     let known = |run: &Run| run.by != MarchedBy::Full && !run.trajectory.moments.is_empty();
     let known = view.runs.iter().any(known) || view.runs.iter().filter(|run| run.by == MarchedBy::Full).count() > 1;
     if !known || !view.runs.iter().any(|run| run.by == MarchedBy::Full) {
-        let waits = "How far each method lies from the full system comes with them";
+        let waits = "The differences from the full system appear with the runs";
         ui.add_sized([ui.available_width(), height], egui::Label::new(egui::RichText::new(waits).weak()));
         return None;
     }
@@ -240,7 +244,7 @@ impl LinkedPlot {
         };
         let shown = axes::show(plot, ui, name, |plot| {
             if let Some(start) = first.trajectory.moments.first().filter(|_| !deviation) {
-                let line = HLine::new("Stationary at T = 0", start.value(self.quantity)).color(palette.reference);
+                let line = HLine::new("Steady at T = 0", start.value(self.quantity)).color(palette.reference);
                 plot.hline(line.width(THIN_WIDTH).style(LineStyle::dashed_dense()).allow_hover(false));
             }
             for (k, run) in drawn(view) {

@@ -31,7 +31,7 @@ fn unserved(document: &Document, study: &TransientStudy) -> Option<String> {
     // Another place reports a damaged model.
     let model = line_in_time().ok()?;
     if study.frames != [model.frame] {
-        return Some("it knows the fixed frame alone".to_owned());
+        return Some("it supports the fixed frame only".to_owned());
     }
     if document.transient_grid().spec() != Some(model.window.grid.spec()) {
         return Some("it has another grid".to_owned());
@@ -45,8 +45,8 @@ pub fn model_in_use(document: &Document) -> Option<String> {
     let study = document.transient_study();
     study.reduced.as_ref().filter(|reduced| reduced.is_embedded())?;
     Some(match unserved(document, &study) {
-        None => "The reduced model is the program’s own".to_owned(),
-        Some(why) => format!("The reduced model is trained here, not the program’s: {why}"),
+        None => "The reduced model is the built-in one".to_owned(),
+        Some(why) => format!("The reduced model is trained here instead of the built-in one: {why}"),
     })
 }
 
@@ -87,7 +87,7 @@ impl Setup {
             ..self.study.clone()
         };
         let key = Key { point: self.point, lubricant: self.lubricant };
-        question("Contact in time", &key, self.grid, Study::Transient(study))
+        question("Transient contact", &key, self.grid, Study::Transient(study))
     }
 
     /// Returns the number of runs.

@@ -52,7 +52,7 @@ fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Comma
     ui.weak(sentence(why));
     let tip = "A line contact with the same quantities";
     if context.document.point.kind == ContactKind::Point
-        && ui.button("Show a roller instead").on_hover_text(tip).clicked()
+        && ui.button("Show a line contact").on_hover_text(tip).clicked()
     {
         commands.edit(Edit::Shape(Shape::Roller), "contact");
     }
@@ -79,11 +79,11 @@ pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let view = context.transient;
     let runs = view.runs_by_hand();
     let tip = if runs {
-        "What has been computed so far stays (Esc)"
+        "Keeps the results so far (Esc)"
     } else {
-        "Takes the contact of the sliders through time, frame after frame, then by each model"
+        "Computes the transient contact in each frame, then with each model"
     };
-    if either_button(ui, ["Run in time", "Stop"], runs).on_hover_text(tip).clicked() {
+    if either_button(ui, ["Run transient", "Stop"], runs).on_hover_text(tip).clicked() {
         let setup = || Box::new(Setup::of(context.document, context.file));
         commands.push(Command::Transient(if runs { TransientCommand::Stop } else { TransientCommand::Run(setup()) }));
     }
@@ -104,7 +104,7 @@ pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoItera
     ui.horizontal(|ui| {
         ui.set_min_height(ui.spacing().interact_size.y);
         if view.runs_by_hand() {
-            standing_ui(ui, view.standing(), "Progress of the contact in time");
+            standing_ui(ui, view.standing(), "Progress of the transient runs");
         }
         if !line.is_empty() {
             ui.add(Label::new(line).truncate());
@@ -131,7 +131,7 @@ fn sentences<'a>(
     let asked = |setup: &&Arc<Setup>| ***setup != wanted && !wanted.is_quick();
     if let Some(setup) = view.setup.as_ref().filter(asked) {
         let of = numbers::moes(setup.point.moes());
-        warn(format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
+        warn(format!("The results belong to {of} and a previous set-up; run again for the present one"));
     }
     let steep = |(_, run): (_, &Run)| !run.replayed && run.record.as_ref().is_some_and(TpwlRecord::too_steep);
     if view.linearised_runs().any(steep) {
@@ -202,7 +202,7 @@ pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
         ask(TransientCommand::PlayOn(f64::from(seconds)));
     }
     ui.horizontal(|ui| {
-        let (name, tip) = if playing { ("Pause", "Stand still here") } else { ("Play", "Play the profiles in time") };
+        let (name, tip) = if playing { ("Pause", "Pauses the display") } else { ("Play", "Play the profiles in time") };
         if ui.button(name).on_hover_text(tip).clicked() {
             ask(TransientCommand::TogglePlay);
         }
@@ -217,8 +217,7 @@ pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
         if response.changed() {
             ask(TransientCommand::GoTo(time));
         }
-        let tip =
-            "The moment whose profiles are shown, in units of a/u_m of the reference contact (2.22) and on the clock";
+        let tip = "Time of the displayed profiles, in units of a/u_m of the reference contact (2.22) and in seconds";
         let time = ui.horizontal(|ui| {
             ui.set_min_width(TIME);
             ui.label(rich(&text, 13.5, ui.visuals().text_color())).on_hover_text(tip);

@@ -192,7 +192,7 @@ fn shown(view: &TransientRuns) -> Option<&Run> {
 /// Returns the export of the map.
 pub fn offer<'a>(context: &Context<'a>) -> Offer<'a> {
     let view = context.transient;
-    let tip = "T, X, P and H of all nodes that are shown, at every moment that was kept";
+    let tip = "T, X, P and H of all displayed nodes, at every stored time";
     Offer::table("Map as CSV…", tip, view.setup.as_ref().zip(shown(view)), |(setup, run)| csv(setup, run))
 }
 

@@ -34,9 +34,10 @@ const ABOUT: About = About {
     keywords: "time load speed radius frames",
     page: "transient.md",
     has_units: true,
-    why: "When load, speed or curvature change quickly, oil that entered long before is still inside: the film \
-          remembers. What the inlet made travels through the contact at the mean speed of the surfaces, and arrives \
-          at the outlet later. So film and load are out of step, the more the faster they change.",
+    why: "When load, speed or curvature change quickly, the contact still contains oil that entered before the change. \
+          A change of film thickness in the inlet travels through the contact at the mean speed of the surfaces and \
+          reaches the outlet later. Film thickness and load are therefore out of phase, and the phase shift grows with \
+          the rate of change.",
 };
 
 impl View for Transient {
@@ -59,10 +60,14 @@ impl View for Transient {
         let table = |name, tip, text: Text| {
             Offer::table(name, tip, there, move |view: &&TransientRuns| text(view).unwrap_or_default())
         };
-        let tip = "All moments of every run with their SI twins, each run in columns of its own";
+        let tip = "All time steps of every run, dimensionless and in SI units, each run in separate columns";
         vec![
             table("Series as CSV…", tip, export::series),
-            table("Profiles as CSV…", "Pressure and film of every run at the moment that is shown", export::profiles),
+            table(
+                "Profiles as CSV…",
+                "Pressure and film thickness of every run at the displayed time",
+                export::profiles,
+            ),
             space_time::offer(context),
         ]
     }
@@ -89,7 +94,7 @@ impl Transient {
         let view = context.transient;
         if view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
             if !shared::is_coming(context) {
-                ui.weak("Run it in time to see pressure and film follow the inputs.");
+                ui.weak("Press Run transient to see how pressure and film thickness follow the inputs.");
             }
             return;
         }
@@ -109,8 +114,7 @@ impl Transient {
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
-            ui.toggle_value(&mut self.form, "Set-up")
-                .on_hover_text("Shows what drives the contact, or leaves the room to plots");
+            ui.toggle_value(&mut self.form, "Set-up").on_hover_text("Shows or hides the inputs of the contact");
             shared::run_button(ui, context, commands);
         });
     }

@@ -18,7 +18,7 @@ fn comments(shown: &ShownModel<'_>) -> Vec<String> {
     let selection = model.training.selection;
     let mut lines = shown.view.setup.as_ref().map_or_else(Vec::new, |setup| describe(setup));
     lines.push(format!(
-        "{} pressure modes; {} operating points by rule {}, tolerance {:e}; the moment T {:e}",
+        "{} pressure modes; {} operating points by rule {}, tolerance {:e}; at T {:e}",
         model.space.modes(),
         model.points.len(),
         rule_name(selection).0,

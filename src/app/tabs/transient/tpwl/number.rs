@@ -18,7 +18,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
     let study = &shown.view.number;
     let head = ui.horizontal(|ui| {
         if study.rows.is_empty() {
-            ui.label(rich("Error by number of points: coming", 12.5, shown.palette.quiet));
+            ui.label(rich("Error vs. number of points: being computed", 12.5, shown.palette.quiet));
             return;
         }
         ui.spacing_mut().item_spacing.x = 5.0;
@@ -32,8 +32,8 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
         }
     });
     head.response.on_hover_text(
-        "Relative L2 difference of H_c from the full run: solid the points chosen by distance, dashed by missed steps, on a ladder of \
-         tolerances; the dotted line and the diamond are the model in use",
+        "Relative L2 difference of H_c from the full run: solid for points chosen by distance, dashed by missed steps, \
+         for a sequence of tolerances. The dotted line and the diamond are the model in use",
     );
     if study.rows.is_empty() {
         return;

@@ -41,7 +41,7 @@ enum Drawn {
     Table,
 }
 
-const ERROR_TIP: &str = "How far H_c of each method lies from the full system’s";
+const ERROR_TIP: &str = "Difference of H_c of each method from the full system";
 
 /// Plots in their order.
 const PICTURES: [Drawn; 6] =

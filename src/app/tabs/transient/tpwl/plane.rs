@@ -44,8 +44,8 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     ui.horizontal(|ui| {
         for (name, color) in key.into_iter().chain([("weights", shown.color(0)), ("now", palette.pressure)]) {
             ui.label(RichText::new(name).small().color(palette.ink(color))).on_hover_text(
-                "Reduced coordinates V^T W P and H_0: the training trajectories, the operating points, as large as they weigh now, the path of \
-                 the run, and a diamond at the moment that is looked at",
+                "Reduced coordinates V^T W P and H_0: the training trajectories, the operating points with a size by \
+                 their weights, the path of the run, and a diamond at the displayed time",
             );
         }
     });

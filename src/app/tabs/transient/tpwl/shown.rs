@@ -99,7 +99,7 @@ pub fn point_under(shown: &ShownModel<'_>, response: Response, under: Option<&Po
     let (now, trained) = under.and_then(|now| Some((now, shown.linearised.model.points.get(now.point)?)))?;
     let clicked = response.clicked();
     response.on_hover_text_at_pointer(format!(
-        "Operating point {}, T = {}\nWeights: {}\nA click goes to its moment",
+        "Operating point {}, T = {}\nWeights: {}\nClick to go to its time",
         now.point + 1,
         numbers::significant(trained.moment.time),
         weights_text(shown, now)

@@ -75,9 +75,9 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f3
             let color = if sorting.by == *column { shown.palette.accent } else { quiet };
             let tip = match column {
                 Column::Point => "Number of the point, in the order of trajectories and time",
-                Column::Time => "Moment of its training trajectory",
+                Column::Time => "Time on its training trajectory",
                 Column::Weight(k) => weighting_name(WEIGHTINGS[*k]).1,
-                Column::Distance => "|y − y_i|/|y| of the state reached at this moment",
+                Column::Distance => "|y − y_i|/|y| of the state at the displayed time",
             };
             let head = ui.add(Button::new(rich(name, 12.0, color)).frame(false));
             let plain = name.replace(['{', '}'], "");
@@ -97,7 +97,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f3
     area.show_rows(ui, row_height - 4.0, rows.len(), |ui, range| {
         grid("tpwl rows").start_row(range.start).show(ui, |ui| {
             for (now, time) in rows.get(range).unwrap_or(&[]) {
-                let link = ui.link((now.point + 1).to_string()).on_hover_text("Go to its moment");
+                let link = ui.link((now.point + 1).to_string()).on_hover_text("Go to its time");
                 if named(ui, link, &format!("Go to operating point {}", now.point + 1)).clicked() {
                     wanted = shown.linearised.moment_of(now.point, &shown.runs);
                 }

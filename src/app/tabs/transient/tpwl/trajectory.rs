@@ -115,7 +115,7 @@ pub fn chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
 /// Draws the points of the other rule for the same number of points.
 pub fn not_chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let Some(other) = &shown.linearised.other else {
-        ui.weak("What the other rule would choose is being found out");
+        ui.weak("The points of the other rule are being computed");
         return None;
     };
     let rule = other.selection;

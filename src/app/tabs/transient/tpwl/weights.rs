@@ -72,8 +72,8 @@ fn head(ui: &mut Ui, shown: &ShownModel<'_>) {
         .map_or_else(String::new, |reach| format!(", {} distances between points away", numbers::digits(reach, 2)));
     ui.horizontal_wrapped(|ui| {
         ui.weak(format!("Weights{said}")).on_hover_text(
-            "The distance of the extrapolated state from the barycentre of the points that carry it, over the distance between those \
-             points: beyond about two a linearised model knows nothing",
+            "Distance of the extrapolated state from the barycentre of the points that carry it, over the distance \
+             between those points. Above about two a linearised model is not valid",
         );
         let both = (0..WEIGHTINGS.len()).all(|k| shown.was_run(k));
         for k in (0..WEIGHTINGS.len()).filter(|_| both) {
