@@ -253,7 +253,7 @@ mod tests {
         let film = |answer: &Answer| answer.result.scalars.unwrap().h_c;
         assert!((film(&later) / film(&at_once) - 1.0).abs() < 1e-3);
         while !called.load(Ordering::SeqCst) {
-            assert!(begin.elapsed() < Duration::from_secs(60), "nobody is called");
+            assert!(begin.elapsed() < Duration::from_secs(60), "no repaint is requested");
             std::thread::sleep(Duration::from_millis(1));
         }
     }

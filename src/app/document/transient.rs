@@ -63,8 +63,8 @@ impl Document {
     }
 }
 
-/// Returns the default study: a load with a harmonic variation of 10 %, as in Fig. 2.6 (right), twice as long and
-/// with larger time steps, by all three methods and with the built-in reduced model.
+/// Returns the default study: a load with a harmonic variation of 10 %, as in Fig. 2.6 (right), but twice as long
+/// and with larger time steps. It uses all three methods with the built-in reduced model.
 fn breathing() -> TransientStudy {
     TransientStudy {
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),

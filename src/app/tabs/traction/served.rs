@@ -24,6 +24,7 @@ pub struct Served {
 }
 
 /// Returns the sweep through the contact of the sliders, with its reduced model or the reason why there is none.
+///
 /// `None` if the quantity has no effect on the fluid or does not exist for the kind of contact.
 pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, Refusal>)> {
     let varied = choices.against.varied();

@@ -247,7 +247,7 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
         Ok(Ok(model)) => (Ended::Complete, file_of(model)),
         Ok(Err(TrainingError::Cancelled)) => (Ended::Stopped, rest(&state, watch.reporter)),
         Ok(Err(error)) => (Ended::Failed(error.to_string()), rest(&state, watch.reporter)),
-        // What failed before would fail here too.
+        // The same failure would occur here.
         Err(broken) => (Ended::Failed(broken.to_string()), Err(broken.into())),
     };
     let kept = match (keeper, &ended) {

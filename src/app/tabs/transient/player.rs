@@ -75,11 +75,11 @@ mod tests {
         player.reached(4.0);
         assert_eq!((player.time(), player.end()), (3.0, 4.0));
         player.advance(1.0, 8.0);
-        assert_eq!(player.time(), 3.0, "nothing moves unasked");
+        assert_eq!(player.time(), 3.0, "nothing moves before the user plays");
         player.reached(1.0);
         assert_eq!(player.time(), 1.0, "a new run has come no farther");
         player.reached(4.0);
-        assert_eq!(player.time(), 3.0, "and goes where somebody wanted to look");
+        assert_eq!(player.time(), 3.0, "and goes to the time that the user chose");
         player.toggle();
         player.advance(1.0, 8.0);
         assert!((player.time() - 3.8).abs() < 1e-12 && player.playing());
