@@ -1,4 +1,4 @@
-//! The trust badge: how far the picture can be believed, in a glance.
+//! Trust badge: a short statement of how far the picture can be trusted.
 
 use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::{Comparison, Origin, Picture};
@@ -13,31 +13,31 @@ use crate::solver::full::GridCost;
 use crate::solver::reduced::ErrorEstimate;
 use egui::{Align, Color32, CornerRadius, Frame, Label, Layout, Margin, RichText, Stroke, Ui, vec2};
 
-/// What the badge says.
+/// Content of the badge.
 pub struct Verdict {
-    /// Its first words.
+    /// Title, in bold.
     pub title: String,
-    /// What follows.
+    /// Text after the title.
     pub detail: String,
-    /// Why, on hover.
+    /// Explanation on hover.
     pub why: String,
     kind: Kind,
 }
 
-/// How far something can be trusted.
+/// Degree of trust.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Kind {
-    /// Nothing is known yet.
+    /// Not determined yet.
     Neutral,
-    /// It was checked.
+    /// Checked against the full solution.
     Verified,
-    /// Right to know.
+    /// Usable with reservation.
     Warning,
     /// Not to be trusted.
     Wrong,
 }
 
-/// What can be said of the picture.
+/// Returns the trust badge for the current picture.
 pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     let make = |title: &str, detail: String, why: String, kind| Verdict { title: title.to_owned(), detail, why, kind };
     if let Some(failure) = answers.failure() {
@@ -49,21 +49,21 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         return make(title, got, format!("{}. The last valid picture stays, in grey", failure.message), kind);
     }
     let Some(picture) = answers.picture() else {
-        return make("Computing", String::new(), "The first picture is on its way".to_owned(), Kind::Neutral);
+        return make("Computing", String::new(), "The first picture is being computed".to_owned(), Kind::Neutral);
     };
     let waits = answers.runs(JobKind::Live);
     let full = match () {
-        () if waits && !answers.picture_is_current() => "full solver at work".to_owned(),
+        () if waits && !answers.picture_is_current() => "full solve running".to_owned(),
         () if answers.picture_is_current() && answers.is_quick() => format!("sketch on a quick grid{}", off(picture)),
         () => "full solution".to_owned(),
     };
-    // Of a picture that is still another contact's nothing is said here.
+    // The warnings of a picture that still belongs to another contact are not shown here.
     let warned = answers.current_picture().map_or_else(String::new, Picture::warned);
     match (picture.origin, answers.passed_over()) {
         (_, Some(PassedOver::Outside(why))) => make(
-            "Outside the reduced model",
+            "Outside the trained range",
             format!("{full}: {why}"),
-            format!("{warned}The picture is a converged full solution; a reduced model never extrapolates here"),
+            format!("{warned}The picture is a converged full solution. The reduced model does not extrapolate"),
             Kind::Warning,
         ),
         (_, Some(PassedOver::Failed(why))) => make(
@@ -75,22 +75,21 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         (_, Some(PassedOver::Reading)) => make(
             "Reading the reduced model",
             full,
-            "The reduced model of such contacts is being read; until it is there the full solver draws the picture"
-                .to_owned(),
+            "The reduced model of such contacts is being read. Until then the full solver draws the picture".to_owned(),
             Kind::Neutral,
         ),
         (origin, _) if !answers.picture_is_current() => make(
             "Computing",
-            if origin == Origin::Full { full } else { "reduced model at work".to_owned() },
-            "The picture shown belongs to the sliders as they were a moment ago".to_owned(),
+            if origin == Origin::Full { full } else { "reduced solve running".to_owned() },
+            "The picture belongs to the previous position of the sliders".to_owned(),
             Kind::Neutral,
         ),
         (Origin::Full, _) if answers.is_quick() => make(
             "Quick grid",
             full,
             format!(
-                "{warned}A converged full solution on {}, which follows the hand. Its errors are estimated from this grid \
-                 alone. The chosen grid answers when the sliders rest",
+                "{warned}A converged full solution on {}, the grid that is used while a slider moves. Its errors are \
+                 estimated from this grid alone. The chosen grid is used when the sliders are idle",
                 grid(picture)
             ),
             if picture.grid_errors().is_some_and(|(_, h_min)| h_min <= thresholds.far_off) {
@@ -101,28 +100,28 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
         ),
         (Origin::Full, _) => match &picture.unresolved {
             Some(_) => {
-                let title = if picture.costly_grid { "Grid does not do" } else { "Side lobes unresolved" };
+                let title = if picture.costly_grid { "Grid insufficient" } else { "Side lobes unresolved" };
                 make(title, format!("full solution on {}{}", grid(picture), off(picture)), warned, Kind::Warning)
             }
-            // The warnings of a grid begin at the same error of H_c.
+            // The warnings of a grid have the same limit for the error of H_c.
             None if picture.grid_errors().is_some_and(|(_, h_min)| h_min > COARSE) => make(
                 "Roughly right",
                 format!("full solution on {}{}", grid(picture), off(picture)),
-                format!("{warned}A converged full solution on a coarse grid; a finer one moves H_min"),
+                format!("{warned}A converged full solution on a coarse grid. A finer grid changes H_min"),
                 Kind::Warning,
             ),
             None => make(
                 "Verified",
                 if picture.has_plane() { format!("full solution on {}{}", grid(picture), off(picture)) } else { full },
                 format!(
-                    "{warned}No reduced model is loaded for this contact: the picture itself is a converged full solution"
+                    "{warned}No reduced model is loaded for this contact. The picture is a converged full solution"
                 ),
                 Kind::Verified,
             ),
         },
         (Origin::Reduced { residual_estimate, error, iterations, window, stands_in }, _) => {
             let how = format!(
-                "{iterations} reduced Newton steps in window {}, residual e_f {}",
+                "{iterations} reduced Newton steps in local model {}, residual e_f {}",
                 window + 1,
                 numbers::small(residual_estimate)
             );
@@ -130,7 +129,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
             match answers.comparison() {
                 Some(c) if answers.full_is_current() => {
                     let (title, kind) = match judged(c, thresholds) {
-                        (_, Kind::Verified) if picture.costly_grid => ("Grid does not do", Kind::Warning),
+                        (_, Kind::Verified) if picture.costly_grid => ("Grid insufficient", Kind::Warning),
                         judged => judged,
                     };
                     let grid_cost = grid_cost.filter(|cost| *cost > thresholds.far_off);
@@ -149,21 +148,22 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                                 numbers::error_percent(e.h_c.bound),
                                 numbers::error_percent(e.h_min.bound)
                             ),
-                            "Calibrated bounds: 99 of 100 random contacts of the trained range err by less. They count \
-                             against a full solution on the same grid",
+                            "99 % empirical error bounds: 99 of 100 random contacts of the trained range have smaller \
+                             errors against a full solution on the same grid",
                         ),
                         None if stands_in => {
-                            ("no error bound: a window beside its own answers".to_owned(), neighbour.as_str())
+                            ("no error bound: a neighbouring local model is used".to_owned(), neighbour.as_str())
                         }
                         None => (
                             format!("no error bound, residual {{e_f}} {}", numbers::small(residual_estimate)),
-                            "The model was not calibrated as it is used here (fewer modes, or an older training). e_f of \
-                             (3.15) says whether the reduced equations are met, not how large the error of the film is",
+                            "The model was not calibrated for the present options (fewer modes, or an older training). \
+                             e_f of (3.15) is the residual of the reduced equations, not the error of the film \
+                             thickness",
                         ),
                     };
                     let next = match answers.verify_failure() {
                         Some(failure) => failure.message.trim_end_matches('.'),
-                        None => "True errors follow with the full solve",
+                        None => "The full solve will show the true errors",
                     };
                     let doubtful = answers.verify_failure().is_some() || picture.costly_grid || stands_in;
                     let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
@@ -179,18 +179,18 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
     }
 }
 
-/// Estimated error of H_min beyond which a grid is called coarse.
+/// Estimated error of H_min above which a grid is called coarse.
 const COARSE: f64 = 0.03;
 
-/// What is said of the errors of a model, and of what its grid costs the film.
+/// Returns the errors of a model together with the discretisation error.
 fn with_grid(errors: String, cost: Option<f64>) -> String {
     match cost {
-        Some(cost) => format!("{errors}; the grid costs {{H_c}} {}", numbers::error_percent(cost)),
+        Some(cost) => format!("{errors}; discretisation error of {{H_c}} {}", numbers::error_percent(cost)),
         None => errors,
     }
 }
 
-/// How a picture stands whose true errors are known, by the larger one of its films.
+/// Returns title and trust for a picture whose true errors are known. The larger error of H_c and H_min decides.
 fn judged(truth: &Comparison, thresholds: Thresholds) -> (&'static str, Kind) {
     match truth.h_c.abs().max(truth.h_min.abs()) {
         error if error <= thresholds.verified => ("Verified", Kind::Verified),
@@ -199,22 +199,22 @@ fn judged(truth: &Comparison, thresholds: Thresholds) -> (&'static str, Kind) {
     }
 }
 
-/// The nodes of a point contact's grid, in words.
+/// Returns the size of a point contact's grid as text.
 fn grid(picture: &Picture) -> String {
     format!("{}×{} nodes", picture.solution.x.len(), picture.solution.y.len())
 }
 
-/// What the grid of a full solution costs its films, as a part of a sentence with symbols in braces.
+/// Returns the discretisation errors of a full solution as part of a sentence, with symbols in braces.
 fn off(picture: &Picture) -> String {
     let Some((h_c, h_min)) = picture.grid_errors() else { return String::new() };
     if h_c.is_nan() {
         return ", its error is unknown".to_owned();
     }
     let [h_c, h_min] = [h_c, h_min].map(numbers::error_percent);
-    format!(", {{H_c}} off by about {h_c}, {{H_min}} by {h_min}")
+    format!(", error of {{H_c}} about {h_c}, of {{H_min}} {h_min}")
 }
 
-/// Whether the truth lies within what was promised.
+/// Returns whether the true errors lie within the error bounds shown before.
 fn promised(truth: &Comparison, error: Option<ErrorEstimate>) -> String {
     let Some(e) = error else { return String::new() };
     let held = truth.h_c.abs() <= e.h_c.bound && truth.h_min.abs() <= e.h_min.bound;
@@ -222,10 +222,11 @@ fn promised(truth: &Comparison, error: Option<ErrorEstimate>) -> String {
     format!("The bounds shown before, {h_c} and {h_min}, {}. ", if held { "held" } else { "did not hold" })
 }
 
-/// Height of its row, which is the same whatever it says: nothing below moves.
+/// Height of the badge's row. It is constant so that nothing below moves.
 const HEIGHT: f32 = 26.0;
 
-/// The badge in a row of its own, and beside it whose picture is shown where that is not the sliders'.
+/// Draws the badge in a separate row, followed by a note if the picture belongs to another contact than the
+/// sliders.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let verdict = verdict(context.answers, context.thresholds);
     let other = context.answers.picture().filter(|picture| picture.key != context.document.key());
@@ -242,7 +243,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     });
 }
 
-/// A badge: its first words, what follows them, and why; screen readers know it by a name.
+/// Draws a badge from its title, text and explanation. `name` is its accessible name.
 pub fn pill(ui: &mut Ui, kind: Kind, [title, detail, why]: [&str; 3], name: &str) {
     let palette = Palette::of(ui);
     let color = match kind {
@@ -258,7 +259,7 @@ pub fn pill(ui: &mut Ui, kind: Kind, [title, detail, why]: [&str; 3], name: &str
         .stroke(Stroke::new(1.0, color.gamma_multiply(0.6)))
         .corner_radius(CornerRadius::same(10))
         .inner_margin(Margin::symmetric(10, 2));
-    // Where there is one row only, words give way; elsewhere the badge goes to the next row.
+    // In a layout with a single row the text is truncated. Elsewhere the badge wraps to the next row.
     let wraps = ui.layout().main_wrap;
     let response = frame
         .show(ui, |ui| {

@@ -1,4 +1,4 @@
-//! A contact in one line, and how its picture was obtained, for captions of figures.
+//! Captions of figures: a contact in one line, and the method that computed its picture.
 
 use crate::app::answers::Answers;
 use crate::app::answers::picture::Origin;
@@ -37,7 +37,7 @@ pub fn contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
     )
 }
 
-/// Returns how the picture was obtained and how far it can be trusted; `None` without a picture.
+/// Returns the method that computed the picture and its error. `None` without a picture.
 pub fn means(answers: &Answers) -> Option<String> {
     let picture = answers.picture()?;
     Some(match picture.origin {
@@ -45,7 +45,7 @@ pub fn means(answers: &Answers) -> Option<String> {
             let sketch = if answers.is_quick() { ", a sketch on a quick grid" } else { "" };
             let off = picture.grid_errors().map_or_else(String::new, |(h_c, h_min)| {
                 let [h_c, h_min] = [h_c, h_min].map(numbers::error_percent);
-                format!(", by its grid H_c off by about {h_c}, H_min by {h_min}")
+                format!(", discretisation error about {h_c} of H_c, {h_min} of H_min")
             });
             format!("full solution{sketch}{off}")
         }

@@ -1,4 +1,4 @@
-//! Everything the user can ask for by menu, key or palette, in one place.
+//! List of all commands that menus, keys and the command palette offer.
 
 use super::answers::picture::Cuts;
 use super::display::Thresholds;
@@ -16,149 +16,149 @@ use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, ThemePreference};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What the user can ask for: by menu, key and palette, or in a panel or tab.
+/// Command of the user, from a menu, a key, the palette, a panel or a tab.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Start with a fresh document.
+    /// Starts with a new document.
     New,
-    /// Open a scene.
+    /// Opens a scene.
     Open,
-    /// Show the scenes of the program.
+    /// Shows the example scenes.
     Examples,
-    /// Solve a table of load cases.
+    /// Solves a table of load cases.
     LoadCases,
-    /// Put a link to what is shown on the clipboard.
+    /// Copies a link to the present view to the clipboard.
     CopyLink,
-    /// Ask for a link and open it.
+    /// Opens a link that the user enters.
     OpenLink,
-    /// Open what a link holds.
+    /// Opens the content of a link.
     OpenFragment(String),
-    /// Save under the known name.
+    /// Saves under the present name.
     Save,
-    /// Save under a name to be given.
+    /// Saves under a new name.
     SaveAs,
-    /// Export a plot as a figure.
+    /// Exports a plot as a figure.
     ExportFigures,
-    /// Export the profiles as a table.
+    /// Exports the profiles as a table.
     ExportProfiles,
-    /// Write a results sheet of the contact.
+    /// Writes a results sheet of the contact.
     ExportSheet(Form),
-    /// Close the program.
+    /// Closes the program.
     Quit,
-    /// Take the last edit back.
+    /// Reverts the last edit.
     Undo,
-    /// Do it again.
+    /// Repeats the reverted edit.
     Redo,
-    /// Put the read-outs on the clipboard as a table.
+    /// Copies the read-outs to the clipboard as a table.
     CopyReadouts,
-    /// Pin the live curve.
+    /// Pins the live curve.
     Pin,
-    /// Remove all pins.
+    /// Removes all pins.
     Unpin,
-    /// What can be set once for all documents.
+    /// Opens the settings that apply to all documents.
     Settings,
-    /// From where on the badge uses another word.
+    /// Sets the error limits of the badge.
     SetThresholds(Thresholds),
-    /// All of these by typing.
+    /// Opens the command palette.
     Palette,
-    /// Nothing but plots and sliders, large.
+    /// Switches the presentation mode, which shows only plots and sliders, enlarged.
     Presentation,
-    /// Draw the full solution over the reduced one, or no more.
+    /// Shows or hides the full solution over the reduced one.
     Overlay,
-    /// Draw the difference of both, or no more.
+    /// Shows or hides the difference between reduced and full solution.
     Difference,
-    /// Fit all plots to their data.
+    /// Fits all plots to their data.
     FitPlots,
-    /// Arrange the tabs.
+    /// Arranges the tabs.
     Arrange(Layout),
-    /// Show the lessons, or no more.
+    /// Shows or hides the lessons.
     Lessons,
-    /// Say in every tab what is seen and why, or no more.
+    /// Shows or hides the explanation in every tab.
     ShowWhy,
-    /// Plots and exports in SI units, or no more.
+    /// Switches plots and exports between SI and dimensionless units.
     SiUnits,
-    /// Let the axes of the tabs in front stand still, or no more.
+    /// Locks or unlocks the axes of the tabs in front.
     LockAxes,
-    /// Let the axes of a tab stand still, or no more.
+    /// Locks or unlocks the axes of a tab.
     LockAxesOf(Tab),
-    /// Use a theme.
+    /// Selects a theme.
     Theme(ThemePreference),
-    /// Light presentations whatever the theme, or no more.
+    /// Switches light colours for presentations in any theme.
     LightPresentation,
-    /// Larger text and lines.
+    /// Enlarges text and lines.
     LargerText,
-    /// Smaller text and lines.
+    /// Reduces text and lines.
     SmallerText,
-    /// Text as it was.
+    /// Resets the size of text and lines.
     NormalText,
-    /// Panels and tabs as they were.
+    /// Resets the arrangement of panels and tabs.
     ResetLayout,
-    /// Full solve now.
+    /// Starts a full solve now.
     Verify,
-    /// Solve on a second grid to see what the first one costs.
+    /// Solves on a second grid to estimate the discretisation error.
     EstimateGridError,
-    /// Full solutions along the traction curve.
+    /// Computes full solutions along the traction curve.
     SolveAlong,
-    /// Take the contact through time.
+    /// Starts a transient run.
     RunInTime,
-    /// Train the model that the Training tab specifies.
+    /// Trains the model that the Training tab specifies.
     Train,
-    /// Forget the training that is not at its end.
+    /// Discards an unfinished training.
     DiscardTraining,
-    /// Forget the model that was trained.
+    /// Discards the trained model.
     ThrowModelAway,
-    /// Stop what runs.
+    /// Stops running jobs.
     Cancel,
-    /// What can be read about the program and its physics.
+    /// Opens the manual.
     Manual,
-    /// List of keys.
+    /// Shows the list of keys.
     Keyboard,
-    /// What this program is.
+    /// Shows information about the program.
     About,
-    /// Change the document; a refusal stands beside the field of this name.
+    /// Changes the document. A refusal is shown next to the field of this name.
     Edit(Edit, &'static str),
-    /// Say under the name of a field why what was entered there makes no sense.
+    /// Shows a refusal under the name of a field.
     Refuse(&'static str, &'static str),
-    /// Go to a tab.
+    /// Brings a tab to the front.
     Go(Tab),
-    /// Cut a point contact elsewhere.
+    /// Moves the cuts of a point contact.
     Cut(Cuts),
-    /// Remove one pin, by its place.
+    /// Removes the pin with this index.
     RemovePin(usize),
-    /// Draw by another reduced model.
+    /// Puts another reduced model in use.
     UseModel(InUse),
-    /// Open a certain scene.
+    /// Opens the scene at a path.
     OpenPath(PathBuf),
-    /// Open a scene that lies nowhere yet.
+    /// Opens a scene that has no file.
     OpenScene(Arc<Scene>),
-    /// Ask where something is to be written, or what is to be read.
+    /// Opens a dialog for a path to read or write.
     Ask(Purpose),
-    /// Export a plot of a tab as a figure.
+    /// Exports a plot of a tab as a figure.
     ExportFigure(Tab),
-    /// Run the study of the open scene.
+    /// Runs the study of the open scene.
     RunStudy,
-    /// Put the question above the tabs away.
+    /// Closes the headline above the tabs.
     CloseHeadline,
-    /// Put the sentence about the last file away.
+    /// Closes the notice about the last file.
     Dismiss,
-    /// Change transient runs or the moment that is shown.
+    /// Changes transient runs or the displayed time.
     Transient(TransientCommand),
-    /// Compare all reduced models that can be.
+    /// Compares all compatible reduced models.
     CompareModels,
-    /// What becomes of trainings and of what they made.
+    /// Acts on trainings and trained models.
     Training(TrainingCommand),
 }
 
-/// A command as menus show it.
+/// Command as a menu item.
 pub struct Item {
     pub menu: &'static str,
-    /// Its group there; a line stands between groups.
+    /// Group within the menu. A line separates groups.
     pub group: u8,
-    /// What it does.
+    /// Command.
     pub command: Command,
-    /// Its name; `…` where a dialog follows.
+    /// Name, with `…` if a dialog follows.
     pub name: &'static str,
-    /// Other words that people look for it by.
+    /// Keywords for the search in the palette.
     pub synonyms: &'static str,
     key: Option<(Modifiers, Key)>,
 }
@@ -167,7 +167,7 @@ const PLAIN: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
-/// The menus from left to right, each in its groups.
+/// Menu items, ordered by menu and group.
 pub static MENUS: &[Item] = {
     use Command as C;
     const fn item(
@@ -234,7 +234,7 @@ pub static MENUS: &[Item] = {
         item("Run", 0, C::Verify, "Verify now", "full solve check", Some((PLAIN, Key::F5))),
         item("Run", 0, C::EstimateGridError, "Estimate grid error", "accuracy nodes refine", None),
         item("Run", 1, C::SolveAlong, "Full solutions along the traction curve", "", None),
-        item("Run", 1, C::RunInTime, "Run in time", "transient march", None),
+        item("Run", 1, C::RunInTime, "Run transient", "in time march", None),
         item("Run", 1, C::Train, "Start training", "reduced model snapshots", None),
         item("Run", 2, C::Cancel, "Cancel", "stop abort", Some((PLAIN, Key::Escape))),
         item("Help", 0, C::Manual, "Manual", "help documentation tour physics", Some((PLAIN, Key::F1))),
@@ -244,7 +244,7 @@ pub static MENUS: &[Item] = {
     ]
 };
 
-/// Keys that belong to a browser: reload, full screen, bookmarks, its own windows and zoom.
+/// Keys that belong to a browser: reload, full screen, bookmarks, windows and zoom.
 const OF_BROWSERS: [(Modifiers, Key); 12] = [
     (CTRL, Key::N),
     (CTRL, Key::Q),
@@ -261,20 +261,20 @@ const OF_BROWSERS: [(Modifiers, Key); 12] = [
 ];
 
 impl Item {
-    /// Its key, when it has one.
+    /// Returns the key, if there is one.
     pub fn shortcut(&self) -> Option<KeyboardShortcut> {
         let key = self.key.filter(|key| !(browser::PAGE && OF_BROWSERS.contains(key)));
         key.map(|(modifiers, key)| KeyboardShortcut::new(modifiers, key))
     }
 
-    /// Whether it can be done here: a page cannot be quit from inside.
+    /// Returns true if the command is available here. A web page cannot quit the program.
     pub fn is_there(&self) -> bool {
         !(browser::PAGE && self.command == Command::Quit)
     }
 }
 
 impl Command {
-    /// Asks where a table is to be written.
+    /// Creates the command that saves a table.
     pub fn csv(text: String) -> Self {
         Self::Ask(Purpose::Write(Written::Table, text.into_bytes().into()))
     }
@@ -283,27 +283,27 @@ impl Command {
         MENUS.iter().find(|item| item.command == *self)
     }
 
-    /// As menus show it; empty where none does.
+    /// Returns the name in the menus. Empty if no menu has the command.
     pub fn name(&self) -> &'static str {
         self.item().map_or("", |item| item.name)
     }
 
-    /// Its key, when it has one.
+    /// Returns the key, if there is one.
     pub fn shortcut(&self) -> Option<KeyboardShortcut> {
         self.item()?.shortcut()
     }
 
-    /// The commands whose keys were pressed in this frame.
+    /// Returns the commands whose keys were pressed in this frame.
     pub fn pressed(ctx: &Context) -> Vec<Self> {
-        // A text field keeps its own undo, and Escape must still leave it.
-        // A field that Escape leaves has lost its focus before this frame is drawn.
+        // Undo, Redo and Escape act on a text field while it has the focus. Escape removes the focus before this
+        // frame is drawn, so the focus of the previous frame counts too.
         let now = ctx.text_edit_focused();
         let before = ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or(Id::unique("typing"), now), now));
         let typing = now || before;
         let left_to_fields = [Self::Undo, Self::Redo, Self::Cancel];
         let keys = MENUS.iter().filter_map(|item| Some((&item.command, item.shortcut()?)));
         let keys = keys.filter(|(command, _)| !(typing && left_to_fields.contains(*command)));
-        // Those with Shift first: Ctrl+Shift+Z must not be taken for Ctrl+Z.
+        // Test shortcuts with Shift first, so that Ctrl+Shift+Z is not taken for Ctrl+Z.
         let (shifted, plain): (Vec<_>, Vec<_>) = keys.partition(|(_, shortcut)| shortcut.modifiers.shift);
         let pressed = |shortcut: &KeyboardShortcut| ctx.input_mut(|i| i.consume_shortcut(shortcut));
         let both = shifted.into_iter().chain(plain);

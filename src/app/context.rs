@@ -1,4 +1,4 @@
-//! What a tab or panel sees of the window, and how it says what is wanted.
+//! Read access of tabs and panels to the window, and the list of their commands.
 
 use super::answers::Answers;
 use super::answers::picture::Cuts;
@@ -9,52 +9,52 @@ use super::document::{Document, Edit};
 use crate::app::tabs::transient::TransientRuns;
 use std::path::Path;
 
-/// What is shown: to be looked at, not to be changed.
+/// Read-only state of the window.
 #[derive(Clone, Copy)]
 pub struct Context<'a> {
-    /// What is edited.
+    /// Document that is edited.
     pub document: &'a Document,
-    /// What came of it.
+    /// Results for the document.
     pub answers: &'a Answers,
     /// Transient runs.
     pub transient: &'a TransientRuns,
-    /// What was refused, by the names of fields.
+    /// Refused entries by the name of their field.
     pub entries: &'a Entries,
-    /// Whether tabs say why, for teaching.
+    /// True if tabs show explanations for teaching.
     pub why: bool,
-    /// Where the document lies on disk, if it does.
+    /// File of the document, if it has one.
     pub file: Option<&'a Path>,
-    /// Where a point contact is cut.
+    /// Position of the cuts through a point contact.
     pub cuts: Cuts,
-    /// From where on the badge uses another word.
+    /// Error limits of the badge.
     pub thresholds: Thresholds,
-    /// Whether an audience looks: plots and little else.
+    /// True in presentation mode, which shows plots and little else.
     pub presenting: bool,
-    /// Whether plots are to be fitted to their data in this frame.
+    /// True if plots shall be fitted to their data in this frame.
     pub fit: bool,
 }
 
-/// What was asked for in a frame, in its order.
+/// Commands of a frame, in their order.
 #[derive(Default)]
 pub struct Commands(Vec<Command>);
 
 impl Commands {
-    /// Asks for something.
+    /// Adds a command.
     pub fn push(&mut self, command: Command) {
         self.0.push(command);
     }
 
-    /// Asks for a change of the document; a refusal stands beside `field`.
+    /// Adds a change of the document. A refusal is shown next to `field`.
     pub fn edit(&mut self, edit: Edit, field: &'static str) {
         self.push(Command::Edit(edit, field));
     }
 
-    /// Asks for whatever there is.
+    /// Adds several commands.
     pub fn extend(&mut self, commands: impl IntoIterator<Item = Command>) {
         self.0.extend(commands);
     }
 
-    /// Everything that was asked for; nothing stays.
+    /// Returns all commands and empties the list.
     pub fn take(&mut self) -> Vec<Command> {
         std::mem::take(&mut self.0)
     }

@@ -1,4 +1,4 @@
-//! Widgets the panels share: a typed number with its message, a slider with marked range, names for screen readers.
+//! Widgets shared by the panels: number entry with its message, slider with a marked range, accessible names.
 
 use super::numbers;
 use super::theme::Palette;
@@ -13,23 +13,23 @@ use egui::{
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
-/// Text fields being edited and messages about what was refused, by the name of the field.
+/// Text being edited and messages about refused entries, by the name of the field.
 #[derive(Default)]
 pub struct Entries {
     buffers: HashMap<&'static str, String>,
     messages: HashMap<&'static str, String>,
-    /// The field that was refused last.
+    /// Field of the last refusal.
     last: Option<&'static str>,
 }
 
 impl Entries {
-    /// Forgets what was typed and refused: the values have moved on.
+    /// Removes all texts and messages, because the values have changed.
     pub fn clear(&mut self) {
         self.buffers.clear();
         self.messages.clear();
     }
 
-    /// Records why an entry was refused, or that it was accepted.
+    /// Stores why an entry was refused, or removes the message if it was accepted.
     pub fn answer(&mut self, name: &'static str, result: Result<(), Refusal>) {
         match result {
             Ok(()) => {
@@ -43,7 +43,7 @@ impl Entries {
         }
     }
 
-    /// The message about a field, if there is one.
+    /// Returns the message about a field, if there is one.
     pub fn message(&self, name: &str) -> Option<&str> {
         self.messages.get(name).map(String::as_str)
     }
@@ -55,14 +55,14 @@ impl Entries {
         }
     }
 
-    /// Shows one message about a group of fields, the last one where there are several, where room for two lines is
-    /// always kept, so that nothing below moves.
+    /// Shows one message about a group of fields: the last one if there are several. Reserves two lines, so that
+    /// nothing below moves.
     pub fn reserved_ui<'a>(&self, ui: &mut Ui, names: impl IntoIterator<Item = &'a str>) {
         reserved(ui, 2, |ui| {
             let names: Vec<&str> = names.into_iter().collect();
             let last = self.last.filter(|last| names.contains(last)).and_then(|last| self.message(last));
             if let Some(message) = last.or_else(|| names.iter().find_map(|name| self.message(name))) {
-                // What has no room in two lines is read under the pointer.
+                // The full message is shown on hover if it does not fit into two lines.
                 let font_id = TextStyle::Small.resolve(ui.style());
                 let format = TextFormat { font_id, color: Palette::of(ui).wrong, ..TextFormat::default() };
                 let mut job = LayoutJob::single_section(sentence(message), format);
@@ -73,7 +73,7 @@ impl Entries {
     }
 }
 
-/// Keeps room for so many lines of small text, whatever is said there, so that nothing below moves.
+/// Reserves space for `lines` lines of small text, so that nothing below moves.
 pub fn reserved(ui: &mut Ui, lines: u8, content: impl FnOnce(&mut Ui)) {
     let height = f32::from(lines) * ui.text_style_height(&egui::TextStyle::Small) + ui.spacing().item_spacing.y;
     let layout = egui::Layout::top_down(egui::Align::LEFT);
@@ -83,7 +83,7 @@ pub fn reserved(ui: &mut Ui, lines: u8, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// One of two buttons that stand in each other's place, as wide as the wider one: what is beside them stays.
+/// Draws one of two alternative buttons, as wide as the wider one, so that neighbouring widgets do not move.
 pub fn either_button(ui: &mut Ui, names: [&str; 2], second: bool) -> Response {
     let font = TextStyle::Button.resolve(ui.style());
     let text = |name: &str| ui.painter().layout_no_wrap(name.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
@@ -92,20 +92,20 @@ pub fn either_button(ui: &mut Ui, names: [&str; 2], second: bool) -> Response {
     ui.add(Button::new(if second { other } else { first }).min_size(vec2(width, 0.0)))
 }
 
-/// A sentence about something that is wrong, beside what it is about.
+/// Draws an error message as a sentence.
 pub fn message_ui(ui: &mut Ui, message: &str) {
     let color = Palette::of(ui).wrong;
     ui.label(RichText::new(sentence(message)).small().color(color));
 }
 
-/// A sentence about something worth knowing.
+/// Draws a warning as a sentence.
 pub fn warning_ui(ui: &mut Ui, message: &str) {
     let color = Palette::of(ui).warning;
     ui.label(RichText::new(sentence(message)).small().color(color));
 }
 
-/// What runs, how far it is and how long the rest takes, on a row of its own or briefly at the end of one; `name` is the
-/// bar's.
+/// Draws stage, progress and remaining time of a job. Uses a separate row, or a short form at the end of a
+/// horizontal row. `name` is the accessible name of the bar.
 pub fn standing_ui(ui: &mut Ui, standing: Option<Standing>, name: &str) {
     let Some(standing) = standing else { return };
     let (stage, briefly) = (sentence(&standing.stage), ui.layout().is_horizontal());
@@ -122,7 +122,7 @@ pub fn standing_ui(ui: &mut Ui, standing: Option<Standing>, name: &str) {
     if briefly { content(ui) } else { ui.horizontal(content).inner }
 }
 
-/// A small lock at the left of its room, closed or open.
+/// Draws a small lock, closed or open, at the left of its space.
 pub fn lock_ui(ui: &mut Ui, room: [f32; 2], closed: bool) -> Response {
     let (slot, response) = ui.allocate_exact_size(room.into(), Sense::click());
     let rect = Rect::from_center_size(slot.left_center() + vec2(9.0, 0.0), vec2(14.0, 14.0));
@@ -136,7 +136,7 @@ pub fn lock_ui(ui: &mut Ui, room: [f32; 2], closed: bool) -> Response {
     response
 }
 
-/// What a tab shows and why it is so, for teaching; where it is wanted.
+/// Draws the explanation of a tab if explanations are switched on.
 pub fn why(ui: &mut Ui, wanted: bool, text: &str) {
     if wanted {
         let frame = egui::Frame::new().inner_margin(6.0).corner_radius(4.0).fill(ui.visuals().faint_bg_color);
@@ -144,7 +144,7 @@ pub fn why(ui: &mut Ui, wanted: bool, text: &str) {
     }
 }
 
-/// First letter large (unless it is a symbol), a full stop at the end.
+/// Returns the text with a capital first letter (unless it is a symbol) and a full stop at the end.
 pub fn sentence(text: &str) -> String {
     let text = text.trim();
     let mut chars = text.chars();
@@ -160,7 +160,7 @@ pub fn sentence(text: &str) -> String {
     out
 }
 
-/// Gives a widget the name that screen readers (and tests) know it by.
+/// Sets the accessible name of a widget, which screen readers and tests use.
 pub fn named(ui: &Ui, response: Response, name: &str) -> Response {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
     let pointed = ui.ctx().data(|data| data.get_temp::<String>(Id::unique("pointed at")));
@@ -171,27 +171,27 @@ pub fn named(ui: &Ui, response: Response, name: &str) -> Response {
     response
 }
 
-/// Draws a ring around the control of a name, for those who are shown something; none where there is no name.
+/// Draws a ring around the control of this name, for demonstrations. No ring with `None`.
 pub fn point_at(ctx: &Context, name: Option<&str>) {
     ctx.data_mut(|data| data.insert_temp(Id::unique("pointed at"), name.unwrap_or_default().to_owned()));
 }
 
-/// What a screen reader says of a label whose text alone would not tell what it is.
+/// Sets the text that a screen reader reads for a label whose own text is not sufficient.
 pub fn spoken(ui: &Ui, response: Response, text: &str) -> Response {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(text));
     response
 }
 
-/// What a screen reader says after the name: a tooltip is out of its reach.
+/// Sets the text that a screen reader reads after the name, because it cannot read tooltips.
 pub fn described(ui: &Ui, response: Response, description: &str) -> Response {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(description));
     response
 }
 
-/// Width of the boxes to choose from, so that they line up.
+/// Width of choice boxes, so that they line up.
 const CHOICE_WIDTH: f32 = 164.0;
 
-/// A row with a name and a box to choose from; every option has a name and says on hover what it means.
+/// Draws a row with a name and a choice box. Every option has a name and a tooltip.
 pub fn choice<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: impl Into<WidgetText>,
@@ -222,8 +222,8 @@ pub fn choice<T: Copy + PartialEq>(
     ui.end_row();
 }
 
-/// A number that is typed as `read` understands it, and shown in the same unit. Returns it when it was entered and is a
-/// number; arrow keys step by one percent, with Shift by ten.
+/// Draws a number field that parses its text with `read`. Returns the number when it was entered and is valid.
+/// Arrow keys change it by 1 %, with Shift by 10 %.
 pub fn typed_field(
     ui: &mut Ui,
     entries: &mut Entries,
@@ -263,7 +263,7 @@ pub fn typed_field(
             entries.buffers.remove(name);
             entries.messages.remove(name);
             let share: f64 = if large { 0.1 } else { 0.01 };
-            // Nothing is no percentage of zero.
+            // Zero has no percentage, so step from zero in absolute values.
             return Some(if value == 0.0 { share * steps } else { value * (1.0 + share).powf(steps) });
         }
     }
@@ -282,24 +282,24 @@ pub fn typed_field(
     None
 }
 
-/// What a labelled slider needs to know.
+/// Parameters of a labelled slider.
 pub struct RangeSlider<'a> {
-    /// Accessible name; the typed entry is called the same with " value" appended.
+    /// Accessible name. The name of the number field is this name with " value" appended.
     pub name: &'a str,
-    /// Ends of the slider.
+    /// Range of the slider.
     pub range: RangeInclusive<f64>,
-    /// The trained range, marked under the rail.
+    /// Trained range, marked under the rail.
     pub marked: Option<(f64, f64)>,
-    /// What a double click goes to.
+    /// Value set by a double click.
     pub home: f64,
-    /// What the quantity is.
+    /// Description of the quantity.
     pub tooltip: &'a str,
-    /// Whether equal ways are equal ratios.
+    /// True for a logarithmic scale.
     pub logarithmic: bool,
 }
 
 impl RangeSlider<'_> {
-    /// Shows the slider; returns the new value when it was moved.
+    /// Draws the slider. Returns the new value when it was moved.
     pub fn show(&self, ui: &mut Ui, value: f64, width: f32) -> Option<f64> {
         let mut moved = value;
         ui.spacing_mut().slider_width = width;
@@ -311,7 +311,7 @@ impl RangeSlider<'_> {
                 .show_value(false),
         );
         let rect = response.rect;
-        // No tooltip here: it would cover what the slider moves. The symbol before it explains.
+        // No tooltip here, because it would cover what the slider moves. The symbol to its left has the tooltip.
         let response = described(ui, named(ui, response, self.name), self.tooltip);
         if let Some((low, high)) = self.marked {
             let radius = rect.height() / 2.5;
@@ -333,21 +333,21 @@ impl RangeSlider<'_> {
     }
 }
 
-/// A heading of a group in a panel.
+/// Draws the heading of a group in a panel.
 pub fn heading(ui: &mut Ui, text: &str) {
     ui.add_space(4.0);
     ui.label(RichText::new(text).strong().size(14.5));
 }
 
-/// Width of the column of names, so that values line up from group to group.
+/// Width of the column of names, so that values line up across groups.
 pub const NAME_WIDTH: f32 = 110.0;
 
-/// A label made of a laid-out name, explained on hover.
+/// Draws a formatted label with a tooltip.
 pub fn explained(ui: &mut Ui, job: LayoutJob, tooltip: &str) -> Response {
     ui.label(job).on_hover_text(tooltip)
 }
 
-/// The name of a row, as wide in every group.
+/// Draws the name of a row with the common width.
 pub fn row_name(ui: &mut Ui, job: LayoutJob, tooltip: &str) {
     ui.horizontal(|ui| {
         ui.set_min_width(NAME_WIDTH);

@@ -1,4 +1,4 @@
-//! How the window shows things: kept with the session, not part of the document.
+//! Display settings of the window. They are stored with the session and are not part of the document.
 
 use super::answers::picture::Cuts;
 use super::numbers;
@@ -6,21 +6,21 @@ use super::units::Units;
 use crate::app::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 
-/// Relative errors of a film from which on the badge uses another word.
+/// Relative errors of the film thickness at which the badge changes its title.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Thresholds {
-    /// Films that are off by less are verified.
+    /// Errors up to this value are called verified.
     pub verified: f64,
-    /// Those that are off by more are far off.
+    /// Errors above this value are called far off.
     pub far_off: f64,
 }
 
 impl Thresholds {
-    /// Smallest and largest error that a threshold can be.
+    /// Smallest and largest permitted threshold.
     pub const RANGE: (f64, f64) = (1e-6, 0.5);
 
-    /// Whether both make sense, and in this order.
+    /// Checks that both thresholds are permitted and in order.
     ///
     /// # Errors
     /// A sentence.
@@ -48,28 +48,28 @@ impl Default for Thresholds {
     }
 }
 
-/// How things are shown.
+/// Display settings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Display {
-    /// Where a point contact is cut.
+    /// Position of the cuts through a point contact.
     pub cuts: Cuts,
-    /// Theme wanted.
+    /// Chosen theme.
     pub theme: egui::ThemePreference,
-    /// Size of everything.
+    /// Zoom factor of the window.
     pub zoom: f32,
-    /// From where on the badge uses another word.
+    /// Error limits of the badge.
     pub thresholds: Thresholds,
-    /// Whether tabs say why, for teaching.
+    /// True if tabs show explanations for teaching.
     pub why: bool,
-    /// Whether a presentation is light whatever the theme: a projector shows no black.
+    /// True if presentations use light colours in any theme, because a projector cannot show black.
     pub light_presentation: bool,
-    /// The units of plots and exports.
+    /// Units of plots and exports.
     pub units: Units,
 }
 
 impl Display {
-    /// Smallest and largest size of everything.
+    /// Smallest and largest zoom factor.
     pub const ZOOMS: (f32, f32) = (0.6, 3.0);
 }
 

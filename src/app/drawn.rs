@@ -1,5 +1,5 @@
-//! A curve belongs to what was asked. Where that is not what is asked now it is drawn grey: here it is decided, and noted
-//! for everything that a frame draws.
+//! Decision whether a curve is drawn grey. A curve belongs to a request; if the present request differs, the curve
+//! is grey. Every frame records what it has drawn.
 
 use super::context::Context;
 use super::document::Key;
@@ -10,27 +10,27 @@ use crate::solver::training::TrainingSpec;
 use egui::{Color32, Id, Ui};
 use std::sync::Arc;
 
-/// Opacity of what belongs to a former question, and of it while its answer is about to come.
+/// Opacity of results of a previous request, and of results whose replacement is being computed.
 const FORMER: f32 = 0.4;
 const COMING: f32 = 0.7;
 
-/// What something drawn belongs to.
+/// Request or object that a drawing belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Owner {
     Contact(Key),
-    /// A reduced model, as it is truncated.
+    /// Reduced model with its truncation.
     Model(InUse),
-    /// A contact by a reduced model.
+    /// Contact solved by a reduced model.
     ContactByModel(Key, InUse),
-    /// A transient contact.
+    /// Transient contact.
     Transient(Arc<Setup>),
     Training(Box<TrainingSpec>),
-    /// The question of a scene.
+    /// Question of a scene.
     Question(Box<Scene>),
 }
 
 impl Owner {
-    /// Whether that is what is asked now.
+    /// Returns true if the owner belongs to the present request.
     pub fn is_present(&self, context: &Context<'_>) -> bool {
         let document = context.document;
         let serves = |model: &InUse| context.answers.in_use(document).as_ref() == Some(model);
@@ -45,18 +45,18 @@ impl Owner {
     }
 }
 
-/// Whether two scenes ask the same question of the same contact.
+/// Returns true if two scenes ask the same question about the same contact.
 pub fn asks_the_same(a: &Scene, b: &Scene) -> bool {
     a.study == b.study && a.experiment() == b.experiment()
 }
 
-/// Something drawn: what it is called, what it belongs to, and whether it is grey.
+/// Record of a drawing: its name, its owner, and whether it is grey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
     pub name: &'static str,
-    /// What it belongs to.
+    /// Owner.
     pub of: Owner,
-    /// Whether it stands back because that is not what is asked now.
+    /// True if it is grey, because the present request differs.
     pub grey: bool,
 }
 
@@ -64,34 +64,34 @@ fn id() -> Id {
     Id::unique("drawn")
 }
 
-/// Forgets what the last frame drew.
+/// Clears the record of the last frame.
 pub fn begin(ctx: &egui::Context) {
     ctx.data_mut(|data| data.get_temp_mut_or_default::<Vec<Drawn>>(id()).clear());
 }
 
-/// What this frame has drawn so far.
+/// Returns what this frame has drawn so far.
 pub fn all(ctx: &egui::Context) -> Vec<Drawn> {
     ctx.data_mut(|data| data.get_temp_mut_or_default::<Vec<Drawn>>(id()).clone())
 }
 
-/// Notes something that is drawn grey or not.
+/// Records a drawing.
 pub fn note(ctx: &egui::Context, name: &'static str, of: Owner, grey: bool) {
     ctx.data_mut(|data| data.get_temp_mut_or_default::<Vec<Drawn>>(id()).push(Drawn { name, of, grey }));
 }
 
-/// Whether what belongs to something is to be grey, for something else is asked now; noted.
+/// Returns true if results of an owner are drawn grey, because the present request differs. Records the drawing.
 pub fn is_grey(ctx: &egui::Context, name: &'static str, of: Owner, context: &Context<'_>) -> bool {
     let grey = !of.is_present(context);
     note(ctx, name, of, grey);
     grey
 }
 
-/// Lets the rest of a room stand back, a little where it is about to be replaced.
+/// Reduces the opacity of the remaining widgets. The reduction is smaller if a replacement is being computed.
 pub fn fade(ui: &mut Ui, coming: bool) {
     ui.multiply_opacity(if coming { COMING } else { FORMER });
 }
 
-/// What an image is multiplied with, grey or not.
+/// Returns the colour that tints an image, grey or not.
 pub fn tint(grey: bool) -> Color32 {
     if grey { Color32::from_gray(120) } else { Color32::WHITE }
 }

@@ -1,4 +1,4 @@
-//! What commands and choices of the palette do.
+//! Execution of commands and of choices in the palette.
 
 use super::command::Command;
 use super::context::Commands;
@@ -20,7 +20,7 @@ use egui::{Context, ThemePreference, ViewportCommand};
 use egui_tiles::Tile;
 
 impl Explorer {
-    /// Does everything that was asked for.
+    /// Executes all commands of the list.
     pub(super) fn execute_all(&mut self, ctx: &Context, commands: &mut Commands) {
         for command in commands.take() {
             self.execute(ctx, command);
@@ -174,7 +174,7 @@ impl Explorer {
         self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(tab) if *tab == wanted));
     }
 
-    /// Begins a presentation or ends it.
+    /// Starts or ends the presentation mode.
     fn present(&mut self, ctx: &Context) {
         match self.desk.presentation.take() {
             Some(presentation) => {
@@ -192,8 +192,8 @@ impl Explorer {
         }
     }
 
-    /// Lets the axes of the tabs in front stand still where a lecture is given: a presentation of tabs beside each other,
-    /// or of a lesson. What changes is then seen to change.
+    /// Locks the axes of the tabs in front in a lecture, so that changes of the curves are visible. This applies to
+    /// a presentation with several tabs in view or with an open lesson.
     fn hold_axes(&mut self) {
         let front: Vec<Tab> = self.tabs_in_front().collect();
         if self.desk.presentation.is_some() && (front.len() > 1 || self.lessons.is_open()) {
@@ -207,7 +207,7 @@ impl Explorer {
         self.desk.display.zoom = zoom.clamp(least, most);
     }
 
-    /// Sets the size of everything: as it was chosen, and larger in a presentation.
+    /// Sets the zoom factor: the chosen one, larger in a presentation.
     pub(super) fn scale(&self, ctx: &Context) {
         let (present, chosen) = (ctx.zoom_factor(), self.desk.display.zoom);
         let window = ctx.content_rect().size() * present / chosen;

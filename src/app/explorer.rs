@@ -1,6 +1,6 @@
-//! The explorer: a window in which a contact is dragged and answers at once.
+//! Explorer: a window in which the user changes a contact and sees its solution at once.
 //!
-//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` puts it into a native one.
+//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` opens it as a native window.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
@@ -34,14 +34,14 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A presentation on a screen that is no higher has no read-outs \[points\].
+/// Screen height up to which a presentation shows no read-outs \[points\].
 const LOW: f32 = 500.0;
-/// Width of all tabs below which their titles stand close.
+/// Width of all tabs below which their titles are closely spaced.
 const NARROW: f32 = 900.0;
-/// Least height of the read-outs.
+/// Minimum height of the read-outs.
 const READOUTS: f32 = 24.0;
 
-/// The window.
+/// Window of the program.
 pub struct Explorer {
     pub(super) desk: Desk,
     pub(super) tree: Tree<Tab>,
@@ -56,18 +56,18 @@ pub struct Explorer {
     pub(super) place: Place,
     pub(super) keeper: Option<Keeper>,
     pub(super) link_window: LinkWindow,
-    /// One tab with chosen sliders, and nothing else.
+    /// Set if the window shows only one tab with chosen sliders.
     pub(super) embed: Option<Embed>,
     address: Address,
 }
 
 impl Explorer {
-    /// A window with one reduced model, or without any: the full solver then draws every other picture.
+    /// Creates a window with one reduced model or none. Without a model the full solver draws every picture.
     pub fn new(model: Option<Arc<ReducedModel>>) -> Self {
         Self::with_models(Models::only(model), Store::default())
     }
 
-    /// A window with all models that are part of the program.
+    /// Creates a window with all built-in models.
     pub fn with_embedded_models() -> Self {
         let store = Store::default();
         Self::with_models(Models::embedded(&store), store)
@@ -93,25 +93,26 @@ impl Explorer {
         }
     }
 
-    /// Leaves the system's file dialogs alone; the path fields remain. For tests.
+    /// Switches off the file dialogs of the system, so that only the path fields remain. For tests.
     pub fn without_system_dialogs(mut self) -> Self {
         self.desk.files.native_dialogs = false;
         self
     }
 
-    /// Lets a frame wait for the reduced model for as long as this, however busy the machine is. For tests.
+    /// Makes a frame wait for the reduced model up to `patience`, however busy the machine is. For tests.
     pub fn waiting_for_answers(mut self, patience: Duration) -> Self {
         self.desk.answers.be_patient(patience);
         self
     }
 
-    /// Keeps trainings in a folder while they run, and offers to go on with what is found there.
+    /// Stores running trainings in a folder and offers to resume those found there.
     pub fn keeping_trainings_in(mut self, folder: &Path) -> Self {
         self.desk.tabs.training.work.keep_in(folder);
         self
     }
 
-    /// Restores the last session of a folder, its document too where wanted, and keeps this one there.
+    /// Restores the last session of a folder and stores this session there. Restores the document only if
+    /// `with_document` is true.
     pub fn keeping_session_in(mut self, folder: &Path, with_document: bool) -> Self {
         session::restore(&mut self, folder, with_document);
         match Keeper::new(folder) {
@@ -121,8 +122,8 @@ impl Explorer {
         self
     }
 
-    /// One frame: what was asked for in the panels is done before the tabs are drawn, so that the picture follows
-    /// within the frame.
+    /// Draws one frame. Commands from the panels are executed before the tabs are drawn, so that the picture
+    /// changes within the frame.
     pub fn ui(&mut self, ui: &mut Ui) {
         let begin = Stopwatch::start();
         let ctx = ui.ctx().clone();
@@ -152,7 +153,7 @@ impl Explorer {
         self.desk.follow_cuts();
         self.lessons_ui(ui, &mut commands);
         let in_time = self.shows_in_time();
-        // A presentation on a very low screen leaves their room to the plots.
+        // On a very low screen a presentation leaves this space to the plots.
         let room = self.desk.presentation.is_none() || ctx.content_rect().height() > LOW;
         if room {
             self.readouts_ui(ui, in_time);
@@ -182,17 +183,17 @@ impl Explorer {
         self.execute_all(&ctx, &mut commands);
         self.keep_session(&ctx);
         self.follow_address(&ctx);
-        // What a plot or a command changed shows in the next frame.
+        // Changes by a plot or a command appear in the next frame.
         if !self.desk.answers.is_answer_to(&self.desk.document) {
             ctx.request_repaint();
         }
         self.frame_s = begin.elapsed().as_secs_f64();
     }
 
-    /// What the contact, or the moment that is looked at, amounts to.
+    /// Draws the read-outs of the contact, or of the displayed time of a transient run.
     fn readouts_ui(&self, ui: &mut Ui, in_time: bool) {
         Panel::bottom("readouts").show(ui, |ui| {
-            // Whatever they are of, nothing above them moves.
+            // The height is constant, so that nothing above moves.
             ui.set_min_height(READOUTS);
             let context = self.desk.context();
             if !in_time || !panels::moment::ui(ui, &context) {
@@ -201,7 +202,7 @@ impl Explorer {
         });
     }
 
-    /// The panel of lessons, where it is open.
+    /// Draws the panel of lessons if it is open.
     fn lessons_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
         if !self.lessons.is_open() {
             return;
@@ -214,7 +215,7 @@ impl Explorer {
             pins: self.desk.answers.pins().len(),
             checked: self.desk.answers.comparison().is_some() && self.desk.answers.picture_is_current(),
         };
-        // Tabs beside each other on a small screen keep their width.
+        // On a small screen the panel is placed below, so that adjacent tabs keep their width.
         let below = ui.ctx().content_rect().width() < lessons::BESIDE && screen.tabs.len() > 1;
         let panel = match below {
             true => Panel::bottom("lessons below").exact_size(lessons::HEIGHT),
@@ -224,8 +225,7 @@ impl Explorer {
         panel.resizable(false).show(ui, |ui| lessons.ui(ui, &screen, commands));
     }
 
-    /// Brings the tab to the front that answers a scene which was just opened, and runs its study where that is done
-    /// without asking.
+    /// Brings the tab of a newly opened scene to the front. Runs its study if it needs no confirmation.
     fn answer_opened(&mut self, ctx: &egui::Context, commands: &mut Commands) {
         match self.desk.opened.take() {
             None => {}
@@ -250,7 +250,7 @@ impl Explorer {
         }
     }
 
-    /// Records finished gestures, and starts what waited for the sliders to rest.
+    /// Records finished gestures in the history, and starts computations that wait until the sliders are idle.
     fn settle(&mut self, ctx: &egui::Context) {
         let gesture = ctx.input(|i| i.pointer.any_down());
         let desk = &mut self.desk;
@@ -259,11 +259,11 @@ impl Explorer {
         }
         desk.answers.settle(ctx, &desk.document);
         desk.transient.settle(ctx, desk.answers.store());
-        // A contact that is being solved is waited for.
+        // Wait for a contact that is being solved.
         desk.fit_plots &= desk.answers.coming() && !desk.answers.picture_is_current();
     }
 
-    /// Hands what has changed in this frame to the keeper of the session.
+    /// Passes changes of this frame to the keeper of the session.
     fn keep_session(&mut self, ctx: &egui::Context) {
         let Some(mut keeper) = self.keeper.take() else { return };
         self.place.follow(ctx);
@@ -273,7 +273,8 @@ impl Explorer {
         self.keeper = Some(keeper);
     }
 
-    /// Opens a link that the user has put into the address of the page, and lets the address follow what is shown.
+    /// Opens a link that the user has put into the address of the page, and updates the address to the present
+    /// view.
     fn follow_address(&mut self, ctx: &egui::Context) {
         if !browser::PAGE {
             return;
@@ -298,10 +299,10 @@ impl Explorer {
         }
     }
 
-    /// The panels around the tabs that are drawn before them.
+    /// Draws the panels around the tabs that come before the tabs.
     fn panels(&mut self, ui: &mut Ui, commands: &mut Commands) {
         let (desk, frame_s) = (&mut self.desk, self.frame_s);
-        // What is typed belongs to the panels while they are drawn.
+        // Move the entries out, so that the panels can change them while the context is borrowed.
         let (mut entries, mut own_laws) = (std::mem::take(&mut desk.entries), desk.own_lubricant);
         let context = desk.context();
         if let Some(embed) = &self.embed {
@@ -337,24 +338,24 @@ impl Explorer {
     /// Opens a scene, as File → Open does.
     ///
     /// # Errors
-    /// A sentence when it cannot be read; what is on the screen stays.
+    /// A sentence if the scene cannot be read. The screen then keeps its content.
     pub fn open_scene(&mut self, path: &Path) -> Result<(), Refusal> {
         self.desk.open_path(path)
     }
 
-    /// Opens what a link holds. Where it is refused, a sentence on the screen says why.
+    /// Opens the content of a link. Shows a notice if the link is refused.
     pub fn open_link(&mut self, link: &str) {
         if let Err(why) = self.desk.open_link(link) {
             self.desk.files.notice = Some(Notice::wrong(why));
         }
     }
 
-    /// The tabs that can be seen.
+    /// Returns the visible tabs.
     pub(super) fn tabs_in_front(&self) -> impl Iterator<Item = Tab> {
         layouts::seen(&self.tree).into_iter()
     }
 
-    /// Whether nothing but contacts in time can be seen: the read-outs are of their moment then.
+    /// Returns true if only transient views are visible. The read-outs then show their displayed time.
     fn shows_in_time(&self) -> bool {
         let line = self.desk.document.point.kind == ContactKind::Line;
         let in_time = |tab| matches!(tab, Tab::Transient | Tab::Tpwl | Tab::ContactMap);

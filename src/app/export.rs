@@ -1,4 +1,4 @@
-//! Tables for other programs: the data behind a plot as CSV, the read-outs as text.
+//! Export for other programs: the data of a plot as CSV, and the read-outs as text.
 
 use super::answers::Answers;
 use super::answers::picture::{Cuts, Picture, value_at};
@@ -8,7 +8,8 @@ use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use std::fmt::Write as _;
 
-/// A CSV table: comment lines, header, rows of numbers with full precision; what is missing is an empty field.
+/// Returns a CSV table: comment lines, header, and rows of numbers with full precision. A missing value is an empty
+/// field.
 pub fn csv(comments: &[String], header: &[&str], rows: impl IntoIterator<Item = Vec<Option<f64>>>) -> String {
     let mut table = Table::new("", header);
     let row = |row: Vec<Option<f64>>| row.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
@@ -16,12 +17,12 @@ pub fn csv(comments: &[String], header: &[&str], rows: impl IntoIterator<Item = 
     comments.iter().map(|line| format!("# {line}\n")).chain([table.to_csv()]).collect()
 }
 
-/// The parameters of a picture in one line.
+/// Returns the parameters of a picture in one line.
 pub fn describe(picture: &Picture) -> String {
     describe_contact(&picture.key.point, &picture.key.lubricant)
 }
 
-/// The parameters of a contact in one line.
+/// Returns the parameters of a contact in one line.
 pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
     let moes = point.moes();
     let unit = match point.kind {
@@ -51,19 +52,19 @@ pub fn describe_contact(point: &OperatingPoint, lubricant: &Lubricant) -> String
     )
 }
 
-/// One row of a picture's profile along X with its SI twins.
+/// Returns one row of a picture's profile along X, with dimensionless and SI values.
 fn profile_row(picture: &Picture, node: (f64, f64, f64)) -> [Option<f64>; 6] {
     row_in(picture, picture.key.point.hertz().half_width_m, node)
 }
 
-/// One row of a profile whose coordinate is in a length \[m\], with its SI twins.
+/// Returns one row of a profile whose coordinate is scaled with `length_m`, with dimensionless and SI values.
 fn row_in(picture: &Picture, length_m: f64, (x, p, film): (f64, f64, f64)) -> [Option<f64>; 6] {
     let (hertz, film_scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
     [x, p, film, x * length_m, p * hertz.pressure_pa, film * film_scale].map(Some)
 }
 
-/// Profiles with their SI twins, the full solution beside a reduced one where both belong together, and every pinned
-/// curve on its own nodes in columns of its own.
+/// Returns the profiles as CSV, with dimensionless and SI values. Adds the full solution to a reduced one if both
+/// belong together, and every pinned curve on its own nodes in separate columns. `None` without a picture.
 pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     const COLUMNS: [&str; 6] = ["X", "P", "H", "x_m", "p_pa", "h_m"];
     let picture = answers.picture()?;
@@ -108,7 +109,7 @@ pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     Some(csv(&comments, &header, (0..rows).map(row)))
 }
 
-/// The profile across a point contact with its SI twins; empty without a picture.
+/// Returns the profile across a point contact, with dimensionless and SI values. Empty without a picture.
 pub fn profile_across(answers: &Answers, x: f64) -> String {
     let Some(picture) = answers.picture() else { return String::new() };
     let half_length_m = picture.key.point.hertz().half_length_m;
@@ -117,7 +118,7 @@ pub fn profile_across(answers: &Answers, x: f64) -> String {
     csv(&comments, &["Y", "P", "H", "y_m", "p_pa", "h_m"], rows)
 }
 
-/// The read-outs as a tab-separated table for a clipboard.
+/// Returns the read-outs as a tab-separated table for the clipboard.
 pub fn readouts_table(answers: &Answers) -> String {
     let mut out = String::from("quantity\tdimensionless\tdimensional\n");
     let Some(picture) = answers.picture() else { return out };

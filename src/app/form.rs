@@ -1,5 +1,5 @@
-//! A form over a part of the document: numbers that are dragged or typed, intervals, counts, choices, each with why its
-//! last entry was refused.
+//! Form for a part of the document: numbers, intervals, counts and choices, each with the refusal of its last
+//! entry.
 
 use super::command::Command;
 use super::context::{Commands, Context};
@@ -11,32 +11,32 @@ use egui::{DragValue, Ui};
 
 /// Width of the column of names.
 const NAMES: f32 = 112.0;
-/// Width of a number.
+/// Width of a number field.
 const NUMBER: f32 = 66.0;
 
-/// The field of a form that was changed last: beside it stands why that was refused.
+/// Field of a form that was changed last. A refusal is shown next to it.
 pub type LastField = Option<&'static str>;
 
-/// What the fields of a form share in one frame.
+/// State that the fields of a form share in one frame.
 pub struct Form<'a> {
-    /// Under this name the window knows what was refused.
+    /// Name under which the window stores refusals of this form.
     name: &'static str,
     last: LastField,
     entries: &'a Entries,
-    /// The field that was changed in this frame.
+    /// Field changed in this frame.
     pub changed: Option<&'static str>,
-    /// A field whose entry makes no sense whatever the others hold, and why.
+    /// Field whose entry is invalid for any values of the other fields, and the reason.
     pub refused: Option<(&'static str, &'static str)>,
 }
 
 impl<'a> Form<'a> {
-    /// A form whose entries are refused under a name of its own.
+    /// Creates a form. Refusals are stored under `name`.
     pub fn new(name: &'static str, last: LastField, context: &Context<'a>) -> Self {
         Self { name, last, entries: context.entries, changed: None, refused: None }
     }
 
-    /// Asks for the change that was made in this frame, if there is one; returns the field that was changed last, which
-    /// is `otherwise` where none has said that it was.
+    /// Submits the change made in this frame, if there is one. Returns the field that was changed last, or
+    /// `otherwise` if no field has reported a change.
     pub fn ask(self, edit: Option<Edit>, otherwise: &'static str, commands: &mut Commands) -> LastField {
         match (edit, self.refused) {
             (Some(edit), _) => {
@@ -51,14 +51,14 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// Why the last entry in a field was refused.
+    /// Shows why the last entry in a field was refused.
     pub fn message(&self, ui: &mut Ui, field: &str) {
         if self.last == Some(field) {
             self.entries.message_ui(ui, self.name);
         }
     }
 
-    /// A number that is dragged or typed; `scale` is what one of its shown units is in SI units.
+    /// Draws a number that can be dragged or typed. `scale` is the SI value of one displayed unit.
     pub fn number(&mut self, ui: &mut Ui, field: &'static str, name: &str, value: &mut f64, scale: f64, tip: &str) {
         let mut shown = *value / scale;
         let before = shown;
@@ -70,14 +70,14 @@ impl<'a> Form<'a> {
         let height = ui.spacing().interact_size.y;
         let response = ui.add_sized([NUMBER, height], drag);
         let response = named(ui, response, name).on_hover_text(tip);
-        // Leaving a field untouched must not round its value to the digits shown.
+        // Leaving a field without a change must not round its value to the displayed digits.
         if response.changed() && short(shown) != short(before) {
             *value = shown * scale;
             self.changed = Some(field);
         }
     }
 
-    /// A row with a count.
+    /// Draws a row with a count.
     pub fn count(&mut self, ui: &mut Ui, field: &'static str, value: &mut usize, tip: &str) {
         row(ui, field, tip, |ui| {
             let response = ui.add_sized([NUMBER, ui.spacing().interact_size.y], DragValue::new(value).speed(0.4));
@@ -88,7 +88,7 @@ impl<'a> Form<'a> {
         self.message(ui, field);
     }
 
-    /// A row with a number and its unit.
+    /// Draws a row with a number and its unit.
     pub fn row(&mut self, ui: &mut Ui, field: &'static str, unit: (&str, f64), value: &mut f64, tip: &str) {
         row(ui, field, tip, |ui| {
             self.number(ui, field, &plain(field), value, unit.1, tip);
@@ -97,7 +97,7 @@ impl<'a> Form<'a> {
         self.message(ui, field);
     }
 
-    /// A row with both ends of an interval and their unit.
+    /// Draws a row with both ends of an interval and their unit.
     pub fn interval(&mut self, ui: &mut Ui, field: &'static str, unit: (&str, f64), ends: &mut (f64, f64), tip: &str) {
         row(ui, field, tip, |ui| {
             self.number(ui, field, &format!("{} from", plain(field)), &mut ends.0, unit.1, tip);
@@ -109,7 +109,7 @@ impl<'a> Form<'a> {
     }
 }
 
-/// A row: its name, explained on hover, and what stands behind it.
+/// Draws a row: its name with a tooltip, and its content.
 pub fn row(ui: &mut Ui, name: &str, tip: &str, content: impl FnOnce(&mut Ui)) {
     ui.horizontal(|ui| {
         ui.horizontal(|ui| {
@@ -122,12 +122,12 @@ pub fn row(ui: &mut Ui, name: &str, tip: &str, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// A name as it is spoken: without the marks of its symbol.
+/// Returns a name for screen readers, without the markup of symbols.
 fn plain(name: &str) -> String {
     name.replace(['{', '}'], "")
 }
 
-/// A number without trailing zeros, powers of ten where they are shorter.
+/// Returns a number without trailing zeros, with a power of ten if that is shorter.
 pub fn short(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-3..1e6).contains(&size) {
@@ -141,7 +141,7 @@ pub fn short(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// A row with a box to choose from.
+/// Draws a row with a choice box.
 pub fn choose<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,

@@ -1,4 +1,4 @@
-//! Published film formulas beside the current contact.
+//! Comparison of the contact's film thickness with published formulas.
 
 use crate::app::context::Context;
 use crate::app::controls::warning_ui;
@@ -11,7 +11,7 @@ use crate::solver::physics::contact::{FilmFormula, OperatingPoint};
 use crate::solver::physics::lubricant::{HeatReduction, Lubricant};
 use egui::{Grid, RichText, Ui};
 
-/// The comparison for other programs.
+/// Returns the comparison as CSV.
 pub fn csv(context: &Context<'_>) -> String {
     let picture = context.answers.current_picture();
     let point = &context.document.point;
@@ -41,13 +41,13 @@ pub fn csv(context: &Context<'_>) -> String {
     format!("# {}\n{}", describe_contact(point, &context.document.lubricant), table.to_csv())
 }
 
-/// The table under its title.
+/// Draws the table under its title.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
-    ui.strong("Film by published formulas");
+    ui.strong("Film thickness by published formulas");
     table(ui, context);
 }
 
-/// The table alone.
+/// Draws the table without title.
 pub fn table(ui: &mut Ui, context: &Context<'_>) {
     let picture = context.answers.current_picture();
     let central = picture.map(|p| p.central_film_m());
@@ -56,7 +56,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
         ui.weak("Formula");
         ui.weak("Of");
         ui.weak("Film");
-        ui.weak("Deviation").on_hover_text("Formula over this contact's film, minus one");
+        ui.weak("Deviation").on_hover_text("Film thickness of the formula over that of this contact, minus one");
         ui.end_row();
         for &formula in FilmFormula::of(context.document.point.kind) {
             let prediction = formula.predict(&context.document.point);
@@ -86,16 +86,20 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
     ui.add_space(4.0);
     ui.weak(RichText::new("Grey: outside the range a formula was fitted to. Sources appear on hover.").small());
     if context.document.point.radius_ratio() < 1.0 {
-        warning_ui(ui, "Hamrock–Dowson is 15–75 % high where R_y is smaller than R: it was fitted to ellipses across");
+        warning_ui(
+            ui,
+            "Hamrock–Dowson is 15–75 % too high for R_y smaller than R: it was fitted to ellipses that are long across \
+             the rolling direction",
+        );
     }
 }
 
-/// With heat: Moes' film as published factors thin it.
+/// Draws the rows of a thermal contact: Moes' film thickness with published thermal reduction factors.
 fn reduced_rows(ui: &mut Ui, context: &Context<'_>, central: Option<f64>) {
     for (by, factor, film, in_range) in reduced(&context.document.point, &context.document.lubricant) {
         let text = |t: String| if in_range { RichText::new(t) } else { RichText::new(t).weak() };
         let outside = if in_range { "" } else { ". This contact lies outside its range of validity" };
-        let tip = format!("Moes’ film thinned by heat: {}{outside}", by.source());
+        let tip = format!("Moes’ film thickness with thermal reduction: {}{outside}", by.source());
         ui.label(text(format!("× {} {}", numbers::digits(factor, 3), by.name()))).on_hover_text(&tip);
         ui.label(symbol(ui, "h", "c"));
         ui.label(text(numbers::length(film))).on_hover_text(&tip);
@@ -105,7 +109,8 @@ fn reduced_rows(ui: &mut Ui, context: &Context<'_>, central: Option<f64>) {
     }
 }
 
-/// Factors, the films \[m\] they make of Moes', and whether the contact is in their range; none without heat.
+/// Returns the thermal reduction factors, the resulting film thicknesses \[m\], and whether the contact is in their
+/// range. Empty without heat.
 fn reduced(point: &OperatingPoint, lubricant: &Lubricant) -> Vec<(HeatReduction, f64, f64, bool)> {
     let problem = lubricant.heat.and_then(|_| Problem::new(point, *lubricant).ok());
     let Some(heat) = problem.as_ref().and_then(|problem| problem.heat.as_ref()) else { return Vec::new() };

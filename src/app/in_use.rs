@@ -1,4 +1,4 @@
-//! The reduced model as it is used: with the truncation that the document asks for.
+//! Reduced model in use, with the truncation that the document chooses.
 
 use super::document::{Document, Key};
 use super::model_source::Models;
@@ -13,12 +13,12 @@ use crate::solver::reduced::{ReducedModel, ReducedOptions};
 use crate::solver::training::random_points;
 use std::sync::Arc;
 
-/// A model and its truncation: what a study judges, and by which it knows later whether it is out of date.
+/// Reduced model with its truncation. A study stores it to detect whether its results are out of date.
 #[derive(Clone, Debug)]
 pub struct InUse {
     pub model: Arc<ReducedModel>,
     pressure_loss: Option<f64>,
-    /// Set where the deformation goes through its basis.
+    /// Set if the deformation is projected onto its basis.
     deformation_loss: Option<f64>,
 }
 
@@ -31,39 +31,40 @@ impl PartialEq for InUse {
 }
 
 impl InUse {
-    /// The model under a document's view.
+    /// Creates it from a model and a document's view.
     pub fn new(model: &Arc<ReducedModel>, view: &View) -> Self {
         let deformation_loss = view.projected_deformation.then(|| view.deformation_loss.unwrap_or(0.0));
         Self { model: Arc::clone(model), pressure_loss: view.pressure_loss, deformation_loss }
     }
 
-    /// Returns the model that serves a document's contact, under the document's view.
+    /// Returns the model for a document's contact, with the document's view.
     pub fn of(document: &Document, models: &Models) -> Option<Self> {
         let model = models.of(&document.point, &document.lubricant)?;
         Some(Self::new(model, &document.view))
     }
 
-    /// The method that studies know it by, where it stands in place of the embedded model.
+    /// Returns the method for a study that uses this model instead of the built-in one.
     pub fn method(&self) -> Method {
         let Self { pressure_loss, deformation_loss, .. } = *self;
         Method::Reduced { model: ModelSource::Embedded, pressure_loss, deformation_loss }
     }
 
-    /// The online settings where a contact is solved.
+    /// Returns the online options for a contact.
     pub fn options_at(&self, point: &OperatingPoint) -> ReducedOptions {
         let window = self.model.windows.get(self.model.window_for(point));
         window.map_or_else(ReducedOptions::default, |window| self.method().options(window))
     }
 
-    /// Returns the space that the model covers.
+    /// Returns the parameter range that the model covers.
     pub fn trained_range(&self) -> ParameterSpace {
         self.model.domain.space.clone()
     }
 
-    /// A question about it, with a contact of the range that it was trained for; in full on its own grid.
+    /// Returns a study of the model as a scene. The scene contains a contact of the trained range; full solutions
+    /// use the model's grid.
     ///
     /// # Errors
-    /// When that range holds none.
+    /// If the trained range contains no admissible contact.
     pub fn question(&self, title: &str, study: Study) -> Result<Scene, Refusal> {
         let none = "the model’s range holds no admissible contact to test";
         let points = random_points(&self.trained_range(), self.model.contact(), 1, 1);
@@ -71,12 +72,12 @@ impl InUse {
         Ok(question(title, &Key { point, lubricant: self.model.domain.lubricant }, Grid::Model, study))
     }
 
-    /// Begins to answer a question about it.
+    /// Starts a study of the model.
     pub fn ask(&self, ctx: &egui::Context, store: &Store, question: Scene) -> Job<StudyRow> {
         question.ask(Workbench::on(store, "").using(&self.model), wake(ctx))
     }
 
-    /// For people and the heads of tables.
+    /// Returns a description for the screen and for the heads of tables.
     pub fn describe(&self) -> String {
         let pressure =
             self.pressure_loss.map_or_else(|| "all modes".to_owned(), |loss| format!("pressure loss {loss:.1e}"));
@@ -89,7 +90,7 @@ impl InUse {
     }
 }
 
-/// A question about a contact, to be asked of the engine.
+/// Returns a study of a contact as a scene for the engine.
 pub fn question(title: &str, key: &Key, grid: Grid, study: Study) -> Scene {
     let point = &key.point;
     let Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr } = point.sliding;

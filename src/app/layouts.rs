@@ -1,32 +1,32 @@
-//! Arrangements of the tabs for what people come for. Tabs can be dragged from there.
+//! Predefined arrangements of the tabs. The user can drag the tabs afterwards.
 
 use super::tab::Tab;
 use egui_tiles::{Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
-/// From this width on a window has room for another tab beside \[points\].
+/// Width of the window from which another tab fits next to the first \[points\].
 const WIDE: f32 = 1700.0;
 
-/// An arrangement.
+/// Arrangement of the tabs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Layout {
     /// One tab at a time.
     #[default]
     Explore,
-    /// Profiles beside the chart of regimes.
+    /// Profiles next to the chart of regimes.
     Teach,
-    /// Profiles beside traction and results, on axes with SI units.
+    /// Profiles next to traction and results, with axes in SI units.
     Engineer,
-    /// The basis beside its errors.
+    /// Basis next to its errors.
     ModelReduction,
 }
 
 impl Layout {
-    /// All of them in their order.
+    /// All arrangements in their order.
     #[cfg(test)]
     const ALL: [Self; 4] = [Self::Explore, Self::Teach, Self::Engineer, Self::ModelReduction];
 
-    /// Tabs that lie beside each other, group by group; the first of each is in front. Those left out go to the last
-    /// group.
+    /// Returns the groups of tabs from left to right. The first tab of each group is in front. Tabs that are not
+    /// listed go to the last group.
     fn groups(self, wide: bool) -> &'static [&'static [Tab]] {
         use Tab::{Accuracy, Basis, ContactMap, Profiles, Regimes, Results, Tpwl, Traction, Training, Transient};
         match (self, wide) {
@@ -43,7 +43,7 @@ impl Layout {
         }
     }
 
-    /// The tabs so arranged, each once, in a window of a width \[points\].
+    /// Returns the tree of tabs for a window of this width \[points\]. Each tab occurs once.
     pub fn tree(self, width: f32) -> Tree<Tab> {
         let groups = self.groups(width >= WIDE);
         let listed: Vec<Tab> = groups.iter().flat_map(|group| group.iter().copied()).collect();
@@ -64,7 +64,7 @@ impl Layout {
     }
 }
 
-/// Tabs that are to be seen in an arrangement.
+/// Returns the visible tabs of a tree.
 pub fn seen(tree: &Tree<Tab>) -> Vec<Tab> {
     let tab = |id: TileId| match tree.tiles.get(id) {
         Some(Tile::Pane(tab)) => Some(*tab),

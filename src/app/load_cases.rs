@@ -1,5 +1,5 @@
-//! The window of load cases: a table is pasted or opened, its lines are read at once, and all of them are solved as a
-//! study of the Results tab.
+//! Window of load cases. The user pastes or opens a table, the window checks its lines, and a study of the Results
+//! tab solves all of them.
 
 use super::command::Command;
 use super::context::Commands;
@@ -14,12 +14,12 @@ use egui::{Button, Checkbox, Context, FontId, ScrollArea, TextEdit, Ui, Window, 
 use std::path::Path;
 use std::sync::Arc;
 
-/// A table to begin with.
+/// Example table.
 const EXAMPLE: &str = include_str!("../../scenes/load_cases/rollers_and_balls.csv");
-/// Refused lines that are named in the window; the results name all of them.
+/// Maximum number of refused lines listed in the window. The results list all of them.
 const NAMED: usize = 50;
 
-/// The window, open or closed, with its table.
+/// Window of load cases with its table.
 pub struct LoadCasesWindow {
     open: bool,
     text: String,
@@ -28,7 +28,7 @@ pub struct LoadCasesWindow {
     read: Option<Reading>,
 }
 
-/// A table as it was read for a document.
+/// Table as it was parsed for a document.
 struct Reading {
     text: String,
     document: Document,
@@ -42,7 +42,7 @@ impl Default for LoadCasesWindow {
 }
 
 impl LoadCasesWindow {
-    /// Whether it is open: then Escape closes it.
+    /// Returns true if the window is open. Escape then closes it.
     pub fn is_open(&self) -> bool {
         self.open
     }
@@ -51,15 +51,15 @@ impl LoadCasesWindow {
         self.open = true;
     }
 
-    /// Closes it; the table stays.
+    /// Closes the window and keeps the table.
     pub fn close(&mut self) {
         self.open = false;
     }
 
-    /// Takes in the table of a file.
+    /// Reads the table from a file.
     ///
     /// # Errors
-    /// A sentence when it cannot be read.
+    /// A sentence if the file cannot be read.
     pub fn read(&mut self, path: &Path) -> Result<(), Refusal> {
         if let CaseTable::Text(text) = CaseTable::pasted(path)? {
             self.text = text;
@@ -67,7 +67,7 @@ impl LoadCasesWindow {
         Ok(())
     }
 
-    /// Shows it where it is open.
+    /// Draws the window if it is open.
     pub fn ui(&mut self, ctx: &Context, document: &Document, commands: &mut Commands) {
         let mut open = self.open;
         let room = ctx.content_rect().size();
@@ -83,14 +83,14 @@ impl LoadCasesWindow {
 
     fn table_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
         ui.label(
-            "A line of titles, then a contact a line: open a CSV file, or paste what was copied from a spreadsheet. Units \
-             stand in titles or cells. What a line leaves out is that of the contact on the left.",
+            "One line of titles, then one contact per line. Open a CSV file, or paste cells from a spreadsheet. Units \
+             are in titles or cells. Missing quantities are taken from the contact on the left.",
         );
         ui.horizontal(|ui| {
             if ui.button("Open CSV…").clicked() {
                 commands.push(Command::Ask(Purpose::Cases));
             }
-            if ui.button("Ten bearings, gears and rigs").on_hover_text("A table to begin with").clicked() {
+            if ui.button("Ten bearings, gears and rigs").on_hover_text("An example table").clicked() {
                 EXAMPLE.clone_into(&mut self.text);
             }
             if ui.add_enabled(!self.text.is_empty(), Button::new("Clear")).clicked() {
@@ -107,7 +107,7 @@ impl LoadCasesWindow {
         });
     }
 
-    /// What is wrong with the table, line by line.
+    /// Draws the refusals of the table, line by line.
     fn reading_ui(&mut self, ui: &mut Ui, document: &Document) {
         if self.text.trim().is_empty() {
             self.read = None;
@@ -143,8 +143,8 @@ impl LoadCasesWindow {
         let cases = self.read.as_ref().and_then(|read| read.cases.as_ref().ok());
         let good = cases.map_or(0, |cases| cases.iter().filter(|case| case.request.is_ok()).count());
         ui.horizontal(|ui| {
-            ui.add(Checkbox::new(&mut self.full, "Full")).on_hover_text("Full solutions, as `solve` gives them");
-            let tip = "By the reduced model in the program; where it was not trained the result says so";
+            ui.add(Checkbox::new(&mut self.full, "Full")).on_hover_text("Full solutions, as `solve` returns them");
+            let tip = "By the built-in reduced model. Results outside its trained range carry a warning";
             ui.add(Checkbox::new(&mut self.reduced, "Reduced")).on_hover_text(tip);
             let ready = good > 0 && (self.full || self.reduced);
             if ui.add_enabled(ready, Button::new("Solve all")).clicked() {
@@ -153,12 +153,12 @@ impl LoadCasesWindow {
                 commands.push(Command::OpenScene(Arc::new(scene(document, self.text.clone(), methods))));
                 self.open = false;
             }
-            ui.weak("The table fills in Results, and leaves from there as CSV");
+            ui.weak("The Results tab shows the table and exports it as CSV");
         });
     }
 }
 
-/// The scene that solves a table; what its lines leave out is the document's contact.
+/// Returns the scene that solves a table. Quantities missing in a line are taken from the document's contact.
 fn scene(document: &Document, text: String, methods: Vec<Method>) -> Scene {
     Scene {
         title: "Load cases".to_owned(),

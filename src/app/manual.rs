@@ -1,16 +1,16 @@
-//! The manual: the pages of `assets/manual`, read in a window.
+//! Manual: a window with the pages of `assets/manual`.
 
 use egui::{Context, Frame, Label, Panel, Rect, RichText, ScrollArea, TextStyle, Ui, Window, vec2};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 
-/// A page: its file, by which links name it, and its text.
+/// Page of the manual: its file name, which links use, and its text.
 struct Page {
     file: &'static str,
     text: &'static str,
 }
 
 impl Page {
-    /// The first heading.
+    /// Returns the first heading.
     fn title(&self) -> &'static str {
         self.text.lines().next().unwrap_or_default().trim_start_matches("# ")
     }
@@ -22,7 +22,7 @@ macro_rules! pages {
     };
 }
 
-/// All pages in the order of the list; the first one is the contents.
+/// All pages in the order of the list. The first page is the table of contents.
 const PAGES: &[Page] = pages![
     "start.md",
     "first_contact.md",
@@ -59,10 +59,10 @@ const PAGES: &[Page] = pages![
     "misprints.md",
 ];
 
-/// Longest lines that are pleasant to read \[points\].
+/// Maximum line width \[points\].
 const READABLE_WIDTH: f32 = 780.0;
 
-/// The manual, open or closed.
+/// Window of the manual.
 #[derive(Default)]
 pub struct Manual {
     open: bool,
@@ -71,12 +71,12 @@ pub struct Manual {
 }
 
 impl Manual {
-    /// Whether it is open: then Escape closes it.
+    /// Returns true if the window is open. Escape then closes it.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Opens it on the page of a file.
+    /// Opens the window at the page of a file.
     pub fn open_at(&mut self, file: &str) {
         self.open = true;
         self.page = PAGES.iter().position(|page| page.file == file).unwrap_or_default();
@@ -86,7 +86,7 @@ impl Manual {
         self.open = false;
     }
 
-    /// Shows it where it is open.
+    /// Draws the window if it is open.
     pub fn ui(&mut self, ctx: &Context) {
         let mut open = self.open;
         let room = ctx.content_rect();
@@ -118,9 +118,9 @@ impl Manual {
         ScrollArea::vertical().id_salt(page.file).auto_shrink(false).show(ui, |ui| {
             Frame::NONE.inner_margin(8.0).show(ui, |ui| {
                 ui.set_max_width(ui.available_width().min(READABLE_WIDTH));
-                // Rows as high as their text: words of links and others then stand on one line.
+                // The rows are as high as their text, so that links and other words share a baseline.
                 ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
-                // Fences stand at the beginnings of lines: every other part is a block of code.
+                // Code fences are at the beginning of a line, so every second part is a code block.
                 for (k, part) in page.text.split("\n```").enumerate() {
                     ui.push_id(k, |ui| if k % 2 == 0 { self.prose(ui, part) } else { code(ui, part) });
                 }
@@ -137,8 +137,8 @@ impl Manual {
     }
 }
 
-/// A block of code with the name of its language in front. The widget's own has a button whose sign is in none of the
-/// fonts.
+/// Draws a code block. The first line holds the name of its language. The code block of the Markdown widget is not
+/// used, because the symbol of its button is missing in the fonts.
 fn code(ui: &mut Ui, text: &str) {
     let text = text.split_once('\n').map_or(text, |(_, lines)| lines);
     Frame::group(ui.style()).fill(ui.visuals().code_bg_color).show(ui, |ui| {
@@ -151,7 +151,7 @@ fn code(ui: &mut Ui, text: &str) {
     });
 }
 
-/// The texts of all pages.
+/// Returns the texts of all pages.
 #[cfg(test)]
 pub fn texts() -> impl Iterator<Item = &'static str> {
     PAGES.iter().map(|page| page.text)
@@ -184,7 +184,7 @@ mod tests {
         harness.run_steps(3);
     }
 
-    /// Whether text in the manual, not in its list of pages, has this wording.
+    /// Returns true if the page text, not the list of pages, contains this wording.
     fn reads(harness: &Harness<'_, Explorer>, wording: &str) -> bool {
         harness.query_all_by_role_and_label(Role::Label, wording).next().is_some()
     }

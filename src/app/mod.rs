@@ -1,6 +1,6 @@
-//! The explorer: a window in which a contact is dragged and answers at once.
+//! Explorer: a window in which the user changes a contact and sees its solution at once.
 //!
-//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` puts it into a native one.
+//! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` opens it as a native window.
 
 mod answers;
 mod badge;

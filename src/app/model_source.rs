@@ -1,5 +1,5 @@
-//! The reduced models that the explorer uses: those of the program, some of which are read when they are first needed, and
-//! the user's own in place of others.
+//! Reduced models of the explorer: the built-in models, some of which are read when first needed, and the models
+//! that the user has put in their place.
 
 use crate::engine::registry::{alike, best, loads_in_common};
 use crate::engine::{Store, catalogue, name_of};
@@ -10,17 +10,17 @@ use crate::solver::reduced::{Domain, ReducedModel};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Models that are read at the start; few users need the others.
+/// Models that are read at start. Few users need the others.
 const FIRST: [&str; 4] = ["line", "line_shear", "point", "point_shear"];
 
-/// A model in use, or one of the program that is read when it is first needed.
+/// Model in use, or built-in model that is read when first needed.
 #[derive(Clone)]
 enum Known {
     Read(Arc<ReducedModel>),
-    /// Its name and what it covers.
+    /// Name and domain of a model that has not been read yet.
     Later(&'static str, &'static Domain),
-    /// It is being read, or could not be. It keeps its place: which of two equally near models serves a contact does not
-    /// depend on the order in which they were needed.
+    /// Model that is being read, or that could not be read. It keeps its place in the list, so that the choice
+    /// between two equally near models does not depend on the order of reading.
     Asked(&'static Domain),
 }
 
@@ -40,17 +40,17 @@ impl Known {
     }
 }
 
-/// The reduced models in use. Where there is none for a contact, the full solver computes the pictures.
+/// Reduced models in use. If none covers a contact, the full solver computes the pictures.
 #[derive(Clone, Default)]
 pub struct Models {
     known: Vec<Known>,
 }
 
 impl Models {
-    /// The models of the program. Some of them are read later, as are those of which the file is not there yet; until
-    /// then the full solver computes the pictures.
+    /// Returns the built-in models. Some of them are read later, as are models whose file is not yet available.
+    /// Until then the full solver computes the pictures.
     pub fn embedded(store: &Store) -> Self {
-        // Operators are computed as a model is read: all of them at once, for the window waits.
+        // Reading a model computes its operators. Read all of them in parallel, because the window waits.
         let read = |name: &'static str| (name, store.embedded(name).ok());
         let first: Vec<_> = on_all_cores(|| FIRST.into_par_iter().map(read).collect());
         let mut known: Vec<Known> = first.iter().filter_map(|(_, model)| model.clone()).map(Known::Read).collect();
@@ -71,12 +71,12 @@ impl Models {
         }
     }
 
-    /// Only this model, or none.
+    /// Returns a list with only this model, or an empty list.
     pub fn only(model: Option<Arc<ReducedModel>>) -> Self {
         Self { known: model.into_iter().map(Known::Read).collect() }
     }
 
-    /// Returns the name of the model that has to be read before a contact can be served; only once.
+    /// Returns the name of the model that must be read for a contact. Returns each name only once.
     pub fn late_for(&mut self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<&'static str> {
         let all = self.known.iter().enumerate().map(|(place, known)| (place, known.domain()));
         let place = best(all, point, lubricant)?;
@@ -86,17 +86,18 @@ impl Models {
         Some(name)
     }
 
-    /// Returns the model that serves a contact with a lubricant, of those that have been read.
+    /// Returns the model for a contact with a lubricant, among the models that have been read.
     pub fn of(&self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<&Arc<ReducedModel>> {
         best(self.read().map(|model| (model, &model.domain)), point, lubricant)
     }
 
-    /// Returns the model in use that a model would take the place of.
+    /// Returns the model in use that another model would replace.
     pub fn counterpart(&self, domain: &Domain) -> Option<&Arc<ReducedModel>> {
         self.place(domain).and_then(|place| self.known[place].model())
     }
 
-    /// Puts a model in place of the one of its kind of contact, lubricant and loads, which is returned.
+    /// Puts a model in place of the one for the same kind of contact, lubricant and loads, and returns the replaced
+    /// model.
     pub fn put(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
         match self.place(&model.domain) {
             Some(place) => std::mem::replace(&mut self.known[place], Known::Read(model)).model().cloned(),
@@ -107,17 +108,17 @@ impl Models {
         }
     }
 
-    /// Takes a model away.
+    /// Removes a model.
     pub fn remove(&mut self, model: &Arc<ReducedModel>) {
         self.known.retain(|known| known.model().is_none_or(|other| !Arc::ptr_eq(other, model)));
     }
 
-    /// True if contacts of a model's kind and loads, with a lubricant like its own, have one in use.
+    /// Returns true if a model is in use for the same kind of contact, loads and lubricant.
     pub fn serves(&self, model: &ReducedModel) -> bool {
         self.read().any(|known| alike(&known.domain, &model.domain))
     }
 
-    /// True if a model is in use.
+    /// Returns true if a model is in use.
     pub fn contains(&self, model: &Arc<ReducedModel>) -> bool {
         self.read().any(|other| Arc::ptr_eq(other, model))
     }
@@ -126,8 +127,8 @@ impl Models {
         self.known.iter().filter_map(Known::model)
     }
 
-    /// The place of the model that another one is to replace: of its kind of contact and lubricant the one with which it has
-    /// most loads in common.
+    /// Returns the index of the model to be replaced by one of this domain. Among the models of the same contact
+    /// and lubricant, it is the one whose load range overlaps most.
     fn place(&self, wanted: &Domain) -> Option<usize> {
         let same = |domain: &Domain| {
             domain.contact == wanted.contact
@@ -165,7 +166,7 @@ mod tests {
         let barus = Lubricant { viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
         assert!(Arc::ptr_eq(of(&barus), newtonian));
         assert!(Arc::ptr_eq(of(&by_name("pao-650").unwrap().laws), thinning));
-        // A limiting stress changes neither pressure nor film.
+        // A limiting shear stress changes neither pressure nor film thickness.
         let limited = Lubricant {
             limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: None }),
             ..SQUALANE_PIP
@@ -270,7 +271,7 @@ mod tests {
         assert!(models.put(Arc::clone(&heated)).is_none() && models.serves(&heated));
         assert!(Arc::ptr_eq(models.of(&line(), &warm).unwrap(), &heated));
         assert!(Arc::ptr_eq(models.of(&line(), &cold).unwrap(), &isothermal));
-        // The contacts that the explorer opens with are among those they were trained for.
+        // The contacts that the explorer starts with are inside the trained range.
         let mut ball = Document::default();
         ball.set_shape(Shape::Ball).unwrap();
         assert_eq!(models.late_for(&ball.point, &warm), Some("point_heat"));

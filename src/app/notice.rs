@@ -1,19 +1,19 @@
-//! A sentence about how something ended.
+//! Notice about the result of an action.
 
 use std::fmt::Display;
 
-/// A sentence about how something ended.
+/// Notice about the result of an action.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Notice {
-    /// As it should.
+    /// Success.
     Done(String),
-    /// Worth knowing.
+    /// Result with a reservation.
     Short(String),
     Wrong(String),
 }
 
 impl Notice {
-    /// Something went wrong for a reason.
+    /// Creates the notice of a failure from its reason.
     pub fn wrong(reason: impl Display) -> Self {
         Self::Wrong(reason.to_string())
     }

@@ -1,4 +1,5 @@
-//! Numbers as people read them: four significant digits, a thin space before the unit, and typed numbers back again.
+//! Formatting of numbers for the screen (four significant digits, a thin space before the unit) and parsing of
+//! typed numbers.
 
 use crate::app::refusal::Refusal;
 use crate::engine::job::Standing;
@@ -8,18 +9,18 @@ use crate::solver::physics::contact::{Moes, OperatingPoint};
 /// Thin space between a number and its unit.
 pub const THIN: char = '\u{2009}';
 
-/// Four significant digits; powers of ten only where plain digits would hide the number.
+/// Returns four significant digits. Uses a power of ten only for very large or small numbers.
 pub fn significant(value: f64) -> String {
     digits(value, 4)
 }
 
-/// Whole ones written out, so that counts look like counts; others as [`significant`].
+/// Returns whole numbers without decimals, others as [`significant`].
 pub fn counted(value: f64) -> String {
-    // Adding nothing takes the sign from −0.
+    // Adding zero removes the sign from −0.
     if is_whole(value) { format!("{:.0}", value + 0.0).replace('-', "−") } else { significant(value) }
 }
 
-/// A number of significant digits.
+/// Returns a number with `count` significant digits.
 pub fn digits(value: f64, count: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();
@@ -28,7 +29,7 @@ pub fn digits(value: f64, count: usize) -> String {
         return "0".to_owned();
     }
     let count = count.max(1);
-    // The exponent after rounding: 9.99999 is 10.00, not 10.000.
+    // Use the exponent after rounding: 9.99999 becomes 10.00, not 10.000.
     let scientific = format!("{value:.*e}", count - 1);
     let exponent = scientific.rsplit('e').next().and_then(|e| e.parse::<i32>().ok()).unwrap_or(0);
     let text = if (-4..=5).contains(&exponent) {
@@ -40,22 +41,22 @@ pub fn digits(value: f64, count: usize) -> String {
     text.replace('-', "−")
 }
 
-/// The value with a number of significant digits.
+/// Returns the value rounded to `count` significant digits.
 pub fn rounded(value: f64, count: usize) -> f64 {
     format!("{value:.*e}", count.max(1) - 1).parse().unwrap_or(value)
 }
 
-/// A number and its unit.
+/// Returns a number with its unit.
 pub fn quantity(value: f64, unit: &str) -> String {
     if unit.is_empty() { significant(value) } else { format!("{}{THIN}{unit}", significant(value)) }
 }
 
-/// A pressure in Pa, shown in GPa or MPa.
+/// Returns a pressure in Pa as text in GPa or MPa.
 pub fn pressure(pascal: f64) -> String {
     if pascal.abs() >= 1e8 { quantity(pascal * 1e-9, "GPa") } else { quantity(pascal * 1e-6, "MPa") }
 }
 
-/// A length in m, shown in mm, µm or nm.
+/// Returns a length in m as text in mm, µm or nm.
 pub fn length(metre: f64) -> String {
     let size = metre.abs();
     if size >= 1e-3 {
@@ -67,7 +68,7 @@ pub fn length(metre: f64) -> String {
     }
 }
 
-/// A time in s, shown in µs, ms or s.
+/// Returns a time in s as text in µs, ms or s.
 pub fn duration(second: f64) -> String {
     let short = |value: f64, unit: &str| format!("{}{THIN}{unit}", digits(value, 3));
     if second >= 1.0 {
@@ -79,7 +80,7 @@ pub fn duration(second: f64) -> String {
     }
 }
 
-/// How much of a job is done and how long the rest takes.
+/// Returns the progress of a job and its remaining time.
 pub fn standing(standing: &Standing) -> String {
     let amount = if standing.total > 0 { format!("{} of {}", standing.done, standing.total) } else { String::new() };
     match standing.left_s {
@@ -90,18 +91,18 @@ pub fn standing(standing: &Standing) -> String {
     }
 }
 
-/// A time to wait, no more exact than it is known.
+/// Returns a remaining time, rounded to its accuracy.
 pub fn remaining(seconds: f64) -> String {
     if seconds < 90.0 { format!("{seconds:.0}{THIN}s") } else { format!("{:.0}{THIN}min", seconds / 60.0) }
 }
 
-/// A relative deviation with its sign, in percent.
+/// Returns a relative deviation with its sign in percent.
 pub fn percent(relative: f64) -> String {
     let text = format!("{}{THIN}%", digits(100.0 * relative, 3));
     if relative > 0.0 { format!("+{text}") } else { text }
 }
 
-/// The size of a relative error in percent: two digits, at most four decimals, and never a power of ten.
+/// Returns the magnitude of a relative error in percent: two digits, at most four decimals, never a power of ten.
 pub fn error_percent(relative: f64) -> String {
     let percent = 100.0 * relative.abs();
     if !percent.is_finite() {
@@ -114,17 +115,17 @@ pub fn error_percent(relative: f64) -> String {
     format!("{percent:.decimals$}{THIN}%")
 }
 
-/// The size of a small deviation or residual: two digits, one where a power of ten is needed.
+/// Returns the magnitude of a small deviation or residual: two digits, or one if a power of ten is needed.
 pub fn small(value: f64) -> String {
     digits(value.abs(), if value.abs() < 1e-4 { 1 } else { 2 })
 }
 
-/// M and L of a contact.
+/// Returns M and L of a contact.
 pub fn moes(Moes { m, l }: Moes) -> String {
     format!("M {}, L {}", significant(m), significant(l))
 }
 
-/// A contact by M and L, and of an ellipse by R_y/R.
+/// Returns M and L of a contact, and R_y/R of an elliptical one.
 pub fn contact(point: &OperatingPoint) -> String {
     let moes = moes(point.moes());
     match point.radius_y_m {
@@ -133,10 +134,10 @@ pub fn contact(point: &OperatingPoint) -> String {
     }
 }
 
-/// A typed number: decimal point or comma, any minus sign, exponents.
+/// Parses a typed number with decimal point or comma, any minus sign, and exponents.
 ///
 /// # Errors
-/// A sentence that repeats what was typed.
+/// A sentence that repeats the typed text.
 pub fn parse(text: &str) -> Result<f64, Refusal> {
     let plain: String = text
         .trim()
@@ -157,8 +158,8 @@ pub fn parse(text: &str) -> Result<f64, Refusal> {
     }
 }
 
-/// The next number from a short list of round ones (1, 1.2, 1.5, 2, …) that is not below `value`: keeps axes still
-/// while values move.
+/// Returns the smallest value of a short list of round numbers (1, 1.2, 1.5, 2, …) that is not below `value`. Axes
+/// therefore stay fixed while values change slightly.
 pub fn round_up(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;

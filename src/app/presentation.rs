@@ -1,49 +1,49 @@
-//! What a lecturer projects: plots and the sliders in use, large, over the full screen.
+//! Presentation mode for lectures: plots and the sliders in use, enlarged, on the full screen.
 
 use super::tab::Tab;
 use egui::{Context, Vec2, ViewportCommand, vec2};
 
-/// What plots and sliders need at least, in points: where the screen has more, everything is larger.
+/// Minimum space for plots and sliders in points. On a larger screen everything is enlarged.
 const LEAST: Vec2 = vec2(760.0, 470.0);
-/// Width that a tab needs at least beside others.
+/// Minimum width of a tab next to other tabs.
 const LEAST_OF_A_TAB: f32 = 370.0;
-/// As large as it gets.
+/// Maximum enlargement.
 const LARGEST: f32 = 2.0;
 
-/// A presentation under way.
+/// Running presentation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Presentation {
-    /// Whether the window filled the screen before, and does so afterwards.
+    /// True if the window filled the screen before. This state is restored afterwards.
     filled_before: bool,
-    /// Tabs whose axes stood still before, and do so afterwards.
+    /// Tabs whose axes were locked before. This state is restored afterwards.
     locked_before: Vec<Tab>,
 }
 
 impl Presentation {
-    /// Begins: the window fills the screen.
+    /// Starts the presentation and switches to full screen.
     pub fn begin(ctx: &Context, locked: &[Tab]) -> Self {
         let filled_before = ctx.input(|i| i.viewport().fullscreen).unwrap_or(false);
         ctx.send_viewport_cmd(ViewportCommand::Fullscreen(true));
         Self { filled_before, locked_before: locked.to_vec() }
     }
 
-    /// Tabs whose axes stood still before.
+    /// Returns the tabs whose axes were locked before.
     pub fn locked_before(&self) -> &Vec<Tab> {
         &self.locked_before
     }
 
-    /// Ends: the window is as it was. Returns the tabs whose axes are to stand still from now on.
+    /// Ends the presentation and restores the window. Returns the tabs whose axes shall be locked from now on.
     pub fn end(self, ctx: &Context) -> Vec<Tab> {
         ctx.send_viewport_cmd(ViewportCommand::Fullscreen(self.filled_before));
         self.locked_before
     }
 }
 
-/// How much larger everything is in a window of a size in points at the size of text that the user chose, with so many
-/// tabs in sight.
+/// Returns the enlargement for a window with this size, in points at the chosen text size, and this number of
+/// visible tabs.
 pub fn enlargement(window: Vec2, tabs: usize) -> f32 {
     let fits = window / vec2(LEAST.x.max(LEAST_OF_A_TAB * tabs as f32), LEAST.y);
-    // In steps, so that a window that is being resized does not flicker.
+    // Use steps, so that a window that is being resized does not flicker.
     let factor = (20.0 * fits.min_elem()).floor() / 20.0;
     factor.clamp(1.0, LARGEST)
 }

@@ -1,70 +1,70 @@
-//! What a path is asked for.
+//! Purpose of a path that the user is to choose.
 
 use crate::scene::Sheet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What a path is asked for.
+/// Purpose of a path that the user is to choose.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Purpose {
     /// Open a scene.
     Open,
     /// Save the scene.
     Save,
-    /// Read inputs of a contact in time.
+    /// Read inputs of a transient contact.
     Inputs,
     /// Read a table of load cases.
     Cases,
-    /// Read a reduced model that others are compared with.
+    /// Read a reduced model for a comparison.
     Beside,
     /// Write a file with this content.
     Write(Written, Arc<Vec<u8>>),
-    /// Write a sheet as notes with figures beside them.
+    /// Write a sheet as notes, with figures next to them.
     Notes(Arc<Sheet>),
 }
 
-/// What is written beside scenes.
+/// Type of an exported file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {
     /// A reduced model.
     Model,
     Table,
-    /// A drawing.
+    /// A vector drawing.
     Svg,
     /// An image.
     Png,
-    /// A page.
+    /// A web page.
     Html,
     Arrays,
 }
 
-/// How a path is asked for.
+/// Texts of the dialog for a path.
 pub struct Words {
-    /// Above the field.
+    /// Title above the field.
     pub title: &'static str,
-    /// On the button.
+    /// Label of the button.
     pub action: &'static str,
-    /// What such files are called.
+    /// Name of this type of file.
     pub files: &'static str,
-    /// How their names end.
+    /// Accepted file extensions.
     pub endings: &'static [&'static str],
-    /// A name to begin with.
+    /// Suggested name.
     pub name: &'static str,
 }
 
 impl Purpose {
-    /// Whether a file is read: then it must exist, and none is replaced.
+    /// Returns true if a file is read. It must then exist, and no file is replaced.
     pub fn reads(&self) -> bool {
         matches!(self, Self::Open | Self::Inputs | Self::Cases | Self::Beside)
     }
 
-    /// What is written besides a file of a name.
+    /// Returns the paths of further files that are written with a file of this name.
     pub fn beside(&self, path: &Path) -> Vec<PathBuf> {
         let Self::Notes(sheet) = self else { return Vec::new() };
         sheet.notes(path).into_iter().skip(1).map(|(path, _)| path).collect()
     }
 
-    /// How a path is asked for.
+    /// Returns the texts of the dialog.
     pub fn words(&self) -> Words {
         let (title, action, files, endings, name): (_, _, _, &[&str], _) = match self {
             Self::Open => {

@@ -1,4 +1,4 @@
-//! Why something that was asked for is not done.
+//! Reason why a request is refused.
 
 use serde::{Deserialize, Serialize};
 use std::error::Error;
@@ -10,7 +10,7 @@ use std::ops::Deref;
 pub struct Refusal(String);
 
 impl Refusal {
-    /// Refuses with a sentence.
+    /// Creates a refusal from a sentence.
     pub fn new(sentence: impl Into<String>) -> Self {
         Self(sentence.into())
     }

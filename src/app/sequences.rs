@@ -1,5 +1,5 @@
-//! A picture depends on its request alone: random changes, one after the other, end in the answer that a fresh program
-//! gives for the same document.
+//! Test that a picture depends on its request alone. After a sequence of random changes the answer equals that of a
+//! newly started program for the same document.
 
 use super::Explorer;
 use super::answers::PassedOver;
@@ -23,13 +23,13 @@ use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Changes of a sequence.
+/// Number of changes of a sequence.
 const CHANGES: usize = 10;
-/// How long an answer may take.
+/// Maximum time for an answer.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Relative difference of two answers to one request.
+/// Permitted relative difference of two answers to one request.
 const SAME: f64 = 1e-6;
-/// Coarse grids of point contacts. The last one is finer than the quick one, so that a sketch comes first.
+/// Coarse grids of point contacts. The last one is finer than the quick grid, so that a sketch is shown first.
 const PLANES: [PointGridSpec; 3] = [
     PointGridSpec::uniform(0.08, 0.1, (-3.2, 1.6, -1.6)),
     PointGridSpec::uniform(0.06, 0.1, (-4.0, 2.0, -2.0)),
@@ -57,7 +57,7 @@ fn edit(window: &mut Window, edit: Edit) {
     give(window, Command::Edit(edit, "test"));
 }
 
-/// Waits for what stands as the answer to the document; `false` if that takes too long.
+/// Waits for the final answer to the document. Returns false if that takes too long.
 fn rest(window: &mut Window) -> bool {
     let (begin, mut still) = (Stopwatch::start(), 0);
     while still < 3 {
@@ -80,7 +80,7 @@ fn rest(window: &mut Window) -> bool {
     true
 }
 
-/// What a window shows.
+/// State that a window shows.
 #[derive(Debug)]
 struct Seen {
     numbers: Vec<f64>,
@@ -113,10 +113,10 @@ impl Seen {
     }
 }
 
-/// Films that are supplied to the inlet, over the film of a formula.
+/// Range of the inlet film thickness relative to the film thickness of a formula.
 const SUPPLIES: (f64, f64) = (0.2, 0.8);
 
-/// One change; returns what it was, for the message of a failure.
+/// Makes one change. Returns its description for the message of a failure.
 fn change(rng: &mut Rng, window: &mut Window) -> String {
     let document = window.state().desk.document.clone();
     let lubricant = document.lubricant;
@@ -171,7 +171,7 @@ fn change(rng: &mut Rng, window: &mut Window) -> String {
     said.chars().take(160).collect()
 }
 
-/// A scene to be opened.
+/// Returns a scene to be opened.
 fn opened(rng: &mut Rng) -> Scene {
     let mut document = Document::default();
     document.set_shape(Shape::ALL[rng.usize(..2)]).unwrap();
@@ -181,7 +181,7 @@ fn opened(rng: &mut Rng) -> Scene {
     Scene { title: "another".to_owned(), ..document.to_scene() }
 }
 
-/// Two hundred sequences where the environment has `EHL_LONG`.
+/// Returns the number of sequences. It is larger if the environment variable `EHL_LONG` is set.
 fn sequences() -> u64 {
     if std::env::var_os("EHL_LONG").is_some() { 200 } else { 8 }
 }

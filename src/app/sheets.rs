@@ -1,5 +1,5 @@
-//! The results sheet of the contact on the screen: solved in full, and by the reduced model where that was trained for
-//! it, beside the window.
+//! Results sheet of the contact on the screen. It is solved in the background by the full solver and, inside the
+//! trained range, by the reduced model.
 
 use super::answers::Answers;
 use super::document::Document;
@@ -15,25 +15,25 @@ use egui::Context;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// How a sheet is written.
+/// Format of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// For people and for notes, with figures beside it.
+    /// For reading and for notes, with figures next to it.
     Markdown,
-    /// With its figures in it.
+    /// With embedded figures.
     Html,
     /// For other programs.
     Csv,
 }
 
-/// The sheet that is being made.
+/// Sheet that is being made.
 #[derive(Default)]
 pub struct Sheets {
     of: Option<Of>,
     work: Background<Told>,
 }
 
-/// What a sheet is made of, but for the answers that are still being solved.
+/// Content of a sheet, with the answers that have been solved so far.
 struct Of {
     form: Form,
     title: String,
@@ -41,14 +41,14 @@ struct Of {
     answers: Vec<Answer>,
 }
 
-/// The solves of a sheet.
+/// Solves of a sheet.
 #[derive(Serialize, Deserialize)]
 pub struct Solves {
     requests: Vec<Request>,
     model: Option<Given>,
 }
 
-/// What the solves of a sheet tell.
+/// Messages of the solves of a sheet.
 #[derive(Serialize, Deserialize)]
 pub enum Told {
     Answer(Box<Answer>),
@@ -79,10 +79,10 @@ impl Task for Solves {
 }
 
 impl Form {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 3] = [Self::Markdown, Self::Html, Self::Csv];
 
-    /// As the menu calls it.
+    /// Returns the name in the menu.
     pub fn name(self) -> &'static str {
         match self {
             Self::Markdown => "Results sheet as Markdown…",
@@ -102,7 +102,7 @@ impl Form {
 }
 
 impl Sheets {
-    /// Begins the sheet of the contact of a document.
+    /// Starts the sheet of a document's contact.
     pub fn begin(&mut self, ctx: &Context, (document, answers): (&Document, &Answers), form: Form) {
         let (key, grid) = (document.key(), document.grid);
         let (mut methods, mut model) = (vec![Method::Full], None);
@@ -116,7 +116,7 @@ impl Sheets {
         self.work.run(Job::of("Results sheet", wake(ctx), answers.store(), Solves { requests, model }));
     }
 
-    /// The sheet once it is made, or why there is none.
+    /// Returns the sheet once it is complete, or the reason why there is none.
     pub fn receive(&mut self) -> Option<Result<Purpose, Refusal>> {
         let (mut complete, answers) = (false, self.of.as_mut().map(|of| &mut of.answers));
         let mut unread = Vec::new();
@@ -131,12 +131,12 @@ impl Sheets {
         self.work.message.take().map(|why| Err(Refusal::new(why)))
     }
 
-    /// How far it is.
+    /// Returns the progress.
     pub fn standing(&self) -> Option<Standing> {
         self.work.standing()
     }
 
-    /// Makes it no more.
+    /// Stops the sheet.
     pub fn stop(&self) {
         self.work.stop();
     }

@@ -1,11 +1,11 @@
-//! Identity of the tabs.
+//! Identities of the tabs.
 
 use crate::app::tabs::every_tab;
 use serde::{Deserialize, Serialize};
 
 macro_rules! identities {
     ($($(#[$what:meta])* $tab:ident $title:literal $field:ident: $module:ident::$type:ident,)*) => {
-        /// A tab.
+        /// Tab of the window.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
         pub enum Tab {
             $($(#[$what])* $tab,)*

@@ -8,7 +8,7 @@ use crate::app::tabs::transient::{NumberTask, OtherRuleTask};
 use crate::engine::Store;
 use crate::engine::job::{Asked, Performer, Replayed, Task, perform as done};
 
-/// Does a task of a kind; nothing where there is no such kind.
+/// Performs a task of a kind. Does nothing if the kind does not exist.
 pub fn perform(kind: &str, task: &[u8], store: &Store, performer: Performer) {
     macro_rules! of {
         ($($task:ty),*) => {

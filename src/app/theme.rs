@@ -1,5 +1,5 @@
-//! Every colour, stroke and text style of the explorer. Quantities keep their hue everywhere (Okabe–Ito), reduced is
-//! the thick line, full the thin one of the same hue, pinned curves fade.
+//! All colours, strokes and text styles of the explorer. A quantity has the same hue everywhere (Okabe–Ito).
+//! Reduced solutions are thick lines, full solutions thin lines of the same hue, and pinned curves fade.
 
 use egui::ecolor::{Hsva, Rgba};
 use egui::text::{LayoutJob, TextFormat};
@@ -12,10 +12,10 @@ pub const FULL_WIDTH: f32 = 1.1;
 /// Width of reference and pinned curves.
 pub const THIN_WIDTH: f32 = 1.2;
 
-/// Contrast that text needs to be read by everybody (WCAG 2.2, level AA).
+/// Minimum contrast of readable text (WCAG 2.2, level AA).
 pub const READABLE: f32 = 4.5;
 
-/// The contrast of two opaque colours, 1…21, as WCAG 2.2 defines it.
+/// Returns the contrast of two opaque colours, 1…21, as defined in WCAG 2.2.
 pub fn contrast(a: Color32, b: Color32) -> f32 {
     let luminance = |color: Color32| {
         let [r, g, b, _] = Rgba::from(color).to_array();
@@ -25,11 +25,11 @@ pub fn contrast(a: Color32, b: Color32) -> f32 {
     a.max(b) / a.min(b)
 }
 
-/// The colours of one theme.
+/// Colours of one theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Palette {
     dark: bool,
-    /// The background on which text has least contrast.
+    /// Background on which text has the lowest contrast.
     paper: Color32,
     pub pressure: Color32,
     /// Film thickness.
@@ -38,50 +38,52 @@ pub struct Palette {
     pub traction: Color32,
     /// Hertz and published formulas, always dashed.
     pub reference: Color32,
-    /// What can be dragged, what is selected.
+    /// Draggable and selected objects.
     pub accent: Color32,
-    /// A result that has been verified.
+    /// A result that was checked against the full solution.
     pub verified: Color32,
-    /// A warning: right to know, nothing broken.
+    /// A warning: usable with reservation.
     pub warning: Color32,
-    /// Something is wrong.
+    /// An error.
     pub wrong: Color32,
     pub text: Color32,
-    /// Quiet text and outlines.
+    /// Secondary text and outlines.
     pub quiet: Color32,
     /// Grid lines of plots.
     pub grid: Color32,
-    /// Shade of the cavitated zone.
+    /// Shade of the cavitated region.
     pub cavitated: Color32,
     /// Shades of the regimes: rigid-isoviscous, elastic-isoviscous, rigid-piezoviscous, elastic-piezoviscous.
     pub regimes: [Color32; 4],
 }
 
 impl Palette {
-    /// The shade of a quantity's hue that shows on top of its thick line: lighter on dark, darker on light.
+    /// Returns the shade of a hue that is visible on top of its thick line: lighter in the dark theme, darker in
+    /// the light theme.
     pub fn over(&self, color: Color32) -> Color32 {
         color.lerp_to_gamma(if self.dark { Color32::WHITE } else { Color32::BLACK }, 0.62)
     }
 
-    /// The shade of a hue in which text can be read on every background of the theme.
+    /// Returns the shade of a hue in which text is readable on every background of the theme.
     pub fn ink(&self, color: Color32) -> Color32 {
         self.ink_on(color, self.paper)
     }
 
-    /// The same on every shade of the chart of regimes.
+    /// Returns the shade of a hue in which text is readable on every colour of the chart of regimes.
     pub fn ink_on_regimes(&self, color: Color32) -> Color32 {
         self.regimes.iter().fold(self.ink(color), |ink, shade| self.ink_on(ink, *shade))
     }
 
-    /// The same on one background, which is opaque.
+    /// Returns the shade of a hue in which text is readable on one opaque background.
     pub fn ink_on(&self, color: Color32, background: Color32) -> Color32 {
-        // Faint lines have names that are not.
+        // Names of faint lines are opaque.
         let color = color.to_opaque();
         let shades = (0..=20).map(|step| color.lerp_to_gamma(self.text, step as f32 / 20.0));
         shades.into_iter().find(|shade| contrast(*shade, background) >= READABLE).unwrap_or(self.text)
     }
 
-    /// The hue of a pinned curve, by its number from 1: neighbours lie far from each other on the circle of hues.
+    /// Returns the hue of a pinned curve by its number from 1. Neighbouring numbers are far apart on the circle of
+    /// hues.
     pub fn pin(&self, number: usize) -> Color32 {
         const GOLDEN: f32 = 0.618_034;
         let hue = (0.12 + number as f32 * GOLDEN).fract();
@@ -89,17 +91,17 @@ impl Palette {
         Hsva::new(hue, saturation, value, 1.0).into()
     }
 
-    /// Colours for what is on the screen now.
+    /// Returns the colours of the present theme.
     pub fn of(ui: &Ui) -> Self {
         Self::for_visuals(ui.visuals())
     }
 
-    /// The same where there is no room to draw in at hand.
+    /// Returns the colours of the present theme if no `Ui` is available.
     pub fn of_screen(ctx: &Context) -> Self {
         Self::for_visuals(&ctx.style_of(ctx.theme()).visuals)
     }
 
-    /// Colours for the visuals of a theme.
+    /// Returns the colours for the visuals of a theme.
     pub fn for_visuals(visuals: &Visuals) -> Self {
         if visuals.dark_mode {
             Self {
@@ -153,7 +155,7 @@ impl Palette {
     }
 }
 
-/// Sets both themes' styles; done once at the start.
+/// Sets the styles of both themes. Call once at start.
 pub fn install(ctx: &Context) {
     for theme in [Theme::Light, Theme::Dark] {
         ctx.style_mut_of(theme, |style| {
@@ -194,20 +196,20 @@ pub fn install(ctx: &Context) {
     }
 }
 
-/// A symbol as the literature sets it: slanted letter, upright subscript.
+/// Returns a symbol as in the literature: slanted letter, upright subscript.
 pub fn symbol(ui: &Ui, base: &str, subscript: &str) -> LayoutJob {
     let mut job = LayoutJob::default();
     append_symbol(&mut job, TextStyle::Body.resolve(ui.style()).size, ui.visuals().text_color(), base, subscript);
     job
 }
 
-/// A name followed by its symbol, for the rows of panels: "Load number *M*".
+/// Returns a name followed by its symbol for the rows of panels: "Load number *M*".
 pub fn name_and_symbol(ui: &Ui, name: &str, base: &str, subscript: &str) -> LayoutJob {
     let mark = if subscript.is_empty() { format!("{{{base}}}") } else { format!("{{{base}_{subscript}}}") };
     rich(&format!("{name} {mark}"), TextStyle::Body.resolve(ui.style()).size, ui.visuals().text_color())
 }
 
-/// Text with symbols in braces: `Pressure {P} = {p}/{p_H}`.
+/// Returns text with symbols in braces as formatted text: `Pressure {P} = {p}/{p_H}`.
 pub fn rich(text: &str, size: f32, color: Color32) -> LayoutJob {
     let mut job = LayoutJob::default();
     let plain = TextFormat { font_id: FontId::proportional(size), color, ..TextFormat::default() };
@@ -233,7 +235,8 @@ fn append_symbol(job: &mut LayoutJob, size: f32, color: Color32, base: &str, sub
     }
 }
 
-/// A perceptually uniform scale (viridis): t = 0 stands back from the theme's background, t = 1 stands out.
+/// Returns a colour of a perceptually uniform scale (viridis). t = 0 is close to the background of the theme, t = 1
+/// is far from it.
 pub fn sequential(t: f32, dark: bool) -> Color32 {
     const STOPS: [(u8, u8, u8); 6] = [
         (0x44, 0x01, 0x54),
@@ -243,7 +246,7 @@ pub fn sequential(t: f32, dark: bool) -> Color32 {
         (0x7A, 0xD1, 0x51),
         (0xFD, 0xE7, 0x25),
     ];
-    // The end that would vanish into the background is left out.
+    // The end of the scale that is close to the background is left out.
     let t = t.clamp(0.0, 1.0);
     let place = if dark { 0.2 + 0.8 * t } else { 0.9 - 0.9 * t } * (STOPS.len() - 1) as f32;
     let at = (place.floor() as usize).min(STOPS.len() - 2);
@@ -251,7 +254,7 @@ pub fn sequential(t: f32, dark: bool) -> Color32 {
     color(STOPS[at]).lerp_to_gamma(color(STOPS[at + 1]), place - at as f32)
 }
 
-/// A curve that stands back behind the live one.
+/// Returns a faded colour for a curve behind the live one.
 pub fn faded(color: Color32, strength: f32) -> Color32 {
     color.gamma_multiply(strength)
 }
@@ -295,14 +298,14 @@ mod tests {
                 let contrast = contrast(palette.ink_on_regimes(hue), shade);
                 assert!(contrast >= READABLE, "{theme:?}: {hue:?} on the regime {shade:?} has {contrast}");
             }
-            // Controls bear the colour of text, whatever happens to them.
+            // Controls keep readable text in every state.
             let states = [&widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open];
             let selected = visuals.panel_fill.blend(visuals.selection.bg_fill);
             for fill in states.into_iter().flat_map(|state| [state.bg_fill, state.weak_bg_fill]).chain([selected]) {
                 let contrast = contrast(palette.text, visuals.panel_fill.blend(fill));
                 assert!(contrast >= READABLE, "{theme:?}: text on {fill:?} has {contrast}");
             }
-            // Neighbouring pins are told apart.
+            // Neighbouring pins can be distinguished.
             for pin in 1..8 {
                 let [a, b] = [palette.pin(pin), palette.pin(pin + 1)];
                 let apart = a.to_array().iter().zip(b.to_array()).map(|(a, b)| a.abs_diff(b)).max();
@@ -311,12 +314,12 @@ mod tests {
         }
     }
 
-    /// The text of every source below a folder, tests left out.
+    /// Collects the text of every source file below a folder, without tests.
     fn collect_sources(folder: &Path, sources: &mut Vec<String>) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             if path.is_dir() {
-                // Commands print to a terminal, which has fonts of its own.
+                // Commands print to a terminal, which has its own fonts.
                 if !path.ends_with("src/cli") {
                     collect_sources(&path, sources);
                 }
@@ -327,11 +330,12 @@ mod tests {
         }
     }
 
-    /// Characters outside ASCII that the screen uses must be in the fonts: symbols, units and quotation marks.
+    /// The fonts must contain all characters outside ASCII that the screen uses: symbols, units and quotation
+    /// marks.
     #[test]
     fn every_character_on_the_screen_has_a_glyph() {
         let mut sources = Vec::new();
-        // What only the terminal prints needs no glyph here.
+        // Text for the terminal only needs no glyph here.
         for folder in ["app", "engine", "scene", "solver"] {
             collect_sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(folder), &mut sources);
         }

@@ -1,25 +1,25 @@
-//! In which units plots and exports speak, and whether their axes stand still.
+//! Units of plots and exports, and locking of axes.
 
 use crate::solver::physics::contact::OperatingPoint;
 use egui::{Context, Id};
 use serde::{Deserialize, Serialize};
 
-/// The units of plots and of what is exported.
+/// Units of plots and exports.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Units {
-    /// Ratios to the dry contact's.
+    /// Ratios to the quantities of the dry contact.
     #[default]
     Dimensionless,
     /// Millimetres, gigapascals, micrometres.
     Si,
 }
 
-/// How the plots of a tab are drawn.
+/// Plot settings of a tab.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Manner {
-    /// The units of their axes.
+    /// Units of the axes.
     pub units: Units,
-    /// Whether their axes stand still.
+    /// True if the axes are locked.
     pub locked: bool,
 }
 
@@ -28,19 +28,19 @@ fn id() -> Id {
 }
 
 impl Manner {
-    /// That of the plots that are drawn next.
+    /// Sets the settings for the plots that are drawn next.
     pub fn set(self, ctx: &Context) {
         ctx.data_mut(|data| data.insert_temp(id(), self));
     }
 
-    /// That of the tab that is drawn now.
+    /// Returns the settings of the tab that is being drawn.
     pub fn of(ctx: &Context) -> Self {
         ctx.data(|data| data.get_temp(id())).unwrap_or_default()
     }
 }
 
 impl Units {
-    /// Those of the tab that is drawn now.
+    /// Returns the units of the tab that is being drawn.
     pub fn of(ctx: &Context) -> Self {
         Manner::of(ctx).units
     }
@@ -53,21 +53,21 @@ impl Units {
     }
 }
 
-/// What dimensionless values of a contact are in the units of plots.
+/// Factors from dimensionless values of a contact to the units of plots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
-    /// Of lengths along the contact, a \[mm\].
+    /// Factor of lengths along the contact, a \[mm\].
     pub length_mm: f64,
-    /// Of lengths across it, b \[mm\].
+    /// Factor of lengths across the contact, b \[mm\].
     pub across_mm: f64,
-    /// Of pressures \[GPa\].
+    /// Factor of pressures \[GPa\].
     pub pressure_gpa: f64,
-    /// Of films \[µm\].
+    /// Factor of film thicknesses \[µm\].
     pub film_um: f64,
 }
 
 impl Scales {
-    /// Those of a contact.
+    /// Returns the factors of a contact.
     pub fn of(point: &OperatingPoint) -> Self {
         let hertz = point.hertz();
         Self {

@@ -1,16 +1,16 @@
-//! The native window.
+//! Native window.
 
 use crate::app::explorer::Explorer;
 use crate::app::refusal::Refusal;
 use std::path::PathBuf;
 
-/// By which the system knows the window, and the session its folder.
+/// Name of the application for the operating system and for the folder of the session.
 const APP_ID: &str = "ehl-explorer";
 
-/// Opens the window, on a scene or on the last session, and returns when it is closed.
+/// Opens the window with a scene or with the last session. Returns when it is closed.
 ///
 /// # Errors
-/// One sentence when the scene cannot be read or there is no display.
+/// One sentence if the scene cannot be read or there is no display.
 pub fn run(scene: Option<PathBuf>) -> Result<(), Refusal> {
     let mut explorer = Explorer::with_embedded_models();
     if let Some(folder) = eframe::storage_dir(APP_ID) {
@@ -26,7 +26,8 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), Refusal> {
     let options = eframe::NativeOptions {
         viewport: explorer.place.window().with_app_id(APP_ID).with_title("EHL Explorer"),
         renderer: eframe::Renderer::Glow,
-        // The session is kept by its own keeper. What the toolkit would keep is not checked, nor written as a whole.
+        // The session is stored by its own keeper. The toolkit would store its state without checks and not
+        // atomically.
         persist_window: false,
         persistence_path: Some(PathBuf::new()),
         ..eframe::NativeOptions::default()
@@ -35,7 +36,7 @@ pub fn run(scene: Option<PathBuf>) -> Result<(), Refusal> {
         APP_ID,
         options,
         Box::new(move |creation| {
-            // A session that ended in the midst of a presentation begins in a window.
+            // A session that ended during a presentation starts in a normal window.
             creation.egui_ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(false));
             Ok(Box::new(explorer))
         }),

@@ -12,23 +12,23 @@ pub type FileTime = std::time::SystemTime;
 pub struct Stopwatch(Instant);
 
 impl Stopwatch {
-    /// Starts now.
+    /// Starts the measurement.
     pub fn start() -> Self {
         Self(Instant::now())
     }
 
-    /// Time since the start.
+    /// Returns the time since the start.
     pub fn elapsed(&self) -> Duration {
         self.0.elapsed()
     }
 
-    /// Time since the start \[s\].
+    /// Returns the time since the start \[s\].
     pub fn seconds(&self) -> f64 {
         self.elapsed().as_secs_f64()
     }
 }
 
-/// Today's date (UTC).
+/// Returns today's date (UTC).
 pub fn today() -> Date {
     OffsetDateTime::now_utc().date()
 }

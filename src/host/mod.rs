@@ -1,7 +1,7 @@
-//! The machine below the program: its clock, its threads, its files, and the pool for parallel work. Everything else reads
-//! time, starts threads and asks for files here.
+//! Interface to the machine: clock, threads, files, and the thread pool for parallel work. All other modules read
+//! the time, start threads and request files through this module.
 //!
-//! What differs between a native program and a web page stands in `native` and `web`, with the same names in both.
+//! Code that differs between a native program and a web page is in `native` and `web`, with the same names in both.
 
 #![allow(clippy::disallowed_methods, reason = "this is their owner")]
 

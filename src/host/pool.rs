@@ -1,5 +1,5 @@
-//! Parallel work on the cores of the machine. All of it starts here, and never in the global pool of rayon: after a
-//! `fork` that pool has no threads in the child, which would wait for them forever.
+//! Parallel work on the cores of the machine. All parallel work starts here and never in the global pool of rayon:
+//! after a `fork` that pool has no threads in the child process, which would wait forever.
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -8,10 +8,10 @@ use std::sync::OnceLock;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-/// Longest time between two questions of [`on_one_thread`] whether to go on.
+/// Longest time between two calls of `go_on` by [`on_one_thread`].
 const PATIENCE: Duration = Duration::from_millis(10);
 
-/// The pool of a process, followed by those of the processes that were forked from it.
+/// Thread pool of a process, followed by the pools of the processes that were forked from it.
 struct Pool {
     process: u32,
     /// `None` if the system has no threads.
@@ -21,9 +21,9 @@ struct Pool {
 
 static FIRST: OnceLock<Box<Pool>> = OnceLock::new();
 
-/// The pool of this process, made at the first call.
+/// Returns the pool of this process, and creates it at the first call.
 fn of_this_process() -> Option<&'static ThreadPool> {
-    // Only these systems fork; others need not have numbers of processes.
+    // Only these systems fork. Others need not have process numbers.
     let process = if cfg!(unix) { std::process::id() } else { 0 };
     let mut place = &FIRST;
     loop {
@@ -34,14 +34,14 @@ fn of_this_process() -> Option<&'static ThreadPool> {
                 #[cfg(test)]
                 tests::forbid_the_global_pool();
                 let threads = ThreadPoolBuilder::new().build().ok();
-                // Where another thread was faster, the next turn finds its pool.
+                // If another thread was faster, the next pass of the loop finds its pool.
                 let _ = place.set(Box::new(Pool { process, threads, next: OnceLock::new() }));
             }
         }
     }
 }
 
-/// Does `work`, whose parallel parts run on all cores. Within other parallel work it stays in the pool of that.
+/// Runs `work`, whose parallel parts use all cores. Inside other parallel work it stays in the present pool.
 pub fn on_all_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     if rayon::current_thread_index().is_some() {
         return work();
@@ -49,24 +49,24 @@ pub fn on_all_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match of_this_process() {
         Some(pool) => pool.install(work),
         None => {
-            // The calling thread becomes the only one of a pool.
+            // The calling thread becomes the only thread of a pool.
             let _alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
             work()
         }
     }
 }
 
-/// Number of threads that parallel work at this place is spread over.
+/// Returns the number of threads that parallel work uses here.
 pub fn threads() -> usize {
     on_all_cores(rayon::current_num_threads)
 }
 
-/// Number of cores of the machine.
+/// Returns the number of cores of the machine.
 pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Does `work` in a new pool of that many threads.
+/// Runs `work` in a new pool of `threads` threads.
 pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     match ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => pool.install(work),
@@ -74,16 +74,16 @@ pub fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T
     }
 }
 
-/// Does `work` on all cores but one, which is left to the window and its live picture.
+/// Runs `work` on all cores but one, which stays free for the window and its live picture.
 pub fn on_spare_cores<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     on_threads(cores().saturating_sub(1).max(1), work)
 }
 
-/// Does `work` on a new thread while the calling one asks whether to `go_on`. Returns `None` after a no; the thread then
-/// finishes, and its result is dropped.
+/// Runs `work` on a new thread while the calling thread polls `go_on`. If `go_on` returns false, returns `None`;
+/// the thread then finishes, and its result is dropped.
 ///
-/// The thread is alone in its pool: sums that are split by the number of threads, and with them a model, are the same to
-/// the last bit on every machine.
+/// The thread is the only one of its pool. Sums are otherwise split by the number of threads, so this makes
+/// results, such as a trained model, bitwise equal on every machine.
 pub fn on_one_thread<T: Send + 'static>(
     go_on: impl Fn() -> bool,
     work: impl FnOnce() -> T + Send + 'static,
@@ -91,11 +91,11 @@ pub fn on_one_thread<T: Send + 'static>(
     if !go_on() {
         return None;
     }
-    // Without another thread the work is done here, equal to rounding.
+    // Without another thread the work runs here, with results equal up to rounding.
     let Ok(pool) = ThreadPoolBuilder::new().num_threads(1).build() else { return Some(on_all_cores(work)) };
     let (sender, receiver) = channel();
     pool.spawn(move || {
-        // A panic is passed on to the receiver; after a no there is none.
+        // Pass a panic on to the receiver. After `go_on` has returned false there is no receiver.
         let _ = sender.send(catch_unwind(AssertUnwindSafe(work)));
     });
     loop {
@@ -108,12 +108,12 @@ pub fn on_one_thread<T: Send + 'static>(
     }
 }
 
-/// Does both at once.
+/// Runs both closures in parallel.
 pub fn both<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
     on_all_cores(|| rayon::join(a, b))
 }
 
-/// Calls `work` for every item with its index; on several threads if each of them gets at least `least` items.
+/// Calls `work` for every item with its index. Uses several threads if each of them gets at least `least` items.
 pub fn each<T: Send>(items: &mut [T], least: usize, work: impl Fn(usize, &mut T) + Sync + Send) {
     if items.len() / 2 < least {
         return items.iter_mut().enumerate().for_each(|(k, item)| work(k, item));
@@ -121,7 +121,8 @@ pub fn each<T: Send>(items: &mut [T], least: usize, work: impl Fn(usize, &mut T)
     on_all_cores(|| items.par_iter_mut().enumerate().with_min_len(least).for_each(|(k, item)| work(k, item)));
 }
 
-/// The same for chunks of `size` items.
+/// Calls `work` for every chunk of `size` items with its index. Uses several threads if each gets at least `least`
+/// chunks.
 pub fn each_chunk<T: Send>(items: &mut [T], size: usize, least: usize, work: impl Fn(usize, &mut [T]) + Sync + Send) {
     if items.len().div_ceil(size) / 2 < least {
         return items.chunks_mut(size).enumerate().for_each(|(k, chunk)| work(k, chunk));
@@ -129,11 +130,11 @@ pub fn each_chunk<T: Send>(items: &mut [T], size: usize, least: usize, work: imp
     on_all_cores(|| items.par_chunks_mut(size).enumerate().with_min_len(least).for_each(|(k, chunk)| work(k, chunk)));
 }
 
-/// Results of `work` for every item with its index, in the order of the items, on all threads; each thread works with
-/// tools made by `tool`.
+/// Returns the results of `work` for every item with its index, in the order of the items. Uses all threads; each
+/// thread works with its own tools from `tool`.
 ///
 /// # Errors
-/// The first error of `work`; the remaining items are left out.
+/// The first error of `work`. The remaining items are skipped.
 pub fn map_with<T: Sync, W, R: Send, E: Send>(
     items: &[T],
     tool: impl Fn() -> W + Sync + Send,
@@ -149,7 +150,7 @@ mod tests {
     use std::io;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    /// Lets parallel work outside of [`on_all_cores`] panic in all unit tests.
+    /// Makes parallel work outside [`on_all_cores`] panic in all unit tests.
     pub(super) fn forbid_the_global_pool() {
         let no_thread = |_| Err(io::Error::other("the global pool is not used"));
         let refused = ThreadPoolBuilder::new().spawn_handler(no_thread).build_global();

@@ -1,16 +1,16 @@
-//! What a file dialog asks for, natively and in a page.
+//! Request to a file dialog, for native programs and web pages.
 
 use std::path::PathBuf;
 
-/// What a dialog asks for.
+/// Request to a file dialog.
 #[derive(Clone, Debug)]
 pub struct Wanted {
-    /// Whether a file is to be read.
+    /// True if a file is to be read.
     pub reads: bool,
-    /// What such files are called.
+    /// Name of this type of file.
     pub files: &'static str,
-    /// How their names end.
+    /// Accepted file extensions.
     pub endings: &'static [&'static str],
-    /// Path to begin with.
+    /// Suggested path.
     pub suggestion: PathBuf,
 }

@@ -35,9 +35,9 @@ fn rest(harness: &mut Window) {
 
 fn run_tests(harness: &mut Window, tests: f64, compared: f64) {
     rest(harness);
-    count(harness, "Random tests", tests);
+    count(harness, "Random contacts", tests);
     count(harness, "Compared in full", compared);
-    click(harness, "Run tests");
+    click(harness, "Run validation");
     wait(harness, "the random tests", |h| !h.state().studying());
 }
 
@@ -78,7 +78,7 @@ fn truncate(harness: &mut Window) {
 
 #[test]
 fn the_parts_appear_when_the_sliders_rest_and_follow_them() {
-    let mut harness = open("Where the error comes from");
+    let mut harness = open("Error contributions");
     wait(&mut harness, "the parts", |h| shows(h, "Discretisation, H_min: "));
     for part in ["Basis", "Projection", "Sampling", "Reduced against full", "Reduced against the limit"] {
         assert!(shows(&harness, &format!("{part}, H_c: ")), "{part}");
@@ -116,7 +116,7 @@ fn the_failure_map_counts_and_its_worst_case_is_a_click_away() {
     wait(&mut harness, "its picture", |h| h.state().central_film().is_some());
     undo(&mut harness);
     assert_eq!(harness.state().moes(), before);
-    let table = exported(&mut harness, "Random tests as CSV…", "map.csv");
+    let table = exported(&mut harness, "Random validation as CSV…", "map.csv");
     assert_eq!(table.len(), 4 + 200);
     assert!(table[3].starts_with("moes.M,moes.L,si.radius"));
     let model = embedded("line").unwrap();
@@ -144,7 +144,7 @@ fn a_click_on_the_map_goes_to_the_test_there() {
     let mut harness = open("Failure map");
     run_tests(&mut harness, 400.0, 0.0);
     let before = harness.state().moes();
-    let rect = harness.get_by_label("Map of the random tests").rect();
+    let rect = harness.get_by_label("Map of the random validation").rect();
     // The tests crowd at the corners of the range (3.17): the low left one is never cut by the pressure limit.
     for k in 0..60 {
         let corner = rect.left_bottom() + egui::vec2(0.3, -0.3) * f32::from(u8::try_from(k).unwrap()) * 4.0;
@@ -163,7 +163,7 @@ fn a_click_on_the_map_goes_to_the_test_there() {
 
 #[test]
 fn the_bound_is_held_against_the_truth() {
-    let mut harness = open("Bound against truth");
+    let mut harness = open("Bound vs. true error");
     rest(&mut harness);
     assert!(shows(&harness, "Compared: 20"), "a few tests are made unasked");
     run_tests(&mut harness, 200.0, 20.0);
@@ -201,10 +201,10 @@ fn the_trajectory_is_followed_in_both_ranges() {
 fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
     let mut harness = open("Failure map");
     rest(&mut harness);
-    count(&mut harness, "Random tests", 10_000.0);
+    count(&mut harness, "Random contacts", 10_000.0);
     // How soon is judged without the window, where studies are cancelled.
     for attempt in 0..3 {
-        click(&mut harness, "Run tests");
+        click(&mut harness, "Run validation");
         wait(&mut harness, "the first tests", |h| shows(h, " of 10000 tests") && !shows(h, "0 of 10000 tests, no"));
         harness.get_by_label("Load number M").set_value_accesskit(60.0 + f64::from(attempt));
         harness.run_steps(2);
@@ -236,9 +236,9 @@ fn residuals_are_still_there_and_without_a_model_there_is_a_sentence() {
     assert!(shows(&harness, "Last full solve"));
     let mut harness = crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0]);
     harness.run_steps(2);
-    for view in ["Where the error comes from", "Failure map", "Bound against truth", "Along the trajectory"] {
+    for view in ["Error contributions", "Failure map", "Bound vs. true error", "Along the trajectory"] {
         click(&mut harness, "Accuracy");
         click(&mut harness, view);
-        assert!(shows(&harness, "nothing to judge"), "{view}");
+        assert!(shows(&harness, "no model to validate"), "{view}");
     }
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 fn modes(harness: &Window) -> Option<usize> {
     let told = harness.query_all_by_label_contains(" modes").filter_map(|node| {
         let node = node.accesskit_node();
-        node.label().or(node.value()).filter(|text| text.starts_with("Window"))
+        node.label().or(node.value()).filter(|text| text.starts_with("Local model"))
     });
     let text = told.into_iter().next()?;
     text.split(", ").last()?.split(' ').next()?.parse().ok()
@@ -28,7 +28,7 @@ fn error_and_time_against_modes_and_rows_come_by_themselves_and_are_dragged() {
     let took = begin.elapsed().as_secs_f64();
     let slower = if cfg!(debug_assertions) { 60.0 } else { 1.0 };
     assert!(took < 5.0 * slower * load, "{took} s at a load of {load}");
-    for plot in ["Error against modes", "Time against modes", "Error against rows", "Time against rows"] {
+    for plot in ["Error against modes", "Time against modes", "Error against equations", "Time against equations"] {
         assert!(harness.query_by_label(plot).is_some(), "{plot}");
     }
     let plot = harness.get_by_label("Error against modes").rect();
@@ -39,11 +39,11 @@ fn error_and_time_against_modes_and_rows_come_by_themselves_and_are_dragged() {
     assert!(!grey(&harness, "sizes by modes"), "any number of modes is there");
     assert!(grey(&harness, "sizes by rows"), "rows were tried with all modes");
     let title = harness.state().model_title().unwrap().to_owned();
-    let plot = harness.get_by_label("Error against rows").rect();
+    let plot = harness.get_by_label("Error against equations").rect();
     drag_line(&mut harness, (plot.left(), plot.right()), plot.center().y, -120.0);
     assert_ne!(harness.state().model_title().unwrap(), title, "another model serves");
     assert!(grey(&harness, "sizes by modes"), "modes were tried with other rows");
-    click(&mut harness, "The model’s own rows");
+    click(&mut harness, "The model’s own equations");
     assert_eq!(harness.state().model_title().unwrap(), title);
     click(&mut harness, "Profile and difference");
     assert!(shows(&harness, "Pressure profile"));

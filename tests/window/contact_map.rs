@@ -45,7 +45,7 @@ fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
     assert_eq!(harness.state().nodes(), Some((151, 41)));
     assert_eq!(harness.state().badge(), "Quick grid");
     let detail = harness.state().badge_detail();
-    assert!(detail.starts_with("sketch on a quick grid, {H_c} off by about "), "{detail}");
+    assert!(detail.starts_with("sketch on a quick grid, error of {H_c} about "), "{detail}");
     solved(&mut harness, (301, 59));
     assert_eq!(harness.state().badge(), "Verified");
     let load = harness.get_by_role_and_label(Role::TextInput, "Load w").accesskit_node().value();
@@ -66,12 +66,12 @@ fn a_line_contact_shows_its_film_over_time_and_a_ball_with_one_click() {
     assert!(shows(&harness, "Pressure over space and time"));
     let map = harness.get_by_label("Pressure over space and time").rect();
     assert!(map.width() > 400.0 && map.height() > 400.0);
-    click(&mut harness, "Show a ball instead");
+    click(&mut harness, "Show a circular contact");
     assert!(harness.state().is_point());
     wait(&mut harness, "the ball", |app| app.central_film().is_some());
     assert!(shows(&harness, "Map of the contact"));
     click(&mut harness, "Transient");
-    click(&mut harness, "Show a roller instead");
+    click(&mut harness, "Show a line contact");
     assert!(!harness.state().is_point() && shows(&harness, "Load amplitude"));
 }
 
@@ -82,7 +82,7 @@ fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
     assert!(along > 0.9 && across.is_some_and(|p| p > 0.9));
     click(&mut harness, "Contact map");
     let said = harness.get_by_label("Map of the contact").accesskit_node().description().unwrap_or_default();
-    assert!(said.starts_with("Film map of M") && said.contains("smallest"), "{said}");
+    assert!(said.starts_with("Film map of M") && said.contains("minimum"), "{said}");
     for name in ["Pressure map", "Contours", "Interferogram", "Monochromatic", "Three colours", "Film map"] {
         click(&mut harness, name);
     }
@@ -138,7 +138,7 @@ fn a_heavy_load_on_a_coarse_grid_says_that_the_side_lobes_are_not_resolved() {
     harness.get_by_label("Load number M").set_value_accesskit(700.0);
     harness.run();
     solved(&mut harness, (151, 41));
-    assert_eq!(harness.state().badge(), "Grid does not do");
+    assert_eq!(harness.state().badge(), "Grid insufficient");
     assert!(harness.query_by_label_contains("H_min is not resolved").is_some());
 }
 
@@ -159,10 +159,10 @@ fn a_light_ball_is_drawn_by_the_model_of_such_and_says_what_its_domain_leaves_ou
     let film = harness.state().central_film().unwrap();
     harness.get_by_label("Load number M").set_value_accesskit(3.5);
     harness.run_steps(2);
-    wait(&mut harness, "those of a lighter one", |app| of_model(app) && app.badge() == "Grid does not do");
+    wait(&mut harness, "those of a lighter one", |app| of_model(app) && app.badge() == "Grid insufficient");
     assert!(harness.state().central_film().unwrap() > 1.5 * film, "H counts in a²/R, and a is smaller");
     let detail = harness.state().badge_detail();
-    assert!(detail.contains("the grid costs"), "{detail}");
+    assert!(detail.contains("discretisation error of"), "{detail}");
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn the_scenes_of_point_contacts_open_with_their_own_grid() {
         ("Contact map", "Map of the contact"),
         ("Regimes", "Chart of M and L"),
         ("Reduced basis", "there is no basis to show"),
-        ("Accuracy", "there is nothing to judge"),
+        ("Accuracy", "there is no model to validate"),
         ("Training", "Start training"),
         ("Profiles", "Pin curve"),
     ] {

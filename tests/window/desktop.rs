@@ -66,11 +66,11 @@ fn what_is_typed_is_found_and_done() {
     ask(&mut harness, "squalane");
     enter(&mut harness);
     assert_eq!((harness.state().sliding().1, harness.state().point().viscosity_pa_s), (0.2227, 0.0705));
-    ask(&mut harness, "run in time");
-    assert_eq!(chosen(&harness), "Run in time");
+    ask(&mut harness, "run transient");
+    assert_eq!(chosen(&harness), "Run transient");
     enter(&mut harness);
     assert!(palette_is_open(&harness), "what cannot be done is not done");
-    assert!(shows(&harness, "Run in time"));
+    assert!(shows(&harness, "Run transient"));
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn a_short_list_of_matches_does_not_keep_a_longer_one_short() {
     // A press on a line that is cut off would fall beside the palette.
     harness.get_by_role_and_label(Role::ListBoxOption, "Go to Transient").click();
     harness.run_steps(3);
-    assert!(!palette_is_open(&harness) && shows(&harness, "Run in time"));
+    assert!(!palette_is_open(&harness) && shows(&harness, "Run transient"));
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn arrows_choose_escape_leaves_everything_as_it_was_and_keys_belong_to_the_palet
     assert!(!palette_is_open(&harness));
     crate::driver::write(&mut harness, "Radius R", "4");
     ask(&mut harness, "nothing at all");
-    assert!(shows(&harness, "Nothing is called that") && chosen(&harness).is_empty());
+    assert!(shows(&harness, "No command has this name") && chosen(&harness).is_empty());
 }
 
 #[test]

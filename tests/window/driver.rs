@@ -157,7 +157,7 @@ pub fn run_in_time(harness: &mut Window) {
     rest_in_time(harness);
     let (current, runs, replayed) = harness.state().in_time();
     if !current || runs == 0 || replayed > 0 {
-        click(harness, "Run in time");
+        click(harness, "Run transient");
         rest_in_time(harness);
     }
 }

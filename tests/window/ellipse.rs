@@ -130,9 +130,9 @@ fn tables_have_both_semi_axes_and_formulas_say_where_they_end() {
     for formula in ["Nijenbanning–Venner–Moes", "Chittenden, central", "Hamrock–Dowson, minimum"] {
         assert!(shows(&harness, formula), "{formula}");
     }
-    assert!(!shows(&harness, "15–75 % high"));
+    assert!(!shows(&harness, "15–75 % too high"));
     set(&mut harness, Role::Slider, RATIO, 0.5);
-    assert!(shows(&harness, "15–75 % high"));
+    assert!(shows(&harness, "15–75 % too high"));
 }
 
 #[test]
@@ -164,13 +164,13 @@ fn the_reduced_model_of_ellipses_is_read_when_it_is_needed_and_the_slider_answer
     // What follows the hand there is as coarse as elsewhere, and the badge says so.
     wait(&mut harness, "a full solution", |app| app.central_film().is_some());
     let told = |app: &Explorer| (app.badge(), app.badge_detail().contains("on a quick grid"));
-    assert_eq!(told(harness.state()), ("Outside the reduced model".to_owned(), true));
+    assert_eq!(told(harness.state()), ("Outside the trained range".to_owned(), true));
     let detail = harness.state().badge_detail();
     assert!(
-        detail.starts_with("sketch on a quick grid, {H_c} off by about ") && detail.contains("{H_min} by "),
+        detail.starts_with("sketch on a quick grid, error of {H_c} about ") && detail.contains("of {H_min} "),
         "{detail}"
     );
     assert!(harness.state().badge_detail().contains("ratio of radii"), "{}", harness.state().badge_detail());
     wait(&mut harness, "the chosen grid", |app| !app.busy());
-    assert_eq!(told(harness.state()), ("Outside the reduced model".to_owned(), false));
+    assert_eq!(told(harness.state()), ("Outside the trained range".to_owned(), false));
 }

@@ -123,8 +123,8 @@ fn two_bodies_give_the_contact_and_say_when_they_no_longer_do() {
     assert_eq!(harness.state().point(), point);
     press(&mut harness, Modifiers::NONE, Key::Escape);
     enter(&mut harness, "Radius R", "9 mm");
-    assert!(shows(&harness, "no longer these bodies"));
-    click(&mut harness, "Take the bodies’ values");
+    assert!(shows(&harness, "no longer match these bodies"));
+    click(&mut harness, "Use the bodies’ values");
     assert!((harness.state().point().radius_m - 0.0125).abs() < 1e-12);
 }
 

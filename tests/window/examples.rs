@@ -39,13 +39,13 @@ fn an_example_is_found_by_a_search_and_opens_untitled_on_the_tab_that_answers_it
     assert!(!shows(&harness, "Contacts in time"), "Escape closes it");
     open_example(&mut harness, "table 2.1", "Rolling line contact, stationary");
     assert_eq!(harness.state().front(), Some("Profiles"));
-    assert!(shows(&harness, "What are pressure and film of this roller"), "its question stands above");
+    assert!(shows(&harness, "What are pressure and film thickness of this line contact"), "its question stands above");
     assert!((harness.state().moes().m - 40.0).abs() < 0.1);
     press(&mut harness, Modifiers::COMMAND, Key::S);
     assert!(shows(&harness, "Path of the file"), "it has no file: saving asks for one");
     press(&mut harness, Modifiers::NONE, Key::Escape);
     click(&mut harness, "Close the headline");
-    assert!(!shows(&harness, "What are pressure and film of this roller"));
+    assert!(!shows(&harness, "What are pressure and film thickness of this line contact"));
 }
 
 #[test]

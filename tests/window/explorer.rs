@@ -41,7 +41,7 @@ const TABS: [(&str, &[&str]); 9] = [
     ("Profiles", &["Pin curve", "Pressure profile", "Film profile"]),
     ("Regimes", &["Chart of M and L"]),
     ("Traction", &["Laws of the fluid"]),
-    ("Contact map", &["Show a ball instead"]),
+    ("Contact map", &["Show a circular contact"]),
     ("Reduced basis", &[]),
     ("Accuracy", &[]),
     ("Training", &["Start training", "Pre-computed"]),
@@ -70,7 +70,8 @@ fn assert_tabs_open(harness: &mut Window, more: &[(&str, &[&str])]) {
 fn every_tab_opens() {
     let mut harness = open();
     settled(&mut harness);
-    let without = [("Reduced basis", &["there is no basis to show"][..]), ("Accuracy", &["there is nothing to judge"])];
+    let without =
+        [("Reduced basis", &["there is no basis to show"][..]), ("Accuracy", &["there is no model to validate"])];
     assert_tabs_open(&mut harness, &without);
 }
 
@@ -81,7 +82,7 @@ fn a_model_draws_the_picture_and_a_full_solve_checks_it() {
     assert!(harness.state().central_film().is_some(), "the reduced picture is there in the first frames");
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     harness.get_by_label("Load number M").set_value_accesskit(500.0);
-    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
     harness.get_by_label("Load number M").set_value_accesskit(500.0 / 1.01);
     harness.step();
     // A live solve that comes back after the sliders have returned to the model must not replace its picture.
@@ -258,9 +259,9 @@ fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() 
         (harness.state().badge_detail(), why)
     };
     let (detail, why) = promised(100.0);
-    assert!(detail.starts_with("{H_c} within") && why.starts_with("Calibrated bounds"), "{detail}; {why}");
+    assert!(detail.starts_with("{H_c} within") && why.starts_with("99 % empirical error bounds"), "{detail}; {why}");
     let (detail, why) = promised(beyond.unwrap());
-    assert!(detail.starts_with("no error bound: a window beside its own answers"), "{detail}");
+    assert!(detail.starts_with("no error bound: a neighbouring local model is used"), "{detail}");
     assert!(why.starts_with("The local model that this contact belongs to"), "{why}");
     assert!(!why.contains(".."), "{why}");
     wait(&mut harness, "verification", |app| ["Verified", "Roughly right", "Far off"].contains(&app.badge().as_str()));
@@ -272,15 +273,15 @@ fn far_outside_the_model_the_full_solver_takes_over_visibly() {
     settled(&mut harness);
     harness.get_by_label("Load number M").set_value_accesskit(1000.0);
     harness.step();
-    assert_eq!(harness.state().badge(), "Outside the reduced model");
+    assert_eq!(harness.state().badge(), "Outside the trained range");
     harness.get_by_label("Lubricant number L").set_value_accesskit(25.0);
     harness.step();
-    assert_eq!(harness.state().badge(), "Outside the reduced model");
+    assert_eq!(harness.state().badge(), "Outside the trained range");
     wait(&mut harness, "the full solver", |app| !app.busy());
     harness.run();
     // Either a converged full solution, or a sentence and the former picture; never a reduced result.
     match harness.state().badge().as_str() {
-        "Outside the reduced model" => assert!(harness.state().central_film().is_some()),
+        "Outside the trained range" => assert!(harness.state().central_film().is_some()),
         "No solution here" => assert!(harness.state().central_film().is_none()),
         other => panic!("{other}"),
     }

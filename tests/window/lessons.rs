@@ -74,8 +74,8 @@ fn each_is_walked_through_from_a_fresh_start() {
             assert!(shows(&harness, &words.join(" ")), "{title}: “{heading}” does not see that it was done");
             click(&mut harness, if n + 1 == steps.len() { "Finish" } else { "Next" });
         }
-        assert!(shows(&harness, "Each starts from a contact of its own"), "the list is back");
+        assert!(shows(&harness, "Each lesson starts from its own contact"), "the list is back");
         press(&mut harness, Modifiers::NONE, Key::Escape);
-        assert!(!shows(&harness, "Each starts from a contact of its own"), "Escape closes it");
+        assert!(!shows(&harness, "Each lesson starts from its own contact"), "Escape closes it");
     }
 }

@@ -141,7 +141,9 @@ fn a_contact_without_a_study_shows_what_it_amounts_to() {
     click(&mut harness, "Results");
     let checked = |harness: &Window| shows(harness, "Full solution");
     wait_until(PATIENCE, &mut harness, "the check", checked);
-    for text in ["Central film H", "Largest pressure P", "Full solution", "Deviation", "Dowson–Higginson", "N/mm"] {
+    for text in
+        ["Central film thickness H", "Maximum pressure P", "Full solution", "Deviation", "Dowson–Higginson", "N/mm"]
+    {
         assert!(shows(&harness, text), "{text}");
     }
     set(&mut harness, Role::Slider, "Load number M", 90.0);
@@ -169,5 +171,5 @@ fn a_study_can_be_stopped_and_what_it_found_stays() {
     assert_eq!(harness.state().verdict(), None, "what was stopped has no verdict");
     let rows = harness.state().result_table("random").unwrap().lines().count();
     assert!(rows > 1 && rows < 100_000, "{rows}");
-    assert!(shows(&harness, "Not all is known yet"));
+    assert!(shows(&harness, "Not complete yet"));
 }

@@ -52,7 +52,7 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
         "Operating points in the plane",
         "Weights of the operating points",
         "Deviation between runs",
-        "no steeper and swing no farther than trained",
+        "no steeper than trained, and their amplitudes no larger",
     ] {
         assert!(shows(&harness, plot), "{plot}");
     }
@@ -162,7 +162,7 @@ fn more_points_err_less_and_the_study_can_be_stopped() {
     }
     assert!(shows(&harness, "Error against the number of operating points"));
     for _ in 0..2 {
-        click(&mut harness, "Number against error");
+        click(&mut harness, "Error vs. number of points");
         click(&mut harness, "Stop the study");
         wait(&mut harness, "the end of the study", |app| !app.studying_points());
     }

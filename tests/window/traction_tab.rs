@@ -73,7 +73,7 @@ fn all_four_sliders_are_live_with_a_lubricant_that_thins_under_shear() {
     assert!(harness.state().badge_detail().contains("Δ{µ}"), "{}", harness.state().badge_detail());
     // Beyond what the model was trained for the full solver takes over.
     slide(&mut harness, "Slide-to-roll ratio SRR", 1.5);
-    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
     assert!(harness.state().badge_detail().contains("SRR = 1.5"), "{}", harness.state().badge_detail());
     for _ in 0..5 {
         undo(&mut harness);
@@ -123,14 +123,14 @@ fn the_picker_brings_a_lubricant_with_its_contact_and_undo_takes_it_back() {
     let radius = harness.state().point().radius_m;
     choose(&mut harness, "Fluid", "Squalane with PIP");
     assert_eq!(harness.state().point().radius_m, radius, "the contact stays");
-    click(&mut harness, "Take its published contact");
+    click(&mut harness, "Use its published contact");
     assert!((harness.state().moes().l / 6.69 - 1.0).abs() < 1e-3, "{:?}", harness.state().moes());
     assert!(harness.state().badge_detail().contains("within") || harness.state().badge() == "Verified");
     slide(&mut harness, "Newtonian plateau ratio NPR", 0.5);
     assert_eq!(harness.state().sliding().1, 0.5);
     choose(&mut harness, "Fluid", "PAO 650");
     assert_eq!(harness.state().sliding().1, 0.0);
-    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
     assert!(harness.state().badge_detail().contains("other lubricant laws"));
     let folder = Scratch::new("traction");
     let path = folder.join("pao.ron");
@@ -166,7 +166,7 @@ fn bad_constants_of_ones_own_lubricant_are_refused_with_the_reason() {
     }
     enter(&mut harness, "Critical stress", "0.1");
     assert!(!shows(&harness, "critical shear stress is"));
-    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
     assert!(film(&harness) > 1.05 * before, "a lubricant that thins later keeps a thicker film");
     undo(&mut harness);
     // Newton starts elsewhere now: equal within its tolerance.
@@ -230,7 +230,7 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     for name in ["Viscosity against pressure", "Viscosity against shear stress"] {
         assert!(harness.query_by_label(name).is_some(), "{name}");
     }
-    assert!(shows(&harness, "This contact meets pressures up to"));
+    assert!(shows(&harness, "Pressures in this contact reach"));
 }
 
 #[test]
@@ -260,26 +260,26 @@ fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
     let mut harness = window(explorer);
     click(&mut harness, "Traction");
     wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
-    let said = "was not trained for it: the model was trained with other lubricant laws";
-    assert!(shows(&harness, said) && shows(&harness, "no bound on its errors is known"));
+    let said = "it is outside the trained range: the model was trained with other lubricant laws";
+    assert!(shows(&harness, said) && shows(&harness, "there is no error bound"));
     // Full solutions check it without being asked to.
     wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     assert!(shows(&harness, "full solutions differ by"));
     let folder = Scratch::new("traction");
     let table = export(&mut harness, "Traction", "Curve as CSV…", &folder.join("sketch.csv"));
-    assert!(table.contains("no bound on its errors is known"));
+    assert!(table.contains("there is no error bound"));
     let rows = Table::of(&table).rows;
     assert_full_beside_reduced(&rows, |traction| 1e-2 * traction);
     let figure = export_plot(&mut harness, "Traction", "All plots of Traction", &folder.join("sketch.svg"));
     assert_eq!(solid_curves(&figure), 0, "no line is firm");
-    assert!(caption(&figure).contains("was not trained for this curve"));
+    assert!(caption(&figure).contains("outside the trained range of the reduced model"));
     // Pictures are full solutions all the same.
-    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the reduced model" && !app.busy());
+    wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
     // Its own fluid brings firm lines back; its plateau ratio is one of the range.
     choose(&mut harness, "Fluid", "Squalane with PIP");
-    click(&mut harness, "Take its published contact");
+    click(&mut harness, "Use its published contact");
     wait(&mut harness, "the curve of its own fluid", |app| app.traction_contacts().0 == Some(41));
-    assert!(!shows(&harness, "not trained for it"));
+    assert!(!shows(&harness, "curve is a sketch"));
 }
 
 #[test]
@@ -289,7 +289,7 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
     choose(&mut harness, "Fluid", "Own");
     enter(&mut harness, "Critical stress", "0.02");
     wait(&mut harness, "the curve of one's own", |app| app.traction_contacts().0 == Some(41));
-    assert!(shows(&harness, "not trained for it"));
+    assert!(shows(&harness, "curve is a sketch"));
     // A plateau ratio below all that were trained belongs to the fluid: the sweep reaches down to it.
     enter(&mut harness, "NPR value", "0.1");
     choose(&mut harness, "Against", "plateau ratio");
@@ -302,7 +302,7 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
     choose(&mut harness, "Fluid", "Barus oil, compressible");
     enter(&mut harness, "L value", "5");
     wait(&mut harness, "the curve of a Newtonian fluid", |app| app.traction_contacts().0 == Some(41));
-    assert!(shows(&harness, "not trained for it"));
+    assert!(shows(&harness, "curve is a sketch"));
     // Where the shapes of pressure and film are none that were trained there is no curve.
     enter(&mut harness, "M value", "1");
     assert!(shows(&harness, "No curve by the reduced model: M = 1 lies outside"));

@@ -60,7 +60,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     click(&mut harness, "Use this model");
     assert_eq!(harness.state().model_title(), Some("Small box"));
     wait(&mut harness, "verification", |app| ["Verified", "Roughly right", "Far off"].contains(&app.badge().as_str()));
-    click(&mut harness, "Back to the former model");
+    click(&mut harness, "Restore previous model");
     assert_eq!(harness.state().model_title(), Some(embedded.as_str()));
     click(&mut harness, "Save model…");
     let path = folder.join("small.rom");
@@ -115,7 +115,7 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
     wait(&mut harness, "the end", |app| !app.training());
     click(&mut harness, "Discard…");
     assert!(kept.exists(), "it asks first");
-    click(&mut harness, "Throw it away");
+    click(&mut harness, "Discard it");
     assert!(!kept.exists());
     assert!(!harness.get_by_label("Start training").accesskit_node().is_disabled());
 }
@@ -131,7 +131,7 @@ fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothi
     drop(harness);
     // The next window has it, and offers to save it.
     let mut harness = open(&folder, "Small box", TINY);
-    assert!(harness.query_by_label_contains("of a former session is not saved").is_some());
+    assert!(harness.query_by_label_contains("of a previous session is not saved").is_some());
     // Models are compared over its range, whatever training the form shows now.
     click(&mut harness, "Whole slider range");
     click(&mut harness, "Compare models");
@@ -151,8 +151,8 @@ fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothi
     assert!(harness.query_by_label_contains("was trained and is not saved").is_some());
     click(&mut harness, "Cancel");
     assert!(!harness.state().training() && kept.exists());
-    click(&mut harness, "Throw away…");
-    click(&mut harness, "Throw it away");
+    click(&mut harness, "Discard model…");
+    click(&mut harness, "Discard it");
     assert!(!kept.exists() && harness.query_by_label("Save model…").is_none());
     // Now nothing is lost, and nothing asks.
     click(&mut harness, "Start training");

@@ -97,19 +97,19 @@ fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
     // Twice: a stopped run leaves room for the next. How soon it stops is judged without the window, where studies are
     // cancelled.
     for _ in 0..2 {
-        click(&mut harness, "Run in time");
+        click(&mut harness, "Run transient");
         wait(&mut harness, "some steps", |app| !app.marching() || app.transient_moments() > 20);
-        assert!(harness.query_by_label("Progress of the contact in time").is_some());
+        assert!(harness.query_by_label("Progress of the transient runs").is_some());
         click(&mut harness, "Stop");
         wait(&mut harness, "the end", |app| !app.marching());
     }
     assert!(shows(&harness, "was cancelled at T ="));
     let kept = harness.state().transient_moments();
     assert!(kept > 20 && time(&harness) > 0.0);
-    assert!(!shows(&harness, "a former set-up"));
+    assert!(!shows(&harness, "a previous set-up"));
     harness.get_by_label("Load number M").set_value_accesskit(25.0);
     harness.run_steps(2);
-    assert!(shows(&harness, "a former set-up") && harness.state().transient_moments() == kept);
+    assert!(shows(&harness, "a previous set-up") && harness.state().transient_moments() == kept);
 }
 
 #[test]
@@ -232,8 +232,8 @@ fn what_has_not_come_to_a_moment_is_not_drawn_there() {
     let frames = "Fixed, ArbitraryLagrangianEulerian";
     let (mut harness, folder) = open("moment", &scene(BREATHING, 45.0, frames));
     assert!(!harness.state().marching(), "this takes more than a moment: it waits until it is asked for");
-    assert!(shows(&harness, "Run it in time"));
-    click(&mut harness, "Run in time");
+    assert!(shows(&harness, "Press Run transient"));
+    click(&mut harness, "Run transient");
     wait(&mut harness, "the second frame", |app| !app.marching() || app.transient_moments() > 940);
     click(&mut harness, "Stop");
     rest_in_time(&mut harness);

@@ -1,4 +1,4 @@
-//! What the picture is to show.
+//! Request for the picture: the contact, the grid and the truncation.
 
 use crate::app::document::{Document, Key};
 use crate::app::in_use::InUse;
@@ -6,22 +6,22 @@ use crate::app::model_source::Models;
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::ReducedOptions;
 
-/// Seconds of rest after which a verification starts by itself.
+/// Seconds without a change of the document after which a verification starts automatically.
 pub const REST_S: f64 = 0.25;
 
-/// What the picture is to show, and by what means.
+/// Contact that the picture shall show, and the means to compute it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ask {
-    /// The contact.
+    /// Contact.
     pub key: Key,
-    /// The grid of full solutions of a point contact.
+    /// Grid of full solutions of a point contact. `None` for a line contact.
     pub plane: Option<PointGridSpec>,
-    /// The truncation of the reduced model.
+    /// Truncation of the reduced model.
     pub options: ReducedOptions,
 }
 
 impl Ask {
-    /// Returns what a document asks for, of the models there are.
+    /// Returns the request of a document, given the loaded models.
     pub fn of(document: &Document, models: &Models) -> Self {
         let in_use = InUse::of(document, models);
         Self {
@@ -31,13 +31,14 @@ impl Ask {
         }
     }
 
-    /// Returns true if it differs from another ask in the contact at most.
+    /// Returns true if the two requests are equal apart from the contact.
     pub fn has_means_of(&self, other: &Self) -> bool {
         Self { key: self.key, ..*other } == *self
     }
 }
 
-/// Returns the grid of pictures that follow the hand: the quick one, unless the chosen one has as few nodes.
+/// Returns the grid of pictures that are drawn while a slider moves: the quick grid, unless the chosen grid has no
+/// more nodes.
 pub fn quick(chosen: PointGridSpec) -> PointGridSpec {
     let nodes = |spec: PointGridSpec| spec.nodes().map_or(usize::MAX, |(nx, ny)| nx * ny * ny);
     if nodes(chosen) <= nodes(PointGridSpec::QUICK) { chosen } else { PointGridSpec::QUICK }

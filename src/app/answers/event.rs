@@ -1,4 +1,4 @@
-//! What can happen to the answers, and what is to be computed then.
+//! Events of the state machine of the answers, and the computations that it requests.
 
 use super::ask::Ask;
 use super::failure::PassedOver;
@@ -8,33 +8,34 @@ use crate::app::document::Key;
 use crate::engine::Answer;
 use crate::solver::discrete::grid::GridSpec;
 
-/// What happened.
+/// Event that changes the answers.
 pub enum Event {
-    /// The document asks for something else, at a time \[s\]; and why its reduced model is not even tried, if it is not.
+    /// The document requests something else. With the time \[s\], and the reason if its reduced model is not even
+    /// tried.
     Asked(Ask, Option<PassedOver>, f64),
-    /// Full solutions of the present line contact lie on another grid from now on: that of the model in use.
+    /// Full solutions of the present line contact use another grid from now on: the grid of the model in use.
     LineGrid(Option<GridSpec>),
-    /// The reduced model has answered.
+    /// The reduced model has returned a solution.
     Reduced(Ask, Box<Answer>),
     /// The reduced solve was cancelled.
     ReducedStopped(Ask),
-    /// The reduced model has found no solution; a sentence says why.
+    /// The reduced model has found no solution. With the reason as a sentence.
     ReducedFailed(Ask, String),
     /// A full solve of a contact has ended.
     Full(JobKind, Key, Outcome),
-    /// Point contacts are cut elsewhere.
+    /// Point contacts are cut at another place.
     Cut(Cuts),
-    /// The sliders have rested for [`super::REST_S`].
+    /// The sliders have been idle for [`super::REST_S`].
     Rested,
-    /// A full solution was asked for by hand.
+    /// The user requested a full solution.
     VerificationAsked,
-    /// An estimate of the discretisation error was asked for.
+    /// The user requested an estimate of the discretisation error.
     EstimateAsked,
     /// Other models are in use.
     ModelsChanged,
 }
 
-/// What is to be computed for the present ask.
+/// Computation that the present request needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wish {
     /// A reduced solution.

@@ -1,30 +1,30 @@
-//! Why the picture is not what the sliders say, and why the reduced model does not draw it.
+//! Reasons why there is no picture for the sliders, and why the reduced model does not draw it.
 
 use crate::app::document::Key;
 use crate::solver::full::Report;
 
-/// Why the picture is not what the sliders say.
+/// Reason why there is no picture for the sliders.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
-    /// The parameters that failed.
+    /// Parameters of the failed solve.
     pub key: Key,
-    /// A sentence.
+    /// Reason as a sentence.
     pub message: String,
-    /// How far the solve got.
+    /// Report of the solve as far as it ran.
     pub report: Option<Report>,
-    /// True after a stop request: the failure then says nothing about the contact.
+    /// True after a stop request. The failure then says nothing about the contact.
     pub stopped: bool,
 }
 
-/// Why the full solver draws the picture.
+/// Reason why the full solver draws the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PassedOver {
     /// There is no reduced model.
     NoModel,
-    /// It is being read.
+    /// The reduced model is still being read.
     Reading,
-    /// It was not trained for this contact; a sentence says why.
+    /// The reduced model was not trained for this contact. With the reason as a sentence.
     Outside(String),
-    /// It did not converge; a sentence says how.
+    /// The reduced model did not converge. With the reason as a sentence.
     Failed(String),
 }

@@ -1,8 +1,8 @@
-//! Reduced solves for the picture: on a thread of their own, and waited for as long as a hand takes for at once.
+//! Reduced solves for the picture. They run on a separate thread, and the frame waits for them for up to 100 ms.
 //!
-//! Most take a millisecond, and the picture follows within the frame. One that has to walk far takes a second; then the
-//! former picture stays, in grey, the window goes on, and the answer comes when it comes. A panic in there takes
-//! nothing down.
+//! Most solves take a millisecond, so that the picture changes within the frame. A solve that needs many
+//! continuation steps can take a second. The previous picture then stays on the screen in grey, the window remains
+//! responsive, and the result appears in a later frame. A panic in the solver does not end the program.
 
 use super::ask::Ask;
 use crate::engine::job::{Ending, Job, Queue, Reporter, Standing, Wake};
@@ -14,22 +14,22 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// What seems to be at once to a hand.
+/// Delay that a user perceives as immediate.
 const AT_ONCE: Duration = Duration::from_millis(100);
-/// A solve that ran longer than this is given up for a newer one. Were it given up at every movement of the hand, the
-/// picture would stand still.
+/// Run time after which a newer request ends a solve. If every slider movement ended it, the picture would never
+/// change.
 const LIVE_PATIENCE: Duration = Duration::from_millis(400);
 
-/// Why nothing came of an ask.
+/// Reason why a request has no result.
 #[derive(Debug)]
 pub enum Unanswered {
-    /// It was to stop.
+    /// It was stopped on request.
     Stopped,
-    /// There is no solution; a sentence says why.
+    /// There is no solution. With the reason as a sentence.
     Failed(String),
 }
 
-/// What came of an ask.
+/// Result of a request.
 type Answered = Result<Box<Answer>, Unanswered>;
 
 struct Running {
@@ -47,7 +47,7 @@ impl Running {
         }
     }
 
-    /// What came of it, once it has ended.
+    /// Returns the result once the solve has ended.
     fn answer(&mut self) -> Option<Answered> {
         self.receive_within(Duration::ZERO);
         Some(match (self.ending.take()?, self.solved.take()) {
@@ -59,7 +59,7 @@ impl Running {
     }
 }
 
-/// The reduced solves that wait or run.
+/// Reduced solves that wait or run.
 pub struct Live {
     queue: Queue<(Ask, Arc<ReducedModel>), Box<Answer>>,
     running: Vec<Running>,
@@ -67,11 +67,11 @@ pub struct Live {
 }
 
 impl Live {
-    /// Solves with the operators of a store.
+    /// Creates an empty queue that uses the operators of a store.
     pub fn new(store: &Store) -> Self {
         let (store, last) = (store.clone(), RefCell::new(None));
         let queue = Queue::new("live picture", 1, move |(ask, model), reporter| {
-            // Where it panics, what it was at is not used again.
+            // After a panic the solver is lost and is not used again.
             let mut online = prepared(&store, last.take(), &ask, model);
             let ending = solve(&mut online, &ask, reporter);
             last.replace(Some(online));
@@ -80,12 +80,12 @@ impl Live {
         Self { queue, running: Vec::new(), patience: AT_ONCE }
     }
 
-    /// Waits for so long until an answer is there, or leaves it to a later frame.
+    /// Sets how long a frame waits for a result.
     pub fn be_patient(&mut self, patience: Duration) {
         self.patience = patience;
     }
 
-    /// Hands an ask over, in the place of one that has not begun, and waits a moment for its answer.
+    /// Submits a request in place of one that has not started, and waits briefly for its result.
     pub fn submit(&mut self, ctx: &egui::Context, ask: Ask, model: Arc<ReducedModel>) {
         let late = Arc::new(AtomicBool::new(false));
         let wake = wake_where(ctx, Arc::clone(&late));
@@ -95,7 +95,8 @@ impl Live {
         let mut running = Running { ask, solved: None, ending: None, job };
         running.receive_within(self.patience);
         if running.ending.is_none() {
-            // From here on it calls; what ended just before has called nobody.
+            // From here on the job requests a repaint when it ends. A job that ended just before did not, so poll
+            // once more.
             late.store(true, Ordering::SeqCst);
             running.receive_within(Duration::ZERO);
             if running.ending.is_some() {
@@ -105,7 +106,8 @@ impl Live {
         self.running.push(running);
     }
 
-    /// What has come since the last call, with what it is for; of those that were given up for a newer one nothing has.
+    /// Returns the results that have arrived since the last call, with their requests. Solves that were ended for a
+    /// newer request return nothing.
     pub fn poll(&mut self) -> Vec<(Ask, Answered)> {
         let mut answers = Vec::new();
         let mut newer = self.running.len();
@@ -120,28 +122,28 @@ impl Live {
         answers
     }
 
-    /// Whether an answer is still to come.
+    /// Returns true while a result is outstanding.
     pub fn busy(&self) -> bool {
         !self.running.is_empty()
     }
 
-    /// How far the newest is.
+    /// Returns the progress of the newest solve.
     pub fn standing(&self) -> Option<Standing> {
         self.running.last().map(|running| running.job.standing())
     }
 
-    /// Stops what runs. It is heard before the next attempt.
+    /// Stops the running solves. They notice it before their next attempt.
     pub fn stop(&self) {
         self.running.iter().for_each(|running| running.job.stop());
     }
 
-    /// Asks for nothing any more: other models serve from here on.
+    /// Drops all solves, because other models are in use from now on.
     pub fn forget(&mut self) {
         self.running.clear();
     }
 }
 
-/// Repaints when there is an answer, once no frame waits for it any more.
+/// Returns a signal that requests a repaint for a result, once no frame waits for it any more.
 fn wake_where(ctx: &egui::Context, late: Arc<AtomicBool>) -> Wake {
     let ctx = ctx.clone();
     Wake::new(move || {
@@ -151,7 +153,8 @@ fn wake_where(ctx: &egui::Context, late: Arc<AtomicBool>) -> Wake {
     })
 }
 
-/// A solver for an ask: the last one where it serves, with the solutions that it remembers.
+/// Returns a solver for a request: the previous one with its stored solutions if model and options match, else a
+/// new one.
 fn prepared(store: &Store, last: Option<Online>, ask: &Ask, model: Arc<ReducedModel>) -> Online {
     let serves = |online: &Online| *online.options() == ask.options && Arc::ptr_eq(&online.model, &model);
     match last {
@@ -166,7 +169,7 @@ fn prepared(store: &Store, last: Option<Online>, ask: &Ask, model: Arc<ReducedMo
 }
 
 fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Answer>>) -> Ending {
-    // The picture depends on what is asked alone, not on what was asked before.
+    // The picture must depend on the present request alone, not on previous ones.
     online.forget();
     let request = ask.key.request(Grid::Model, Method::EMBEDDED);
     let answer = answer(&request, Solver::Reduced(online), reporter).map_err(|error| error.to_string())?;
@@ -180,7 +183,7 @@ fn solve(online: &mut Online, ask: &Ask, reporter: &Reporter<Box<Answer>>) -> En
 
 #[cfg(test)]
 impl Live {
-    /// A solve that ends when it is stopped.
+    /// Starts a solve that ends only when it is stopped.
     pub fn endless(&mut self, ask: Ask) {
         let job = Job::start("Reduced solve", Wake::default(), |reporter| {
             while !reporter.cancelled() {
@@ -229,7 +232,8 @@ mod tests {
         let note = Arc::clone(&called);
         ctx.set_repaint_observer(move |_| note.store(true, Ordering::SeqCst));
         live.be_patient(Duration::ZERO);
-        // On a busy machine an answer may be there before it is looked for: then nobody waits, and nobody is called.
+        // On a busy machine the result may arrive before the first poll. Then there is no repaint request; try
+        // again.
         loop {
             live.forget();
             live.submit(&ctx, ask_at(1.0), Arc::clone(&model));
@@ -249,7 +253,7 @@ mod tests {
         let film = |answer: &Answer| answer.result.scalars.unwrap().h_c;
         assert!((film(&later) / film(&at_once) - 1.0).abs() < 1e-3);
         while !called.load(Ordering::SeqCst) {
-            assert!(begin.elapsed() < Duration::from_secs(60), "nobody is called");
+            assert!(begin.elapsed() < Duration::from_secs(60), "no repaint is requested");
             std::thread::sleep(Duration::from_millis(1));
         }
     }

@@ -1,8 +1,10 @@
-//! What has been asked of the engine and what came of it: the picture, the truth about it, or why there is none.
+//! Requests to the engine and their results: the picture, the full solution that checks it, or the reason why there
+//! is none.
 //!
-//! An [`ask::Ask`] is read off the document in every frame. It is answered by the reduced model, as a rule within the frame,
-//! else by the full solver in a worker; when the sliders rest, a full solution checks the reduced one. [`Answers`] is a
-//! state machine: events change it, and everybody else reads it through functions.
+//! An [`ask::Ask`] is read from the document in every frame. The reduced model usually returns the picture within
+//! the frame. If no model covers the contact, the full solver computes it in a worker. When the sliders are idle, a
+//! full solution checks the reduced one. [`Answers`] is a state machine: events change it, and all other code reads
+//! it through functions.
 
 mod ask;
 mod event;

@@ -1,4 +1,4 @@
-//! What the plots draw: a solution with its curves ready for the screen, and how two of them compare.
+//! Picture that the plots draw: a solution with curves ready for the screen, and the comparison of two of them.
 
 use crate::app::controls::sentence;
 use crate::app::document::Key;
@@ -11,16 +11,17 @@ use egui_plot::PlotPoint;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Where a point contact is cut: the profile along X lies at Y = `y`, that across at X = `x`.
+/// Position of the cuts through a point contact. The profile along X lies at Y = `y`, the profile across at X =
+/// `x`.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Cuts {
-    /// Abscissa of the profile across.
+    /// X of the profile across.
     pub x: f64,
-    /// Ordinate of the profile along.
+    /// Y of the profile along.
     pub y: f64,
 }
 
-/// Pressure and film across, over both halves of a point contact; empty for a line contact.
+/// Pressure and film thickness across, over both halves of a point contact. Empty for a line contact.
 #[derive(Clone, Default)]
 pub struct Across {
     /// P against Y.
@@ -29,20 +30,20 @@ pub struct Across {
     pub film: Vec<PlotPoint>,
 }
 
-/// How a picture was obtained.
+/// Method that computed a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Origin {
     /// By the reduced model.
     Reduced {
-        /// e_f^I, (3.15).
+        /// e_f^I, relative residual, (3.15).
         residual_estimate: f64,
-        /// Calibrated errors; none for a model that was not calibrated as it is used.
+        /// Calibrated errors. `None` if the model was not calibrated for the present options.
         error: Option<ErrorEstimate>,
         /// Newton steps.
         iterations: usize,
-        /// Window that served it.
+        /// Index of the local model that computed it.
         window: usize,
-        /// Whether that is not the contact's own, which found no solution.
+        /// True if the contact's own local model found no solution and a neighbouring one computed it.
         stands_in: bool,
     },
     /// By the full solver.
@@ -63,34 +64,35 @@ impl From<&ContactResult> for Origin {
 }
 
 impl Origin {
-    /// For the heads of tables.
+    /// Returns a description for the heads of tables.
     pub fn describe(&self) -> String {
         match self {
             Self::Full => "full solution".to_owned(),
             Self::Reduced { residual_estimate, error, iterations, window, stands_in } => {
                 let bound = match error {
                     Some(e) => format!("error bounds H_c {:e}, H_min {:e}", e.h_c.bound, e.h_min.bound),
-                    None if *stands_in => "no error bound: a window beside the contact's own answers".to_owned(),
+                    None if *stands_in => "no error bound: computed by a neighbouring local model".to_owned(),
                     None => "no calibrated error bound".to_owned(),
                 };
                 let window = window + 1;
                 format!(
-                    "reduced model, window {window}, {iterations} Newton steps, residual estimate {residual_estimate:e}, {bound}"
+                    "reduced model, local model {window}, {iterations} Newton steps, residual estimate \
+                     {residual_estimate:e}, {bound}"
                 )
             }
         }
     }
 }
 
-/// A solution, what it belongs to, and its curves.
+/// Solution, its contact, and its curves.
 #[derive(Clone)]
 pub struct Picture {
-    /// What it was computed for.
+    /// Contact.
     pub key: Key,
-    /// How.
+    /// Method.
     pub origin: Origin,
     pub solution: Arc<Solution>,
-    /// Where its curves lie in a point contact.
+    /// Position of the cuts through a point contact.
     cuts: Cuts,
     /// P against X.
     pub pressure: Vec<PlotPoint>,
@@ -100,24 +102,25 @@ pub struct Picture {
     pub across: Across,
     /// Traction coefficient over the whole domain, (3.41).
     pub traction: f64,
-    /// Why that is no physics, where it is none.
+    /// Reason why the traction coefficient is not physical, if it is not.
     pub unphysical: Option<TractionDoubt>,
-    /// Where the film ruptures.
+    /// X at which cavitation begins. `None` without cavitation.
     pub rupture: Option<f64>,
-    /// Where a supplied film fills the gap.
+    /// X of the inlet meniscus of a starved contact.
     pub meniscus: Option<f64>,
-    /// The pressure spike.
+    /// Position and height of the pressure spike.
     pub spike: Option<(f64, f64)>,
-    /// What a reader must know of it.
+    /// Warnings that belong to the solution.
     pub warnings: Vec<Warning>,
-    /// The warnings of its grid as sentences: ends too near, spacing too wide, side lobes unresolved.
+    /// Warnings about the grid as sentences: domain too short, spacing too wide, side lobes not resolved.
     pub unresolved: Option<String>,
-    /// Whether its domain or its spacing costs the film too much.
+    /// True if the domain or the spacing causes too large an error of the film thickness.
     pub costly_grid: bool,
 }
 
 impl Picture {
-    /// Prepares an answer for drawing as that of a contact with its film; `None` without convergence.
+    /// Prepares an answer for drawing as that of a contact with the same film thickness. `None` without
+    /// convergence.
     pub fn of(key: Key, answer: Answer, cuts: Cuts) -> Option<Self> {
         let asked = Key { point: answer.request.point, lubricant: answer.request.lubricant };
         let (origin, traction) = (Origin::from(&answer.result), answer.result.traction?);
@@ -152,7 +155,8 @@ impl Picture {
         Some(picture)
     }
 
-    /// Goes over to a contact with the same film ([`Key::has_film_of`]): only the traction is another one.
+    /// Assigns the picture to a contact with the same film thickness ([`Key::has_film_of`]). Only the traction is
+    /// recomputed.
     pub fn slide(&mut self, key: Key) {
         self.solution = of_contact(Arc::clone(&self.solution), &key);
         self.key = key;
@@ -163,14 +167,15 @@ impl Picture {
         self.warnings.extend(self.unphysical.map(Warning::from));
     }
 
-    /// Relative errors of H_c and H_min by the grid of a full solution, estimated from this solution alone; `None` for a
-    /// reduced one.
+    /// Returns the relative errors of H_c and H_min due to the grid of a full solution, estimated from this
+    /// solution alone. `None` for a reduced solution.
     pub fn grid_errors(&self) -> Option<(f64, f64)> {
         let cost = self.solution.grid_cost.filter(|_| self.origin == Origin::Full)?.total();
         Some((cost, cost + side_lobe_error(&self.solution)))
     }
 
-    /// How it was obtained, for the heads of tables: of a full solution with its grid and what that costs.
+    /// Returns a description of the method for the heads of tables. For a full solution it includes the grid and
+    /// its error.
     pub fn means(&self) -> String {
         let (nx, ny) = (self.solution.x.len(), self.solution.y.len());
         let nodes = if self.has_plane() { format!(" on {nx}×{ny} nodes") } else { String::new() };
@@ -182,14 +187,14 @@ impl Picture {
         self.origin.describe() + &grid
     }
 
-    /// Its warnings as sentences that end with a space; empty without any.
+    /// Returns the warnings as sentences that end with a space. Empty without warnings.
     pub fn warned(&self) -> String {
         let stands_in = |warning: &&Warning| **warning != Warning::NeighbouringModel;
         let sentences = self.warnings.iter().filter(stands_in).map(|warning| sentence(&warning.to_string()) + " ");
         sentences.collect()
     }
 
-    /// Lays the curves of a point contact elsewhere.
+    /// Moves the cuts of a point contact.
     pub fn cut(&mut self, cuts: Cuts) {
         if self.cuts != cuts {
             self.cuts = cuts;
@@ -206,38 +211,39 @@ impl Picture {
         self.across = Across { pressure: curve(&across, |node| node.1), film: curve(&across, |node| node.2) };
     }
 
-    /// Whether a solution of the same contact lies on the same grid.
+    /// Returns true if a solution of the same contact uses the same grid.
     pub fn shares_grid(&self, other: &Solution) -> bool {
         self.solution.mesh.spec == other.mesh.spec
     }
 
-    /// Whether it is of a point contact.
+    /// Returns true for a point contact.
     pub fn has_plane(&self) -> bool {
         self.solution.mesh.plane().is_some()
     }
 
-    /// κ = b/a: Y of its solution is in b, which is κ times the a that X is in.
+    /// Returns κ = b/a, the ellipticity. X is scaled with a, Y with b.
     pub fn kappa(&self) -> f64 {
         self.key.point.ellipse().kappa
     }
 
-    /// Central film in m.
+    /// Returns the central film thickness in m.
     pub fn central_film_m(&self) -> f64 {
         self.solution.scalars.h_c * self.key.point.film_scale_m()
     }
 
-    /// Minimum film in m.
+    /// Returns the minimum film thickness in m.
     pub fn minimum_film_m(&self) -> f64 {
         self.solution.scalars.h_min * self.key.point.film_scale_m()
     }
 
-    /// Largest pressure in Pa.
+    /// Returns the maximum pressure in Pa.
     pub fn largest_pressure_pa(&self) -> f64 {
         self.solution.scalars.p_max * self.key.point.hertz().pressure_pa
     }
 }
 
-/// A solution as one of the very contact that it is shown for: the film may have been solved under other sliding.
+/// Returns a solution as one of the contact that it is shown for. The film thickness may have been solved at
+/// another sliding.
 fn of_contact(solution: Arc<Solution>, key: &Key) -> Arc<Solution> {
     match Problem::new(&key.point, key.lubricant) {
         Ok(problem) if problem != solution.problem => Arc::new(Arc::unwrap_or_clone(solution).of_problem(problem)),
@@ -245,7 +251,7 @@ fn of_contact(solution: Arc<Solution>, key: &Key) -> Arc<Solution> {
     }
 }
 
-/// Value of a curve at x, linearly between its points; `None` outside.
+/// Returns the value of a curve at x, linearly interpolated between its points. `None` outside the curve.
 pub fn value_at(curve: &[PlotPoint], x: f64) -> Option<f64> {
     let at = curve.partition_point(|p| p.x < x);
     let (left, right) = (curve.get(at.checked_sub(1)?)?, curve.get(at)?);
@@ -253,18 +259,18 @@ pub fn value_at(curve: &[PlotPoint], x: f64) -> Option<f64> {
     Some((1.0 - t) * left.y + t * right.y)
 }
 
-/// What separates a picture from the full solution of the same contact.
+/// Difference between a picture and the full solution of the same contact.
 #[derive(Clone)]
 pub struct Comparison {
     /// Relative error of H_c.
     pub h_c: f64,
     /// Relative error of H_min.
     pub h_min: f64,
-    /// Difference of the traction coefficients; `None` in pure rolling.
+    /// Difference of the traction coefficients. `None` in pure rolling.
     pub traction: Option<f64>,
-    /// Largest |ΔP|; of a point contact over the whole plane.
+    /// Maximum of |ΔP|, for a point contact over the whole plane.
     pub max_dp: f64,
-    /// Where its curves lie in a point contact.
+    /// Position of the cuts through a point contact.
     pub cuts: Cuts,
     /// ΔP against X.
     pub pressure: Vec<PlotPoint>,
@@ -273,7 +279,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// The errors in a line, with symbols in braces.
+    /// Returns the errors as one line, with symbols in braces.
     pub fn describe(&self) -> String {
         let traction =
             self.traction.map_or_else(String::new, |traction| format!(", Δ{{µ}} {}", numbers::small(traction)));
@@ -285,7 +291,7 @@ impl Comparison {
         )
     }
 
-    /// A picture against the truth.
+    /// Compares a picture with the full solution of its contact.
     pub fn new(picture: &Picture, full: &Picture) -> Self {
         let (a, b) = (&picture.solution.scalars, &full.solution.scalars);
         let slides =

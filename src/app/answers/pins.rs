@@ -1,19 +1,19 @@
-//! Curves that stay for comparison.
+//! Pinned curves, which stay on the screen for comparison.
 
 use super::picture::{Cuts, Picture};
 
-/// Curves that can be pinned at once.
+/// Maximum number of pinned curves.
 pub const MOST_PINS: usize = 8;
 
-/// A curve that stays for comparison.
+/// Pinned curve.
 pub struct Pin {
-    /// Number shown to people.
+    /// Number that the screen shows.
     pub number: usize,
-    /// The curve and its parameters.
+    /// Curve and its parameters.
     pub picture: Picture,
 }
 
-/// All pinned curves, numbered in the order in which they were pinned.
+/// All pinned curves, numbered in the order of pinning.
 #[derive(Default)]
 pub struct Pins {
     all: Vec<Pin>,
@@ -26,7 +26,7 @@ impl Pins {
         &self.all
     }
 
-    /// Pins a curve, unless there are [`MOST_PINS`].
+    /// Pins a curve. Does nothing if there are [`MOST_PINS`] already.
     pub fn add(&mut self, picture: &Picture) {
         if self.all.len() < MOST_PINS {
             self.pinned += 1;
@@ -34,7 +34,7 @@ impl Pins {
         }
     }
 
-    /// Removes the curve at a place, if there is one.
+    /// Removes the curve at an index, if there is one.
     pub fn remove(&mut self, place: usize) {
         if place < self.all.len() {
             self.all.remove(place);
@@ -46,7 +46,7 @@ impl Pins {
         self.all.clear();
     }
 
-    /// Cuts all curves of point contacts elsewhere.
+    /// Moves the cuts of all curves of point contacts.
     pub fn cut(&mut self, cuts: Cuts) {
         self.all.iter_mut().for_each(|pin| pin.picture.cut(cuts));
     }

@@ -1,5 +1,6 @@
-//! How the answers follow the document: by the reduced model, as a rule within the frame, else by the full solver in a
-//! worker; and when the sliders rest, by a full solution that checks the picture.
+//! Updates of the answers after a change of the document. The reduced model usually returns the picture within the
+//! frame; otherwise the full solver computes it in a worker. When the sliders are idle, a full solution checks the
+//! picture.
 
 use super::ask::{Ask, REST_S, quick};
 use super::event::{Event, Wish};
@@ -24,7 +25,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 impl Answers {
-    /// Receives what has been read and solved. Called first in every frame.
+    /// Receives models that have been read and solves that have ended. Call first in every frame.
     pub fn receive(&mut self) {
         self.receive_model();
         for (job, outcome) in self.work.jobs.poll() {
@@ -32,8 +33,8 @@ impl Answers {
         }
     }
 
-    /// Recomputes the picture after a change of the document: by the reduced model within the frame, else by the full
-    /// solver in a worker. Called once per frame, after the panels.
+    /// Recomputes the picture after a change of the document. Uses the reduced model within the frame; if none
+    /// covers the contact, starts a full solve in the worker. Call once per frame, after the panels.
     pub fn refresh(&mut self, ctx: &Context, document: &Document) {
         if self.work.reading.is_none()
             && let Some(name) = self.work.models.late_for(&document.point, &document.lubricant)
@@ -58,7 +59,7 @@ impl Answers {
         }
     }
 
-    /// Starts the full solution when the sliders have rested. Called last in every frame.
+    /// Starts the full solution when the sliders are idle. Call last in every frame.
     pub fn settle(&mut self, ctx: &Context, document: &Document) {
         if !self.full_is_due() {
             return;
@@ -71,12 +72,12 @@ impl Answers {
         }
     }
 
-    /// Solves in full now, even if a full solution is there.
+    /// Starts a full solve now, even if there is a full solution already.
     pub fn verify(&mut self, ctx: &Context, document: &Document) {
         self.follow(ctx, document, Event::VerificationAsked);
     }
 
-    /// Estimates the discretisation error by a solve on a second grid.
+    /// Estimates the discretisation error by a full solve on a second grid.
     pub fn estimate_grid_error(&mut self, ctx: &Context) {
         self.on(Event::EstimateAsked);
         let Some(full) = self.full().filter(|_| self.full_is_current()) else { return };
@@ -86,12 +87,12 @@ impl Answers {
         self.work.jobs.submit(ctx, FullSolve { kind: JobKind::Estimate, key, grid, start });
     }
 
-    /// Cuts all point contacts elsewhere. Called before the plots.
+    /// Moves the cuts of all point contacts. Call before the plots.
     pub fn follow_cuts(&mut self, cuts: Cuts) {
         self.on(Event::Cut(cuts));
     }
 
-    /// Goes on by an event and starts what is to be computed then.
+    /// Processes an event and starts the computation that it requires.
     fn follow(&mut self, ctx: &Context, document: &Document, event: Event) {
         match self.on(event) {
             None => {}
@@ -106,21 +107,21 @@ impl Answers {
 
     fn submit(&mut self, ctx: &Context, document: &Document, kind: JobKind) {
         let key = document.key();
-        // A line contact is solved on the model's own grid wherever it lies, a point contact where the model serves it:
-        // elsewhere on the grid that was chosen.
+        // A line contact is always solved on the model's grid. A point contact uses the model's grid inside the
+        // trained range, and the chosen grid elsewhere.
         let chosen = document.chosen_plane();
         let own = self.passed_over().is_none() || chosen.is_none();
         let plane = chosen.map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
         let model = self.model(document).filter(|_| own).map(Arc::as_ref);
         let grid = GridChoice::of(model, plane, &key.point);
-        // What stands as the answer depends on its request alone; a sketch, which is soon replaced, may start from the
-        // picture.
+        // A final solution must depend on its request alone. A sketch is soon replaced and may therefore start from
+        // the picture.
         let sketch = kind == JobKind::Live && plane != chosen;
         let start = self.picture().filter(|_| sketch).map(|picture| Arc::clone(&picture.solution));
         self.work.jobs.submit(ctx, FullSolve { kind, key, grid, start });
     }
 
-    /// Returns why the reduced model is not even tried; `None` if it is.
+    /// Returns the reason why the reduced model is not even tried. `None` if it is tried.
     fn untried(&self, document: &Document) -> Option<PassedOver> {
         let heat = document.lubricant.heat.is_some();
         let own = |model: &Arc<ReducedModel>| model.is_of(&document.point) && model.domain.heats() == heat;
@@ -133,7 +134,7 @@ impl Answers {
         }
     }
 
-    /// Begins to read a model of the program. Until it is there the full solver draws the pictures.
+    /// Starts to read a built-in model. The full solver draws the pictures until the model is available.
     fn read(&mut self, ctx: &Context, name: &'static str) {
         if worker::is_crowded() {
             self.work.models.give_back();
@@ -146,13 +147,14 @@ impl Answers {
     /// Puts the model in use that has been read.
     fn receive_model(&mut self) {
         let Some(job) = &mut self.work.reading else { return };
-        // The model may come a while before the word that this was all.
+        // The model may arrive before the message that the job has ended.
         let mut read = None;
         let ended = job.poll(|model| read = Some(model)).is_some();
         if read.is_none() && !ended {
             return;
         }
-        // Who has put one of his own in use meanwhile keeps it; where the build is damaged there is none.
+        // A model that the user has put in use in the meantime stays. If the built-in file is damaged, there is no
+        // model.
         self.work.reading = None;
         match read {
             Some(model) if !self.work.models.serves(&model) => _ = self.use_model(model),
@@ -160,15 +162,15 @@ impl Answers {
         }
     }
 
-    /// Puts a reduced model in use and returns the one it replaces: the picture and everything drawn of the model
-    /// follow.
+    /// Puts a reduced model in use and returns the one that it replaces. The picture and all views of the model are
+    /// updated.
     pub fn use_model(&mut self, model: Arc<ReducedModel>) -> Option<Arc<ReducedModel>> {
         let former = self.work.models.put(model);
         self.models_have_changed();
         former
     }
 
-    /// Does without a reduced model.
+    /// Removes a reduced model from use.
     pub fn drop_model(&mut self, model: &Arc<ReducedModel>) {
         self.work.models.remove(model);
         self.models_have_changed();
@@ -179,12 +181,12 @@ impl Answers {
         self.on(Event::ModelsChanged);
     }
 
-    /// Returns true if the document has been asked for by [`Self::refresh`].
+    /// Returns true if [`Self::refresh`] has requested the picture of the document.
     pub fn is_answer_to(&self, document: &Document) -> bool {
         self.asked() == Some(Ask::of(document, &self.work.models))
     }
 
-    /// Returns grids, solvers, models and operators.
+    /// Returns the store of grids, solvers, models and operators.
     pub fn store(&self) -> &Store {
         &self.work.store
     }
@@ -194,22 +196,22 @@ impl Answers {
         &self.work.models
     }
 
-    /// Returns the reduced model that serves a document's contact.
+    /// Returns the reduced model for a document's contact.
     pub fn model(&self, document: &Document) -> Option<&Arc<ReducedModel>> {
         self.work.models.of(&document.point, &document.lubricant)
     }
 
-    /// Returns the same with the document's truncation.
+    /// Returns the reduced model for a document's contact together with the document's truncation.
     pub fn in_use(&self, document: &Document) -> Option<InUse> {
         InUse::of(document, &self.work.models)
     }
 
-    /// Returns the truncation that a document asks for, in the window that serves it.
+    /// Returns the truncation that a document chooses for the local model of its contact.
     pub fn options(&self, document: &Document) -> ReducedOptions {
         Ask::of(document, &self.work.models).options
     }
 
-    /// Returns whether the model was trained for a document's contact.
+    /// Returns whether the document's contact is inside the trained range of the model.
     pub fn trust(&self, document: &Document) -> Option<Trust> {
         let problem = Problem::new(&document.point, document.lubricant).ok()?;
         self.model(document).map(|model| model.trust(&problem))
@@ -225,12 +227,12 @@ impl Answers {
         self.work.jobs.busy(kind)
     }
 
-    /// Returns true if the contact of the sliders is being solved, for its picture or to check it.
+    /// Returns true while the contact of the sliders is being solved, for its picture or to check it.
     pub fn busy(&self) -> bool {
         self.coming() || self.runs(JobKind::Refine) || self.runs(JobKind::Verify)
     }
 
-    /// Returns true if a picture is on its way.
+    /// Returns true while a picture is being computed.
     pub fn coming(&self) -> bool {
         self.work.live.busy() || self.runs(JobKind::Live)
     }
@@ -252,7 +254,7 @@ impl Answers {
         self.work.jobs.cancel_all();
     }
 
-    /// Lets a frame wait for the reduced model for this long, instead of a tenth of a second.
+    /// Sets how long a frame waits for the reduced model. The default is 0.1 s.
     pub fn be_patient(&mut self, patience: Duration) {
         self.work.live.be_patient(patience);
     }

@@ -1,4 +1,4 @@
-//! The state machine: what was asked, what came of it, and how events change it.
+//! State machine of the answers: the present request, its results, and the effect of events on them.
 
 use super::ask::{Ask, quick};
 use super::event::{Event, Wish};
@@ -16,24 +16,24 @@ use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::full::{Report, Solution, Termination};
 use std::sync::Arc;
 
-/// What was asked and what came of it.
+/// Present request and its results.
 pub struct Answers {
     pub(super) work: Work,
     asked: Option<Ask>,
-    /// When the ask last changed \[s\].
+    /// Time of the last change of the request \[s\].
     changed_at: f64,
-    /// A full solution is to follow when the sliders rest.
+    /// True if a full solution is due when the sliders are idle.
     full_due: bool,
-    /// The grid of full solutions of the present line contact.
+    /// Grid of full solutions of the present line contact.
     line: Option<GridSpec>,
     cuts: Cuts,
-    /// The last valid picture.
+    /// Last valid picture.
     picture: Option<Picture>,
-    /// The last converged full solution.
+    /// Last converged full solution.
     full: Option<Picture>,
-    /// The picture against the full solution, if both belong together.
+    /// Difference between picture and full solution, if both belong to the same contact.
     comparison: Option<Comparison>,
-    /// The report of the last full solve, converged or not, and its contact.
+    /// Report of the last full solve, converged or not, with its contact.
     last_report: Option<(Key, Report)>,
     failure: Option<Failure>,
     verify_failure: Option<Failure>,
@@ -46,7 +46,7 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// Nothing asked yet.
+    /// Creates the answers without a request.
     pub fn new(models: Models, store: Store) -> Self {
         Self {
             work: Work::new(models, store),
@@ -70,7 +70,7 @@ impl Answers {
         }
     }
 
-    /// Goes on by an event; returns what is to be computed now.
+    /// Processes an event. Returns the computation that is needed next.
     pub(super) fn on(&mut self, event: Event) -> Option<Wish> {
         match event {
             Event::Asked(ask, passed_over, now) => return self.ask(ask, passed_over, now),
@@ -86,7 +86,7 @@ impl Answers {
             }
             Event::ReducedStopped(_) | Event::ReducedFailed(..) => {}
             Event::Full(kind, key, outcome) => {
-                // Another sliding does not make another film if the lubricant does not thin.
+                // A change of the sliding does not change the film thickness of a lubricant without shear-thinning.
                 let key = self.key().filter(|present| key.has_film_of(present)).unwrap_or(key);
                 match kind {
                     JobKind::Live => self.live(key, outcome),
@@ -112,7 +112,7 @@ impl Answers {
         let key = ask.key;
         let drawn = former.is_some_and(|former| self.picture.as_ref().is_some_and(|p| p.key == former.key));
         let same_means = former.is_some_and(|former| ask.has_means_of(&former));
-        // What solves took belongs to a kind of contact and its means.
+        // The solve times are valid for one kind of contact and one method only.
         if !same_means || former.is_some_and(|former| former.key.point.kind != key.point.kind) {
             self.reduced_times.clear();
             self.full_times.clear();
@@ -123,7 +123,7 @@ impl Answers {
             self.verify_failure = None;
             self.no_estimate = None;
             self.slide(key);
-            // The same film by the same means is on the screen already, and what is known of it stays.
+            // The screen already shows the same film thickness by the same method. Keep it and its checks.
             if drawn && same_means && self.picture_is_current() && passed_over == self.passed_over {
                 self.compare();
                 return None;
@@ -134,7 +134,7 @@ impl Answers {
         if self.passed_over.is_none() { Some(Wish::Reduced) } else { self.full_follows(&ask) }
     }
 
-    /// Takes the pictures along to a contact with the same film: they need no other solve.
+    /// Assigns the pictures to a contact with the same film thickness, which needs no other solve.
     fn slide(&mut self, key: Key) {
         let along = |picture: &&mut Picture| picture.key != key && picture.key.has_film_of(&key);
         let shared = matches!((&self.picture, &self.full), (Some(a), Some(b)) if Arc::ptr_eq(&a.solution, &b.solution));
@@ -164,13 +164,13 @@ impl Answers {
         }
     }
 
-    /// No reduced model draws the picture.
+    /// Requests a full solve, because no reduced model draws the picture.
     fn full_follows(&mut self, ask: &Ask) -> Option<Wish> {
         let key = ask.key;
         self.comparison = None;
         let elsewhere = |p: &Picture| self.line.is_some_and(|grid| p.solution.mesh.spec != grid);
         let live = self.picture.as_ref().is_none_or(|p| p.key != key || p.origin != Origin::Full || elsewhere(p));
-        // A quick grid follows the hand; the chosen one answers when it rests.
+        // While a slider moves, a quick grid is used. The chosen grid is used when the slider is idle.
         let finer = ask.plane.is_some_and(|plane| !live || plane != quick(plane));
         self.full_due = finer && !self.is_settled(&key);
         live.then_some(Wish::Full(JobKind::Live))
@@ -186,13 +186,13 @@ impl Answers {
         kind.map(Wish::Full)
     }
 
-    /// Notes a converged full solution.
+    /// Stores time and report of a converged full solution.
     fn solved(&mut self, key: Key, answer: &Answer) {
         self.full_times.add(answer.result.wall_s);
         self.last_report = report_of(key, answer);
     }
 
-    /// Notes a full solve that has ended without a solution.
+    /// Stores the report of a full solve that has ended without a solution, and returns the failure.
     fn failed(&mut self, key: Key, outcome: Outcome) -> Failure {
         match outcome {
             Outcome::Failed(message) => Failure { key, message, report: None, stopped: false },
@@ -217,9 +217,10 @@ impl Answers {
         if present {
             self.failure = None;
         }
-        // The sliders have moved back to where the reduced model answers at once.
+        // Not needed if the sliders have moved back to a contact that the reduced model has solved.
         let late = !present && self.picture_is_current();
-        // Or the model has been read meanwhile, or the chosen grid has answered before the quick one.
+        // Also not needed if the model has been read in the meantime, or if the chosen grid has finished before the
+        // quick one.
         if late || drawn || self.is_settled(&key) {
             return;
         }
@@ -232,14 +233,15 @@ impl Answers {
         let present = Some(key) == self.key();
         let answer = match outcome {
             Outcome::Solved(answer) if answer.result.converged => answer,
-            // A change of the ask cancels it: that is no failure.
+            // A change of the request cancels the solve, which is not a failure.
             other if present => return self.verify_failure = Some(self.failed(key, other)),
             _ => return,
         };
         self.solved(key, &answer);
         let reduced = self.is_reduced(&key);
         let Some(full) = Picture::of(key, *answer, self.cuts) else { return };
-        // The model has been read meanwhile, and its truth follows; or another grid was chosen, and answers later.
+        // Ignore it if the model has been read in the meantime (its own check follows), or if the grid is no longer
+        // the chosen one.
         let another = self.is_of_another_grid(&key, &full.solution);
         if another || !reduced && self.plane().is_some_and(|plane| full.solution.mesh.plane() != Some(plane)) {
             return;
@@ -293,7 +295,7 @@ impl Answers {
         }
     }
 
-    /// Removes a pinned curve, by its place.
+    /// Removes a pinned curve by its index.
     pub fn unpin(&mut self, place: usize) {
         self.pins.remove(place);
     }
@@ -308,12 +310,12 @@ impl Answers {
         self.pins.all()
     }
 
-    /// Returns what was asked last.
+    /// Returns the last request.
     pub fn asked(&self) -> Option<Ask> {
         self.asked
     }
 
-    /// Returns the contact that was asked for last.
+    /// Returns the contact of the last request.
     pub fn key(&self) -> Option<Key> {
         self.asked.map(|ask| ask.key)
     }
@@ -322,27 +324,27 @@ impl Answers {
         self.asked.and_then(|ask| ask.plane)
     }
 
-    /// Returns the seconds since the ask last changed, as of `now`.
+    /// Returns the seconds since the request last changed, as of `now`.
     pub fn rested_s(&self, now: f64) -> f64 {
         now - self.changed_at
     }
 
-    /// Returns true if a full solution is to follow when the sliders rest.
+    /// Returns true if a full solution is due when the sliders are idle.
     pub(super) fn full_is_due(&self) -> bool {
         self.full_due
     }
 
-    /// Returns the last valid picture, whatever is asked now.
+    /// Returns the last valid picture, whatever the present request.
     pub fn picture(&self) -> Option<&Picture> {
         self.picture.as_ref()
     }
 
-    /// Returns the picture, if it belongs to the sliders.
+    /// Returns the picture if it belongs to the sliders.
     pub fn current_picture(&self) -> Option<&Picture> {
         self.picture.as_ref().filter(|_| self.picture_is_current())
     }
 
-    /// Returns the last converged full solution, whatever is asked now.
+    /// Returns the last converged full solution, whatever the present request.
     pub fn full(&self) -> Option<&Picture> {
         self.full.as_ref()
     }
@@ -352,17 +354,17 @@ impl Answers {
         self.comparison.as_ref()
     }
 
-    /// Returns why there is no picture for the sliders.
+    /// Returns the reason why there is no picture for the sliders.
     pub fn failure(&self) -> Option<&Failure> {
         self.failure.as_ref()
     }
 
-    /// Returns why the verification gave nothing.
+    /// Returns the reason why the verification has no result.
     pub fn verify_failure(&self) -> Option<&Failure> {
         self.verify_failure.as_ref()
     }
 
-    /// Returns why the reduced model does not draw the picture.
+    /// Returns the reason why the reduced model does not draw the picture.
     pub fn passed_over(&self) -> Option<&PassedOver> {
         self.passed_over.as_ref()
     }
@@ -382,30 +384,30 @@ impl Answers {
         &self.full_times
     }
 
-    /// Returns the discretisation error, if it was estimated for the sliders and the chosen grid.
+    /// Returns the discretisation error if it was estimated for the sliders and the chosen grid.
     pub fn grid_error(&self) -> Option<&GridError> {
         let (mesh, key) = (self.full.as_ref().map(|full| full.solution.mesh), self.key()?);
         self.grid_error.as_ref().filter(|error| error.key.has_film_of(&key) && Some(error.mesh) == mesh)
     }
 
-    /// Returns why there is no estimate of the discretisation error, if one was asked for.
+    /// Returns the reason why a requested estimate of the discretisation error is missing.
     pub fn no_estimate(&self) -> Option<&str> {
         self.no_estimate.as_deref()
     }
 
-    /// Returns true if a discretisation error can be estimated: of a full solution on the chosen grid.
+    /// Returns true if a discretisation error can be estimated. This needs a full solution on the chosen grid.
     pub fn can_estimate(&self) -> bool {
         self.full_is_current() && !self.is_quick()
     }
 
-    /// Returns true if the picture is a full solution on another grid than the chosen one, which will replace it.
+    /// Returns true if the picture is a full solution on a quick grid that the chosen grid will replace.
     pub fn is_quick(&self) -> bool {
         let on = |picture: &Picture, plane: PointGridSpec| picture.solution.mesh.plane() == Some(plane);
         matches!((&self.picture, self.plane()), (Some(picture), Some(plane))
             if picture.origin == Origin::Full && !on(picture, plane))
     }
 
-    /// Returns how the picture was obtained, for the heads of tables.
+    /// Returns a description of the method for the heads of tables.
     pub fn means(&self) -> String {
         let sketch = if self.is_quick() { "sketch on a quick grid; " } else { "" };
         self.picture.as_ref().map_or_else(String::new, |picture| format!("{sketch}{}", picture.means()))
@@ -427,8 +429,8 @@ impl Answers {
         self.passed_over.is_none() && self.picture.as_ref().is_some_and(of_it)
     }
 
-    /// Returns true if a full solution of a contact lies on another grid than its reduced picture. It came while the
-    /// model was being read, and does not check the picture.
+    /// Returns true if a full solution uses another grid than the reduced picture of its contact. Such a solution
+    /// arrived while the model was being read and does not check the picture.
     fn is_of_another_grid(&self, key: &Key, full: &Solution) -> bool {
         self.is_reduced(key) && self.picture.as_ref().is_some_and(|picture| !picture.shares_grid(full))
     }

@@ -1,18 +1,17 @@
-//! What the last solves took: one slow solve on a busy machine says little, the middle one of several says what to
-//! expect.
+//! Times of the last solves. Their median gives a better prediction than a single solve on a busy machine.
 
 use crate::scene::median;
 use std::collections::VecDeque;
 
-/// Solves that are remembered.
+/// Number of stored times.
 const REMEMBERED: usize = 15;
 
-/// Seconds of the last solves by one method.
+/// Times \[s\] of the last solves by one method.
 #[derive(Clone, Debug, Default)]
 pub struct Times(VecDeque<f64>);
 
 impl Times {
-    /// Remembers one more.
+    /// Adds a time and drops the oldest one if necessary.
     pub fn add(&mut self, seconds: f64) {
         if self.0.len() == REMEMBERED {
             self.0.pop_front();
@@ -20,17 +19,17 @@ impl Times {
         self.0.push_back(seconds);
     }
 
-    /// Forgets them: they were of other contacts or by other means.
+    /// Removes all times, because contact or method has changed.
     pub fn clear(&mut self) {
         self.0.clear();
     }
 
-    /// How many there are.
+    /// Returns the number of times.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// The middle one; `None` of none.
+    /// Returns the median \[s\]. `None` without times.
     pub fn median_s(&self) -> Option<f64> {
         let seconds: Vec<f64> = self.0.iter().copied().collect();
         (!seconds.is_empty()).then(|| median(&seconds))

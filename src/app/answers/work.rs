@@ -1,4 +1,4 @@
-//! What computes the answers.
+//! Resources that compute the answers.
 
 use super::jobs::Jobs;
 use super::live::Live;
@@ -8,22 +8,22 @@ use crate::engine::job::Job;
 use crate::solver::reduced::ReducedModel;
 use std::sync::Arc;
 
-/// The store, the models, and the solves that wait or run.
+/// Store, models, and the solves that wait or run.
 pub struct Work {
     /// Grids, solvers, models and operators.
     pub store: Store,
-    /// The reduced models in use.
+    /// Reduced models in use.
     pub models: Models,
     /// Full solves.
     pub jobs: Jobs,
     /// Reduced solves.
     pub live: Live,
-    /// A model of the program that is being read.
+    /// Built-in model that is being read.
     pub reading: Option<Job<Arc<ReducedModel>>>,
 }
 
 impl Work {
-    /// Nothing runs yet.
+    /// Creates the resources without running jobs.
     pub fn new(models: Models, store: Store) -> Self {
         Self { jobs: Jobs::new(&store), live: Live::new(&store), store, models, reading: None }
     }

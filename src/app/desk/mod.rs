@@ -1,4 +1,4 @@
-//! Everything the window works with, and the commands on it.
+//! Working state of the window, and the commands on it.
 
 pub mod files;
 mod opened;

@@ -1,14 +1,14 @@
-//! What was just opened.
+//! Item that was just opened.
 
 use crate::app::links::Fragment;
 use crate::app::tab::Tab;
 use std::path::PathBuf;
 
-/// What was just opened.
+/// Item that was just opened.
 pub enum Opened {
-    /// A scene, and the tab that answers its question.
+    /// A scene, with the tab that shows its result.
     Scene(Tab),
-    /// What a link holds beside a document.
+    /// Content of a link apart from the document.
     Link(Box<Fragment>),
     /// A campaign, by its folder.
     Campaign(PathBuf),

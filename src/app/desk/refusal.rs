@@ -1,4 +1,4 @@
-//! What can be done now, and why the rest cannot.
+//! Availability of commands, and the reasons why a command is not available.
 
 use super::workspace::Desk;
 use crate::app::answers::MOST_PINS;
@@ -10,10 +10,10 @@ use crate::app::units::Units;
 use crate::solver::physics::contact::ContactKind;
 
 const NO_PICTURE: &str = "There is no picture yet";
-const RUNS_ALREADY: &str = "It runs already";
+const RUNS_ALREADY: &str = "It is already running";
 
 impl Desk {
-    /// Whether what a command switches is on; `None` of commands that switch nothing.
+    /// Returns whether the option that a command switches is on. `None` for commands that switch nothing.
     pub fn state(&self, command: &Command) -> Option<bool> {
         let (profiles, theme) = (&self.tabs.profiles.choices, self.display.theme);
         match command {
@@ -28,14 +28,14 @@ impl Desk {
         }
     }
 
-    /// Why a command cannot be done now, in a few words; `None` where it can.
+    /// Returns a short reason why a command is not available. `None` if it is available.
     pub fn refusal(&self, command: &Command) -> Option<&'static str> {
         let (refused, why) = match command {
             Command::Undo => (!self.history.can_undo(&self.document), "Nothing has been changed"),
             Command::Redo => (!self.history.can_redo(), "Nothing has been undone"),
             Command::CopyReadouts | Command::ExportProfiles => (self.answers.picture().is_none(), NO_PICTURE),
             Command::Pin if self.answers.picture().is_some() => {
-                (self.answers.pins().len() >= MOST_PINS, "As many curves are pinned as can be told apart")
+                (self.answers.pins().len() >= MOST_PINS, "The maximum number of curves is pinned")
             }
             Command::Pin => (true, NO_PICTURE),
             Command::Unpin => (self.answers.pins().is_empty(), "Nothing is pinned"),
@@ -56,11 +56,8 @@ impl Desk {
                 None => return self.document.no_transient(),
             },
             Command::Train => match self.tabs.training.work.standing() {
-                Some(_) => (true, "A training or comparison runs already"),
-                None => (
-                    self.tabs.training.work.left_behind,
-                    "First resume or discard the training that was left unfinished",
-                ),
+                Some(_) => (true, "A training or comparison is already running"),
+                None => (self.tabs.training.work.left_behind, "First resume or discard the unfinished training"),
             },
             Command::Cancel => (self.works().is_empty() && self.answers.running().is_empty(), "Nothing runs"),
             _ => return None,
@@ -71,7 +68,7 @@ impl Desk {
 
 fn grid_error(desk: &Desk) -> Option<&'static str> {
     if desk.document.point.kind == ContactKind::Line {
-        Some("Only the grid of a point contact is estimated")
+        Some("The grid error is estimated for point contacts only")
     } else if desk.answers.runs(JobKind::Estimate) {
         Some(RUNS_ALREADY)
     } else {

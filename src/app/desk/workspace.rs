@@ -1,5 +1,5 @@
-//! Everything that lies on the table: the document, what came of it, what is under way, files. Panels and tabs never
-//! see it whole: they are given a [`Context`] and ask for changes by commands.
+//! Working state of the window: document, results, running jobs, files. Panels and tabs read it through a
+//! [`Context`] and change it by commands.
 
 use super::files::Files;
 use super::opened::Opened;
@@ -27,45 +27,45 @@ use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What the window works with.
+/// Working state of the window.
 pub struct Desk {
-    /// What is edited.
+    /// Document that is edited.
     pub document: Document,
     /// Undo and redo.
     pub history: History,
-    /// What came of it.
+    /// Results for the document.
     pub answers: Answers,
-    /// Opening, saving, exporting.
+    /// Opening, saving and exporting.
     pub files: Files,
-    /// Theme, size, and where a point contact is cut.
+    /// Theme, size, and position of the cuts through a point contact.
     pub display: Display,
     /// Text fields being edited and their messages.
     pub entries: Entries,
-    /// Whether laws and constants of the lubricant are edited, though it may still have a name.
+    /// True if the laws and constants of the lubricant are edited, even if it still has a name.
     pub own_lubricant: bool,
     /// Transient runs, which several tabs show.
     pub transient: TransientRuns,
     pub tabs: Tabs,
-    /// Plots that leave as figures.
+    /// Plots exported as figures.
     pub figures: Figures,
     /// Tables of load cases.
     pub load_cases: LoadCasesWindow,
-    /// What the scene asks that was opened from those of the program.
+    /// Question of the example scene that was opened.
     pub headline: Option<Headline>,
-    /// The results sheet that is being made.
+    /// Results sheet that is being made.
     pub sheets: Sheets,
-    /// A presentation under way: plots and sliders only.
+    /// Running presentation, which shows only plots and sliders.
     pub presentation: Option<Presentation>,
-    /// What was just opened and is to be answered.
+    /// Item that was just opened and still has to be handled.
     pub opened: Option<Opened>,
-    /// Plots are to be fitted to their data in this frame.
+    /// True if plots shall be fitted to their data in this frame.
     pub fit_plots: bool,
-    /// Tabs whose axes stand still.
+    /// Tabs whose axes are locked.
     pub locked: Vec<Tab>,
 }
 
 impl Desk {
-    /// A window on a document.
+    /// Creates the state with a document.
     pub fn new(document: Document, models: Models, store: Store) -> Self {
         let mut history = History::default();
         history.restart(&document);
@@ -90,7 +90,7 @@ impl Desk {
         }
     }
 
-    /// What panels and tabs see of it.
+    /// Returns the read-only state for panels and tabs.
     pub fn context(&self) -> Context<'_> {
         Context {
             document: &self.document,
@@ -106,8 +106,8 @@ impl Desk {
         }
     }
 
-    /// Changes the document; a refusal stands beside the field, and what was typed elsewhere is forgotten where the
-    /// change was made.
+    /// Changes the document. A refusal is shown next to the field. After a successful change, pending entries in
+    /// other fields are discarded.
     pub fn edit(&mut self, edit: Edit, field: &'static str) {
         let kind = self.document.point.kind;
         self.own_lubricant &= !matches!(edit, Edit::Named(_));
@@ -119,7 +119,7 @@ impl Desk {
         self.entries.answer(field, result);
     }
 
-    /// The window of figures, where one is wanted, and a sheet that is ready. Called when everything else is drawn.
+    /// Draws the figure window and handles a completed sheet. Call after everything else is drawn.
     pub fn figures_ui(&mut self, ctx: &egui::Context) {
         let mut figures = std::mem::take(&mut self.figures);
         let made = figures.ui(ctx, self.display.theme, |tab| self.caption(tab));
@@ -131,7 +131,7 @@ impl Desk {
         }
     }
 
-    /// Lets the axes of a tab stand still, or no more.
+    /// Locks or unlocks the axes of a tab.
     pub fn lock(&mut self, tab: Tab, locked: bool) {
         self.locked.retain(|other| *other != tab);
         if locked {
@@ -141,7 +141,7 @@ impl Desk {
         }
     }
 
-    /// Lays the cuts of a point contact within its domain.
+    /// Keeps the cuts of a point contact within its domain.
     pub fn follow_cuts(&mut self) {
         if let Some(PointGridSpec { domain: (from, to, edge), .. }) = self.document.chosen_plane() {
             let Cuts { x, y } = self.display.cuts;
@@ -150,12 +150,12 @@ impl Desk {
         self.answers.follow_cuts(self.display.cuts);
     }
 
-    /// The reduced model that serves the contact on the screen.
+    /// Returns the reduced model for the contact on the screen.
     pub fn model(&self) -> Option<&Arc<ReducedModel>> {
         self.answers.model(&self.document)
     }
 
-    /// Returns the progress of all jobs beside the full solves for the picture.
+    /// Returns the progress of all jobs except the full solves for the picture.
     pub fn works(&self) -> Vec<Standing> {
         let context = self.context();
         let tabs = Tab::ALL.iter().flat_map(|tab| self.tabs.of(*tab).jobs(&context));
@@ -163,14 +163,14 @@ impl Desk {
         self.answers.standing().into_iter().chain(tabs).chain(made.into_iter().flatten()).collect()
     }
 
-    /// Receives what has come since the last frame. Called first in every frame.
+    /// Receives results since the last frame. Call first in every frame.
     pub fn receive(&mut self) {
         self.answers.receive();
         self.transient.receive(self.answers.store());
         self.tabs.receive();
     }
 
-    /// Stops everything that runs; what has been found stays.
+    /// Stops all jobs and keeps the results so far.
     pub fn stop_all(&mut self) {
         self.answers.cancel_all();
         self.transient.stop();
@@ -197,8 +197,8 @@ impl Desk {
         self.tabs.results.watch(self.document.to_scene(), folder, wake);
     }
 
-    /// Replaces the document, as New and Open do. Nothing of the previous one stays, except pinned curves, which state
-    /// their contacts, and what belongs to reduced models.
+    /// Replaces the document, as New and Open do. Everything of the previous document is discarded, except pinned
+    /// curves, which state their contacts, and data of reduced models.
     pub fn replace_document(&mut self, document: Document) {
         self.history.restart(&document);
         self.document = document;

@@ -1,4 +1,4 @@
-//! Every change of the document that can be asked for, and the one place where it is made.
+//! List of all changes of the document, and the function that makes them.
 
 use super::experiment::Document;
 use super::shape::Shape;
@@ -13,43 +13,43 @@ use crate::solver::physics::engineering::Oil;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::training::TrainingSpec;
 
-/// A change of the document.
+/// Change of the document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
-    /// M and L.
+    /// Sets M and L.
     Moes(Moes),
     Quantity(Quantity, f64),
-    /// One quantity that was typed in SI units and stays.
+    /// Sets a quantity that the user typed in SI units, and holds it.
     Typed(Quantity, f64),
-    /// Whether a quantity is held.
+    /// Sets whether a quantity is held.
     Hold(Quantity, bool),
-    /// The oil that η₀ and α are of; with none they stay as they are.
+    /// Sets the oil that determines η₀ and α. With `None` they keep their values.
     Oil(Option<Oil>),
-    /// The bodies that R, E′, u_m and SRR are of.
+    /// Sets the bodies that determine R, E′, u_m and SRR.
     Bodies(Bodies),
-    /// Whether temperatures are computed.
+    /// Sets whether temperatures are computed.
     Heat(bool),
-    /// The material of a body, 0 or 1.
+    /// Sets the material of a body, 0 or 1.
     Material(usize, Material),
-    /// Roller, ball or ellipse.
+    /// Sets the shape: roller, ball or ellipse.
     Shape(Shape),
-    /// Laws and constants of the lubricant.
+    /// Sets laws and constants of the lubricant.
     Laws(Box<Lubricant>),
-    /// A named lubricant.
+    /// Selects a named lubricant.
     Named(&'static NamedLubricant),
-    /// Another contact of another fluid.
+    /// Sets another contact with another fluid.
     Contact(OperatingPoint, Box<Lubricant>),
-    /// What follows M; what follows L changes along where both cannot be had together.
+    /// Sets the quantity that follows M. Also changes the quantity that follows L if the two are incompatible.
     LoadFollower(LoadFollower),
-    /// What follows L.
+    /// Sets the quantity that follows L.
     LubricantFollower(LubricantFollower),
-    /// The truncation of the reduced model, and what else its view holds.
+    /// Sets the view: the truncation of the reduced model and further settings.
     View(Box<View>),
-    /// The grid of a point contact's full solutions.
+    /// Sets the grid of full solutions of a point contact.
     Plane(PointGridSpec),
-    /// The training it describes.
+    /// Sets the training.
     Training(Box<TrainingSpec>),
-    /// The contact in time it describes.
+    /// Sets the transient contact.
     Transient(Box<TransientStudy>),
 }
 
@@ -57,7 +57,7 @@ impl Document {
     /// Makes a change.
     ///
     /// # Errors
-    /// A sentence when it is refused; the document is unchanged then.
+    /// A sentence if the change is refused. The document is then unchanged.
     pub fn edit(&mut self, edit: Edit) -> Result<(), Refusal> {
         match edit {
             Edit::Moes(moes) => return self.set_moes(moes),
@@ -77,7 +77,7 @@ impl Document {
             Edit::Transient(study) => return self.set_transient(*study),
             Edit::LoadFollower(follower) => self.set_load_follower(follower),
             Edit::LubricantFollower(follower) => {
-                // Where the lubricant fixes α, what follows M is chosen along with it.
+                // If the lubricant fixes α, the quantity that follows M is chosen as well.
                 self.view.when_m_moves = self.followers().0;
                 self.view.when_l_moves = follower;
             }

@@ -1,4 +1,4 @@
-//! The document in the words of engineers: an oil at a temperature, two bodies.
+//! Document in engineering quantities: an oil at a temperature, and two bodies.
 
 use super::experiment::Document;
 use crate::app::refusal::Refusal;
@@ -13,10 +13,11 @@ const OF_THE_OIL: [Quantity; 2] = [Quantity::Viscosity, Quantity::Alpha];
 const OF_THE_BODIES: [Quantity; 3] = [Quantity::Radius, Quantity::Modulus, Quantity::Speed];
 
 impl Document {
-    /// Takes η₀ and α from an oil and holds them.
+    /// Sets η₀ and α from an oil and holds them.
     ///
     /// # Errors
-    /// A sentence when there is no such oil, or the lubricant's own law fixes α; the document is unchanged then.
+    /// A sentence if there is no such oil, or if the lubricant's own law fixes α. The document is then
+    /// unchanged.
     pub fn set_oil(&mut self, oil: Oil) -> Result<(), Refusal> {
         if self.lubricant.own_coefficient().is_some() {
             let why = "the lubricant’s own viscosity law fixes α; choose Mineral oil above to enter a grade";
@@ -29,11 +30,11 @@ impl Document {
         Ok(())
     }
 
-    /// Takes R, E′, u_m and SRR from two bodies and holds the first three; of a point contact R_y as well, where the
-    /// bodies are not as round across as along. With heat the bodies' thermal constants count too.
+    /// Sets R, E′, u_m and SRR from two bodies and holds the first three. For a point contact it also sets R_y if
+    /// the radii along and across differ. For a thermal contact it sets the thermal constants of the bodies.
     ///
     /// # Errors
-    /// A sentence when the bodies make no contact; the document is unchanged then.
+    /// A sentence if the bodies form no contact. The document is then unchanged.
     pub fn set_bodies(&mut self, bodies: Bodies) -> Result<(), Refusal> {
         let (point, lubricant) = self.of_bodies(&bodies)?;
         self.set_contact(point, lubricant)?;
@@ -45,25 +46,26 @@ impl Document {
         Ok(())
     }
 
-    /// Whether the present contact still has the values of its oil.
+    /// Returns true if the present contact still has the values of its oil.
     pub fn oil_counts(&self) -> bool {
         self.view.oil.is_some_and(|oil| self.of_oil(&oil) == Ok(self.point))
     }
 
-    /// The bodies that were entered; before that a roller or a ball on a plane that is the present contact.
+    /// Returns the bodies that were entered. Without an entry, returns a roller or ball on a plane that is
+    /// equivalent to the present contact.
     pub fn bodies(&self) -> Bodies {
         self.view.bodies.unwrap_or_else(|| {
             let point = &self.point;
             let srr = point.sliding.slide_to_roll_ratio;
             let Bodies([first, second]) = Bodies::on_plane(point.radius_m, point.speed_m_per_s, srr);
-            // An ellipse on a plane is a body of both its radii.
+            // An elliptical contact with a plane needs a body with both radii.
             let first = point.radius_y_m.map_or(first, |radius_y| first.with_transverse_radius_m(Some(radius_y)));
             let [own, other] = self.lubricant.heat.unwrap_or_default().bodies;
             Bodies([first.conducting(own), second.conducting(other)])
         })
     }
 
-    /// The bodies that were entered, if the present contact still has their values.
+    /// Returns the bodies that were entered, if the present contact still has their values.
     pub fn bodies_in_force(&self) -> Option<Bodies> {
         self.view.bodies.filter(|bodies| self.of_bodies(bodies) == Ok((self.point, self.lubricant)))
     }
@@ -73,11 +75,11 @@ impl Document {
         Ok(OperatingPoint { viscosity_pa_s: state.viscosity_pa_s, alpha_per_pa: state.alpha_per_pa, ..self.point })
     }
 
-    /// Computes temperatures, or no longer. The bodies are those that were entered, as long as E′ is theirs, otherwise
-    /// of steel.
+    /// Switches the computation of temperatures. The bodies are those that were entered if E′ is still theirs,
+    /// otherwise steel.
     ///
     /// # Errors
-    /// A sentence when the contact cannot be computed with heat; the document is unchanged then.
+    /// A sentence if the contact cannot be computed with heat. The document is then unchanged.
     pub fn switch_heat(&mut self, on: bool) -> Result<(), Refusal> {
         let oil = of_laws(&self.lubricant).map(|named| named.heat).unwrap_or_default();
         let entered = self.view.bodies.filter(|bodies| bodies.reduced_modulus_pa() == Ok(self.point.modulus_pa));
@@ -86,11 +88,11 @@ impl Document {
         self.set_lubricant(Lubricant { heat, ..self.lubricant })
     }
 
-    /// Makes a body, 0 or 1, of a material: the body that was entered, if the contact still has the bodies' values;
-    /// otherwise its thermal constants change only.
+    /// Sets the material of a body, 0 or 1. If the contact still has the values of the entered bodies, the body
+    /// changes; otherwise only the thermal constants change.
     ///
     /// # Errors
-    /// A sentence when the bodies make no contact; the document is unchanged then.
+    /// A sentence if the bodies form no contact. The document is then unchanged.
     pub fn set_material(&mut self, body: usize, material: Material) -> Result<(), Refusal> {
         if let Some(mut bodies) = self.bodies_in_force() {
             bodies.0[body] = bodies.0[body].of(material);
@@ -101,7 +103,7 @@ impl Document {
         self.set_lubricant(lubricant)
     }
 
-    /// The contact and the lubricant's laws that the bodies make of the present ones.
+    /// Returns the contact and the lubricant's laws that result from the bodies and the present contact.
     fn of_bodies(&self, bodies: &Bodies) -> Result<(OperatingPoint, Lubricant), Refusal> {
         let point = bodies.contact(self.point)?;
         let heat = self.lubricant.heat.map(|heat| Heat { bodies: bodies.heat(), ..heat });
@@ -136,10 +138,10 @@ mod tests {
         assert_eq!(OperatingPoint { load: point.load, ..document.point }, point, "only the load follows");
         assert!((document.point.load / point.load - 1.5).abs() < 1e-9);
         assert!(document.set_moes(Moes { l: 1.1 * moes.l, ..moes }).unwrap_err().contains("held"));
-        // Saved and opened again nothing is lost.
+        // Saving and opening again loses nothing.
         let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
         assert_eq!((again.view, again.point), (document.view, document.point));
-        // A value that is typed over them is not theirs any more.
+        // A value typed over the oil's values no longer belongs to the oil.
         document.type_quantity(Quantity::Alpha, 2e-8).unwrap();
         assert!(!document.oil_counts() && document.view.oil == Some(VG_68));
     }
@@ -150,7 +152,7 @@ mod tests {
         let glass = first.of(Material::GLASS);
         let pair = Bodies([glass, second]);
         assert!(glass.speed_m_per_s < second.speed_m_per_s);
-        // The bodies first or heat first.
+        // Set the bodies first, or switch heat on first.
         let (mut document, mut other) = (Document::default(), Document::default());
         document.set_bodies(pair).unwrap();
         document.switch_heat(true).unwrap();
@@ -162,7 +164,7 @@ mod tests {
             assert!((speed * document.point.speed_m_per_s / body.speed_m_per_s - 1.0).abs() < 1e-12);
             assert_eq!(thermal, body.heat);
         }
-        // A material chosen beside Heat is that of the body, as long as the contact is that of the bodies.
+        // A material chosen next to Heat applies to the body, as long as the contact has the values of the bodies.
         document.set_material(1, Material::GLASS).unwrap();
         assert_eq!(document.bodies_in_force(), Some(Bodies([glass, second.of(Material::GLASS)])));
         document.type_quantity(Quantity::Modulus, 123e9).unwrap();

@@ -1,5 +1,5 @@
-//! What the user edits and what a file holds: the operating point, what follows when M or L moves, the lubricant, the
-//! truncation. Undo and redo are snapshots of it.
+//! Content that the user edits and that a file stores: the operating point, the quantities that follow M and L, the
+//! lubricant, the truncation. Undo and redo use snapshots of it.
 
 use super::key::Key;
 use crate::app::refusal::Refusal;
@@ -16,31 +16,31 @@ use crate::solver::physics::contact::{ContactKind, Moes, MoesRequest, OperatingP
 use crate::solver::physics::lubricant::{Heat, Lubricant, ShearLaw};
 use crate::solver::training::TrainingSpec;
 
-/// The experiment on the screen. Its point is always a valid one: edits that are refused leave it as it was.
+/// Experiment on the screen. Its operating point is always valid: a refused edit leaves it unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
-    /// Title for people.
+    /// Title shown on the screen.
     pub title: String,
-    /// The operating point with its sliding; its α is the one that counts.
+    /// Operating point with its sliding. Its α is the effective one.
     pub point: OperatingPoint,
     /// Laws of the lubricant.
     pub lubricant: Lubricant,
-    /// Grid of full solutions; only a point contact's is edited here.
+    /// Grid of full solutions. Only the grid of a point contact can be edited here.
     pub grid: Grid,
-    /// What follows when M or L moves, and the truncation.
+    /// Quantities that follow M and L, and the truncation.
     pub view: View,
-    /// The training it describes; `None` until one is opened or edited.
+    /// Training. `None` until one is opened or edited.
     pub training: Option<TrainingSpec>,
-    /// The contact in time it describes; `None` until one is opened or edited.
+    /// Transient contact. `None` until one is opened or edited.
     pub transient: Option<TransientStudy>,
-    /// The scene it was opened from: its study and expectations are kept for saving.
+    /// Scene that the document was opened from. Its study and expectations are kept for saving.
     pub scene: Option<Scene>,
 }
 
-/// M and L that a new document and a double click on a slider go to.
+/// M and L of a new document. A double click on a slider also sets them.
 pub const HOME: Moes = Moes { m: 40.0, l: 10.0 };
 
-/// Title of a document that nobody has named.
+/// Returns the title of a document without a title by the user.
 fn default_title(kind: ContactKind) -> &'static str {
     match kind {
         ContactKind::Line => "Line contact",
@@ -65,23 +65,23 @@ impl Default for Document {
 }
 
 impl Document {
-    /// The contact and its fluid, by which results are known.
+    /// Returns the contact and its fluid, the key of results.
     pub fn key(&self) -> Key {
         Key { point: self.point, lubricant: self.lubricant }
     }
 
-    /// The grid that was chosen for a point contact; where none was, the graded one that does for it. None for a line
-    /// contact.
+    /// Returns the chosen grid of a point contact. If none was chosen, returns a graded grid that is sufficient for
+    /// the contact. `None` for a line contact.
     pub fn chosen_plane(&self) -> Option<PointGridSpec> {
         let fitted = |graded: PointGridSpec| graded.for_contact(&self.point).unwrap_or(graded);
         let own = self.plane();
         (self.point.kind == ContactKind::Point).then(|| if own == PointGridSpec::EXPLORER { fitted(own) } else { own })
     }
 
-    /// Moves to M and L; the chosen quantities follow, all others keep their value.
+    /// Sets M and L. The chosen quantities follow, and all others keep their values.
     ///
     /// # Errors
-    /// A sentence when the point would be refused; the document is unchanged then.
+    /// A sentence if the point is refused. The document is then unchanged.
     pub fn set_moes(&mut self, wanted: Moes) -> Result<(), Refusal> {
         let here = self.point;
         let followers = self.followers_to(wanted)?;
@@ -113,21 +113,21 @@ impl Document {
         request.load = load.then_some(here.load);
         request.alpha_per_pa = alpha.then_some(here.alpha_per_pa);
         let point = si_from_moes(&request)?;
-        // An ellipse keeps its shape, unless its radius across is held.
+        // An elliptical contact keeps its radius ratio unless its radius across is held.
         let across = match (here.radius_y_m, self.holds(Quantity::RadiusY)) {
             (Some(radius_y), false) if point.radius_m != here.radius_m => {
                 Some(radius_y * point.radius_m / here.radius_m)
             }
             (radius_y, _) => radius_y,
         };
-        // To the last bit, rounding left aside.
+        // Held quantities keep their values bitwise, without rounding errors.
         let held = Quantity::SI.into_iter().filter(|quantity| self.holds(*quantity));
         let point = held.fold(point, |point, q| q.of(&here).map_or(point, |value| q.at(&point, value)));
         self.accept(OperatingPoint { sliding: here.sliding, radius_y_m: across, ..point })
     }
 
-    /// What follows when M moves and when L moves: what was chosen, unless the lubricant determines α, which then
-    /// cannot follow.
+    /// Returns the quantities that follow M and L. These are the chosen ones, unless the lubricant determines α,
+    /// which then cannot follow.
     pub fn followers(&self) -> (LoadFollower, LubricantFollower) {
         let chosen = (self.view.when_m_moves, self.view.when_l_moves);
         match chosen {
@@ -138,7 +138,7 @@ impl Document {
         }
     }
 
-    /// What may follow when M moves, and when L moves then.
+    /// Returns the quantities that may follow M, and those that may then follow L.
     pub fn possible_followers(&self) -> (&'static [LoadFollower], &'static [LubricantFollower]) {
         let load = self.followers().0;
         match (self.lubricant.own_coefficient().is_some(), load) {
@@ -148,26 +148,27 @@ impl Document {
         }
     }
 
-    /// The NPR that counts.
+    /// Returns the effective Newtonian plateau ratio (NPR).
     pub fn plateau_ratio(&self) -> f64 {
         self.point.sliding.newtonian_plateau_ratio.unwrap_or(self.lubricant.shear.plateau())
     }
 
-    /// The grid of a point contact's full solutions; the explorer's own where the scene names none.
+    /// Returns the grid of full solutions of a point contact: the one of the scene, or the explorer's default.
     pub fn plane(&self) -> PointGridSpec {
         self.grid.point_spec().unwrap_or(PointGridSpec::EXPLORER)
     }
 
-    /// Chooses the grid of a point contact's full solutions.
+    /// Sets the grid of full solutions of a point contact.
     pub fn set_plane(&mut self, plane: PointGridSpec) {
         self.grid = Grid::Plane(plane);
     }
 
-    /// Sets one quantity. What follows M and L was chosen; of the others M and L follow. A plateau ratio that is the
-    /// lubricant's own stays that of another lubricant too.
+    /// Sets one quantity. If it is M or L, the chosen quantities follow. For all other quantities M and L follow.
+    /// If the plateau ratio equals that of the lubricant, the contact uses the value of the lubricant, also after a
+    /// change of lubricant.
     ///
     /// # Errors
-    /// A sentence when the value is refused; the document is unchanged then.
+    /// A sentence if the value is refused. The document is then unchanged.
     pub fn set_quantity(&mut self, quantity: Quantity, value: f64) -> Result<(), Refusal> {
         let moes = self.point.moes();
         match quantity {
@@ -178,16 +179,16 @@ impl Document {
                 self.accept(OperatingPoint { sliding, ..self.point })
             }
             Quantity::RadiusRatio if self.holds(Quantity::RadiusY) => {
-                Err(Refusal::new("R_y is held, so that R_y/R cannot move; free it by its lock"))
+                Err(Refusal::new("R_y is held, so R_y/R cannot change; release R_y with its lock"))
             }
             _ => self.accept(quantity.at(&self.point, value)),
         }
     }
 
-    /// Goes to another contact of another fluid.
+    /// Sets contact and lubricant.
     ///
     /// # Errors
-    /// A sentence when it would be refused; the document is unchanged then.
+    /// A sentence if they are refused. The document is then unchanged.
     pub fn set_contact(&mut self, point: OperatingPoint, lubricant: Lubricant) -> Result<(), Refusal> {
         let problem = Problem::new(&point, lubricant)?;
         let former = self.point.kind;
@@ -197,7 +198,7 @@ impl Document {
             self.view.held.set(Quantity::RadiusY, false);
         }
         if former != point.kind {
-            // The load is another quantity now, and a grid is of one kind of contact.
+            // The load has another unit now, and a grid belongs to one kind of contact.
             self.view.held.set(Quantity::Load, false);
             self.grid = Grid::Graded;
             if self.title == default_title(former) {
@@ -207,27 +208,28 @@ impl Document {
         Ok(())
     }
 
-    /// Changes the laws. Without shear constants the fluid is Newtonian, and a plateau ratio has no sense.
+    /// Sets the laws of the lubricant. Without shear constants the fluid is Newtonian, and a plateau ratio is
+    /// removed.
     ///
     /// # Errors
-    /// A sentence when a law is not defined here; the document is unchanged then.
+    /// A sentence if a law is not defined for the contact. The document is then unchanged.
     pub fn set_lubricant(&mut self, lubricant: Lubricant) -> Result<(), Refusal> {
         let mut point = self.point;
         let mut lubricant = lubricant;
         if lubricant.shear == ShearLaw::Newtonian {
             point.sliding.newtonian_plateau_ratio = None;
         } else if let Some(limit) = &mut lubricant.limiting_stress {
-            // A film that thins bends its own traction.
+            // A shear-thinning lubricant limits its traction by its own law.
             limit.eyring = None;
         }
         self.set_contact(point, lubricant)
     }
 
-    /// Takes a named lubricant, and with it only what belongs to the lubricant: its laws, and η₀ and α where it has its
-    /// own. The contact in which its source studies it is another edit.
+    /// Selects a named lubricant: its laws, and its η₀ and α if it defines them. The contact of its source is set
+    /// by another edit.
     ///
     /// # Errors
-    /// A sentence when a law is not defined here; the document is unchanged then.
+    /// A sentence if a law is not defined for the contact. The document is then unchanged.
     pub fn pick_lubricant(&mut self, named: &NamedLubricant) -> Result<(), Refusal> {
         let own = named.viscosity_pa_s.unwrap_or(self.point.viscosity_pa_s);
         let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
@@ -241,10 +243,10 @@ impl Document {
         Ok(())
     }
 
-    /// Changes the training it describes.
+    /// Sets the training.
     ///
     /// # Errors
-    /// A sentence when the training makes no sense; the document is unchanged then.
+    /// A sentence if the training is invalid. The document is then unchanged.
     pub fn set_training(&mut self, spec: TrainingSpec) -> Result<(), Refusal> {
         spec.check()?;
         let study = Study::Training(spec.clone());
@@ -254,8 +256,8 @@ impl Document {
         Ok(())
     }
 
-    /// Whether its file holds the training: a scene that asks another question keeps that, a contact of the other kind
-    /// asks its own, and a new one has room for one question.
+    /// Returns true if the file contains the training. A scene with another study keeps that study. A contact of
+    /// the other kind keeps its own, and a new document stores only one study.
     pub fn saves_training(&self) -> bool {
         let kind = self.point.kind;
         self.training.as_ref().is_none_or(|spec| spec.contact() == kind)
@@ -265,7 +267,7 @@ impl Document {
             }
     }
 
-    /// Chooses what follows M; what follows L changes along where both cannot be had together.
+    /// Sets the quantity that follows M. Also changes the quantity that follows L if the two are incompatible.
     pub fn set_load_follower(&mut self, follower: LoadFollower) {
         self.view.when_m_moves = follower;
         if let Some(first) = follower.partners().first()
@@ -279,7 +281,7 @@ impl Document {
         self.set_contact(point, self.lubricant)
     }
 
-    /// The document of a scene; everything the explorer does not edit stays with it.
+    /// Creates the document of a scene. Parts that the explorer does not edit are kept.
     ///
     /// # Errors
     /// A sentence that names what the explorer cannot solve.
@@ -304,27 +306,26 @@ impl Document {
         })
     }
 
-    /// Returns why the question of the opened scene cannot be asked of the present contact; `None` if it can.
+    /// Returns why the study of the opened scene does not apply to the present contact. `None` if it applies.
     pub fn lost_question(&self) -> Option<&'static str> {
         let scene = self.scene.as_ref()?;
         let in_time = matches!(scene.study, Study::Transient(_));
         let unsupported = self.unsupported_in_time().filter(|_| in_time);
         if scene.contact != self.point.kind {
-            Some("it is about the other kind of contact")
+            Some("it applies to the other kind of contact")
         } else if unsupported == Some(Unsupported::ShearThinning) {
-            Some("it is answered with Newtonian lubricants only")
+            Some("it supports Newtonian lubricants only")
         } else if unsupported == Some(Unsupported::MassConservingModel) {
-            Some(
-                "its models are answered with the penalty or complementarity only, not with mass-conserving cavitation",
-            )
+            Some("its models support cavitation by penalty or complementarity only, not mass-conserving cavitation")
         } else if unsupported.is_some() || !self.keeps_with_heat(scene) {
-            Some("it is answered without heat only")
+            Some("it supports isothermal contacts only")
         } else {
             None
         }
     }
 
-    /// Whether the question of a scene without heat can be asked with that of the present contact, if it has any.
+    /// Returns true if the study of an isothermal scene is also possible with the heat of the present contact. True
+    /// for an isothermal contact.
     fn keeps_with_heat(&self, scene: &Scene) -> bool {
         if self.lubricant.heat.is_none() || scene.heat.is_some() {
             return true;
@@ -335,8 +336,8 @@ impl Document {
         warm.check().is_ok()
     }
 
-    /// The document as a scene. What was opened and not changed is written as it was. A question that the present contact
-    /// has lost gives way to the contact itself.
+    /// Returns the document as a scene. An opened and unchanged document is written as it was. A study that no
+    /// longer applies to the contact is replaced by the contact alone.
     pub fn to_scene(&self) -> Scene {
         let moes = self.point.moes();
         let mut scene = self.scene.clone().unwrap_or_else(|| Scene::at_moes(moes.m, moes.l));
@@ -362,13 +363,13 @@ impl Document {
             scene.view = Some(self.view);
         }
         if scene.check().is_err() {
-            // Whatever the reason is: what is saved can be opened.
+            // Whatever the reason, a saved scene must be readable.
             self.drop_question(&mut scene);
         }
         scene
     }
 
-    /// Leaves the contact alone in a scene, with neither title nor source of another question.
+    /// Reduces a scene to its contact, without title and source of another study.
     fn drop_question(&self, scene: &mut Scene) {
         if self.scene.is_some() {
             default_title(self.point.kind).clone_into(&mut scene.title);
@@ -384,24 +385,24 @@ impl Document {
     /// Reads a document from the text of a scene.
     ///
     /// # Errors
-    /// A sentence with line and column, or what was refused.
+    /// A sentence with line and column, or with the reason of the refusal.
     pub fn from_ron(text: &str) -> Result<Self, Refusal> {
         Self::of_scene(Scene::from_ron(text)?)
     }
 
-    /// Writes the document as the text of a scene.
+    /// Returns the document as the text of a scene.
     ///
     /// # Errors
-    /// A sentence; in practice never.
+    /// A sentence. In practice never.
     pub fn to_ron(&self) -> Result<String, Refusal> {
         Ok(self.to_scene().to_ron()?)
     }
 }
 
-/// What may follow M where the lubricant determines α.
+/// Quantities that may follow M if the lubricant determines α.
 const FIXED_ALPHA: [LoadFollower; 2] = [LoadFollower::Load, LoadFollower::Radius];
 
-/// How a contact is solved headless when nothing else is asked: by all that is in the program.
+/// Returns the default methods of a contact without a study: all methods in the program.
 fn methods_of(kind: ContactKind) -> Vec<Method> {
     match kind {
         ContactKind::Line => vec![Method::Full, Method::EMBEDDED],

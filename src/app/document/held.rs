@@ -1,4 +1,4 @@
-//! What was typed stays: quantities that are held, and what moves instead of them when M or L moves.
+//! Held quantities: a typed quantity keeps its value, and others change instead when M or L changes.
 
 use super::experiment::Document;
 use crate::app::refusal::Refusal;
@@ -6,10 +6,10 @@ use crate::scene::{LoadFollower, LubricantFollower};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::Moes;
 
-/// What gives way for M and what for L.
+/// Quantities that follow M and L.
 pub type Followers = (LoadFollower, LubricantFollower);
 
-/// The quantities that move along with M and with L.
+/// Returns the quantities that change with M and with L.
 fn movers((load, lubricant): Followers) -> (&'static [Quantity], &'static [Quantity]) {
     use LubricantFollower::{Alpha, Radius, Realisation, Speed};
     use Quantity as Q;
@@ -26,26 +26,26 @@ fn movers((load, lubricant): Followers) -> (&'static [Quantity], &'static [Quant
 }
 
 impl Document {
-    /// Whether a quantity was typed and stays.
+    /// Returns true if a quantity was typed and keeps its value.
     pub fn holds(&self, quantity: Quantity) -> bool {
         self.view.held.contains(quantity)
     }
 
-    /// Sets a quantity that was typed, and holds it.
+    /// Sets a typed quantity and holds it.
     ///
     /// # Errors
-    /// A sentence when the value is refused; the document is unchanged then.
+    /// A sentence if the value is refused. The document is then unchanged.
     pub fn type_quantity(&mut self, quantity: Quantity, value: f64) -> Result<(), Refusal> {
         self.set_quantity(quantity, value)?;
         self.view.held.set(quantity, true);
         Ok(())
     }
 
-    /// What gives way when M, L or both move: what was chosen, or where that moves something held the first that does
-    /// not.
+    /// Returns the quantities that follow when M, L or both change. These are the chosen ones if they change no
+    /// held quantity, otherwise the first pair that does not.
     ///
     /// # Errors
-    /// A sentence that names what is held, where nothing is left to give way.
+    /// A sentence that names the held quantities, if no quantity is left to follow.
     pub fn followers_for(&self, m_moves: bool, l_moves: bool) -> Result<Followers, Refusal> {
         let chosen = self.followers();
         let free = |pair: &Followers| {
@@ -56,7 +56,7 @@ impl Document {
         };
         let alpha_is_free = self.lubricant.own_coefficient().is_none();
         let others = LoadFollower::ALL.into_iter().flat_map(|load| load.partners().iter().map(move |l| (load, *l)));
-        // A lubricant that determines α lets neither α nor what needs it follow.
+        // If the lubricant determines α, neither α nor a combination with α may follow.
         let possible = others.filter(|(load, lubricant)| {
             let moves_alpha = matches!(lubricant, LubricantFollower::Alpha | LubricantFollower::Realisation);
             alpha_is_free || !moves_alpha && *load != LoadFollower::Speed
@@ -65,18 +65,18 @@ impl Document {
             let held: Vec<&str> = Quantity::SI.into_iter().filter(|q| self.holds(*q)).map(Quantity::name).collect();
             let moving = if m_moves { "M" } else { "L" };
             let held = held.join(", ");
-            Refusal::new(format!("{moving} cannot move: {held} are held; free one of them by its lock"))
+            Refusal::new(format!("{moving} cannot change: {held} are held; release one of them with its lock"))
         })
     }
 
-    /// What a move to M and L would change of both.
+    /// Returns the quantities that follow in a change to M and L.
     pub(super) fn followers_to(&self, wanted: Moes) -> Result<Followers, Refusal> {
         let here = self.point.moes();
         let moved = |from: f64, to: f64| (to / from - 1.0).abs() > 1e-12;
         self.followers_for(moved(here.m, wanted.m), moved(here.l, wanted.l))
     }
 
-    /// “follows M”, “follows L” or both, of a quantity that is not held.
+    /// Returns “follows M”, “follows L” or both for a quantity that is not held.
     pub fn follows(&self, quantity: Quantity) -> &'static str {
         let with_m = self.followers_for(true, false).is_ok_and(|pair| movers(pair).0.contains(&quantity));
         let with_l = self.followers_for(false, true).is_ok_and(|pair| movers(pair).1.contains(&quantity));

@@ -1,8 +1,8 @@
-//! Undo and redo as snapshots of the document.
+//! Undo and redo by snapshots of the document.
 
 use super::experiment::Document;
 
-/// Undo and redo as snapshots. An edit is a whole gesture: it is recorded when the pointer is released.
+/// Undo and redo by snapshots. An edit is a whole gesture, recorded when the pointer is released.
 #[derive(Debug, Default)]
 pub struct History {
     undo: Vec<Document>,
@@ -10,16 +10,16 @@ pub struct History {
     committed: Option<Document>,
 }
 
-/// Snapshots kept.
+/// Number of stored snapshots.
 const HISTORY_LIMIT: usize = 200;
 
 impl History {
-    /// Starts anew from a document.
+    /// Clears the history and starts from a document.
     pub fn restart(&mut self, document: &Document) {
         *self = Self { committed: Some(document.clone()), ..Self::default() };
     }
 
-    /// Records the document when it differs from the last recorded one, and tells whether it did.
+    /// Records the document if it differs from the last recorded one. Returns true if it was recorded.
     pub fn commit(&mut self, document: &Document) -> bool {
         match &self.committed {
             Some(last) if last == document => return false,
@@ -36,7 +36,7 @@ impl History {
         true
     }
 
-    /// The document before the last edit.
+    /// Restores the document before the last edit.
     pub fn undo(&mut self, document: &mut Document) {
         self.commit(document);
         if let Some(former) = self.undo.pop() {
@@ -45,7 +45,7 @@ impl History {
         }
     }
 
-    /// The document before the last undo.
+    /// Restores the document before the last undo.
     pub fn redo(&mut self, document: &mut Document) {
         if let Some(next) = self.redo.pop() {
             self.undo.push(std::mem::replace(document, next));
@@ -53,12 +53,12 @@ impl History {
         }
     }
 
-    /// Whether there is something to undo.
+    /// Returns true if there is an edit to undo.
     pub fn can_undo(&self, document: &Document) -> bool {
         !self.undo.is_empty() || self.committed.as_ref().is_some_and(|c| c != document)
     }
 
-    /// Whether there is something to redo.
+    /// Returns true if there is an edit to redo.
     pub fn can_redo(&self) -> bool {
         !self.redo.is_empty()
     }

@@ -1,4 +1,4 @@
-//! The three inputs of a contact in time, and taking them from a table.
+//! The three inputs of a transient contact, and reading them from a table.
 
 use crate::app::document::Document;
 use crate::app::refusal::Refusal;
@@ -6,25 +6,25 @@ use crate::scene::{TransientStudy, sampled};
 use crate::solver::full::transient::{Inputs, Signal};
 use std::path::Path;
 
-/// Most rows of a table that a document keeps; undo keeps them many times over.
+/// Maximum number of rows of a table in a document. The limit exists because undo stores many copies.
 const MOST_ROWS: usize = 20_000;
 
-/// One of the inputs.
+/// Input of a transient contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
-    /// w̄(T).
+    /// w̄(T), relative load.
     Load,
-    /// ū(T).
+    /// ū(T), relative speed.
     Speed,
-    /// R̄(T).
+    /// R̄(T), relative radius.
     Radius,
 }
 
 impl Input {
-    /// All of them, the one most often varied first.
+    /// All inputs, the most frequently varied first.
     pub const ALL: [Self; 3] = [Self::Load, Self::Speed, Self::Radius];
 
-    /// What it is called.
+    /// Returns the name on the screen.
     pub fn name(self) -> &'static str {
         match self {
             Self::Load => "Load",
@@ -33,7 +33,7 @@ impl Input {
         }
     }
 
-    /// Its function of time.
+    /// Returns the function of time of this input.
     pub fn of(self, inputs: &Inputs) -> &Signal {
         match self {
             Self::Load => &inputs.load,
@@ -42,7 +42,7 @@ impl Input {
         }
     }
 
-    /// Its function of time, to be changed.
+    /// Returns the function of time of this input, to be changed.
     pub fn of_mut(self, inputs: &mut Inputs) -> &mut Signal {
         match self {
             Self::Load => &mut inputs.load,
@@ -53,10 +53,11 @@ impl Input {
 }
 
 impl Document {
-    /// Takes the inputs that a table has columns of from there; the document keeps their values.
+    /// Reads the inputs for which a table has columns. The document stores their values.
     ///
     /// # Errors
-    /// A sentence with the line that makes no sense, or why an input is refused; nothing is changed then.
+    /// A sentence with the invalid line, or the reason why an input is refused. The document is then
+    /// unchanged.
     pub fn read_inputs(&mut self, path: &Path) -> Result<(), Refusal> {
         let mut study = TransientStudy { sampled: None, ..self.transient_study() };
         sampled::read_into(&mut study.inputs, path)?;
@@ -66,8 +67,8 @@ impl Document {
         };
         if let Some(rows) = Input::ALL.map(rows).into_iter().max().filter(|rows| *rows > MOST_ROWS) {
             return Err(Refusal::new(format!(
-                "the table has {rows} rows, but a scene that is edited here keeps at most {MOST_ROWS}; thin it out, or name the file \
-                 in the scene as `sampled`"
+                "the table has {rows} rows, but a scene edited here stores at most {MOST_ROWS}; reduce the table, or \
+                 name the file in the scene as `sampled`"
             )));
         }
         self.set_transient(study)

@@ -1,35 +1,35 @@
-//! What a result belongs to.
+//! Key of a result.
 
 use crate::scene::{Grid, Method, ModelSource, Request};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use serde::{Deserialize, Serialize};
 
-/// What a result belongs to.
+/// Key of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Key {
-    /// The operating point.
+    /// Operating point.
     pub point: OperatingPoint,
-    /// The laws.
+    /// Laws of the lubricant.
     pub lubricant: Lubricant,
 }
 
 impl Key {
-    /// The same contact seen from its other side: bodies exchanged, SRR with the other sign.
+    /// Returns the same contact with exchanged bodies and the opposite sign of SRR.
     pub fn exchanged(mut self) -> Self {
         self.point.sliding.slide_to_roll_ratio *= -1.0;
         self.lubricant.heat.iter_mut().for_each(|heat| heat.bodies.reverse());
         self
     }
 
-    /// A request for the contact on a grid.
+    /// Returns a request for the contact on a grid.
     pub fn request(&self, grid: Grid, method: Method) -> Request {
         let Self { point, lubricant } = *self;
         Request { point, lubricant, grid, grid_model: ModelSource::Embedded, method }
     }
 
-    /// Whether pressure and film are the same: without heat a limiting stress cuts traction only, and a film that does not
-    /// thin under shear does not feel the sliding.
+    /// Returns true if pressure and film thickness are the same. In an isothermal contact a limiting stress changes
+    /// only the traction, and the film thickness of a Newtonian lubricant does not depend on the sliding.
     pub fn has_film_of(&self, other: &Self) -> bool {
         let film = |key: &Self| {
             let (mut point, law) = (key.point, key.lubricant.shear);
@@ -37,7 +37,8 @@ impl Key {
             if (law == ShearLaw::Newtonian || plateau == 1.0) && key.lubricant.heat.is_none() {
                 point.sliding.slide_to_roll_ratio = 0.0;
             }
-            // A limit cuts the heat that shear makes, and that the film feels.
+            // In a thermal contact a limiting stress reduces the shear heating and thereby changes the film
+            // thickness.
             let laws = if key.lubricant.heat.is_some() { key.lubricant } else { key.lubricant.of_the_film() };
             (point, laws)
         };

@@ -1,4 +1,4 @@
-//! What the user edits and what a file holds.
+//! Content that the user edits and that a file stores.
 
 mod edit;
 mod engineering;

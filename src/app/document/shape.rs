@@ -1,29 +1,29 @@
-//! Roller, ball or ellipse: the shape of the contact as one choice.
+//! Shape of the contact as one choice: roller, ball or ellipse.
 
 use super::experiment::Document;
 use crate::app::refusal::Refusal;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 
-/// What touches what.
+/// Shape of the contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// A line contact.
+    /// Line contact.
     Roller,
-    /// A point contact of equal radii: a circle.
+    /// Point contact with equal radii: a circular contact.
     Ball,
-    /// A point contact with a radius of its own across the rolling direction.
+    /// Point contact with a different radius across the rolling direction: an elliptical contact.
     Ellipse,
 }
 
-/// R_y/R of an ellipse that nobody has given a radius across.
+/// R_y/R of an elliptical contact before the user enters a radius across.
 const USUAL_RATIO: f64 = 3.0;
 
 impl Shape {
-    /// All of them.
+    /// All shapes.
     pub const ALL: [Self; 3] = [Self::Roller, Self::Ball, Self::Ellipse];
 
-    /// That of a contact.
+    /// Returns the shape of a contact.
     pub fn of(point: &OperatingPoint) -> Self {
         match (point.kind, point.radius_y_m) {
             (ContactKind::Line, _) => Self::Roller,
@@ -32,7 +32,7 @@ impl Shape {
         }
     }
 
-    /// For people.
+    /// Returns the name on the screen.
     pub fn name(self) -> &'static str {
         match self {
             Self::Roller => "Roller",
@@ -41,7 +41,7 @@ impl Shape {
         }
     }
 
-    /// Other words for it.
+    /// Returns keywords for the search.
     pub fn synonyms(self) -> &'static str {
         match self {
             Self::Roller => "line contact",
@@ -52,11 +52,11 @@ impl Shape {
 }
 
 impl Document {
-    /// Changes the shape. M, L, R, u_m, E′, η₀ and α stay. The load, which is another quantity of a line, follows M and
-    /// is no longer held; R_y of an ellipse is remembered until there is one again.
+    /// Changes the shape. M, L, R, u_m, E′, η₀ and α keep their values. The load, which has another unit for a line
+    /// contact, follows M and is no longer held. R_y of an elliptical contact is stored until the next one.
     ///
     /// # Errors
-    /// A sentence when the point would be refused; the document is unchanged then.
+    /// A sentence if the point is refused. The document is then unchanged.
     pub fn set_shape(&mut self, shape: Shape) -> Result<(), Refusal> {
         let here = self.point;
         let kind = if shape == Shape::Roller { ContactKind::Line } else { ContactKind::Point };
@@ -119,7 +119,7 @@ mod tests {
         document.view.held.set(Quantity::RadiusY, false);
         document.set_quantity(Quantity::RadiusRatio, 2.0).unwrap();
         assert!((document.point.radius_ratio() - 2.0).abs() < 1e-12);
-        // A typed R moves R along: what else was there keeps its value.
+        // A typed R changes only R; the other quantities keep their values.
         let radius_y = document.point.radius_y_m;
         document.type_quantity(Quantity::Radius, 1.1 * document.point.radius_m).unwrap();
         assert_eq!(document.point.radius_y_m, radius_y);

@@ -1,4 +1,4 @@
-//! The document: edits, refusals, files, undo.
+//! Tests of the document: edits, refusals, files, undo.
 
 use super::*;
 use crate::app::document::{History, Shape};
@@ -64,14 +64,14 @@ fn a_training_is_edited_saved_and_refused_like_the_rest() {
     spec.windows = Windows::Given(Vec::new());
     assert!(document.set_training(spec.clone()).unwrap_err().contains("window"));
     assert_eq!(document.training.as_ref().unwrap().seed, 7);
-    // A scene with another question keeps it; a fresh document takes the training along.
+    // A scene with another study keeps it. A new document stores the training.
     let other = Scene::from_ron(include_str!("../../../scenes/line/table_2_1.ron")).unwrap();
     let training = document.training.clone();
     let document = Document { training: training.clone(), ..Document::of_scene(other.clone()).unwrap() };
     assert_eq!(document.to_scene().study, other.study);
     let fresh = Document { training: training.clone(), ..Document::default() };
     assert_eq!(Document::of_scene(fresh.to_scene()).unwrap().training, training);
-    // A training of point contacts belongs to a point contact, and is not saved with a line.
+    // A training of point contacts belongs to a point contact and is not saved with a line contact.
     let mut point = Document::default();
     point.set_shape(Shape::Ball).unwrap();
     let scene = Scene::from_ron(include_str!("../../../scenes/training/table_3_4_model.ron")).unwrap();
@@ -95,7 +95,7 @@ fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
     let backwards = TransientStudy { duration: -1.0, ..study.clone() };
     assert!(document.set_transient(backwards).unwrap_err().contains("duration"));
     assert_eq!(document.transient, Some(study));
-    // A new scene has room for one question, a scene of another keeps its own.
+    // A new scene stores one study. A scene with another study keeps that study.
     assert!(!document.saves_training());
     let other = Scene::from_ron(include_str!("../../../scenes/line/table_2_1.ron")).unwrap();
     let kept = Document { transient: document.transient.clone(), ..Document::of_scene(other.clone()).unwrap() };
@@ -115,7 +115,7 @@ fn every_contact_in_time_of_the_repository_opens_and_is_saved_as_it_was() {
         count += 1;
         let mut document = Document::of_scene(scene.clone()).unwrap();
         assert_eq!(document.to_scene(), scene, "{}", path.display());
-        // What is edited changes; further inputs and rules, trainings, published figures and expectations stay.
+        // Only edited parts change. Further inputs, rules, trainings, published figures and expectations stay.
         let edited = TransientStudy { frames: vec![Frame::Fixed], duration: 2.0 * study.duration, ..study.clone() };
         document.set_transient(edited.clone()).unwrap();
         assert_eq!(document.to_scene(), Scene { study: Study::Transient(edited), ..scene }, "{}", path.display());
@@ -181,7 +181,7 @@ fn a_lubricant_brings_its_own_viscosity_only_and_keeps_alpha_when_m_and_l_move()
     }
     assert!(document.set_quantity(Quantity::SlideToRollRatio, f64::INFINITY).is_err());
     assert_eq!(document, before);
-    // Laws without a viscosity of their own leave the contact as it is.
+    // Laws without a viscosity leave η₀ of the contact unchanged.
     document.pick_lubricant(&by_name("roelands-oil").unwrap()).unwrap();
     let sliding = Sliding { newtonian_plateau_ratio: None, ..before.point.sliding };
     assert_eq!((document.point, document.plateau_ratio()), (OperatingPoint { sliding, ..before.point }, 1.0));

@@ -1,4 +1,4 @@
-//! What a document has of contacts in time: its own, or one to begin with.
+//! Transient contact of a document: its own or a default.
 
 use crate::app::document::Document;
 use crate::app::in_use::question;
@@ -6,28 +6,28 @@ use crate::app::refusal::Refusal;
 use crate::scene::{Grid, LinearisedTransient, ReducedTransient, Study, TransientStudy};
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupported};
 
-/// The grid to begin with: fine enough to be believed, coarse enough to be there at once.
+/// Default grid, a compromise between accuracy and speed.
 const GRID: Grid = Grid::Uniform { dx: 0.0075, domain: (-4.0, 2.0) };
 
 impl Document {
-    /// The contact in time that the tab shows: the document's, or one to begin with.
+    /// Returns the transient contact that the tab shows: the document's, or a default.
     pub fn transient_study(&self) -> TransientStudy {
         self.transient.clone().unwrap_or_else(breathing)
     }
 
-    /// Changes the contact in time it describes.
+    /// Sets the transient contact.
     ///
     /// # Errors
-    /// A sentence when it makes no sense; the document is unchanged then.
+    /// A sentence if it is invalid. The document is then unchanged.
     pub fn set_transient(&mut self, study: TransientStudy) -> Result<(), Refusal> {
         study.own_march(self.point, self.lubricant, Frame::Fixed).problem()?;
-        let asked = question("Contact in time", &self.key(), self.transient_grid(), Study::Transient(study.clone()));
+        let asked = question("Transient contact", &self.key(), self.transient_grid(), Study::Transient(study.clone()));
         asked.check()?;
         self.transient = Some(study);
         Ok(())
     }
 
-    /// Why there are no contacts in time of this kind; `None` where there are.
+    /// Returns why transient runs do not support this contact. `None` if they do.
     pub fn no_transient(&self) -> Option<&'static str> {
         Unsupported::check(self.point.kind, &self.lubricant).err().and_then(|why| match why {
             Unsupported::PointContact => Some("Transient runs cover line contacts only; choose a line contact"),
@@ -39,7 +39,7 @@ impl Document {
         })
     }
 
-    /// Why its contact cannot be taken through time as its study asks; `None` if it can.
+    /// Returns why the transient study does not support the contact. `None` if it does.
     pub fn unsupported_in_time(&self) -> Option<Unsupported> {
         let by_model = |study: &TransientStudy| study.reduced.is_some() || study.linearised.is_some();
         let of_model = |()| match self.transient.as_ref().is_some_and(by_model) {
@@ -49,22 +49,22 @@ impl Document {
         Unsupported::check(self.point.kind, &self.lubricant).and_then(of_model).err()
     }
 
-    /// Whether its file holds the contact in time: a scene that asks another question keeps that; a contact that cannot be
-    /// taken through time has none.
+    /// Returns true if the file contains the transient contact. A scene with another study keeps that study, and an
+    /// unsupported contact has no transient study.
     pub fn saves_transient(&self) -> bool {
         let asked = self.scene.as_ref().is_none_or(|scene| matches!(scene.study, Study::Transient(_)));
         asked && self.unsupported_in_time().is_none()
     }
 
-    /// The grid of contacts in time: that of a scene of one, else one that answers quickly.
+    /// Returns the grid of transient contacts: that of a transient scene, otherwise the fast default.
     pub fn transient_grid(&self) -> Grid {
         let scene = self.scene.as_ref().filter(|scene| matches!(scene.study, Study::Transient(_)));
         scene.map_or(GRID, |scene| scene.grid)
     }
 }
 
-/// What the tab begins with: a load that breathes by a tenth, as in Fig. 2.6 (right), twice as long and in coarser
-/// steps, by all three methods, the reduced model being that of the program.
+/// Returns the default study: a load with a harmonic variation of 10 %, as in Fig. 2.6 (right), but twice as long
+/// and with larger time steps. It uses all three methods with the built-in reduced model.
 fn breathing() -> TransientStudy {
     TransientStudy {
         inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),

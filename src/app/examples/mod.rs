@@ -1,4 +1,4 @@
-//! The scenes of the program by subject.
+//! Example scenes by subject.
 
 mod question;
 mod sketch;

@@ -1,48 +1,48 @@
-//! What a scene asks, in a sentence.
+//! Question of a scene in one sentence.
 
 use crate::scene::{Scene, Study};
 use crate::solver::physics::contact::ContactKind;
 
-/// The question of a scene.
+/// Returns the question of a scene.
 pub fn question(scene: &Scene) -> String {
     let reduced = scene.study.methods().iter().any(|method| method.model().is_some());
     let by = if reduced { "in full and reduced" } else { "in full" };
     match &scene.study {
         Study::Point(_) => {
-            let body = if scene.contact == ContactKind::Line { "roller" } else { "ball" };
-            format!("What are pressure and film of this {body}, {by}?")
+            let body = if scene.contact == ContactKind::Line { "line contact" } else { "point contact" };
+            format!("What are pressure and film thickness of this {body}, {by}?")
         }
         Study::Sweep(sweep) => {
             let varied: Vec<&str> = sweep.over.iter().map(|axis| axis.vary.label()).collect();
-            format!("How do film and friction change with {}, {by}?", varied.join(" and "))
+            format!("How do film thickness and friction change with {}, {by}?", varied.join(" and "))
         }
-        Study::Trajectory(_) => "How do film and errors change along a path through the whole range?".to_owned(),
+        Study::Trajectory(_) => "How do film thickness and errors change along a path through the range?".to_owned(),
         Study::RandomTest(test) => {
             let who = if test.method.model().is_some() { "the reduced model" } else { "the full solver" };
-            format!("How often does {who} fail on {} random contacts, and how far is it off?", test.tests)
+            format!("How often does {who} fail on {} random contacts, and how large are its errors?", test.tests)
         }
         Study::ErrorSplit(_) => "Where does the reduced model’s error come from?".to_owned(),
-        Study::GridStudy(_) => "How fast does the film settle on finer grids?".to_owned(),
+        Study::GridStudy(_) => "How fast does the film thickness converge on finer grids?".to_owned(),
         Study::Dimensions(_) => "How many modes do these solutions need?".to_owned(),
-        Study::ModelSizes(_) => "How do error and time depend on the numbers of modes and rows?".to_owned(),
-        Study::Training(_) => "What reduced model does this plan of training give?".to_owned(),
-        Study::ErrorMeasures(_) => "Which quick measure tells the true error best?".to_owned(),
-        Study::DistanceMeasure(_) => "How far apart are two contacts, as their solutions see it?".to_owned(),
-        Study::PlanComparison(_) => "Which plan of training gives the best model?".to_owned(),
-        Study::ToleranceStudy(_) => "What does a stricter tolerance of the training buy?".to_owned(),
-        Study::SamplingComparison(_) => "Which rows of the equations should a model look at?".to_owned(),
+        Study::ModelSizes(_) => "How do error and time depend on the numbers of modes and equations?".to_owned(),
+        Study::Training(_) => "Which reduced model results from this training plan?".to_owned(),
+        Study::ErrorMeasures(_) => "Which fast measure predicts the true error best?".to_owned(),
+        Study::DistanceMeasure(_) => "Which distance of two contacts predicts how their solutions differ?".to_owned(),
+        Study::PlanComparison(_) => "Which training plan gives the best model?".to_owned(),
+        Study::ToleranceStudy(_) => "How does a stricter tolerance of the training improve the model?".to_owned(),
+        Study::SamplingComparison(_) => "Which sampled equations should a model use?".to_owned(),
         Study::Transient(study) => {
             let modelled = study.reduced.is_some() || study.linearised.is_some();
             let by = if modelled { ", in full and by models" } else { "" };
-            format!("How does the film answer while the contact changes in time{by}?")
+            format!("How does the film thickness respond to transient inputs{by}?")
         }
-        Study::LoadCases(_) => "What are film and friction of each contact of a table?".to_owned(),
-        Study::FormulaComparison(_) => "How far is a published film formula from full solutions?".to_owned(),
-        Study::MeasuredFilm(_) => "How close is the film to those that others measured and computed?".to_owned(),
-        Study::Starvation(_) => "How thin is the film of a contact that is supplied with little oil?".to_owned(),
-        Study::Transition(_) => "How does a rigid, barely loaded contact become the dry contact?".to_owned(),
-        Study::InformationLoss(_) => "How many modes do the pressures in time need, in which frame?".to_owned(),
-        Study::SchemesInTime(_) => "By which scheme should a reduced model take its steps in time?".to_owned(),
-        Study::FlowCurve(_) => "How does the oil thin under shear?".to_owned(),
+        Study::LoadCases(_) => "What are film thickness and friction of each contact of a table?".to_owned(),
+        Study::FormulaComparison(_) => "How large are the errors of a published film formula?".to_owned(),
+        Study::MeasuredFilm(_) => "How close is the film thickness to published values?".to_owned(),
+        Study::Starvation(_) => "How thin is the film of a starved contact?".to_owned(),
+        Study::Transition(_) => "How does a rigid, lightly loaded contact approach the dry contact?".to_owned(),
+        Study::InformationLoss(_) => "How many modes do transient pressures need, and in which frame?".to_owned(),
+        Study::SchemesInTime(_) => "Which scheme should a reduced model use for its time steps?".to_owned(),
+        Study::FlowCurve(_) => "How does the viscosity of a shear-thinning oil decrease?".to_owned(),
     }
 }

@@ -1,4 +1,4 @@
-//! A sketch of what a study looks like: its kind, not its numbers.
+//! Sketch of the kind of result of a study, without real numbers.
 
 use crate::app::theme::Palette;
 use crate::scene::{Scene, Study};
@@ -7,7 +7,7 @@ use crate::solver::physics::contact::ContactKind;
 use egui::{Color32, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use std::f32::consts::{PI, TAU};
 
-/// The hue of a part of a sketch.
+/// Colour of a part of a sketch.
 #[derive(Clone, Copy)]
 pub(super) enum Hue {
     Pressure,
@@ -17,7 +17,7 @@ pub(super) enum Hue {
     Quiet,
 }
 
-/// A part of a sketch, in places from 0 to 1, upwards.
+/// Part of a sketch. Coordinates run from 0 to 1, upwards.
 pub(super) enum Mark {
     Line(Hue, Vec<Pos2>),
     Dashes(Hue, Vec<Pos2>),
@@ -39,12 +39,12 @@ fn dots(n: usize, height: impl Fn(f32) -> f32) -> Vec<Pos2> {
     along(n, |x| pos2(x, height(x)))
 }
 
-/// Scattered evenly, always the same way.
+/// Returns evenly scattered points, always the same ones.
 fn scattered(n: usize) -> Vec<Pos2> {
     (1..=n).map(|k| pos2((0.618_034 * k as f32).fract(), (0.754_878 * k as f32).fract())).collect()
 }
 
-/// Pressure and film of a contact, as they always look.
+/// Returns the typical pressure and film thickness of a contact.
 fn contact(kind: ContactKind) -> Vec<Mark> {
     match kind {
         ContactKind::Line => {
@@ -73,7 +73,7 @@ fn contact(kind: ContactKind) -> Vec<Mark> {
     }
 }
 
-/// What is drawn for a scene.
+/// Returns the sketch of a scene.
 pub(super) fn marks(scene: &Scene) -> Vec<Mark> {
     let falling = |rate: f32| move |x: f32| 0.9 * (-rate * x).exp();
     match &scene.study {

@@ -1,4 +1,4 @@
-//! The scenes of the program by subject, each with its question and a sketch of the answer's kind.
+//! Window of the example scenes by subject. Each scene has its question and a sketch of its result.
 
 use super::question::question;
 use super::sketch;
@@ -12,40 +12,40 @@ use egui::{
 };
 use std::sync::{Arc, LazyLock};
 
-/// The manual's page of scenes: its headings name the folders.
+/// The manual's page of scenes. Its headings name the folders.
 const PAGE: &str = include_str!("../../../assets/manual/scenes.md");
 /// Size of a sketch \[points\].
 const SKETCH: egui::Vec2 = vec2(84.0, 52.0);
 
-/// Expectations that are named.
+/// Maximum number of expectations that are listed.
 const NAMED: usize = 4;
 
-/// A folder of scenes.
+/// Folder of scenes.
 struct Subject {
     folder: &'static str,
     title: &'static str,
 }
 
-/// The folders in the manual's order.
+/// Folders in the order of the manual.
 static SUBJECTS: LazyLock<Vec<Subject>> = LazyLock::new(|| {
     let headings =
         PAGE.lines().filter_map(|line| line.strip_prefix("## ")?.strip_suffix('`')?.split_once(": `scenes/"));
     headings.map(|(title, folder)| Subject { folder, title }).collect()
 });
 
-/// The window, open or closed.
+/// Window of the example scenes.
 #[derive(Default)]
 pub struct Examples {
     open: bool,
-    /// Whether it was opened in this frame: then the field for a search is ready for typing.
+    /// True if it was opened in this frame. The search field then gets the focus.
     fresh: bool,
     search: String,
-    /// The folder whose scenes are shown; all of them where there is none.
+    /// Folder whose scenes are shown. All folders if `None`.
     folder: Option<&'static str>,
 }
 
 impl Examples {
-    /// Whether it is open: then Escape closes it.
+    /// Returns true if the window is open. Escape then closes it.
     pub fn is_open(&self) -> bool {
         self.open
     }
@@ -58,7 +58,7 @@ impl Examples {
         self.open = false;
     }
 
-    /// Shows it where it is open.
+    /// Draws the window if it is open.
     pub fn ui(&mut self, ctx: &Context, commands: &mut Commands) {
         let mut open = self.open;
         let room = ctx.content_rect();
@@ -96,7 +96,7 @@ impl Examples {
         });
     }
 
-    /// The scenes that are looked for; the one that is chosen.
+    /// Draws the scenes that match the search. Returns the chosen one.
     fn list(&self, ui: &mut Ui) -> Option<&'static Example> {
         let words: Vec<String> = self.search.to_lowercase().split_whitespace().map(str::to_owned).collect();
         let mut chosen = None;
@@ -125,13 +125,13 @@ impl Examples {
     }
 }
 
-/// Whether all words are found in what is said of a scene.
+/// Returns true if the text about a scene contains all words.
 fn fits(Example { path, scene }: &Example, subject: &str, words: &[String]) -> bool {
     let text = [&scene.title, &scene.source, *path, subject, &question(scene)].join(" ").to_lowercase();
     words.iter().all(|word| text.contains(word))
 }
 
-/// A scene with its sketch, its question and what it expects; whether it is chosen.
+/// Draws a scene with its sketch, its question and its expectations. Returns true if it is chosen.
 fn card(ui: &mut Ui, Example { path, scene }: &Example) -> bool {
     let id = ui.scope_id().with(path);
     let hovered = ui.ctx().read_response(id).is_some_and(|before| before.hovered() || before.has_focus());
@@ -155,7 +155,7 @@ fn card(ui: &mut Ui, Example { path, scene }: &Example) -> bool {
     response.on_hover_text(*path).clicked()
 }
 
-/// What a scene expects, from where, and how long it may take.
+/// Returns the expectations of a scene, its source, and whether it takes long.
 fn expected(scene: &Scene) -> String {
     let mut names: Vec<&str> = scene.expect.iter().map(|expectation| expectation.name.as_str()).collect();
     names.dedup();

@@ -1,5 +1,5 @@
-//! What a plot draws, noted for print: the same lines, marks, words and images in the coordinates of its axes. Only
-//! while a figure is wanted; what is drawn past the canvas is for the hand and stays on the screen.
+//! Recording of a plot for print: lines, marks, texts and images in the coordinates of its axes. It is active only
+//! while a figure is requested. Items drawn without the canvas are for interaction and stay on the screen.
 
 use super::sitting::{pixels, rgb, with_sitting};
 use super::texture::known;
@@ -13,24 +13,24 @@ use egui_plot::{
 };
 use std::ops::{Deref, DerefMut};
 
-/// Width on paper of what is as wide as a point of the screen \[pt\].
+/// Width on paper of one point on the screen \[pt\].
 const PAPER: f32 = 0.5;
 
 /// Distance from the screen from which on lines are solid \[points\].
 const FAR: f32 = 3e4;
 
-/// An axis of a plot.
+/// Axis of a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Its title; symbols stand in braces.
+    /// Title, with symbols in braces.
     pub title: String,
-    /// Its title on paper, where the screen has it elsewhere.
+    /// Title on paper, if the screen shows it elsewhere.
     pub on_paper: String,
-    /// Whether it shows decimal logarithms.
+    /// True if it shows decimal logarithms.
     pub log: bool,
-    /// What a value is multiplied with for its unit.
+    /// Factor to the unit of the axis.
     pub factor: f64,
-    /// Places with names in place of numbers.
+    /// Positions labelled with names instead of numbers.
     pub names: Vec<(f64, String)>,
 }
 
@@ -53,15 +53,15 @@ impl Axis {
     }
 }
 
-/// A line all across a plot.
+/// Line across the whole plot.
 enum Rule {
     Across(f64, Pen),
     Up(f64, Pen),
 }
 
-/// What a plot has drawn so far.
+/// Content of a plot recorded so far.
 pub struct Recording {
-    /// Where its items are asked what they look like; nothing of it is seen.
+    /// Invisible `Ui` that yields the shapes of the items.
     probe: Ui,
     chart: Chart,
     axes: [Axis; 2],
@@ -69,7 +69,7 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Begins one, where a figure is wanted of what is drawn now.
+    /// Starts a recording. `None` if no figure of the present drawing is requested.
     pub fn wanted(ctx: &Context, name: &str, axes: [&Axis; 2], equal: bool) -> Option<Self> {
         with_sitting(ctx, |sitting| sitting.is_on()).then(|| {
             let [x, y] = axes.map(Axis::on_a_chart);
@@ -80,7 +80,7 @@ impl Recording {
         })
     }
 
-    /// Ends it with what its axes enclose, and keeps it.
+    /// Ends the recording with the bounds of the axes, and stores it.
     pub fn end(mut self, ctx: &Context, bounds: &PlotBounds) {
         let ([left, below], [right, above]) = (bounds.min(), bounds.max());
         let [x, y] = &self.axes;
@@ -117,7 +117,7 @@ impl Recording {
         }
     }
 
-    /// Words at a place, as they stand beside it on the screen.
+    /// Records a text at its position relative to its anchor on the screen.
     fn note(&mut self, plot: &PlotUi<'_>, text: &Text) {
         let place = PlotPoint { x: text.bounds().min()[0], y: text.bounds().min()[1] };
         for shape in self.shapes(plot, text) {
@@ -138,7 +138,7 @@ impl Recording {
         }
     }
 
-    /// Filled rectangles.
+    /// Records filled rectangles.
     fn bands(&mut self, plot: &PlotUi<'_>, item: &impl PlotItem) {
         let frame = *plot.transform().frame();
         for shape in self.shapes(plot, item) {
@@ -149,7 +149,7 @@ impl Recording {
             let value = |x: f32, y: f32| self.value(plot.transform().value_from_position(pos2(x, y)));
             let ([left, below], [right, above]) =
                 (value(rect.rect.left(), rect.rect.bottom()), value(rect.rect.right(), rect.rect.top()));
-            // What reaches the edge of the plot reaches that of the paper.
+            // A rectangle that reaches the edge of the plot also reaches the edge on paper.
             let open = |value: f64, open: bool, end: f64| if open { end } else { value };
             let x = (
                 open(left, rect.rect.left() <= frame.left() + 0.5, f64::NEG_INFINITY),
@@ -165,7 +165,7 @@ impl Recording {
     }
 }
 
-/// The words of a text and their colour.
+/// Returns the words of a text and their colour.
 fn read(drawn: &TextShape) -> (Words, Rgb) {
     let job = &drawn.galley.job;
     let large = job.sections.iter().map(|section| section.format.font_id.size).fold(0.0, f32::max);
@@ -175,7 +175,7 @@ fn read(drawn: &TextShape) -> (Words, Rgb) {
     for (k, section) in job.sections.iter().enumerate() {
         let (format, range) = (&section.format, &section.byte_range);
         let mut text = job.text.get(range.start.into()..range.end.into()).unwrap_or_default();
-        // Blanks keep words clear of a curve on the screen.
+        // Leading and trailing blanks only separate the text from a curve on the screen.
         if k == 0 {
             text = text.trim_start();
         }
@@ -190,7 +190,7 @@ fn read(drawn: &TextShape) -> (Words, Rgb) {
     (words, rgb(color.unwrap_or(drawn.fallback_color)).0)
 }
 
-/// How a line looks by its shapes.
+/// Returns the pen of a line from its shapes.
 fn pen(shapes: &[Shape]) -> Option<Pen> {
     let pen = |color: Color32, width: f32, dashes: &[f64]| {
         let (color, opacity) = rgb(color);
@@ -207,13 +207,13 @@ fn pen(shapes: &[Shape]) -> Option<Pen> {
     })
 }
 
-/// The pen whose dots are as large as a mark.
+/// Returns the pen width whose dots have the size of a mark.
 fn dot(shape: &Shape) -> f64 {
     let radius = 0.5 * shape.visual_bounding_rect().width();
     f64::from((0.7 * PAPER * radius).clamp(0.4, 2.0))
 }
 
-/// What marks look like by their shapes.
+/// Returns the kind of marks from their shapes.
 fn marks(shapes: &[Shape]) -> Marks {
     match shapes.first() {
         Some(Shape::Circle(circle)) if circle.fill == Color32::TRANSPARENT => Marks::Rings,
@@ -223,11 +223,12 @@ fn marks(shapes: &[Shape]) -> Marks {
     }
 }
 
-/// Where a plot draws. Everything that is drawn through it belongs to the figure; [`Deref`] leads to the plot itself.
+/// Drawing surface of a plot. Everything drawn through it belongs to the figure. [`Deref`] gives access to the plot
+/// itself.
 pub struct Canvas<'p, 'a> {
     plot: &'p mut PlotUi<'a>,
     recording: Option<Recording>,
-    /// Whether its axes stand still.
+    /// True if the axes are locked.
     pub locked: bool,
 }
 
@@ -246,12 +247,12 @@ impl DerefMut for Canvas<'_, '_> {
 }
 
 impl<'p, 'a> Canvas<'p, 'a> {
-    /// The canvas of a plot.
+    /// Creates the canvas of a plot.
     pub fn new(plot: &'p mut PlotUi<'a>, recording: Option<Recording>, locked: bool) -> Self {
         Self { plot, recording, locked }
     }
 
-    /// What was noted.
+    /// Returns the recording.
     pub fn recorded(self) -> Option<Recording> {
         self.recording
     }
@@ -276,7 +277,7 @@ impl<'p, 'a> Canvas<'p, 'a> {
         points.iter().map(place).any(|place| place.x.abs() > FAR || place.y.abs() > FAR)
     }
 
-    /// Marks.
+    /// Draws marks.
     pub fn points(&mut self, points: Points<'a>) {
         if let Some(recording) = &mut self.recording {
             let (color, opacity) = rgb(PlotItem::color(&points));
@@ -289,7 +290,7 @@ impl<'p, 'a> Canvas<'p, 'a> {
         self.plot.points(points);
     }
 
-    /// Words.
+    /// Draws a text.
     pub fn text(&mut self, text: Text) {
         if let Some(recording) = &mut self.recording {
             recording.note(self.plot, &text);
@@ -297,19 +298,19 @@ impl<'p, 'a> Canvas<'p, 'a> {
         self.plot.text(text);
     }
 
-    /// A line at a height.
+    /// Draws a horizontal line.
     pub fn hline(&mut self, line: HLine) {
         self.rule(&line, |pen| Rule::Across(line.bounds().min()[1], pen));
         self.plot.hline(line);
     }
 
-    /// An upright line.
+    /// Draws a vertical line.
     pub fn vline(&mut self, line: VLine) {
         self.rule(&line, |pen| Rule::Up(line.bounds().min()[0], pen));
         self.plot.vline(line);
     }
 
-    /// Notes a line all across.
+    /// Records a line across the whole plot.
     fn rule(&mut self, line: &impl PlotItem, rule: impl FnOnce(Pen) -> Rule) {
         if let Some(recording) = &mut self.recording {
             let pen = pen(&recording.shapes(self.plot, line));
@@ -317,7 +318,7 @@ impl<'p, 'a> Canvas<'p, 'a> {
         }
     }
 
-    /// A filled strip.
+    /// Draws a filled strip.
     pub fn span(&mut self, span: Span) {
         if let Some(recording) = &mut self.recording {
             recording.bands(self.plot, &span);
@@ -332,7 +333,7 @@ impl<'p, 'a> Canvas<'p, 'a> {
         self.plot.bar_chart(bars);
     }
 
-    /// A field as an image from the first to the second value of each axis.
+    /// Draws a field as an image between the two values of each axis.
     pub fn field(&mut self, id: &str, texture: TextureId, x: (f64, f64), y: (f64, f64), tint: Color32) {
         if let Some(recording) = &mut self.recording
             && let Some(image) = known(self.plot.ctx()).get(&texture).and_then(std::sync::Weak::upgrade)

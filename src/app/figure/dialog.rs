@@ -1,4 +1,4 @@
-//! The window in which a figure gets its size, its theme, its words, and leaves.
+//! Dialog for figures: size, theme, title, caption, and export.
 
 use super::settings::{FigureSettings, SIZES};
 use super::sitting::with_sitting;
@@ -20,20 +20,20 @@ use serde::{Deserialize, Serialize};
 
 /// Widths of a column and of a page of journals \[mm\].
 const WIDTHS: [f64; 2] = [85.0, 170.0];
-/// Room for the preview on the screen.
+/// Space for the preview on the screen.
 const PREVIEW: egui::Vec2 = vec2(430.0, 360.0);
-/// Room for what is set.
+/// Space for the settings.
 const SETTINGS: f32 = 356.0;
 
-/// Which of the plots leaves.
+/// Choice of the plots to export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Choice {
     One(usize),
-    /// All of a tab, one below the other.
+    /// All plots of a tab, one below the other.
     All(Tab),
 }
 
-/// The window.
+/// State of the dialog.
 struct Dialog {
     charts: Vec<(Tab, Chart)>,
     choice: Choice,
@@ -42,28 +42,28 @@ struct Dialog {
     preview: Option<(Vec<Chart>, Page, Result<TextureHandle, Refusal>)>,
 }
 
-/// Figures that are wanted.
+/// Requested figures.
 #[derive(Default)]
 pub struct Figures {
-    /// Plots are to be noted in the next frame: those of one tab, or all.
+    /// Set if plots shall be recorded in the next frame: those of one tab, or of all tabs.
     wanted: Option<Option<Tab>>,
-    /// They are noted in this one.
+    /// True if plots are recorded in this frame.
     noting: bool,
     /// Size, resolution, theme and units.
     pub settings: FigureSettings,
     dialog: Option<Dialog>,
-    /// The image that is being made.
+    /// Image that is being rendered.
     work: Background<Image>,
 }
 
-/// An image of a figure.
+/// Image of a figure.
 #[derive(Serialize, Deserialize)]
 pub enum Image {
     File(Vec<u8>),
     Clipboard(Pixels),
 }
 
-/// A drawing that is to become an image: a large one takes seconds.
+/// Drawing to be rendered as an image. A large one takes seconds.
 #[derive(Serialize, Deserialize)]
 pub struct ToImage {
     drawing: Drawing,
@@ -71,7 +71,7 @@ pub struct ToImage {
     leaves: Leaves,
 }
 
-/// What became of a figure.
+/// Export format of a figure.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 enum Leaves {
     Svg,
@@ -81,34 +81,34 @@ enum Leaves {
 }
 
 impl Figures {
-    /// Opens the window with the plots of one tab, or of all that are seen, in these units.
+    /// Opens the dialog with the plots of one tab, or of all visible tabs, in these units.
     pub fn ask(&mut self, tab: Option<Tab>, units: Units) {
         self.settings.units = units;
         self.wanted = Some(tab);
         self.dialog = None;
     }
 
-    /// How far the image is.
+    /// Returns the progress of the image.
     pub fn standing(&self) -> Option<Standing> {
         self.work.standing()
     }
 
-    /// Makes it no more.
+    /// Stops rendering the image.
     pub fn stop(&mut self) {
         self.work = Background::default();
     }
 
-    /// Whether the window is open, or about to be.
+    /// Returns true if the dialog is open or about to open.
     pub fn asks(&self) -> bool {
         self.dialog.is_some() || self.wanted.is_some()
     }
 
-    /// The units of plots in this frame, where a figure decides.
+    /// Returns the units of plots in this frame if a figure is being recorded.
     pub fn units(&self) -> Option<Units> {
         self.noting.then_some(self.settings.units)
     }
 
-    /// Begins a frame: one that is noted is drawn in the theme of the figure.
+    /// Starts a frame. A frame that is recorded uses the theme of the figure.
     pub fn begin(&mut self, ui: &mut Ui) {
         self.noting = self.wanted.is_some();
         let ctx = ui.ctx().clone();
@@ -123,8 +123,8 @@ impl Figures {
         }
     }
 
-    /// Ends a frame: what was noted comes into the window, and nobody sees that frame. Then the window itself; returns
-    /// what is to be written. `caption` is said of the plots of a tab, `theme` is that of the screen.
+    /// Ends a frame. Recorded plots go to the dialog, and that frame is discarded. Then draws the dialog. Returns a
+    /// file to write. `caption` returns the caption of a tab's plots, `theme` is that of the screen.
     pub fn ui(&mut self, ctx: &Context, theme: ThemePreference, caption: impl Fn(Tab) -> String) -> Option<Purpose> {
         if std::mem::take(&mut self.noting) {
             let of = self.wanted.take().flatten();
@@ -189,7 +189,7 @@ impl Figures {
         purpose
     }
 
-    /// Takes in the image that was made: a file to be written, or what comes onto the clipboard.
+    /// Receives the rendered image. Returns a file to write, or copies the image to the clipboard.
     fn received(&mut self, ctx: &Context) -> Option<Purpose> {
         let mut made = None;
         self.work.receive(|image| made = Some(image));
@@ -202,7 +202,7 @@ impl Figures {
         }
     }
 
-    /// Takes in what plots have drawn; what was chosen and written before stays.
+    /// Receives recorded plots. Keeps the choice and the texts of the dialog.
     fn noted(&mut self, charts: Vec<(Tab, Chart)>, caption: &impl Fn(Tab) -> String) {
         let known = self.dialog.take().filter(|_| !charts.is_empty());
         self.dialog = Some(match known {
@@ -249,7 +249,7 @@ fn buttons(ui: &mut Ui, dialog: &Dialog, leaves: &mut Option<Leaves>) -> bool {
 }
 
 impl Dialog {
-    /// What leaves: the chosen plot with its title, or all of a tab with their own.
+    /// Returns the charts to export: the chosen plot with its title, or all plots of a tab with their own titles.
     fn chosen(&self) -> Vec<Chart> {
         match self.choice {
             Choice::One(k) => {
@@ -322,7 +322,7 @@ impl Dialog {
             ui.end_row();
             ui.label("Resolution");
             let dpi = DragValue::new(&mut settings.dpi).range(DPI.0..=DPI.1).suffix(" dpi");
-            let dpi = ui.add(dpi).on_hover_text("Of a PNG; a drawing has none");
+            let dpi = ui.add(dpi).on_hover_text("Resolution of a PNG; an SVG has none");
             named(ui, dpi, "Resolution in dpi");
             ui.end_row();
             ui.label("Theme");
@@ -346,7 +346,7 @@ impl Dialog {
             .labelled_by(label.id);
     }
 
-    /// The figure as it will be, as large as there is room.
+    /// Draws the preview of the figure as large as possible.
     fn preview(&mut self, ui: &mut Ui, settings: &FigureSettings) {
         let (chosen, page) = (self.chosen(), self.page(settings));
         let fits = self.preview.as_ref().is_some_and(|(of, on, _)| *of == chosen && *on == page);
@@ -374,7 +374,7 @@ impl Dialog {
         }
     }
 
-    /// What is written without drawing pixels.
+    /// Returns a file of text: SVG or CSV. `None` for formats that need pixels.
     fn text(&self, settings: &FigureSettings, leaves: Leaves) -> Option<Purpose> {
         if matches!(leaves, Leaves::Svg) {
             return Some(Purpose::Write(Written::Svg, self.drawing(settings).to_svg().into_bytes().into()));

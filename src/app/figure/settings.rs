@@ -5,10 +5,10 @@ use crate::scene::Page;
 use crate::scene::drawing::DPI;
 use serde::{Deserialize, Serialize};
 
-/// Sizes that a figure can have \[mm\].
+/// Permitted sizes of a figure \[mm\].
 pub const SIZES: (f64, f64) = (30.0, 500.0);
 
-/// What stays from one figure to the next; kept with the session.
+/// Settings of figures, stored with the session.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct FigureSettings {
@@ -16,16 +16,16 @@ pub struct FigureSettings {
     pub width_mm: f64,
     /// Height \[mm\].
     pub height_mm: f64,
-    /// Resolution of an image.
+    /// Resolution of an image \[dpi\].
     pub dpi: f64,
-    /// Light letters on a dark ground.
+    /// True for light text on a dark background.
     pub dark: bool,
     /// Units of its axes.
     pub units: Units,
 }
 
 impl FigureSettings {
-    /// Whether sizes and resolution are such as can be entered.
+    /// Returns true if sizes and resolution are within their ranges.
     pub fn is_sound(&self) -> bool {
         let within = |value: f64, (least, most): (f64, f64)| least <= value && value <= most;
         within(self.width_mm, SIZES) && within(self.height_mm, SIZES) && within(self.dpi, DPI)

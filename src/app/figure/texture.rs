@@ -1,10 +1,10 @@
-//! Textures whose pixels are still known when a plot leaves as a drawing.
+//! Textures whose pixels remain available for the export of a plot.
 
 use egui::{ColorImage, Context, Id, TextureHandle, TextureId, TextureOptions};
 use std::collections::HashMap;
 use std::sync::{Arc, Weak};
 
-/// An image on the screen, interpolated between its pixels.
+/// Image on the screen, interpolated between its pixels.
 pub struct Texture {
     handle: TextureHandle,
     image: Arc<ColorImage>,
@@ -18,13 +18,13 @@ fn with_known<T>(ctx: &Context, change: impl FnOnce(&mut Known) -> T) -> T {
 }
 
 impl Texture {
-    /// Makes one.
+    /// Creates a texture.
     pub fn new(ctx: &Context, name: &str, image: ColorImage) -> Self {
         let image = Arc::new(image);
         Self { handle: ctx.load_texture(name, Arc::clone(&image), TextureOptions::LINEAR), image }
     }
 
-    /// Puts an image in the place of one, or makes it.
+    /// Replaces the image of a texture, or creates it.
     pub fn put(place: &mut Option<Self>, ctx: &Context, name: &str, image: ColorImage) {
         match place {
             Some(texture) => {
@@ -35,19 +35,19 @@ impl Texture {
         }
     }
 
-    /// What paints it; from now on a drawing of the screen knows its pixels.
+    /// Returns the identity for painting. From now on an export of the screen can use its pixels.
     pub fn shown(&self, ctx: &Context) -> TextureId {
         with_known(ctx, |known| known.insert(self.handle.id(), Arc::downgrade(&self.image)));
         self.handle.id()
     }
 
-    /// Its pixels.
+    /// Returns the pixels.
     pub fn image(&self) -> &ColorImage {
         &self.image
     }
 }
 
-/// The images that are known; those that are gone are forgotten.
+/// Returns the known images. Removes those that no longer exist.
 pub(super) fn known(ctx: &Context) -> Known {
     with_known(ctx, |known| {
         known.retain(|_, image| image.strong_count() > 0);

@@ -1,4 +1,4 @@
-//! What a step of a lesson waits for.
+//! Conditions that a step of a lesson waits for.
 
 use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
@@ -7,48 +7,48 @@ use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 
-/// One thing that must hold.
+/// Condition of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Goal {
     /// A quantity of the contact lies between two values.
     Between(Quantity, f64, f64),
-    /// The contact is of a kind.
+    /// The contact is of this kind.
     Kind(ContactKind),
-    /// A tab is to be seen.
+    /// A tab is visible.
     Tab(Tab),
-    /// The lubricant is one with a name.
+    /// The lubricant is this named one.
     Lubricant(&'static NamedLubricant),
-    /// So many curves are pinned.
+    /// This number of curves is pinned.
     Pins(usize),
     /// A full solution has checked the picture.
     Checked,
 }
 
-/// What is on the screen.
+/// State of the screen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnScreen {
-    /// The contact of the sliders.
+    /// Contact of the sliders.
     pub point: OperatingPoint,
-    /// Its NPR, the lubricant's own where it has none.
+    /// Its NPR, or that of the lubricant if the contact has none.
     pub plateau_ratio: f64,
     pub lubricant: Lubricant,
-    /// Tabs that are seen.
+    /// Visible tabs.
     pub tabs: Vec<Tab>,
-    /// Pinned curves.
+    /// Number of pinned curves.
     pub pins: usize,
-    /// Whether a full solution belongs to the picture.
+    /// True if a full solution belongs to the picture.
     pub checked: bool,
 }
 
-/// What a goal may say.
+/// Accepted forms of a condition.
 const ACCEPTED: &str = "accepted are `M between 2 and 3` (likewise L, R_y/R, SRR, NPR), `contact point`, `tab Regimes`, \
     `lubricant mineral-oil`, `pin 1`, `checked` and `read`";
 
 impl Goal {
-    /// The goals of a line, with commas between them; none of a step that is only read.
+    /// Parses the conditions of a line, separated by commas. Empty for a step that is only read.
     ///
     /// # Errors
-    /// With what would be accepted.
+    /// A sentence with the accepted forms.
     pub fn all(words: &str) -> Result<Vec<Self>, Refusal> {
         let goals = words.split(',').map(str::trim).filter(|words| *words != "read");
         goals
@@ -80,7 +80,7 @@ impl Goal {
         }
     }
 
-    /// The tab that is to be seen.
+    /// Returns the tab that must be visible.
     pub fn tab(&self) -> Option<Tab> {
         if let Self::Tab(tab) = self { Some(*tab) } else { None }
     }
@@ -111,7 +111,7 @@ fn quantity(name: &str) -> Option<Quantity> {
     }
 }
 
-/// The accessible name of a control that a lesson calls by its symbol or by that name.
+/// Returns the accessible name of a control that a lesson names by its symbol or by that name.
 pub fn control(name: &str) -> &str {
     match quantity(name) {
         Some(quantity) => quantity.label(),

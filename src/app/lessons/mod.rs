@@ -1,4 +1,4 @@
-//! Lessons that point at controls and see what was done.
+//! Lessons that point at controls and detect when a step is done.
 
 mod goal;
 mod panel;

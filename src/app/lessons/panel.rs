@@ -1,4 +1,5 @@
-//! Lessons: a panel that says what to do, points at the control, sees that it was done, and says what was seen.
+//! Panel of the lessons. It shows what to do, points at the control, detects that it was done, and shows what to
+//! notice.
 
 use super::goal::{Goal, OnScreen};
 use super::text::Lesson;
@@ -12,7 +13,7 @@ use egui::{Button, RichText, ScrollArea, Ui, vec2};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use std::sync::LazyLock;
 
-/// The lessons of the program, each as it is written.
+/// Source texts of the built-in lessons.
 const TEXTS: [&str; 11] = [
     include_str!("../../../assets/lessons/01_rigid_to_hertz.md"),
     include_str!("../../../assets/lessons/02_the_spike.md"),
@@ -27,61 +28,61 @@ const TEXTS: [&str; 11] = [
     include_str!("../../../assets/lessons/11_when_to_trust.md"),
 ];
 
-/// They are tested: none is refused.
+/// A test checks that none of them is refused.
 static LESSONS: LazyLock<Vec<Lesson>> = LazyLock::new(|| TEXTS.iter().flat_map(|text| Lesson::read(text)).collect());
 
-/// Most lessons of one's own.
+/// Maximum number of lessons of the user.
 #[cfg(feature = "desktop")]
 const MOST_OWN: usize = 100;
-/// Width of the panel beside the tabs \[points\].
+/// Width of the panel next to the tabs \[points\].
 pub const WIDTH: f32 = 300.0;
-/// Its height below the tabs \[points\].
+/// Height of the panel below the tabs \[points\].
 pub const HEIGHT: f32 = 190.0;
-/// Windows of this width have room for it beside tabs that lie beside each other \[points\].
+/// Width of the window from which the panel fits next to adjacent tabs \[points\].
 pub const BESIDE: f32 = 1600.0;
 
-/// The list of lessons, and the one that is under way.
+/// List of lessons, and the running one.
 #[derive(Default)]
 pub struct Lessons {
-    /// Whether the list or a lesson is shown.
+    /// True if the list or a lesson is shown.
     open: bool,
     own: Vec<Lesson>,
-    /// Own files that are no lessons, and why.
+    /// Files of the user that are no lessons, with the reasons.
     refused: Vec<String>,
     now: Option<Standing>,
     cache: CommonMarkCache,
 }
 
-/// A lesson under way.
+/// Running lesson.
 struct Standing {
     lesson: Lesson,
     step: usize,
-    /// Whether what the step asks for was done; it stays done.
+    /// True once the conditions of the step were met. It stays true.
     done: bool,
 }
 
-/// Number of lessons of the program.
+/// Returns the number of built-in lessons.
 pub fn count() -> usize {
     LESSONS.len()
 }
 
 impl Lessons {
-    /// Shows the list, or no more.
+    /// Shows or hides the list.
     pub fn toggle(&mut self) {
         self.open = !self.open;
     }
 
-    /// Whether the panel is to be drawn.
+    /// Returns true if the panel is visible.
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Closes the panel; the lesson under way stays where it is.
+    /// Closes the panel. The running lesson keeps its step.
     pub fn close(&mut self) {
         self.open = false;
     }
 
-    /// Takes in lessons of one's own: files ending in `.md` in a folder, in the order of their names.
+    /// Reads lessons of the user: files ending in `.md` in a folder, in the order of their names.
     #[cfg(feature = "desktop")]
     pub fn look_in(&mut self, folder: &std::path::Path) {
         let Ok(entries) = std::fs::read_dir(folder) else { return };
@@ -99,7 +100,7 @@ impl Lessons {
         }
     }
 
-    /// The panel.
+    /// Draws the panel.
     pub fn ui(&mut self, ui: &mut Ui, screen: &OnScreen, commands: &mut Commands) {
         point_at(ui.ctx(), None);
         if self.now.is_some() {
@@ -114,7 +115,7 @@ impl Lessons {
             ui.heading("Lessons");
             self.close_ui(ui);
         });
-        ui.weak("Each starts from a contact of its own; Undo brings yours back.");
+        ui.weak("Each lesson starts from its own contact. Undo restores yours.");
         let mut chosen = None;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             for (k, lesson) in LESSONS.iter().chain(&self.own).enumerate() {
@@ -136,7 +137,7 @@ impl Lessons {
         }
     }
 
-    /// Opens a lesson by its number, from 1; returns what is to be done for it.
+    /// Opens a lesson by its number, from 1. Returns the commands that it needs.
     pub fn open_lesson(&mut self, number: usize) -> Vec<Command> {
         let mut commands = Commands::default();
         if let Some(lesson) = number.checked_sub(1).and_then(|k| LESSONS.get(k)) {
@@ -149,7 +150,7 @@ impl Lessons {
     fn begin(&mut self, lesson: Lesson, commands: &mut Commands) {
         commands.push(Command::Go(Tab::Profiles));
         commands.edit(Edit::Contact(lesson.point, Box::new(lesson.lubricant.laws)), "lesson");
-        // Axes that stand still do so about its contact.
+        // Locked axes are fitted to the contact of the lesson.
         commands.push(Command::FitPlots);
         self.now = Some(Standing { lesson, step: 0, done: false });
     }
@@ -185,7 +186,7 @@ impl Lessons {
         if !*done {
             point_at(ui.ctx(), present.control.as_deref().map(super::goal::control));
         }
-        // Below the text, where it stands still.
+        // The buttons are below the text, at a fixed position.
         let below = 2.6 * ui.spacing().interact_size.y;
         let height = (ui.available_height() - below).max(60.0);
         ScrollArea::vertical().id_salt(*step).max_height(height).auto_shrink(false).show(ui, |ui| {

@@ -1,4 +1,4 @@
-//! A lesson as it is written: Markdown with a line that says where it starts, and steps that say what is to be done.
+//! Source format of a lesson: Markdown with a line for the initial contact, and steps with their conditions.
 //!
 //! ```text
 //! # Title
@@ -16,34 +16,34 @@ use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 
-/// A lesson.
+/// Lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lesson {
     pub title: String,
     pub about: String,
-    /// The contact it starts from.
+    /// Initial contact.
     pub point: OperatingPoint,
-    /// The lubricant it starts with.
+    /// Initial lubricant.
     pub lubricant: &'static NamedLubricant,
-    /// What is done, one after the other.
+    /// Steps in their order.
     pub steps: Vec<Step>,
 }
 
-/// A step of a lesson.
+/// Step of a lesson.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Step {
     pub title: String,
-    /// What is to be done, and why.
+    /// Text: what to do, and why.
     pub text: String,
-    /// What must hold for it to be done; nothing where it is only read.
+    /// Conditions of the step. Empty if it is only read.
     pub goals: Vec<Goal>,
-    /// The control that it is done with, by its name.
+    /// Name of the control for the step.
     pub control: Option<String>,
-    /// What there was to see.
+    /// Text after the step: what to notice.
     pub seen: String,
 }
 
-/// Why a text is no lesson.
+/// Reason why a text is no lesson.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}: {problem}")]
 pub struct LessonError {
@@ -51,14 +51,14 @@ pub struct LessonError {
     problem: String,
 }
 
-/// Most steps of a lesson, and bytes of its text.
+/// Maximum number of steps of a lesson, and of bytes of its text.
 const MOST: (usize, usize) = (50, 100_000);
 
 impl Lesson {
-    /// Reads a lesson.
+    /// Parses a lesson.
     ///
     /// # Errors
-    /// With the line that makes no sense, and what would be accepted.
+    /// The number of the invalid line, and the accepted form.
     pub fn read(text: &str) -> Result<Self, LessonError> {
         let refuse = |line: usize, problem: &str| LessonError { line: line + 1, problem: problem.to_owned() };
         if text.len() > MOST.1 {
@@ -68,7 +68,7 @@ impl Lesson {
         let title = lines.next().and_then(|(_, line)| line.strip_prefix("# "));
         let title = title.ok_or_else(|| refuse(0, "a lesson begins with `# ` and its title"))?.trim().to_owned();
         let (mut about, mut start, mut steps) = (String::new(), None, Vec::<Step>::new());
-        // Where the text of a line that goes on in the next one belongs.
+        // True if continuation lines belong to the text after `Seen:`.
         let mut in_seen = false;
         for (k, line) in lines {
             let told = |why: Refusal| LessonError { line: k + 1, problem: why.to_string() };
@@ -114,7 +114,7 @@ fn add(text: &mut String, line: &str) {
     text.push('\n');
 }
 
-/// Name and words of `- Do: words` or `Start: words`.
+/// Returns name and content of a line `- Do: words` or `Start: words`.
 fn field(line: &str) -> Option<(&str, &str)> {
     let (name, words) = line.trim_start_matches("- ").split_once(':')?;
     ["Start", "Do", "At", "Seen"].contains(&name).then(|| (name, words.trim()))

@@ -1,4 +1,4 @@
-//! The address of the page follows what is shown, so that it can be sent, kept and loaded again.
+//! Address of the page. It follows the present view, so that it can be sent, stored and loaded again.
 
 use super::fragment::Fragment;
 use crate::app::document::Document;
@@ -7,17 +7,17 @@ use crate::host::browser;
 use crate::host::clock::Stopwatch;
 use egui_tiles::Tree;
 
-/// Shortest time between two changes of the address \[s\]: browsers refuse many in a short time.
+/// Minimum time between two changes of the address \[s\]. Browsers refuse frequent changes.
 const PAUSE_S: f64 = 1.0;
 
-/// What the address was last made of.
+/// View that the address was last made of.
 #[derive(Default)]
 pub struct Address {
     shown: Option<(Document, Tree<Tab>, Stopwatch)>,
 }
 
 impl Address {
-    /// Follows a document and its tabs; returns the seconds until it is to be called again, if it has to wait.
+    /// Updates the address to a document and its tabs. Returns the seconds until the next call if it has to wait.
     pub fn follow(&mut self, document: &Document, tree: &Tree<Tab>) -> Option<f64> {
         let (shown, last) = match &self.shown {
             Some((shown, arrangement, last)) => (shown == document && arrangement == tree, last.seconds()),

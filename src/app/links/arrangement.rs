@@ -1,29 +1,29 @@
-//! The arrangement of the tabs in few words.
+//! Compact form of the arrangement of tabs.
 
 use crate::app::session;
 use crate::app::tab::Tab;
 use egui_tiles::{Container, Linear, LinearDir, Tabs, Tile, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};
 
-/// A tile of the arrangement. Shares of a row or column are relative.
+/// Tile of the arrangement. Shares of a row or column are relative.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Part {
     /// One tab.
     #[serde(rename = "t")]
     Tab(Tab),
-    /// Tabs behind each other, and which is in front.
+    /// Tabs behind each other, and the index of the front one.
     #[serde(rename = "g")]
     Group(Vec<Part>, usize),
-    /// Beside each other.
+    /// Tiles next to each other.
     #[serde(rename = "r")]
     Row(Vec<(f32, Part)>),
-    /// Below each other.
+    /// Tiles below each other.
     #[serde(rename = "c")]
     Column(Vec<(f32, Part)>),
 }
 
 impl Part {
-    /// The whole arrangement; `None` where it has something that no layout of this window has.
+    /// Returns the whole arrangement. `None` if it has a tile that no layout of this window has.
     pub fn of(tree: &Tree<Tab>) -> Option<Self> {
         Self::of_tile(&tree.tiles, tree.root()?)
     }
@@ -48,7 +48,7 @@ impl Part {
         })
     }
 
-    /// The arrangement as the window has it; `None` where it makes no sense.
+    /// Returns the arrangement as a tree of tabs. `None` if it is invalid.
     pub fn tree(&self) -> Option<Tree<Tab>> {
         let mut tiles = Tiles::default();
         let root = self.insert(&mut tiles);

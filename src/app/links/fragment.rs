@@ -1,8 +1,8 @@
-//! The text of a link.
+//! Text of a link.
 //!
-//! `#1.…` is a document with the arrangement of its tabs: a scene as text, packed, in base 64 for addresses; 1 is the
-//! version. `#embed=profiles&sliders=M,L&lock=SRR&lesson=4&1.…` shows one tab with chosen sliders, for the page of a
-//! course. Parts may be left out, and stand in any order.
+//! `#1.…` is a document with the arrangement of its tabs: a scene as text, compressed, in base 64 for addresses; 1
+//! is the version. `#embed=profiles&sliders=M,L&lock=SRR&lesson=4&1.…` shows one tab with chosen sliders, for the
+//! page of a course. All parts are optional, and their order is free.
 
 use super::arrangement::Part;
 use crate::app::document::Document;
@@ -18,65 +18,65 @@ use serde::{Deserialize, Serialize};
 
 /// Version of packed documents.
 const VERSION: &str = "1";
-/// Largest document in a link when it is unpacked \[bytes\].
+/// Maximum size of an unpacked document in a link \[bytes\].
 const MOST_BYTES: usize = 1 << 20;
-/// Longest link that is read \[characters\].
+/// Maximum length of a link \[characters\].
 const LONGEST: usize = 64 << 10;
-/// As small as it gets.
+/// Highest compression level.
 const LEVEL: u8 = 9;
 
-/// Why a link is refused.
+/// Reason why a link is refused.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
-    /// Not such a text at all.
-    #[error("this is no link of EHL Explorer: one begins with # and then 1. or embed=")]
+    /// The text is no link of this program.
+    #[error("this is not a link of EHL Explorer: a link begins with # and then 1. or embed=")]
     Foreign,
-    /// Written by another version of the program.
+    /// The link was written by another version of the program.
     #[error("this link has version {0}; this program reads version {VERSION}")]
     OtherVersion(String),
-    /// Cut off or changed.
+    /// The link is incomplete or changed.
     #[error("this link is damaged or cut off: copy it again, whole")]
     Damaged,
-    /// What it holds is no document.
+    /// The content is no document.
     #[error("this link holds no contact: {0}")]
     Document(String),
-    /// An embed that names nothing.
-    #[error("this link asks for the {what} {name}, which there is not; there are {known}")]
+    /// An embed names an unknown tab, slider or lesson.
+    #[error("this link names the unknown {what} {name}; accepted are {known}")]
     Unknown {
         /// Tab, slider or lesson.
         what: &'static str,
-        /// The name in the link.
+        /// Name in the link.
         name: String,
-        /// The names there are.
+        /// Accepted names.
         known: String,
     },
 }
 
-/// What a link opens.
+/// Content of a link.
 #[derive(Clone, Default)]
 pub struct Fragment {
-    /// The document.
+    /// Document.
     pub document: Option<Document>,
-    /// The arrangement of the tabs.
+    /// Arrangement of the tabs.
     pub tree: Option<Tree<Tab>>,
-    /// One tab with chosen sliders.
+    /// Single tab with chosen sliders.
     pub embed: Option<Embed>,
     /// Number of a lesson, from 1.
     pub lesson: Option<usize>,
 }
 
-/// One tab for the page of a course.
+/// Single tab for the page of a course.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Embed {
-    /// The tab.
+    /// Tab.
     pub tab: Tab,
-    /// The sliders that are shown; all of them where none is chosen.
+    /// Displayed sliders. All sliders if it is empty.
     pub sliders: Vec<Quantity>,
-    /// The sliders that cannot be moved.
+    /// Sliders that cannot be moved.
     pub locked: Vec<Quantity>,
 }
 
-/// A document as it is packed.
+/// Document in its packed form.
 #[derive(Serialize, Deserialize)]
 struct Packed {
     scene: String,
@@ -84,7 +84,7 @@ struct Packed {
 }
 
 impl Fragment {
-    /// The link of a document with its tabs.
+    /// Returns the link of a document with its tabs.
     ///
     /// # Errors
     /// In practice never.
@@ -97,7 +97,7 @@ impl Fragment {
         Ok(format!("#{VERSION}.{}", URL_SAFE_NO_PAD.encode(bytes)))
     }
 
-    /// Reads a link; what stands before its `#` does not matter.
+    /// Reads a link. Text before its `#` is ignored.
     ///
     /// # Errors
     /// A sentence.
@@ -120,7 +120,7 @@ impl Fragment {
     }
 }
 
-/// A document and its tabs.
+/// Unpacks a document and its tabs.
 fn unpacked(text: &str) -> Result<(Option<Document>, Option<Tree<Tab>>), LinkError> {
     let (version, data) = text.split_once('.').ok_or(LinkError::Foreign)?;
     if version.is_empty() || !version.bytes().all(|digit| digit.is_ascii_digit()) {
@@ -137,7 +137,7 @@ fn unpacked(text: &str) -> Result<(Option<Document>, Option<Tree<Tab>>), LinkErr
     Ok((Some(document), tabs.and_then(|tabs| tabs.tree())))
 }
 
-/// Letters and digits of a name, for comparison.
+/// Returns the letters and digits of a name in lower case, for comparison.
 fn plain(name: &str) -> String {
     name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
@@ -183,7 +183,7 @@ mod tests {
         low * (high / low).powf(rng.f64())
     }
 
-    /// A document that a user may have made: an example or the first contact, after some changes.
+    /// Returns a document that a user may have made: an example or the first contact, after some changes.
     fn document(rng: &mut Rng) -> Document {
         let example = &examples::all()[rng.usize(..examples::all().len())];
         let mut document = match rng.bool() {
@@ -209,7 +209,7 @@ mod tests {
                     _ => Edit::View(Box::new(View { pressure_loss: Some(log(rng, 1e-8, 1e-3)), ..document.view })),
                 },
             };
-            // What is refused leaves the document as it was.
+            // A refused edit leaves the document unchanged.
             let _ = document.edit(edit);
         }
         document
@@ -226,7 +226,7 @@ mod tests {
             let link = Fragment::link(&document, &tree).unwrap();
             let read = Fragment::read(&format!("https://host/page/{link}")).unwrap_or_else(|why| panic!("{k}: {why}"));
             let again = read.document.unwrap();
-            // What no saved scene has, such as constants of heat that is switched off, no link has either.
+            // A link omits what a saved scene omits, such as constants of heat that is switched off.
             assert!(
                 again.key() == document.key() && again.to_ron().unwrap() == document.to_ron().unwrap(),
                 "{k}: {link}"
@@ -254,7 +254,7 @@ mod tests {
             }
             let text = String::from_utf8(bytes).unwrap();
             match Fragment::read(&text) {
-                // A change may fall into what the checks of the format do not see; what is opened is a document all the same.
+                // The checks of the format may miss a change. The result must still be a document.
                 Ok(read) => assert!(read.document.is_some() || text.contains('&')),
                 Err(why) => assert!(why.to_string().len() > 20, "{why}"),
             }
@@ -282,7 +282,7 @@ mod tests {
         assert!(read.lesson == Some(2) && read.document.is_none() && read.tree.is_none());
         for text in ["#embed=pictures", "#embed=profiles&sliders=load", "#lesson=99", "#lesson=0"] {
             let why = Fragment::read(text).err().unwrap();
-            assert!(matches!(why, LinkError::Unknown { .. }) && why.to_string().contains("there are"), "{why}");
+            assert!(matches!(why, LinkError::Unknown { .. }) && why.to_string().contains("accepted are"), "{why}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A document as the fragment of an address: a link opens exactly this contact, its tabs and their arrangement.
+//! Document as the fragment of an address. A link opens exactly this contact, its tabs and their arrangement.
 
 mod address;
 mod arrangement;

@@ -1,4 +1,4 @@
-//! The window into which a link is pasted.
+//! Window to paste a link into.
 
 use super::fragment::Fragment;
 use crate::app::command::Command;
@@ -6,7 +6,7 @@ use crate::app::context::Commands;
 use crate::app::controls::message_ui;
 use egui::{Context, Id, Modal, TextEdit};
 
-/// What the window knows.
+/// State of the window.
 #[derive(Default)]
 pub struct LinkWindow {
     text: Option<String>,
@@ -15,24 +15,24 @@ pub struct LinkWindow {
 }
 
 impl LinkWindow {
-    /// Opens it.
+    /// Opens the window.
     pub fn open(&mut self) {
         *self = Self { text: Some(String::new()), message: None, fresh: true };
     }
 
-    /// Whether it is open.
+    /// Returns true if the window is open.
     pub fn is_open(&self) -> bool {
         self.text.is_some()
     }
 
-    /// Draws it.
+    /// Draws the window.
     pub fn ui(&mut self, ctx: &Context, commands: &mut Commands) {
         let Some(text) = &mut self.text else { return };
         let (mut open, mut close) = (false, false);
         let response = Modal::new(Id::unique("link")).show(ctx, |ui| {
             ui.set_width(440.0);
             ui.heading("Open a link");
-            let label = ui.label("An address with a # in it, or what begins with the #");
+            let label = ui.label("An address with #, or its part from # on");
             let edit = ui.add(TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
             if std::mem::take(&mut self.fresh) {
                 edit.request_focus();

@@ -1,4 +1,4 @@
-//! What the palette offers: commands, tabs, kinds of contact, lubricants, recent scenes.
+//! Entries of the palette: commands, tabs, kinds of contact, lubricants, recent scenes.
 
 use crate::app::command::{Command, MENUS};
 use crate::app::desk::Desk;
@@ -10,20 +10,20 @@ use crate::scene::named_lubricant::{NAMED, of_laws};
 use egui::KeyboardShortcut;
 use std::path::Path;
 
-/// A line of the palette.
+/// Entry of the palette.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// What it is called.
+    /// Name.
     pub name: String,
-    /// Where else it is found.
+    /// Menu or group of the entry.
     pub group: &'static str,
-    /// Other words by which it is found.
+    /// Keywords for the search.
     pub synonyms: String,
-    /// Its key, when it has one.
+    /// Key, if it has one.
     pub shortcut: Option<KeyboardShortcut>,
-    /// Why it cannot be done now.
+    /// Reason why the command is not available.
     pub refusal: Option<&'static str>,
-    /// What it does.
+    /// Command.
     pub command: Command,
 }
 
@@ -37,7 +37,7 @@ impl Entry {
     }
 }
 
-/// Everything there is, in its order.
+/// Returns all entries in their order.
 pub fn all(desk: &Desk) -> Vec<Entry> {
     let go_to = |tab: &Tab| {
         let name = format!("Go to {}", tab.title());
@@ -56,13 +56,13 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
     entries.extend(Shape::ALL.map(|shape| {
         let edit = Command::Edit(Edit::Shape(shape), SHAPE);
         let entry = Entry::new("Contact", shape.name().to_owned(), shape.synonyms(), edit);
-        entry.refused_where(shape == present, "It is one")
+        entry.refused_where(shape == present, "It is already selected")
     }));
     let present = of_laws(&desk.document.lubricant).filter(|_| !desk.own_lubricant);
     entries.extend(NAMED.iter().map(|named| {
         let name = format!("Lubricant: {}", named.title);
         let entry = Entry::new("Lubricant", name, named.about, Command::Edit(Edit::Named(named), GROUP));
-        entry.refused_where(present == Some(named), "It is the present one")
+        entry.refused_where(present == Some(named), "It is already selected")
     }));
     entries.extend(desk.files.recent.iter().map(|path| {
         let name =

@@ -1,4 +1,4 @@
-//! The command palette.
+//! Command palette.
 
 mod entry;
 mod search;

@@ -1,9 +1,10 @@
-//! Which entries are meant by what has been typed.
+//! Search for entries of the palette.
 
 use super::entry::Entry;
 
-/// The entries that hold every word of a query, best first: beginnings of words before parts of them, names before
-/// other words, and what cannot be done now last. Without a query all of them.
+/// Returns the entries that contain every word of a query, best first. A match at the start of a word ranks before
+/// one inside a word, a match in the name before one in the keywords, and unavailable commands come last. Returns
+/// all entries without a query.
 pub fn find<'a>(entries: &'a [Entry], query: &str) -> Vec<&'a Entry> {
     let query = folded(query);
     let words: Vec<&str> = query.split_whitespace().collect();
@@ -13,7 +14,7 @@ pub fn find<'a>(entries: &'a [Entry], query: &str) -> Vec<&'a Entry> {
     found.into_iter().map(|(_, entry)| entry).collect()
 }
 
-/// How far an entry is from some words; `None` where one of them is missing.
+/// Returns the rank of an entry for some words. `None` if a word is missing.
 fn distance(entry: &Entry, words: &[&str]) -> Option<u32> {
     let (name, other) = (folded(&entry.name), folded(&format!("{} {}", entry.group, entry.synonyms)));
     let begins = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|own| own.starts_with(word));
@@ -26,7 +27,7 @@ fn distance(entry: &Entry, words: &[&str]) -> Option<u32> {
     words.iter().map(of).sum()
 }
 
-/// Text without what nobody types alike: capitals, hyphens, ellipses.
+/// Returns text in lower case without hyphens, ellipses and apostrophes.
 fn folded(text: &str) -> String {
     text.to_lowercase().chars().filter(|c| !matches!(c, '-' | '…' | '’' | '\'')).collect()
 }
@@ -67,14 +68,14 @@ mod tests {
         let found = find(&entries, "contact");
         let at = |name: &str| found.iter().position(|entry| entry.name == name).unwrap();
         assert!(at("Ball") < at("Roller"));
-        assert_eq!(found[at("Roller")].refusal, Some("It is one"));
+        assert_eq!(found[at("Roller")].refusal, Some("It is already selected"));
         let undo = find(&entries, "undo")[0];
         assert_eq!((undo.name.as_str(), undo.refusal), ("Undo", Some("Nothing has been changed")));
-        // Without a picture nothing can be pinned, and nothing is.
+        // Without a picture, no curve can be pinned.
         let why = |name: &str| entries.iter().find(|entry| entry.name == name).unwrap().refusal;
         assert_eq!(why("Pin curve"), Some("There is no picture yet"));
         assert_eq!(why("Remove all pins"), Some("Nothing is pinned"));
         assert_eq!(why("Cancel"), Some("Nothing runs"));
-        assert_eq!(why("Run in time"), None);
+        assert_eq!(why("Run transient"), None);
     }
 }

@@ -1,4 +1,4 @@
-//! The command palette: everything that can be done now, by typing a part of its name.
+//! Command palette: all commands, found by typing part of their name.
 
 use super::entry::{self, Entry};
 use super::search;
@@ -13,27 +13,27 @@ use egui::{
     vec2,
 };
 
-/// Width of the palette, room above it, height of a line, and lines that are seen at once.
+/// Width of the palette, space above it, height of a line, and number of visible lines.
 const WIDTH: f32 = 560.0;
 const TOP: f32 = 44.0;
 const LINE: f32 = 26.0;
 const LINES: f32 = 13.0;
-/// Room for a key at the right end of a line.
+/// Space for a key at the right end of a line.
 const KEY_WIDTH: f32 = 96.0;
-/// Lines that Page up and Page down move by.
+/// Number of lines that Page up and Page down move by.
 const PAGE: isize = 10;
-/// Frames after which what lies below a closed palette takes the focus again.
+/// Number of frames after closing the palette until the previous widget gets the focus back.
 const RELEASE: u8 = 2;
 
-/// The palette, open or closed.
+/// Command palette.
 #[derive(Default)]
 pub struct Palette {
     open: Option<Open>,
-    /// What had the focus, and frames until it has it again.
+    /// Widget that had the focus, and the remaining frames until it gets it back.
     returns: Option<(Id, u8)>,
 }
 
-/// An open palette.
+/// State of an open palette.
 struct Open {
     query: String,
     chosen: usize,
@@ -42,7 +42,7 @@ struct Open {
 }
 
 impl Palette {
-    /// Whether it is open: then keys belong to it.
+    /// Returns true if it is open. It then receives the keys.
     pub fn is_open(&self) -> bool {
         self.open.is_some()
     }
@@ -52,7 +52,7 @@ impl Palette {
         self.open = Some(Open { query: String::new(), chosen: 0, former_focus, fresh: true });
     }
 
-    /// Begins a frame: gives the focus back after closing, unless something else has taken it.
+    /// Starts a frame. After closing, gives the focus back unless another widget has taken it.
     pub fn begin(&mut self, ctx: &Context) {
         let Some((id, frames)) = &mut self.returns else { return };
         if *frames > 0 {
@@ -67,7 +67,7 @@ impl Palette {
         self.returns = None;
     }
 
-    /// Shows it where it is open; returns what was chosen.
+    /// Draws the palette if it is open. Returns the chosen command.
     pub fn ui(&mut self, ctx: &Context, desk: &Desk) -> Option<Command> {
         let open = self.open.as_mut()?;
         let entries = entry::all(desk);
@@ -104,16 +104,16 @@ impl Open {
         let edit = named(ui, edit, "Find a command");
         let found = search::find(entries, &self.query);
         if found.is_empty() {
-            ui.weak("Nothing is called that.");
+            ui.weak("No command has this name.");
             return None;
         }
-        // Arrows go round at both ends, pages stop there.
+        // Arrow keys wrap around at both ends, page keys stop there.
         let (count, wanted) = (found.len() as isize, self.chosen as isize + moved);
         let wanted = if moved.abs() == 1 { wanted.rem_euclid(count) } else { wanted.clamp(0, count - 1) };
         self.chosen = wanted as usize;
         let mut clicked = None;
         let height = (LINES * LINE).min(ui.ctx().content_rect().height() - TOP - 80.0);
-        // The area remembers its size; a few matches before must not keep a longer list short.
+        // The area remembers its size. A previous short list must not limit a longer one.
         let list = ScrollArea::vertical().max_height(height).min_scrolled_height(height);
         let mut list = list.auto_shrink([false, true]);
         if edit.changed() {
@@ -128,7 +128,7 @@ impl Open {
                     response.scroll_to_me(None);
                 }
                 if chosen {
-                    // A screen reader follows the arrows while the focus stays in the field.
+                    // Let a screen reader follow the arrow keys while the field keeps the focus.
                     ui.ctx()
                         .accesskit_node_builder(field, |node| node.set_active_descendant(response.id.accesskit_id()));
                 }
@@ -142,7 +142,7 @@ impl Open {
     }
 }
 
-/// By how many lines the choice moves, and whether it is made.
+/// Returns the number of lines that the selection moves by, and whether it is confirmed.
 fn keys(ui: &mut Ui) -> (isize, bool) {
     ui.input_mut(|i| {
         let mut pressed = |key| i.consume_key(Modifiers::NONE, key);
@@ -152,7 +152,7 @@ fn keys(ui: &mut Ui) -> (isize, bool) {
     })
 }
 
-/// An entry: its name, where it is found or why it cannot be done, its key.
+/// Draws an entry: its name, its group or the reason why it is not available, and its key.
 fn line(ui: &mut Ui, entry: &Entry, chosen: bool) -> Response {
     let enabled = entry.refusal.is_none();
     let colors = Colors::of(ui);

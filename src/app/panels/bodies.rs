@@ -1,5 +1,5 @@
-//! The two bodies: materials, radii, surface speeds and roughness, which give R, R_y, E′, u_m, SRR, the film ratio and,
-//! with heat, thermal constants.
+//! Panel of the two bodies: materials, radii, surface speeds and roughness. They determine R, R_y, E′, u_m, SRR,
+//! the film ratio and, for a thermal contact, the thermal constants.
 
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, named, row_name, typed_field, warning_ui};
@@ -11,10 +11,10 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{self, Dimension};
 use egui::{CollapsingHeader, ComboBox, Ui};
 
-/// Under this name bodies are refused.
+/// Name under which refusals of the bodies are stored.
 const GROUP: &str = "bodies";
 
-/// A typed value of a body.
+/// Value of a body that can be typed.
 struct Field {
     names: [&'static str; 2],
     row: &'static str,
@@ -39,8 +39,8 @@ const ROWS: [Field; 4] = [
         names: ["Radius across of body 1", "Radius across of body 2"],
         row: ACROSS,
         unit: ("mm", 1e-3),
-        tip: "Radius of curvature across the rolling direction; negative for a groove, “plane” for none. \
-            Equal to that along it makes a body round, and keeps it so",
+        tip: "Radius of curvature across the rolling direction; negative for a groove, “plane” for none. If it equals \
+              the radius along, the body is round and stays round",
         dimension: |_| Dimension::Length,
         get: Body::transverse_radius_m,
         set: |body, radius| *body = body.with_transverse_radius_m(radius),
@@ -65,10 +65,10 @@ const ROWS: [Field; 4] = [
     },
 ];
 
-/// The row that only point contacts have.
+/// Row shown only for point contacts.
 const ACROSS: &str = "Across";
 
-/// The group, folded until it is wanted.
+/// Draws the group. It is collapsed until bodies have been entered.
 pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     CollapsingHeader::new("Two bodies").default_open(document.view.bodies.is_some()).show(ui, |ui| {
         let before = document.bodies();
@@ -84,9 +84,9 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
         if document.view.bodies.is_some() && document.bodies_in_force().is_none() {
             warning_ui(
                 ui,
-                "R, R_y, E’, u_m, SRR or thermal constants were changed since: they are no longer these bodies’",
+                "R, R_y, E’, u_m, SRR or thermal constants have been changed and no longer match these bodies",
             );
-            if ui.button("Take the bodies’ values").clicked() {
+            if ui.button("Use the bodies’ values").clicked() {
                 commands.edit(Edit::Bodies(before), GROUP);
             }
         }
@@ -97,7 +97,11 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
 fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
     let mut chosen = None;
     ui.horizontal(|ui| {
-        row_name(ui, name_and_symbol(ui, "Material", "", ""), "E and ν give E’ (2.5); with Heat k, c and ρ count too");
+        row_name(
+            ui,
+            name_and_symbol(ui, "Material", "", ""),
+            "E and ν determine E’ (2.5). With Heat, k, c and ρ are used as well",
+        );
         for (body, name) in bodies.0.iter_mut().zip(["Material of body 1", "Material of body 2"]) {
             let present = body.material();
             let text = present.map_or("Own", |material| material.name);
@@ -117,7 +121,7 @@ fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
 }
 
 impl Field {
-    /// The values of both bodies; returns the name of the one that was entered.
+    /// Draws the values of both bodies. Returns the name of the field that was changed.
     fn ui(&self, ui: &mut Ui, bodies: &mut Bodies, entries: &mut Entries) -> Option<&'static str> {
         let mut entered = None;
         let (unit, scale) = self.unit;
@@ -125,7 +129,7 @@ impl Field {
             row_name(ui, name_and_symbol(ui, self.row, "", ""), self.tip);
             for (body, name) in bodies.0.iter_mut().zip(self.names) {
                 let dimension = (self.dimension)(body);
-                // A plane has no radius: it is shown and typed as infinite.
+                // A plane has no radius. It is shown and typed as infinite.
                 let read = |text: &str| match text.trim().to_lowercase().as_str() {
                     "plane" | "flat" | "∞" | "inf" => Ok(f64::INFINITY),
                     _ => engineering::parse(text, dimension, unit).map(|si| si / scale).map_err(Refusal::from),

@@ -1,4 +1,4 @@
-//! The title and the question of a scene that was opened from those of the program, above the tab that answers it.
+//! Headline above the tab: title and question of an opened example scene.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
@@ -7,7 +7,7 @@ use crate::app::examples::question;
 use crate::scene::Scene;
 use egui::{Align, Label, Layout, RichText, Ui};
 
-/// What a scene is called and what it asks.
+/// Title and question of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Headline {
     title: String,
@@ -16,12 +16,12 @@ pub struct Headline {
 }
 
 impl Headline {
-    /// Of a scene.
+    /// Returns the headline of a scene.
     pub fn of(scene: &Scene) -> Self {
         Self { title: scene.title.clone(), question: question(scene), source: scene.source.clone() }
     }
 
-    /// One line.
+    /// Draws it as one line.
     pub fn ui(&self, ui: &mut Ui, commands: &mut Commands) {
         ui.horizontal(|ui| {
             ui.label(RichText::new(&self.title).strong()).on_hover_text(&self.source);

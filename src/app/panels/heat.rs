@@ -1,4 +1,4 @@
-//! Heat: whether temperatures are computed, and what they need of the oil and of both bodies.
+//! Panel of the thermal contact: the switch for temperatures, and the constants of the oil and of both bodies.
 
 use super::lubricant::{Constant, GROUP, constant, constants_ui};
 use crate::app::context::Commands;
@@ -7,17 +7,18 @@ use crate::app::document::{Document, Edit};
 use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
 use egui::{Checkbox, Grid, Ui};
 
-const TIP: &str = "Temperatures across and along the film and of both bodies, and what they do to film and traction: by \
-    full solutions, of lines and circles also by a reduced model that was trained with heat";
+const TIP: &str = "Computes temperatures across and along the film and of both bodies, and their effect on film \
+                   thickness and traction. By full solutions; for line and circular contacts also by a reduced thermal \
+                   model";
 
-const INLET_TIP: &str = "Temperature of the oil and of both bodies in front of the contact; η₀ and α are those at it";
-const VISCOSITY_TIP: &str = "β = −d ln η/dT at ambient pressure; Doolittle’s law has constants of its own";
-const DENSITY_TIP: &str = "−d ln ρ/dT at ambient pressure; Tait’s law has constants of its own";
+const INLET_TIP: &str = "Temperature of the oil and of both bodies in front of the contact, at which η₀ and α apply";
+const VISCOSITY_TIP: &str = "β = −d ln η/dT at ambient pressure; Doolittle’s law has its own constants";
+const DENSITY_TIP: &str = "−d ln ρ/dT at ambient pressure; Tait’s law has its own constants";
 const CONDUCTIVITY_TIP: &str = "Thermal conductivity of the oil";
 const CAPACITY_TIP: &str = "Specific heat capacity of the oil";
-const OIL_DENSITY_TIP: &str = "Density of the oil at ambient pressure and the inlet’s temperature";
+const OIL_DENSITY_TIP: &str = "Density of the oil at ambient pressure and inlet temperature";
 
-/// The constants of the oil.
+/// Constants of the oil.
 pub(super) const CONSTANTS: [Constant; 6] = [
     constant("Inlet temperature", ("Inlet", "T", "0"), ("K", 1.0), INLET_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.inlet_temperature)
@@ -39,7 +40,7 @@ pub(super) const CONSTANTS: [Constant; 6] = [
     }),
 ];
 
-/// The switch, and below it the constants where it is on.
+/// Draws the switch and, if it is on, the constants.
 pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     let before = document.lubricant;
     let mut on = before.heat.is_some();
@@ -55,7 +56,7 @@ pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, comman
     }
 }
 
-/// The material of each body; those of a scene that are none of the named ones stay as they are.
+/// Draws the material of each body. Bodies of a scene that are no named material keep their constants.
 fn materials_ui(ui: &mut Ui, bodies: &[BodyHeat; 2], commands: &mut Commands) {
     let names = [("Body 1", "Moves with u_m (1 − SRR/2)"), ("Body 2", "Moves with u_m (1 + SRR/2)")];
     Grid::new("bodies with heat").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
@@ -65,7 +66,7 @@ fn materials_ui(ui: &mut Ui, bodies: &[BodyHeat; 2], commands: &mut Commands) {
             let own = known.is_none().then_some(None);
             let options: Vec<Option<Material>> = MATERIALS.into_iter().map(Some).chain(own).collect();
             choice(ui, name, tip, &mut wanted, &options, |material| {
-                material.map_or(("Own", "Constants of its own"), |material| (material.name, material.source))
+                material.map_or(("Own", "Custom constants"), |material| (material.name, material.source))
             });
             if let Some(material) = wanted.filter(|_| wanted != known) {
                 commands.edit(Edit::Material(body, material), GROUP);

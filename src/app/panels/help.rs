@@ -1,17 +1,17 @@
-//! The Help windows.
+//! Windows of the Help menu.
 
 use crate::app::manual::Manual;
 use egui::{Context, Window};
 
-/// Which Help window is open.
+/// State of the Help windows.
 #[derive(Default)]
 pub struct Help {
     pub manual: Manual,
-    /// What this program is.
+    /// True if the information about the program is shown.
     pub about: bool,
 }
 
-/// The Help windows that are open.
+/// Draws the open Help windows.
 pub fn ui(ctx: &Context, help: &mut Help) {
     help.manual.ui(ctx);
     Window::new("About EHL Explorer").open(&mut help.about).resizable(false).show(ctx, |ui| {
@@ -19,8 +19,8 @@ pub fn ui(ctx: &Context, help: &mut Help) {
         ui.heading("EHL Explorer");
         ui.label(format!("Version {}", env!("CARGO_PKG_VERSION")));
         ui.label(
-            "Drag an elastohydrodynamic contact and watch pressure and film answer at once. \
-             Profiles come from a reduced model and are checked by a full solve in the background.",
+            "Change an elastohydrodynamic contact and see pressure and film thickness at once. Profiles come from a \
+             reduced model and are checked by a full solve in the background.",
         );
         ui.label("Licensed under MIT or Apache-2.0, as you prefer.");
     });

@@ -1,4 +1,4 @@
-//! The lubricant: a named one, or laws and constants of one's own; the stress that limits its traction.
+//! Panel of the lubricant: a named lubricant or custom laws and constants, and the limiting shear stress.
 
 use super::{heat, oil};
 use crate::app::context::Commands;
@@ -12,41 +12,42 @@ use crate::solver::physics::lubricant::{
 };
 use egui::{Checkbox, Grid, Ui};
 
-/// Tait's constants that a lubricant of one's own begins with: squalane's, Table 3.5.
+/// Default constants of Tait's law for a custom lubricant: squalane, Table 3.5.
 const VOLUME: Tait = Tait { k_0: 1.007837e9, k_0_prime: 11.29 };
-/// Doolittle's, likewise.
+/// Default constants of Doolittle's law for a custom lubricant: squalane, Table 3.5.
 const DOOLITTLE: Doolittle = Doolittle { b: 4.2, r_0: 0.658, volume: VOLUME };
-/// Shear-thinning laws to begin with: the modified Carreau law of Table 3.5, and customary values for the others.
+/// Default shear-thinning laws: the modified Carreau law of Table 3.5, and usual values for the others.
 const CARREAU: ShearLaw = ShearLaw::Carreau { critical_stress: 1e4, beta: 2.198, n: 0.8, npr: 0.2227 };
 const ELLIS: ShearLaw = ShearLaw::Ellis { critical_stress: 1e5, n: 0.6, npr: 0.0 };
 const EYRING: ShearLaw = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
-/// An Eyring stress of the traction to begin with.
+/// Default Eyring stress of the traction \[Pa\].
 const EYRING_STRESS_PA: f64 = 5e6;
-/// A limiting stress to begin with: a slope as Bair and Winer found it for mineral oils.
+/// Default limiting shear stress. Its slope is a value by Bair and Winer for mineral oils.
 const LIMITING: LimitingStress = LimitingStress { ambient: 5e6, slope: 0.05, eyring: None };
 
 const LIMITING_TIP: &str = "The film carries at most τ_L = τ_L0 + Λ p (Bair & Winer 1979): beyond it the lubricant slips or yields. \
     It limits the traction; pressure and film are computed without it";
 
-const RUPTURE_TIP: &str = "How the film ruptures in full solutions, where the gap opens behind the contact. Reduced models keep the \
-    penalty they were trained with; flooded films differ by less than a millionth";
+const RUPTURE_TIP: &str = "Cavitation model of full solutions, where the gap opens behind the contact. Reduced models \
+                           keep the penalty they were trained with; the film thickness of flooded contacts differs by \
+                           less than a millionth";
 
-const SUPPLY_TIP: &str = "Thickness of the film that the surfaces bring to the inlet; without one the inlet is flooded. What is \
-    thinner than the contact draws starves it";
-/// A supplied film to begin with: as thick as usual ones in the contact.
+const SUPPLY_TIP: &str = "Inlet film thickness: the oil layer that the surfaces carry to the inlet. Without it the \
+                          inlet is flooded. A layer thinner than the contact needs causes starvation";
+/// Default inlet film thickness \[m\], similar to usual film thicknesses in the contact.
 const SUPPLY_M: f64 = 200e-9;
 
-/// Under this name a lubricant as a whole is refused.
+/// Name under which refusals of the whole lubricant are stored.
 pub const GROUP: &str = "lubricant";
 
-/// A choice of the picker.
+/// Choice of the lubricant.
 #[derive(Clone, Copy, PartialEq)]
 enum Pick {
     Named(&'static str),
     Own,
 }
 
-/// The group Lubricant.
+/// Draws the group Lubricant.
 pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut Entries, commands: &mut Commands) {
     let (laws, kind) = (&document.lubricant, document.point.kind);
     heading(ui, "Lubricant");
@@ -55,9 +56,9 @@ pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut E
     match known {
         Some(lubricant) => {
             ui.weak(sentence(lubricant.about));
-            let tip = "Bodies, speed and load in which its source studies it; undo brings the present ones back";
+            let tip = "Bodies, speed and load of the contact in its source. Undo restores the present ones";
             if let Some(point) = lubricant.studied_contact(kind)
-                && ui.button("Take its published contact").on_hover_text(tip).clicked()
+                && ui.button("Use its published contact").on_hover_text(tip).clicked()
             {
                 commands.edit(Edit::Contact(point, Box::new(*laws)), GROUP);
             }
@@ -79,10 +80,11 @@ fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Opti
     let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain([Pick::Own]).collect();
     let of = |name: &str| NAMED.iter().find(|named| named.name == name);
     Grid::new("lubricant").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        let tip = "The laws of density, viscosity and shear. A lubricant with a viscosity of its own brings that; the contact stays";
+        let tip = "Laws of density, viscosity and shear. A lubricant that defines its viscosity also sets it; the \
+                   contact does not change";
         choice(ui, "Fluid", tip, &mut wanted, &options, |pick| match pick {
             Pick::Named(name) => of(name).map_or(("", ""), |named| (named.title, named.about)),
-            Pick::Own => ("Own", "Laws and constants as you like, beginning with those of the present lubricant"),
+            Pick::Own => ("Own", "Custom laws and constants, starting from those of the present lubricant"),
         });
     });
     if wanted == before {
@@ -97,15 +99,15 @@ fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Opti
     }
 }
 
-/// A constant of the laws in use.
+/// Constant of the laws in use.
 pub(super) struct Constant {
     name: &'static str,
-    /// Name and symbol in the row, the symbol's base and subscript.
+    /// Name in the row, and base and subscript of the symbol.
     row: (&'static str, &'static str, &'static str),
-    /// Unit that is shown, and SI units in it.
+    /// Displayed unit, and its value in SI units.
     unit: (&'static str, f64),
     tip: &'static str,
-    /// `None` where no law in use has it.
+    /// Returns the constant. `None` if no law in use has it.
     of: fn(&mut Lubricant) -> Option<&mut f64>,
 }
 
@@ -126,11 +128,13 @@ const NANOMETRES: (&str, f64) = ("nm", 1e-9);
 
 const BULK_TIP: &str = "Tait’s initial bulk modulus K₀ (3.37)";
 const RATE_TIP: &str = "Rate of change of the bulk modulus with pressure, K’₀ (3.37)";
-const B_TIP: &str = "Doolittle’s parameter B (3.39): how strongly the viscosity answers to the free volume";
-const OCCUPIED_TIP: &str = "Occupied volume over the volume at ambient pressure (3.39). Where the relative volume falls to it the viscosity is infinite";
+const B_TIP: &str = "Doolittle’s parameter B (3.39): how strongly the viscosity depends on the free volume";
+const OCCUPIED_TIP: &str = "Occupied volume over the volume at ambient pressure (3.39). The viscosity is infinite if \
+                            the relative volume falls to this value";
 const VOLUME_BULK_TIP: &str = "Bulk modulus of the volume in Doolittle’s law, which is not that of the density law";
 const VOLUME_RATE_TIP: &str = "Its rate of change with pressure";
-const CRITICAL_TIP: &str = "Shear stress from which on the viscosity falls: G_c of (3.40), the stress of half the viscosity (Ellis), or τ_E (Eyring)";
+const CRITICAL_TIP: &str = "Shear stress above which the viscosity falls: G_c of (3.40), the stress of half the \
+                            viscosity (Ellis), or τ_E (Eyring)";
 const BETA_TIP: &str = "How sharply the viscosity turns at the critical stress, β_c of (3.40)";
 const N_TIP: &str = "Power-law exponent, stress over rate, n_c of (3.40); 1 is Newtonian";
 
@@ -157,7 +161,7 @@ const EYRING_TIP: &str =
     "τ_E: above it the traction bends, τ = τ_E asinh(τ/τ_E), while the film stays Newtonian; Johnson & Tevaarwerk 1977";
 const SLOPE_TIP: &str = "Λ, how the limit rises with pressure";
 
-/// The constants of the stress that limits the traction.
+/// Constants of the limiting shear stress.
 const LIMITS: [Constant; 3] = [
     constant("Ambient limiting stress", ("At ambient", "τ", "L0"), MPA, AMBIENT_TIP, |l| {
         Some(&mut l.limiting_stress.as_mut()?.ambient)
@@ -171,9 +175,11 @@ const LIMITS: [Constant; 3] = [
 ];
 
 const SUPPLY: [Constant; 1] =
-    [constant("Supplied film thickness", ("Film", "h", "in"), NANOMETRES, SUPPLY_TIP, |l| match &mut l.cavitation {
-        Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
-        Cavitation::Penalty | Cavitation::Complementarity => None,
+    [constant("Inlet film thickness", ("Inlet film", "h", "in"), NANOMETRES, SUPPLY_TIP, |l| {
+        match &mut l.cavitation {
+            Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
+            Cavitation::Penalty | Cavitation::Complementarity => None,
+        }
     })];
 
 fn critical_stress(laws: &mut Lubricant) -> Option<&mut f64> {
@@ -204,13 +210,13 @@ fn doolittle(laws: &mut Lubricant) -> Option<&mut Doolittle> {
     if let ViscosityLaw::Doolittle(law) = &mut laws.viscosity { Some(law) } else { None }
 }
 
-/// The volume of Doolittle's law, where the density has another one.
+/// Returns the constants of the volume in Doolittle's law if they differ from those of the density law.
 fn other_volume(laws: &mut Lubricant) -> Option<&mut Tait> {
     let density = laws.density;
     doolittle(laws).map(|law| &mut law.volume).filter(|volume| density != DensityLaw::Tait(**volume))
 }
 
-/// Laws and constants to edit.
+/// Draws the laws and constants for editing.
 fn own(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
     let before = *laws;
     let mut wanted = before;
@@ -237,7 +243,7 @@ fn own(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Comm
         choice(ui, "Shear", "How the viscosity falls with shear stress", &mut wanted.shear, &options, shear_law);
     });
     let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted);
-    // One volume under both laws stays one.
+    // If both laws share the constants of the volume, they keep sharing them.
     if let (DensityLaw::Tait(volume), DensityLaw::Tait(former)) = (wanted.density, before.density)
         && let Some(law) = doolittle(&mut wanted).filter(|law| law.volume == former)
     {
@@ -248,8 +254,8 @@ fn own(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Comm
     }
 }
 
-/// A row for each constant that the laws have; returns the name of the last one that was entered, else that of the
-/// whole group.
+/// Draws a row for each constant that the laws have. Returns the name of the field that was changed last, otherwise
+/// that of the whole group.
 pub(super) fn constants_ui(
     ui: &mut Ui,
     entries: &mut Entries,
@@ -271,7 +277,7 @@ pub(super) fn constants_ui(
     field
 }
 
-/// The stress that limits the traction, where one is wanted.
+/// Draws the limiting shear stress with its switch.
 fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
     let before = *laws;
     let mut wanted = before;
@@ -293,20 +299,21 @@ fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, command
     }
 }
 
-/// How the film ruptures in full solutions.
+/// Draws the cavitation model of full solutions.
 fn rupture(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
     let supplied = Cavitation::MassConserving { supply_film_m: laws.cavitation.supply_film_m() };
     let mut wanted = laws.cavitation;
     Grid::new("rupture").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let options = [Cavitation::Penalty, Cavitation::Complementarity, supplied];
-        choice(ui, "Rupture", RUPTURE_TIP, &mut wanted, &options, |law| match law {
-            Cavitation::Penalty => ("Penalty", "Pressures below zero are pushed back, Λ = −γ min(P, 0) (2.36)"),
+        choice(ui, "Cavitation", RUPTURE_TIP, &mut wanted, &options, |law| match law {
+            Cavitation::Penalty => ("Penalty", "A penalty limits negative pressures, Λ = −γ min(P, 0) (2.36)"),
             Cavitation::Complementarity => {
-                ("Complementarity", "P ≥ 0 and λ ≥ 0 with P λ = 0 (appendix D): no pressure below zero, half the steps")
+                ("Complementarity", "P ≥ 0 and λ ≥ 0 with P λ = 0 (appendix D): no negative pressure, half the steps")
             }
             Cavitation::MassConserving { .. } => (
                 "Mass-conserving",
-                "P ≥ 0, and where P = 0 the gap is filled to a fraction θ (Elrod & Adams 1974): no oil is lost",
+                "P ≥ 0; where P = 0 oil fills the gap to a fraction θ, so that mass is conserved (JFO, Elrod & Adams \
+                 1974)",
             ),
         });
     });
@@ -314,7 +321,7 @@ fn rupture(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut 
     let mut field = GROUP;
     if let Cavitation::MassConserving { supply_film_m } = &mut wanted.cavitation {
         let mut starves = supply_film_m.is_some();
-        if ui.add(Checkbox::new(&mut starves, "Supplied film")).on_hover_text(SUPPLY_TIP).changed() {
+        if ui.add(Checkbox::new(&mut starves, "Starved inlet")).on_hover_text(SUPPLY_TIP).changed() {
             *supply_film_m = starves.then_some(SUPPLY_M);
         }
         field = constants_ui(ui, entries, &SUPPLY, &mut wanted);

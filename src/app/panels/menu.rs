@@ -1,4 +1,4 @@
-//! The menu bar.
+//! Menu bar.
 
 use crate::app::command::{Command, Item, MENUS};
 use crate::app::context::Commands;
@@ -8,7 +8,7 @@ use crate::app::notice::Notice;
 use crate::app::theme::Palette;
 use egui::{Align, Button, Label, Layout, MenuBar, RichText, Ui};
 
-/// The menu bar; chosen commands are added to `chosen`.
+/// Draws the menu bar and adds the chosen commands.
 pub fn ui(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS.chunk_by(|a, b| a.menu == b.menu) {
@@ -69,20 +69,20 @@ fn recent(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     });
 }
 
-/// What opens the command palette, at the very right.
+/// Draws the button of the command palette at the right end.
 fn palette(ui: &mut Ui, commands: &mut Commands) {
     let quiet = |text: String| RichText::new(text).color(Palette::of(ui).quiet);
     let mut button = Button::new(quiet("Find a command".to_owned()));
     if let Some(shortcut) = Command::Palette.shortcut() {
         button = button.shortcut_text(quiet(ui.ctx().format_shortcut(&shortcut)));
     }
-    let response = ui.add(button).on_hover_text("Everything that can be done now, by typing a part of its name");
+    let response = ui.add(button).on_hover_text("All commands, found by typing part of their name");
     if named(ui, response, "Command palette").clicked() {
         commands.push(Command::Palette);
     }
 }
 
-/// Name of the document and what the last file action did, right of the menus.
+/// Draws the name of the document and the last file notice, to the right of the menus.
 fn title(ui: &mut Ui, desk: &Desk, commands: &mut Commands) {
     let palette = Palette::of(ui);
     let name = match &desk.files.path {

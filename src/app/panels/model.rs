@@ -1,4 +1,4 @@
-//! The reduced model that serves the contact: what it keeps, and how it deforms the bodies.
+//! Panel of the reduced model of the contact: its numbers of modes and equations, and its deformation operator.
 
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{NAME_WIDTH, choice, heading, reserved, warning_ui};
@@ -10,9 +10,9 @@ use egui::{Align, Grid, Layout, TextStyle, Ui, vec2};
 
 const NO_MODEL: &str = "No reduced model of this contact; the full solver draws the picture.";
 const NO_MODEL_THINS: &str =
-    "No reduced model of this contact with a lubricant that thins under shear; the full solver draws the picture.";
+    "No reduced model of this contact with a shear-thinning lubricant; the full solver draws the picture.";
 
-/// The group Model.
+/// Draws the group Model.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     heading(ui, "Model");
     model_ui(ui, context, commands);
@@ -20,14 +20,14 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
 
 fn deformation_operator(projected: bool) -> (&'static str, &'static str) {
     if projected {
-        ("through its basis", "V_δ V_δ^T K V_p, as in the dissertation: its own truncation")
+        ("through its basis", "V_δ V_δ^T K V_p, as in the dissertation, with a separate truncation")
     } else {
-        ("exact", "K V_p, no error of its own")
+        ("exact", "K V_p, without additional error")
     }
 }
 
-/// Every row has its place whether there is a model or not: one that is read on a thread arrives while a field of the
-/// same panel is edited.
+/// Draws the rows of the model. Every row keeps its place with and without a model, because a model may arrive
+/// while a field of the same panel is edited.
 fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, commands: &mut Commands) {
     let model = answers.model(document);
     let window = model.and_then(|model| model.windows.get(model.window_for(&document.point)));
@@ -38,14 +38,16 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
         None => "–".to_owned(),
     };
     Grid::new("model").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        ui.label("Pressure modes").on_hover_text("Kept of all; drag the tolerance in the tab Reduced basis");
+        ui.label("Pressure modes")
+            .on_hover_text("Modes in use, of all modes. Drag the tolerance in the Reduced basis tab");
         ui.label(of(options.pressure_modes, window.map(|window| window.pressure.count())));
         ui.end_row();
-        ui.label("Sampled rows").on_hover_text("Rows of the Reynolds equation that the reduced model evaluates");
+        ui.label("Sampled equations")
+            .on_hover_text("Discrete Reynolds equations that the reduced model evaluates (hyper-reduction)");
         let rows = window.map(|window| window.sampled_rows.len());
         ui.label(of(rows, window.map(|window| window.grid.unknowns())));
         ui.end_row();
-        let tip = "How the reduced model deforms the bodies";
+        let tip = "How the reduced model computes the deformation";
         let mut view = document.view;
         choice(ui, "Deformation", tip, &mut view.projected_deformation, &[false, true], deformation_operator);
         if view != document.view {
@@ -64,7 +66,7 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
     });
 }
 
-/// Which model it is, or that there is none, in two lines; what has no room there is read under the pointer.
+/// Draws the title of the model, or that there is none, in two lines. The full text is shown on hover.
 fn title_ui(ui: &mut Ui, model: Option<&ReducedModel>, shear: ShearLaw) {
     let (text, tip) = match (model, shear) {
         (Some(model), _) => (model.title.as_str(), format!("{}\n{}", model.title, model.log.join("\n"))),

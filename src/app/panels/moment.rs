@@ -1,5 +1,4 @@
-//! The read-outs of a contact in time: what it amounts to at the moment that is looked at, by the first method that has
-//! come to it.
+//! Read-outs of a transient contact at the displayed time, from the first method that has reached it.
 
 use super::readouts::cell;
 use crate::app::context::Context;
@@ -10,7 +9,7 @@ use crate::solver::full::transient::Quantity;
 use egui::Ui;
 use std::sync::Arc;
 
-/// The read-outs; whether there are any.
+/// Draws the read-outs. Returns true if there are any.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
     let view = context.transient;
     let time = view.player.time();
@@ -24,26 +23,29 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
         if drawn::is_grey(ui.ctx(), "read-outs of the moment", Owner::Transient(Arc::clone(setup)), context) {
             ui.disable();
         }
-        let films = [("c", h_c, "Central film at this moment"), ("min", value(Quantity::MinimumFilm), SMALLEST)];
+        let films = [
+            ("c", h_c, "Central film thickness at the displayed time"),
+            ("min", value(Quantity::MinimumFilm), SMALLEST),
+        ];
         for (index, h, tip) in films {
             let si = numbers::length(h * film);
             cell(ui, symbol(ui, "H", index), numbers::significant(h), si, palette.film, None, tip);
         }
         let p = value(Quantity::MaximumPressure);
         let (name, si) = (symbol(ui, "P", "max"), numbers::pressure(p * pressure));
-        cell(ui, name, numbers::significant(p), si, palette.pressure, None, "Largest pressure at this moment");
+        cell(ui, name, numbers::significant(p), si, palette.pressure, None, "Maximum pressure at the displayed time");
         let load = setup.point.load * setup.study.inputs.load.at(time);
         let (name, unit) = (symbol(ui, "w", ""), "kN/m".to_owned());
-        cell(ui, name, numbers::significant(1e-3 * load), unit, palette.text, None, "Load at this moment");
+        cell(ui, name, numbers::significant(1e-3 * load), unit, palette.text, None, "Load at the displayed time");
         if ui.available_size_before_wrap().x > MOMENT {
-            let tip = "The moment of the time bar, and by what it was found";
+            let tip = "Displayed time, and the method of these values";
             cell(ui, symbol(ui, "T", ""), numbers::significant(time), run.name(), palette.quiet, None, tip);
         }
     });
     true
 }
 
-/// Width of the moment in words.
+/// Width of the text about the displayed time.
 const MOMENT: f32 = 190.0;
-/// What the smallest film is.
-const SMALLEST: &str = "Smallest film of the contact zone at this moment";
+/// Tooltip of the minimum film thickness.
+const SMALLEST: &str = "Minimum film thickness of the contact zone at the displayed time";

@@ -1,4 +1,4 @@
-//! An oil by its grade and temperature, which gives η₀ and α.
+//! Panel of the oil: its grade and temperature determine η₀ and α.
 
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, NAME_WIDTH, choice, row_name, sentence, typed_field, warning_ui};
@@ -8,26 +8,26 @@ use crate::app::theme::name_and_symbol;
 use crate::solver::physics::engineering::{self, Dimension, Grade, ISO_VG, KELVIN, Oil, OilFamily};
 use egui::{Grid, Ui};
 
-/// Under this name an oil is refused.
+/// Name under which refusals of the oil are stored.
 const GROUP: &str = "oil";
 const FIELDS: [&str; 7] =
     [GROUP, "Oil temperature", "Oil density", "Viscosity 1", "At temperature 1", "Viscosity 2", "At temperature 2"];
 
-/// What is chosen for the oil.
+/// Choice of the oil.
 #[derive(Clone, Copy, PartialEq)]
 enum Choice {
-    /// η₀ and α as they were entered.
+    /// η₀ and α as entered.
     Entered,
     Iso(f64),
     Two,
 }
 
-/// A typed value of an oil.
+/// Value of an oil that can be typed.
 struct Field {
     name: &'static str,
     row: &'static str,
     dimension: Dimension,
-    /// Unit that is shown, and SI units in it.
+    /// Displayed unit, and its value in SI units.
     unit: (&'static str, f64),
     tip: &'static str,
     of: fn(&mut Oil) -> Option<&mut f64>,
@@ -94,7 +94,7 @@ fn two(oil: &mut Oil) -> Option<Points<'_>> {
     if let Grade::Two(first, second) = &mut oil.grade { Some((first, second)) } else { None }
 }
 
-/// The oil card.
+/// Draws the group of the oil.
 pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     if document.lubricant.own_coefficient().is_some() {
         return;
@@ -104,8 +104,8 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
     Grid::new("oil").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         grade_ui(ui, &mut wanted);
         if let Some(oil) = &mut wanted {
-            let tip = "What the oil is made of: its pressure–viscosity coefficient follows a published correlation";
-            choice(ui, "Made of", tip, &mut oil.family, &OilFamily::ALL, |family| (family.name(), family.source()));
+            let tip = "Base oil. A published correlation gives its pressure–viscosity coefficient";
+            choice(ui, "Base oil", tip, &mut oil.family, &OilFamily::ALL, |family| (family.name(), family.source()));
             if before.is_some_and(|former| former.family != oil.family) {
                 oil.density_15 = oil.family.usual_density();
             }
@@ -182,7 +182,7 @@ fn grade_name(grade: f64) -> &'static str {
     found.map_or("", |(_, name)| name)
 }
 
-/// A row for each typed value; returns the name of the one that was entered.
+/// Draws a row for each value that can be typed. Returns the name of the field that was changed.
 fn fields_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'static str> {
     let mut entered = None;
     for Field { name, row, dimension, unit: (unit, scale), tip, of } in &ROWS {
@@ -204,7 +204,7 @@ fn fields_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'stat
     entered
 }
 
-/// What the oil amounts to, and whether the contact still has it.
+/// Draws the values that follow from the oil, and a warning if the contact no longer has them.
 fn state_ui(ui: &mut Ui, document: &Document, oil: Oil, commands: &mut Commands) {
     if let Ok(state) = oil.state() {
         let text = format!(
@@ -216,8 +216,8 @@ fn state_ui(ui: &mut Ui, document: &Document, oil: Oil, commands: &mut Commands)
         ui.weak(text).on_hover_text(sentence(oil.family.source()));
     }
     if !document.oil_counts() {
-        warning_ui(ui, "η₀ or α were changed since: they are no longer this oil’s");
-        if ui.button("Take the oil’s values").clicked() {
+        warning_ui(ui, "η₀ or α have been changed and no longer match this oil");
+        if ui.button("Use the oil’s values").clicked() {
             commands.edit(Edit::Oil(Some(oil)), GROUP);
         }
     }

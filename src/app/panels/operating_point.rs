@@ -1,4 +1,5 @@
-//! The same state in SI units beside the sliders, what follows what, and the Hertzian contact behind it.
+//! Panel of the operating point: the shape, the sliders, the quantities that follow M and L, the SI quantities, and
+//! the Hertzian contact.
 
 use super::sliders;
 use crate::app::context::{Commands, Context};
@@ -15,28 +16,28 @@ use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering;
 use egui::{Grid, RichText, TextWrapMode, Ui};
 
-/// What there is to choose from, and what it is.
+/// Shapes and their tooltips.
 const SHAPES: [(Shape, &str); 3] = [
     (
         Shape::Roller,
-        "A line contact: a long roller on a raceway, with its load per unit length, the same at every Y. \
-        All stays but the load, which follows M",
+        "Line contact: a long roller on a raceway with its load per unit length, the same at every Y. All quantities \
+         are kept except the load, which follows M",
     ),
     (
         Shape::Ball,
-        "A circular point contact: a ball on a disc, the film with its horseshoe and side lobes. \
-        All stays but the load of a line, which follows M",
+        "Circular contact: a ball on a disc; its film has a horseshoe and side lobes. All quantities are kept except \
+         the load of a line contact, which follows M",
     ),
     (
         Shape::Ellipse,
-        "A point contact with a radius across the rolling direction of its own: a ball in a groove, a crowned roller. \
-        R_y/R runs from 0.1 over 1, the circle, to 40, which is nearly a line",
+        "Elliptical contact with a different radius across the rolling direction: a ball in a groove, a crowned \
+         roller. R_y/R ranges from 0.1 over 1 (circular) to 40 (nearly a line contact)",
     ),
 ];
-/// Under this name the choice between them is refused.
+/// Name under which refusals of the shape are stored.
 pub const SHAPE: &str = "shape of the contact";
 
-/// The panel's first group.
+/// Draws the first group of the panel.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     heading(ui, "Operating point");
     shape_ui(ui, Shape::of(&context.document.point), commands);
@@ -46,7 +47,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &
     hertz_ui(ui, context.document);
 }
 
-/// Roller, ball or ellipse.
+/// Draws the choice of the shape.
 pub(super) fn shape_ui(ui: &mut Ui, present: Shape, commands: &mut Commands) {
     let mut wanted = present;
     ui.horizontal(|ui| {
@@ -61,18 +62,19 @@ pub(super) fn shape_ui(ui: &mut Ui, present: Shape, commands: &mut Commands) {
 
 fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
     Grid::new("followers").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
-        let tip = "M fixes one combination of the SI values: this is the one that gives way";
+        let tip = "M is a combination of SI quantities. This quantity follows when M changes";
         let (load_before, lubricant_before) = document.followers();
         let (mut load, mut lubricant) = (load_before, lubricant_before);
         let (loads, lubricants) = document.possible_followers();
         choice(ui, "When M moves", tip, &mut load, loads, |f| (f.name(), ""));
         let tip = match (document.lubricant.own_coefficient(), document.point.kind) {
-            (Some(_), _) => "L fixes another one; α follows from the lubricant’s viscosity law",
+            (Some(_), _) => "L is another combination; α follows from the lubricant’s viscosity law",
             (None, ContactKind::Line) => {
-                "L fixes another one. “α and speed together” keeps to α = 5/GPa · L^0.463, along which the reduced model is trained"
+                "L is another combination. “α and speed together” keeps α = 5/GPa · L^0.463, along which the reduced \
+                 model is trained"
             }
             (None, ContactKind::Point) => {
-                "L fixes another one. “α and speed together” keeps to α = 5/GPa · (L/1.7)^0.655"
+                "L is another combination. “α and speed together” keeps α = 5/GPa · (L/1.7)^0.655"
             }
         };
         choice(ui, "When L moves", tip, &mut lubricant, lubricants, |f| (f.name(), ""));
@@ -84,7 +86,7 @@ fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
     });
 }
 
-/// The names of the fields of the SI quantities, by which screen readers know them.
+/// Accessible names of the fields of the SI quantities.
 pub const FIELDS: [(Quantity, &str); 7] = [
     (Quantity::Radius, "Radius R"),
     (Quantity::RadiusY, "Across R_y"),
@@ -118,8 +120,9 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
             }
             ui.label(unit);
             if quantity == Quantity::RadiusY && Shape::of(&document.point) == Shape::Ball {
-                ui.add_sized(HELD, egui::Label::new(RichText::new("as R").small().weak()))
-                    .on_hover_text("A ball is as round across as along; another value makes it an ellipse");
+                ui.add_sized(HELD, egui::Label::new(RichText::new("as R").small().weak())).on_hover_text(
+                    "A ball has the same radius across and along. Another value gives an elliptical contact",
+                );
                 return;
             }
             held_ui(ui, document, (quantity, field), commands);
@@ -128,18 +131,18 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
     entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([SHAPE]));
 }
 
-/// The lock of a quantity that is held, or what it follows.
+/// Draws the lock of a held quantity, or the number that a free quantity follows.
 fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'static str), commands: &mut Commands) {
     let (held, follows) = (document.holds(quantity), document.follows(quantity));
     let (name, tip) = match (held, follows) {
-        (true, _) => (format!("Free {field}"), "Held: it stays when M or L moves. Click to free it"),
-        (_, "") => (format!("Hold {field}"), "Free, but nothing moves it now. Click to hold it"),
-        _ => (format!("Hold {field}"), "It gives way. Click to hold it; another quantity follows then"),
+        (true, _) => (format!("Free {field}"), "Held: it keeps its value when M or L changes. Click to release it"),
+        (_, "") => (format!("Hold {field}"), "Free, but nothing changes it now. Click to hold it"),
+        _ => (format!("Hold {field}"), "It follows. Click to hold it; another quantity then follows"),
     };
     let response = if held || follows.is_empty() {
         lock_ui(ui, HELD, held)
     } else {
-        // As wide whatever it says, so that nothing beside it moves.
+        // The width is constant, so that nothing next to it moves.
         ui.add_sized(HELD, egui::Button::new(RichText::new(follows).small().weak()).frame(false))
     };
     if named(ui, response, &name).on_hover_text(tip).clicked() {
@@ -147,10 +150,10 @@ fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'sta
     }
 }
 
-/// Room for a lock, or for what a quantity follows.
+/// Size of a lock, or of the number that a quantity follows.
 const HELD: [f32; 2] = [62.0, 22.0];
 
-/// The value in SI units of a typed text with or without unit, inside what is accepted.
+/// Parses a text with or without unit. Returns the value in SI units if it is in the accepted range.
 fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, Refusal> {
     let (unit, scale) = quantity.reading_unit(kind);
     let value = engineering::parse(text, quantity.dimension(kind), unit)?;
@@ -170,20 +173,21 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
         Shape::Roller => (
             "Half width",
             "Hertzian half width, a² = 8wR/(πE’) (2.21)",
-            "Largest pressure of the dry contact, p_H² = wE’/(2πR) (2.21)",
-            "α p_H = L √(M/2π): the exponent of Barus’ law at the Hertzian pressure",
+            "Maximum pressure of the dry contact, p_H² = wE’/(2πR) (2.21)",
+            "Piezoviscous parameter α p_H = L √(M/2π): the exponent of Barus’ law at the Hertzian pressure",
         ),
         Shape::Ball => (
             "Radius",
             "Radius of the Hertzian circle, a³ = 3wR/(2E’) (2.21)",
-            "Largest pressure of the dry contact, p_H = 3w/(2πa²) (2.21)",
-            "α p_H = L (3M/2π³)^⅓: the exponent of Barus’ law at the Hertzian pressure",
+            "Maximum pressure of the dry contact, p_H = 3w/(2πa²) (2.21)",
+            "Piezoviscous parameter α p_H = L (3M/2π³)^⅓: the exponent of Barus’ law at the Hertzian pressure",
         ),
         Shape::Ellipse => (
             "Semi-axes",
-            "Semi-axes of the Hertzian ellipse along and across the rolling direction, and κ = b/a, which R_y/R alone decides",
-            "Largest pressure of the dry contact, p_H = 3w/(2πab)",
-            "α p_H: the exponent of Barus’ law at the Hertzian pressure",
+            "Semi-axes of the Hertzian ellipse along and across the rolling direction, and κ = b/a, which depends only \
+             on R_y/R",
+            "Maximum pressure of the dry contact, p_H = 3w/(2πab)",
+            "Piezoviscous parameter α p_H: the exponent of Barus’ law at the Hertzian pressure",
         ),
     };
     let width = match Shape::of(point) {
@@ -203,12 +207,12 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
             numbers::length(shear.depth_over_half_width * hertz.half_width_m)
         );
         let shear_tip =
-            "The largest shear stress under the dry contact and its depth, where rolling fatigue begins; ν = 0.3";
+            "Maximum subsurface shear stress of the dry contact and its depth, where rolling fatigue begins; ν = 0.3";
         let rows = [
             ((width_name, axes, ""), width, width_tip),
             (("Hertz pressure", "p", "H"), numbers::pressure(hertz.pressure_pa), pressure_tip),
-            (("Stiffening", "αp", "H"), numbers::significant(point.alpha_hertz()), stiffening_tip),
-            (("Shear below", "τ", "max"), deepest, shear_tip),
+            (("Piezoviscous", "αp", "H"), numbers::significant(point.alpha_hertz()), stiffening_tip),
+            (("Max. shear", "τ", "max"), deepest, shear_tip),
         ];
         for ((name, base, subscript), value, tip) in rows {
             explained(ui, name_and_symbol(ui, name, base, subscript), tip);
@@ -218,7 +222,7 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
     });
     reserved(ui, 1, |ui| {
         if let Some(warning) = Warning::of_hertz_pressure(hertz.pressure_pa) {
-            // The rest of the sentence is read under the pointer.
+            // The full sentence is shown on hover.
             ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
             warning_ui(ui, &warning.to_string());
         }

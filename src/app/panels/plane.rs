@@ -1,4 +1,5 @@
-//! The grid of a point contact's full solutions: presets, whether it resolves the side lobes, and what it costs.
+//! Panel of the grid of a point contact's full solutions: presets, resolution of the side lobes, discretisation
+//! error.
 
 use crate::app::answers::jobs::JobKind;
 use crate::app::command::Command;
@@ -12,12 +13,12 @@ use crate::solver::full::point::second_grid;
 use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, Ui};
 
-/// A grid by name, and what is to be said of it.
+/// Presets with name and tooltip.
 const PRESETS: [(PointGridSpec, &str, &str); 5] = [
     (
         PointGridSpec::QUICK,
         "Quick, 151×41",
-        "ΔX 0.04, ΔY 0.05: H_c 5 % too small at M = 200; also follows the hand before a finer one answers",
+        "ΔX 0.04, ΔY 0.05: H_c 5 % too small at M = 200; also used while a slider moves",
     ),
     (
         PointGridSpec::DISSERTATION,
@@ -33,7 +34,7 @@ const PRESETS: [(PointGridSpec, &str, &str); 5] = [
     (PointGridSpec::FINEST, "Finest, 601×116", "The fine one, four times finer in the side lobes; several seconds"),
 ];
 
-/// The group Grid; nothing for a line contact.
+/// Draws the group Grid. Draws nothing for a line contact.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let Context { document, answers, .. } = *context;
     if document.point.kind == ContactKind::Line {
@@ -58,9 +59,9 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         commands.edit(Edit::Plane(wanted), "Nodes");
     }
     if answers.model(document).is_some() {
-        ui.weak("Of full solutions outside the reduced model, which has its own grid");
+        ui.weak("Used for full solutions outside the trained range; the reduced model has its own grid");
     }
-    // What comes and goes with solves stands last: nothing below it moves.
+    // Content that appears and disappears with solves is placed last, so that nothing below it moves.
     error_ui(ui, context, commands);
     if let Some(warning) = answers.current_picture().and_then(|picture| picture.unresolved.as_ref()) {
         warning_ui(ui, warning);
@@ -86,7 +87,7 @@ fn error_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
     let Some(error) = answers.grid_error().map(|error| error.accuracy) else { return };
     let palette = Palette::of(ui);
     let text = format!(
-        "{{H_c}} off by {}, in the limit {}\n{{H_min}} off by {}, in the limit {}",
+        "Error of {{H_c}} {}, in the limit {}\nError of {{H_min}} {}, in the limit {}",
         numbers::error_percent(error.h_c_error),
         numbers::significant(error.h_c_limit),
         numbers::error_percent(error.h_min_error),
@@ -95,7 +96,7 @@ fn error_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
     let response = ui.label(rich(&text, 12.5, palette.text));
     response.on_hover_text(format!("Richardson’s extrapolation with the solution on {}×{} nodes", error.nx, error.ny));
     if !error.resolved {
-        warning_ui(ui, "one of both grids does not resolve the side lobes: the error of H_min may be larger");
+        warning_ui(ui, "one of the two grids does not resolve the side lobes: the error of H_min may be larger");
     }
 }
 

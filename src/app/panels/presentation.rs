@@ -1,5 +1,4 @@
-//! The bar of a presentation: the regime in large words, what a lecture needs at hand, the sliders in use, and the way
-//! back.
+//! Bar of a presentation: the regime in large letters, a few commands, the sliders in use, and a button to end it.
 
 use super::{operating_point, sliders};
 use crate::app::command::Command;
@@ -10,10 +9,10 @@ use crate::scene::regimes::Regime;
 use crate::solver::physics::contact::FilmShape;
 use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 
-/// Size of the name of the regime.
+/// Text size of the regime.
 const LARGE: f32 = 20.0;
 
-/// The bar.
+/// Draws the bar.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entries, commands: &mut Commands) {
     Frame::new().inner_margin(Margin::symmetric(6, 5)).show(ui, |ui| {
         ui.horizontal(|ui| {
@@ -28,7 +27,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entrie
                 }
                 let pins = context.answers.pins().len();
                 let buttons = [
-                    ("Undo", true, "Take the last change back", Command::Undo),
+                    ("Undo", true, "Reverts the last change", Command::Undo),
                     ("Unpin", pins > 0, "Remove all pinned curves", Command::Unpin),
                     ("Pin", true, "Keep this curve for comparison", Command::Pin),
                 ];
@@ -38,7 +37,10 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entrie
                     }
                 }
                 let lock = ui.selectable_label(locked, Command::LockAxes.name());
-                if lock.on_hover_text("What changes is seen to change (F8); F2 fits the axes once").clicked() {
+                if lock
+                    .on_hover_text("Locks the axes, so that changes are visible (F8). F2 fits the axes once")
+                    .clicked()
+                {
                     commands.push(Command::LockAxes);
                 }
                 ui.add(Label::new(RichText::new("Drag a slider; Esc ends").weak()).truncate());

@@ -1,4 +1,4 @@
-//! The read-outs under the plots: what the contact amounts to, and how it differs from the last pin.
+//! Read-outs below the plots: the results of the contact, and their differences from the last pinned curve.
 
 use crate::app::answers::picture::Picture;
 use crate::app::badge::verdict;
@@ -13,7 +13,7 @@ use egui::text::LayoutJob;
 use egui::{RichText, Ui};
 use std::sync::Arc;
 
-/// The read-outs.
+/// Draws the read-outs.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let (answers, document) = (context.answers, context.document);
     let bodies = document.view.bodies.as_ref();
@@ -33,13 +33,13 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
             ui.disable();
         }
         let s = scalars(picture);
-        // What the grid costs stands beside the value it was estimated for.
+        // Show the discretisation error only next to the value that it was estimated for.
         let shown_is_full = answers.full().is_some_and(|full| Arc::ptr_eq(&full.solution, &picture.solution));
         let grid_error = answers.grid_error().filter(|_| shown_is_full).map(|error| error.accuracy);
         let doubt = picture.unphysical;
         let unphysical = doubt.is_some();
-        let traction_tip = "Traction coefficient (3.41): the shear stress at mid-film over the whole domain, over the load. In pure rolling \
-            there is none";
+        let traction_tip = "Traction coefficient (3.41): the shear stress at mid-film over the whole domain, over the \
+                            load. Zero in pure rolling";
         let traction_tip = doubt.map_or_else(|| traction_tip.to_owned(), |why| sentence(&why.to_string()));
         let traction_delta = delta(&|p| p.traction).filter(|delta| delta.is_finite() && !unphysical);
         let off = |error: Option<f64>| error.map_or_else(String::new, |e| format!(" ±{}", numbers::error_percent(e)));
@@ -50,7 +50,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
             numbers::length(picture.central_film_m()),
             palette.film,
             delta(&|p| p.central_film_m()),
-            "Central film thickness, H = hR/a² at X = 0 (2.22). After ± what the grid costs, where that was estimated",
+            "Central film thickness, H = hR/a² at X = 0 (2.22). ± is the discretisation error, if it was estimated",
         );
         cell(
             ui,
@@ -59,7 +59,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
             numbers::length(picture.minimum_film_m()),
             palette.film,
             delta(&|p| p.minimum_film_m()),
-            "Smallest film thickness of the contact zone; in a heavily loaded point contact it lies in the side lobes",
+            "Minimum film thickness of the contact zone; in a heavily loaded point contact it occurs in the side lobes",
         );
         cell(
             ui,
@@ -68,13 +68,17 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
             numbers::pressure(picture.largest_pressure_pa()),
             palette.pressure,
             delta(&|p| p.largest_pressure_pa()),
-            "Largest pressure, P = p/p_H (2.22)",
+            "Maximum pressure, P = p/p_H (2.22)",
         );
         cell(
             ui,
             symbol(ui, "µ", ""),
             numbers::significant(picture.traction),
-            format!("at SRR {}{}", numbers::digits(srr, 3), doubt.map_or_else(String::new, |why| format!(", {}", why.mark()))),
+            format!(
+                "at SRR {}{}",
+                numbers::digits(srr, 3),
+                doubt.map_or_else(String::new, |why| format!(", {}", why.mark()))
+            ),
             if unphysical { palette.reference } else { palette.traction },
             traction_delta,
             &traction_tip,
@@ -91,7 +95,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
                 format!("N{length}, {} W{length} lost", numbers::digits(power, 3)),
                 palette.traction,
                 None,
-                "Friction force µw, and the power that it turns into heat, µw SRR u_m",
+                "Friction force µw, and the friction power µw SRR u_m",
             );
         }
         if let Some(lambda) = bodies.and_then(|bodies| bodies.film_ratio(picture.minimum_film_m()).ok()) {
@@ -108,15 +112,15 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     });
 }
 
-/// Badge and read-outs in words, for people who cannot see them; `None` while the picture follows a change.
+/// Returns badge and read-outs as text for screen readers. `None` while the picture follows a change.
 pub fn spoken(context: &Context<'_>) -> Option<String> {
     let answers = context.answers;
     let verdict = verdict(answers, context.thresholds);
-    // Symbols are marked for the screen.
+    // Remove the markup of symbols.
     let badge = format!("{} {}.", verdict.title, verdict.detail).replace(['{', '}'], "");
     let Some(picture) = answers.current_picture() else { return answers.failure().map(|_| badge) };
     Some(format!(
-        "{badge} Central film {}, minimum film {}, largest pressure {}, traction coefficient {}.",
+        "{badge} Central film thickness {}, minimum film thickness {}, maximum pressure {}, traction coefficient {}.",
         numbers::length(picture.central_film_m()),
         numbers::length(picture.minimum_film_m()),
         numbers::pressure(picture.largest_pressure_pa()),
@@ -124,7 +128,7 @@ pub fn spoken(context: &Context<'_>) -> Option<String> {
     ))
 }
 
-/// A symbol, its value, and this in SI units.
+/// Draws a symbol, its value, and the value in SI units.
 pub(super) fn cell(
     ui: &mut Ui,
     name: LayoutJob,

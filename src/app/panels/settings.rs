@@ -1,4 +1,4 @@
-//! The Settings window: what is set once for all documents, and kept with the session.
+//! Settings window. Settings apply to all documents and are stored with the session.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
@@ -10,11 +10,11 @@ use crate::app::theme::name_and_symbol;
 use crate::solver::physics::engineering::{self, Dimension};
 use egui::{Context, Id, ThemePreference, Ui, Window};
 
-/// The names of the thresholds' fields, and what they mean.
+/// Label, tooltip and accessible name of the fields of the thresholds.
 const THRESHOLDS: [(&str, &str, &str); 2] = [
     (
         "Verified up to",
-        "Largest error of H_c or H_min, against a full solution on the same grid, that is called Verified",
+        "Maximum error of H_c or H_min, against a full solution on the same grid, that is called Verified",
         "Error that is verified",
     ),
     (
@@ -28,7 +28,7 @@ const PERCENT: f64 = 0.01;
 const THEMES: [(ThemePreference, &str); 3] =
     [(ThemePreference::System, "As the system"), (ThemePreference::Light, "Light"), (ThemePreference::Dark, "Dark")];
 
-/// The window, open or closed.
+/// Settings window.
 #[derive(Default)]
 pub struct Settings {
     pub open: bool,
@@ -36,7 +36,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Shows it where it is open.
+    /// Draws the window if it is open.
     pub fn ui(&mut self, ctx: &Context, desk: &Desk, commands: &mut Commands) {
         let mut open = self.open;
         let window = Window::new("Settings").id(Id::unique("settings")).open(&mut open).collapsible(false);
@@ -85,7 +85,7 @@ impl Settings {
 
 fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {
     ui.horizontal(|ui| {
-        row_name(ui, name_and_symbol(ui, "Colours", "", ""), "Light, dark, or as the system has it");
+        row_name(ui, name_and_symbol(ui, "Colours", "", ""), "Light, dark, or the setting of the system");
         for (theme, name) in THEMES {
             if ui.selectable_label(display.theme == theme, name).clicked() {
                 commands.push(Command::Theme(theme));
@@ -93,9 +93,9 @@ fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {
         }
     });
     ui.horizontal(|ui| {
-        row_name(ui, name_and_symbol(ui, "Presentation", "", ""), "What F11 shows over the full screen");
+        row_name(ui, name_and_symbol(ui, "Presentation", "", ""), "Display in presentation mode (F11)");
         let mut light = display.light_presentation;
-        let tip = "Whatever the colours of the window: a projector shows no black";
+        let tip = "Light colours in any theme, because a projector cannot show black";
         if ui.checkbox(&mut light, "Light, for a projector").on_hover_text(tip).changed() {
             commands.push(Command::LightPresentation);
         }

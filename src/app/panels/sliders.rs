@@ -1,4 +1,4 @@
-//! The sliders of M, L, SRR and NPR with their typed entries: one below the other in the panel, side by side in a
+//! Sliders of M, L, SRR and NPR with number fields: one below the other in the panel, side by side in a
 //! presentation.
 
 use crate::app::context::{Commands, Context};
@@ -21,33 +21,36 @@ const M_POINT_TIP: &str = "Load number M = w/(E’R²) · (2η₀u_m/(E’R))^(�
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
 const L_TIP: &str = "Lubricant number L = αE’ · (2η₀u_m/(E’R))^(1/4): how strongly the viscosity rises with pressure. \
     Double click: L 10";
-const SRR_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25): how fast the surfaces slide past each other for their rolling. \
-    Negative values are typed: the film stays, the traction turns round. Double click: pure rolling";
-const SRR_NEWTONIAN_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25). The lubricant is Newtonian: sliding changes neither \
-    pressure nor film, only the traction. Double click: pure rolling";
-const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of its viscosity that the lubricant keeps however fast it is sheared. \
-    1 is Newtonian. Double click: the lubricant’s own";
-const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, which is a Newtonian plateau ratio NPR of 1; \
-    choose a lubricant that thins under shear below";
+const SRR_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25): sliding speed over rolling speed. Type negative \
+                       values: the film thickness is the same, the traction changes its sign. Double click: pure \
+                       rolling";
+const SRR_NEWTONIAN_TIP: &str = "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25). The lubricant is Newtonian: sliding \
+                                 changes neither pressure nor film thickness, only the traction. Double click: pure \
+                                 rolling";
+const NPR_TIP: &str = "Newtonian plateau ratio NPR of (3.40): the share of the viscosity that remains at any shear \
+                       rate. 1 is Newtonian. Double click: the value of the lubricant";
+const NPR_NEWTONIAN_TIP: &str = "The lubricant has no shear constants, so it is Newtonian, with a Newtonian plateau \
+                                 ratio NPR of 1. Choose a shear-thinning lubricant below";
 
-const RATIO_TIP: &str = "R_y/R, the radius across over that along the rolling direction: 1 is a circle, large ratios are nearly a line, \
-    small ones an ellipse that is long along the rolling direction. R stays, R_y follows. Double click: the circle";
+const RATIO_TIP: &str = "R_y/R, radius across over radius along the rolling direction: 1 is a circular contact, large \
+                         ratios are nearly a line contact, small ratios an ellipse that is long along the rolling \
+                         direction. R is kept, R_y follows. Double click: circular contact";
 
-/// What has a slider.
+/// Quantities with a slider.
 pub const SLIDERS: [Quantity; 5] =
     [Quantity::M, Quantity::L, Quantity::RadiusRatio, Quantity::SlideToRollRatio, Quantity::NewtonianPlateauRatio];
-/// Under these names entries are refused.
+/// Names under which refusals are stored.
 pub const FIELDS: [&str; 10] =
     ["M", "L", "R_y/R", "SRR", "NPR", "M value", "L value", "R_y/R value", "SRR value", "NPR value"];
-/// Widths of a name, of a typed entry, and of what stands between.
+/// Widths of a name, a number field, and the gaps.
 const NAME_WIDTH: f32 = 84.0;
-/// Width of its symbol alone, and the width from which on a slider has room for its whole name beside others.
+/// Width of the symbol alone, and minimum width of a slider in a row with its whole name.
 const SYMBOL_WIDTH: f32 = 34.0;
 const ROOM_FOR_NAME: f32 = 270.0;
 const ENTRY_WIDTH: f32 = 70.0;
 const GAPS: f32 = 24.0;
 
-/// A slider with all that belongs to it.
+/// Slider with its name and number field.
 struct Row {
     quantity: Quantity,
     entry: &'static str,
@@ -55,10 +58,10 @@ struct Row {
     value: f64,
 }
 
-/// A value that was asked for, and the field it came from.
+/// Requested value, and the field of the request.
 type Wanted = (Quantity, &'static str, f64);
 
-/// Ends of a slider.
+/// Returns the ends of a slider.
 fn range(quantity: Quantity) -> RangeInclusive<f64> {
     let (low, high) = quantity.usual_range();
     low..=high
@@ -70,7 +73,7 @@ fn thins(document: &Document) -> bool {
 
 fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     let (moes, kind) = (document.point.moes(), document.point.kind);
-    // A model of circles has nothing to say of ellipses.
+    // The trained range of a model of circular contacts is not marked for elliptical contacts.
     let domain = answers.model(document).filter(|model| model.is_of(&document.point)).map(|model| &model.domain);
     let srr = document.point.sliding.slide_to_roll_ratio;
     let (npr, own_npr) = (document.plateau_ratio(), document.lubricant.shear.plateau());
@@ -92,7 +95,7 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     let marked = trained(Quantity::NewtonianPlateauRatio);
     let plateau = slider(Quantity::NewtonianPlateauRatio, marked, own_npr, NPR_TIP);
     let ratio = trained(Quantity::RadiusRatio);
-    // A ball is the ellipse in the middle: moving it makes one.
+    // A circular contact has the ratio 1. Moving this slider makes it elliptical.
     let ellipse = (kind == ContactKind::Point).then(|| Row {
         quantity: Quantity::RadiusRatio,
         entry: "R_y/R value",
@@ -111,7 +114,7 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
     rows
 }
 
-/// All four, one below the other.
+/// Draws all sliders, one below the other.
 pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let width = (ui.available_width() - NAME_WIDTH - ENTRY_WIDTH - GAPS).clamp(70.0, 420.0);
     let mut wanted = None;
@@ -128,7 +131,7 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     take(commands, wanted);
 }
 
-/// Those that change the picture, side by side.
+/// Draws the sliders that change the picture, side by side.
 pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let document = context.document;
     let slides = thins(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
@@ -141,7 +144,7 @@ pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     side_by_side(ui, context, (&used, &|_| true), entries, commands);
 }
 
-/// Chosen ones side by side; those that are `free` can be moved.
+/// Draws the chosen sliders side by side. Only sliders that are `free` can be moved.
 pub fn side_by_side(
     ui: &mut Ui,
     context: &Context<'_>,
@@ -169,7 +172,7 @@ pub fn side_by_side(
 }
 
 impl Row {
-    /// Name, or its symbol alone, slider and entry; returns what was asked for.
+    /// Draws the name or only its symbol, the slider and the number field. Returns the requested value.
     fn ui(&self, ui: &mut Ui, entries: &mut Entries, width: f32, named: bool) -> Option<Wanted> {
         let tip = self.slider.tooltip;
         let (sign, _) = self.quantity.symbol();
@@ -195,7 +198,7 @@ impl Row {
     }
 }
 
-/// What a slider moves, in a word.
+/// Returns the quantity of a slider in one word.
 fn word(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::M => "Load",
@@ -206,14 +209,14 @@ fn word(quantity: Quantity) -> &'static str {
     }
 }
 
-/// Sets what was asked for.
+/// Submits the requested value.
 fn take(commands: &mut Commands, wanted: Option<Wanted>) {
     if let Some((quantity, field, value)) = wanted {
         commands.edit(Edit::Quantity(quantity, value), field);
     }
 }
 
-/// The slider of a fluid that keeps its viscosity: it stands at 1 and says why it does not move.
+/// Draws the slider of NPR for a Newtonian fluid. It is fixed at 1, and its tooltip says why.
 fn disabled_plateau(ui: &mut Ui, width: f32) {
     let tip = NPR_NEWTONIAN_TIP;
     ui.add_enabled(false, egui::Label::new("Plateau NPR")).on_disabled_hover_text(tip);

@@ -1,4 +1,4 @@
-//! The jobs strip: what runs, how far it is, Cancel; and what a solve costs.
+//! Status strip: running jobs, their progress, Cancel, and the time per solve.
 
 use crate::app::answers::jobs::Running;
 use crate::app::command::Command;
@@ -9,10 +9,10 @@ use crate::app::numbers;
 use crate::app::theme::Palette;
 use egui::{Align, Button, Layout, RichText, Ui};
 
-/// Work younger than this is no news: showing it would only flicker.
+/// Age from which a job is shown \[s\]. Shorter jobs would only flicker.
 const NEWS_S: f64 = 0.12;
 
-/// The strip at the bottom.
+/// Draws the strip at the bottom.
 pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
     ui.horizontal(|ui| {
         let usual = desk.answers.full_times().median_s();
@@ -24,7 +24,7 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
         }
         let all: Vec<[String; 2]> =
             solves.chain(works.iter().map(|work| [sentence(&work.stage), numbers::standing(work)])).collect();
-        // At a place of its own, whatever stands beside it.
+        // The button has a fixed place.
         let cancel = ui.add_enabled(!all.is_empty(), Button::new("Cancel").small());
         let cancel = cancel.on_hover_text("Stops everything that runs (Esc)").on_disabled_hover_text("Nothing runs");
         if named(ui, cancel, "Cancel what runs").clicked() {
@@ -66,7 +66,7 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
     });
 }
 
-/// What a full solve is for, how far it is, and how long it takes if it takes as long as the last ones did.
+/// Returns the purpose of a full solve, its progress, and its remaining time based on the last solves.
 fn solve(job: &Running, usual_s: Option<f64>) -> [String; 2] {
     let since_s = job.since.elapsed().as_secs_f64();
     let step = job

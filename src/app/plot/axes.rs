@@ -1,4 +1,4 @@
-//! What all plots have in common: quiet grid, round ticks, logarithmic axes as transformed data.
+//! Common style of all plots: faint grid, round ticks, logarithmic axes as transformed data.
 
 use crate::app::figure::Canvas;
 use crate::app::numbers;
@@ -10,19 +10,20 @@ use egui_plot::{AxisHints, GridInput, GridMark, Plot, PlotPoint, PlotResponse};
 /// Size of axis titles.
 pub const TITLE_SIZE: f32 = 12.5;
 
-/// Width that a number below an axis wants; closer ones are not shown.
+/// Width of a number below an axis. Numbers that are closer together are omitted.
 const LABEL_ROOM: f32 = 80.0;
 
-/// Room from which on a number is shown at all.
+/// Minimum space for a number to be shown.
 const NUMBER_ROOM: Vec2 = vec2(60.0, 20.0);
 
-/// Points of a curve beyond which only the extremes of neighbouring ones are drawn.
+/// Number of points of a curve above which only the extremes of neighbouring points are drawn.
 const MOST_POINTS: usize = 3000;
 
-/// A plot in the explorer's manner with axis titles that may hold symbols (see `rich`); an empty title is left out.
+/// Creates a plot in the style of the explorer. Its axis titles may contain symbols (see `rich`); an empty title is
+/// omitted.
 pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> PlotFrame<'a> {
     let columns = f64::from(ui.available_width() / LABEL_ROOM).clamp(2.0, 9.0);
-    // A number that is shown is shown in full: one that has too little room is left out, not faint.
+    // A number is either shown fully or omitted, never faint.
     let spaced = |axis: AxisHints<'a>, room: f32| vec![axis.label_spacing(Rangef::new(room, room + 0.1))];
     let plot = Plot::new(id)
         .custom_x_axes(spaced(AxisHints::new_x(), NUMBER_ROOM.x))
@@ -34,7 +35,7 @@ pub fn plot<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) ->
     PlotFrame::new(ui, plot, [x_title, y_title], [columns, 6.0])
 }
 
-/// Shows a plot under the name by which screen readers know it, and by which it can be exported as a picture.
+/// Draws a plot under its accessible name, which is also its name in the export.
 pub fn show<'a, R>(
     plot: PlotFrame<'a>,
     ui: &mut Ui,
@@ -44,8 +45,8 @@ pub fn show<'a, R>(
     plot.show(ui, name, content)
 }
 
-/// Fits a plot to its data where `wanted` and when it is seen first; zooming and panning ends it, a double click brings
-/// it back. Axes that stand still are fitted where it is wanted only.
+/// Fits a plot to its data if `wanted` is true and when it is first visible. Zooming and panning end the fit, and a
+/// double click restores it. Locked axes are fitted only if `wanted` is true.
 pub fn fit(plot: &mut Canvas<'_, '_>, wanted: bool) {
     let id = plot.response().id.with("seen");
     let seen = plot.ctx().data_mut(|d| std::mem::replace(d.get_temp_mut_or_default::<bool>(id), true));
@@ -54,7 +55,7 @@ pub fn fit(plot: &mut Canvas<'_, '_>, wanted: bool) {
     }
 }
 
-/// A number of an axis.
+/// Returns the label of a number on an axis.
 pub fn tick(value: f64) -> String {
     let rounded = (value * 1e12).round() / 1e12;
     let text = match rounded.abs() {
@@ -65,7 +66,7 @@ pub fn tick(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// Marks at 1, 2 or 5 times a power of ten, about `target` of them, with four faint ones between.
+/// Returns marks at 1, 2 or 5 times a power of ten, about `target` of them, with four faint ones in between.
 pub fn round_marks(input: GridInput, target: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let wanted = (high - low) / target;
@@ -78,7 +79,7 @@ pub fn round_marks(input: GridInput, target: f64) -> Vec<GridMark> {
     (first..=last).map(|k| GridMark { value: k as f64 * step, step_size: step }).collect()
 }
 
-/// Marks of an axis that shows log10 of its values: decades, about `most` of them at most.
+/// Returns marks of an axis of log10 values: decades, at most about `most` of them.
 pub fn few_decade_marks(input: GridInput, most: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     if !(low.is_finite() && high.is_finite() && high > low && high - low < 400.0) {
@@ -96,7 +97,7 @@ pub fn decade_label(mark: GridMark) -> String {
     }
 }
 
-/// Marks of a logarithmic axis over few decades: decades strong, 2…9 faint.
+/// Returns marks of a logarithmic axis over few decades: decades strong, 2…9 faint.
 pub fn log_marks(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     if !(low.is_finite() && high.is_finite()) || high - low > 12.0 {
@@ -113,7 +114,7 @@ pub fn log_marks(input: GridInput) -> Vec<GridMark> {
         .collect()
 }
 
-/// Label at 1, 2, 5, 10, 20, 50 … of such an axis.
+/// Returns the label at 1, 2, 5, 10, 20, 50 … of such an axis.
 pub fn log_label(mark: GridMark) -> String {
     let value = 10f64.powf(mark.value);
     let leading = value / 10f64.powf((mark.value + 1e-9).floor());
@@ -121,7 +122,7 @@ pub fn log_label(mark: GridMark) -> String {
     if near(1.0) || near(2.0) || near(5.0) { numbers::digits(value, 1) } else { String::new() }
 }
 
-/// As many points as a screen can show, with all extremes.
+/// Returns at most as many points as a screen can show, with all extremes.
 pub fn thinned(points: Vec<PlotPoint>) -> Vec<PlotPoint> {
     if points.len() <= MOST_POINTS {
         return points;

@@ -1,4 +1,4 @@
-//! The colour bar beside a map, with its values and their SI twins.
+//! Colour bar of a map, with dimensionless and SI values.
 
 use crate::app::theme::{Palette, rich};
 use crate::app::units::Units;
@@ -7,23 +7,23 @@ use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 /// Width of the bar with its numbers.
 pub const WIDTH: f32 = 118.0;
-/// Width of the bar itself.
+/// Width of the bar.
 const BAR: f32 = 16.0;
-/// Strips that it is painted with.
+/// Number of strips of the bar.
 pub const STRIPS: usize = 128;
-/// Parts of a film's scale, of which those below the smallest film are left out.
+/// Number of parts of a film thickness scale. Parts below the minimum film thickness are omitted.
 pub const UNITS: f64 = 8.0;
-/// Height that a number wants.
+/// Height of a number.
 const ROW: f32 = 15.0;
 
-/// Values that the scale names: round ones from its lower end to its upper one.
+/// Returns round values of the scale from its lower to its upper end.
 pub fn ticks((low, high): (f64, f64)) -> Vec<f64> {
     let unit = if low > 0.0 { high / UNITS } else { high / 4.0 };
     let count = ((high - low) / unit).round() as usize;
     (0..=count).map(|k| low + unit * k as f64).collect()
 }
 
-/// The bar: its colours from the lower end to the upper one, the values at these, and what a value is in SI units.
+/// Draws the bar: colours from the lower to the upper end, their values, and the values in SI units.
 pub fn ui(
     ui: &mut Ui,
     title: &str,
@@ -58,26 +58,26 @@ pub fn ui(
     }
 }
 
-/// What the colours mean, for the figure of the map that was drawn last: a title, and in SI units another one with what
-/// a value is multiplied with.
+/// Sets the colour scale for the figure of the map that was drawn last. In SI units it uses another title and a
+/// factor.
 pub fn on_paper(ui: &Ui, title: &str, (factor, in_si): (f64, &str), (colors, (low, high)): (&[Color32], (f64, f64))) {
     let (title, factor) = if Units::of(ui.ctx()) == Units::Si { (in_si, factor) } else { (title, 1.0) };
     figure::scale(ui.ctx(), title, (factor * low, factor * high), colors);
 }
 
-/// As many colours of a table as the bar has strips.
+/// Returns the colours of a table for the strips of the bar.
 pub fn strips(table: &[Color32]) -> Vec<Color32> {
     let last = table.len().saturating_sub(1) as f64;
     let place = |k: usize| ((k as f64 + 0.5) / STRIPS as f64 * last).round() as usize;
     (0..STRIPS).filter_map(|k| table.get(place(k)).copied()).collect()
 }
 
-/// A pressure in Pa, as short as it must be beside a bar.
+/// Returns a pressure in Pa as a short text.
 pub fn in_gigapascals(pascal: f64) -> String {
     if pascal == 0.0 { "0".to_owned() } else { short(pascal * 1e-9, "GPa") }
 }
 
-/// A film in m, likewise.
+/// Returns a film thickness in m as a short text.
 pub fn in_nanometres(metre: f64) -> String {
     let nanometres = metre * 1e9;
     if nanometres >= 1000.0 { short(nanometres * 1e-3, "µm") } else { short(nanometres, "nm") }

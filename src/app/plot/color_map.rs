@@ -1,12 +1,12 @@
-//! The colour map of fields: perceptually uniform, readable in greyscale and by colour-blind eyes.
+//! Colour map of fields. It is perceptually uniform and also readable in greyscale and by colour-blind people.
 
 use egui::Color32;
 
-/// Entries of a table of colours: finer than eyes and screens are.
+/// Number of entries of a colour table, finer than a screen can show.
 pub const ENTRIES: usize = 512;
 
-/// Viridis (S. van der Walt and N. Smith, public domain) as a polynomial of sixth degree in each channel, constant term
-/// first; within 2 % of the original everywhere.
+/// Viridis (S. van der Walt and N. Smith, public domain) as a polynomial of sixth degree in each channel, constant
+/// term first. It is within 2 % of the original everywhere.
 const VIRIDIS: [[f64; 3]; 7] = [
     [0.277_727_3, 0.005_407_3, 0.334_099_8],
     [0.105_093_0, 1.404_613_5, 1.384_590_2],
@@ -17,7 +17,7 @@ const VIRIDIS: [[f64; 3]; 7] = [
     [-5.435_455_9, 4.645_852_6, 26.312_435_2],
 ];
 
-/// The colour at t, 0…1, from dark to light.
+/// Returns the colour at t, 0…1, from dark to light.
 pub fn viridis(t: f64) -> Color32 {
     let t = t.clamp(0.0, 1.0);
     let channel = |c: usize| {
@@ -27,7 +27,7 @@ pub fn viridis(t: f64) -> Color32 {
     Color32::from_rgb(channel(0), channel(1), channel(2))
 }
 
-/// All colours, from dark to light, or the other way round.
+/// Returns all colours from dark to light, or from light to dark.
 pub fn table(reversed: bool) -> Vec<Color32> {
     let t = |k: usize| k as f64 / (ENTRIES - 1) as f64;
     (0..ENTRIES).map(|k| viridis(if reversed { 1.0 - t(k) } else { t(k) })).collect()
@@ -37,7 +37,7 @@ pub fn table(reversed: bool) -> Vec<Color32> {
 mod tests {
     use super::*;
 
-    /// Lightness L* of CIE 1976, 0…100.
+    /// Returns the lightness L* of CIE 1976, 0…100.
     fn lightness(color: Color32) -> f64 {
         let linear = |c: u8| {
             let c = f64::from(c) / 255.0;

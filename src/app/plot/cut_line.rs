@@ -1,4 +1,4 @@
-//! A vertical line in a profile of a point contact: there the other profile cuts it, and the hand can take it along.
+//! Vertical line in a profile of a point contact. It marks the position of the other profile and can be dragged.
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -9,22 +9,22 @@ use crate::app::theme::rich;
 use egui::{Color32, CursorIcon, DragValue, Response, Ui};
 use egui_plot::{LineStyle, PlotPoint, PlotTransform, VLine};
 
-/// How near (in screen points) the pointer must be to take the line along.
+/// Distance in screen points within which the pointer can grab the line.
 const GRAB: f32 = 6.0;
 
-/// The line of one plot.
+/// Line of one plot.
 pub struct CutLine {
     grip: Grip,
     at: f64,
 }
 
 impl CutLine {
-    /// The line at a place of the plot of a name.
+    /// Creates the line at a position in the plot of this name.
     pub fn new(plot: &str, at: f64) -> Self {
         Self { grip: Grip::new(plot, "cut"), at }
     }
 
-    /// Whether the hand holds it: then the plot itself stays where it is.
+    /// Returns true while the user drags the line. The plot itself must then not move.
     pub fn is_held(&self, ui: &Ui) -> bool {
         self.grip.is_held(ui)
     }
@@ -34,7 +34,7 @@ impl CutLine {
         plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
     }
 
-    /// Where the hand takes it in this frame.
+    /// Returns the position to which the user drags the line in this frame.
     pub fn moved(&self, ui: &Ui, response: &Response, transform: &PlotTransform) -> Option<f64> {
         let spot = transform.position_from_point(&PlotPoint::new(self.at, 0.0)).x;
         let near = response.hover_pos().is_some_and(|p| (p.x - spot).abs() < GRAB);
@@ -46,16 +46,16 @@ impl CutLine {
     }
 }
 
-/// Hundredths, and the middle where it is near: a hand does not hit it.
+/// Rounds to hundredths, and to zero near the centre, which is hard to hit with the pointer.
 pub fn snapped(value: f64) -> f64 {
     let rounded = (100.0 * value).round() / 100.0;
     if rounded.abs() < 0.03 { 0.0 } else { rounded }
 }
 
-/// Room for the name and the value of one cut.
+/// Space for name and value of one cut.
 const CUT_WIDTH: f32 = 116.0;
 
-/// Where the contact is cut, as numbers.
+/// Draws the positions of the cuts as number fields.
 pub fn cuts_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let domain = context.document.plane().domain;
     let mut cuts = context.cuts;
@@ -65,17 +65,17 @@ pub fn cuts_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
             "at {X}",
             &mut cuts.x,
             domain.0..=domain.1,
-            "Where the profile across the contact is taken; drag the line in the map",
+            "Position X of the profile across the contact; drag the line in the map",
         ),
         (
             "Cut along at Y",
             "at {Y}",
             &mut cuts.y,
             domain.2..=-domain.2,
-            "Where the profile along X is taken; drag the line in the map",
+            "Position Y of the profile along X; drag the line in the map",
         ),
     ] {
-        // In a toolbar that wraps, a name and its value stay in one row.
+        // In a toolbar that wraps, name and value stay in one row.
         if ui.available_size_before_wrap().x < CUT_WIDTH {
             ui.end_row();
         }

@@ -5,12 +5,12 @@ use crate::app::numbers;
 use crate::app::units::Scales;
 use egui_plot::PlotPoint;
 
-/// In which direction a profile runs.
+/// Direction of a profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Along X, in the direction of motion.
     Along,
-    /// Across, along Y, of a point contact.
+    /// Across a point contact, along Y.
     Across,
 }
 
@@ -22,52 +22,52 @@ impl Direction {
         }
     }
 
-    /// P along it.
+    /// Returns P along it.
     pub fn pressure(self, picture: &Picture) -> &[PlotPoint] {
         self.either(&picture.pressure, &picture.across.pressure)
     }
 
-    /// H along it.
+    /// Returns H along it.
     pub fn film(self, picture: &Picture) -> &[PlotPoint] {
         self.either(&picture.film, &picture.across.film)
     }
 
-    /// The unit of lengths along it: a, or b of a point contact \[mm\].
+    /// Returns the scale of lengths along it \[mm\]: a, or b across a point contact.
     pub fn length_mm(self, scales: Scales) -> f64 {
         self.either(scales.length_mm, scales.across_mm)
     }
 
-    /// What its coordinate is in units of: of a circle both semi-axes are a.
+    /// Returns the length that scales its coordinate. Both semi-axes of a circular contact are a.
     fn semi_axis(self, kappa: f64) -> &'static str {
         if self == Self::Across && kappa != 1.0 { "b" } else { "a" }
     }
 
-    /// Title of its axis without the place of the cut.
+    /// Returns the title of its axis without the position of the cut.
     pub fn title(self, kappa: f64) -> String {
         format!("{{{0}}} = {{{1}}}/{{{2}}}", self.name(), self.name().to_lowercase(), self.semi_axis(kappa))
     }
 
-    /// Name of the coordinate.
+    /// Returns the name of the coordinate.
     pub fn name(self) -> &'static str {
         self.either("X", "Y")
     }
 
-    /// Name of a profile along it.
+    /// Returns the name of a profile along it.
     pub fn profile_name(self, of: &str) -> String {
         self.either(format!("{of} profile"), format!("{of} profile across"))
     }
 
-    /// Range at first: the contact with its inlet and outlet, or with both sides.
+    /// Returns the initial range: the contact with inlet and outlet, or with both sides.
     pub fn range(self) -> (f64, f64) {
         self.either((-2.2, 1.6), (-1.6, 1.6))
     }
 
-    /// Names of the plots that share an axis; those of the other direction have their own.
+    /// Returns the name of the plots that share an axis. Each direction has separate ones.
     pub fn id(self, plot: &str) -> String {
         self.either(plot.to_owned(), format!("{plot} across"))
     }
 
-    /// Title of the axis, with the place of the cut.
+    /// Returns the title of the axis with the position of the cut.
     pub fn x_title(self, picture: &Picture, cuts: Cuts) -> String {
         match self {
             Self::Along if picture.has_plane() => {
@@ -78,18 +78,18 @@ impl Direction {
         }
     }
 
-    /// The same in SI units, for a title that is not empty.
+    /// Returns a title that is not empty in SI units.
     pub fn si_title(self, title: &str) -> String {
         let at = title.split_once(" at ").map_or_else(String::new, |(_, at)| format!(" at {at}"));
         format!("{{{}}} / mm{at}", self.name().to_lowercase())
     }
 
-    /// Where on the other axis the profile lies.
+    /// Returns the position of the profile on the other axis.
     pub fn elsewhere(self, cuts: Cuts) -> f64 {
         self.either(cuts.y, cuts.x)
     }
 
-    /// Where on its own axis the other profile lies.
+    /// Returns the position of the other profile on this axis.
     pub fn other(self, cuts: Cuts) -> f64 {
         self.either(cuts.x, cuts.y)
     }
@@ -99,7 +99,8 @@ impl Direction {
         *self.either(&mut cuts.x, &mut cuts.y) = to;
     }
 
-    /// Where a profile meets the smallest film, if it does: within two hundredths of the contact.
+    /// Returns the position of the minimum film thickness on a profile. `None` if it is more than 0.02 away from
+    /// the profile.
     pub fn minimum(self, picture: &Picture, cuts: Cuts) -> Option<f64> {
         const NEAR: f64 = 0.02;
         let s = picture.solution.scalars;

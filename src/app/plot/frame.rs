@@ -1,4 +1,4 @@
-//! A plot that knows what its axes mean: on the screen in the units that are wanted, and for print.
+//! Plot with described axes, for the screen in the chosen units and for print.
 
 use crate::app::controls::named;
 use crate::app::figure::{Axis, Canvas, Recording};
@@ -8,19 +8,19 @@ use crate::app::units::{Manner, Units};
 use egui::{Color32, Id, Ui, Vec2, Vec2b};
 use egui_plot::{GridInput, GridMark, HoverPosition, Plot, PlotBounds, PlotResponse};
 
-/// A plot in the explorer's manner.
+/// Plot in the style of the explorer.
 pub struct PlotFrame<'a> {
     plot: Plot<'a>,
     x: Axis,
     y: Axis,
-    /// Marks that each axis has about; none where it brings its own.
+    /// Approximate number of marks of each axis. `None` if the axis defines its own marks.
     marks: [Option<f64>; 2],
     equal: bool,
     manner: Manner,
     ink: Color32,
 }
 
-/// Settings of the toolkit's plot that are handed on.
+/// Settings that are passed on to the plot of the toolkit.
 macro_rules! handed_on {
     ($($name:ident($($argument:ident: $kind:ty),*);)*) => {
         $(
@@ -34,7 +34,8 @@ macro_rules! handed_on {
 }
 
 impl<'a> PlotFrame<'a> {
-    /// A plot whose axes have about so many marks; a title may hold symbols (see [`rich`]), an empty one is left out.
+    /// Creates a plot whose axes have about `marks` marks. A title may contain symbols (see [`rich`]); an empty one
+    /// is omitted.
     pub fn new(ui: &Ui, plot: Plot<'a>, titles: [&str; 2], marks: [f64; 2]) -> Self {
         let axis = |title: &str| Axis { title: title.to_owned(), ..Axis::default() };
         let [x, y] = titles.map(axis);
@@ -63,73 +64,73 @@ impl<'a> PlotFrame<'a> {
         y_axis_min_width(width: f32);
     }
 
-    /// The same as `Plot::data_aspect`; on paper both axes have one scale.
+    /// The same as `Plot::data_aspect`. On paper both axes have the same scale.
     pub fn data_aspect(mut self, aspect: f32) -> Self {
         self.plot = self.plot.data_aspect(aspect);
         self.equal = true;
         self
     }
 
-    /// About so many round marks to the right.
+    /// Sets the approximate number of round marks on the horizontal axis.
     pub fn marks_x(mut self, marks: f64) -> Self {
         self.marks[0] = Some(marks);
         self
     }
 
-    /// About so many round marks upwards.
+    /// Sets the approximate number of round marks on the vertical axis.
     pub fn marks_y(mut self, marks: f64) -> Self {
         self.marks[1] = Some(marks);
         self
     }
 
-    /// Marks of its own to the right.
+    /// Sets custom marks on the horizontal axis.
     pub fn x_grid_spacer(mut self, marks: impl Fn(GridInput) -> Vec<GridMark> + 'a) -> Self {
         self.marks[0] = None;
         self.plot = self.plot.x_grid_spacer(marks);
         self
     }
 
-    /// Marks of its own upwards.
+    /// Sets custom marks on the vertical axis.
     pub fn y_grid_spacer(mut self, marks: impl Fn(GridInput) -> Vec<GridMark> + 'a) -> Self {
         self.marks[1] = None;
         self.plot = self.plot.y_grid_spacer(marks);
         self
     }
 
-    /// What is drawn to the right are decimal logarithms over few decades.
+    /// Declares that horizontal values are decimal logarithms over few decades.
     pub fn log_x(mut self) -> Self {
         self.x.log = true;
         self.plot = self.plot.x_axis_formatter(|mark, _| log_label(mark));
         self.x_grid_spacer(log_marks)
     }
 
-    /// The same upwards.
+    /// Declares that vertical values are decimal logarithms over few decades.
     pub fn log_y(mut self) -> Self {
         self.y.log = true;
         self.plot = self.plot.y_axis_formatter(|mark, _| log_label(mark));
         self.y_grid_spacer(log_marks)
     }
 
-    /// What is drawn to the right are decimal logarithms, with about so many marks at most.
+    /// Declares that horizontal values are decimal logarithms, with at most about `most` marks.
     pub fn decades_x(mut self, most: f64) -> Self {
         self.x.log = true;
         self.plot = self.plot.x_axis_formatter(|mark, _| decade_label(mark));
         self.x_grid_spacer(move |input| few_decade_marks(input, most))
     }
 
-    /// The same upwards.
+    /// Declares that vertical values are decimal logarithms, with at most about `most` marks.
     pub fn decades_y(self, most: f64) -> Self {
         self.decades_y_at(move |input| few_decade_marks(input, most))
     }
 
-    /// The same with marks of its own.
+    /// Declares that vertical values are decimal logarithms, with custom marks.
     pub fn decades_y_at(mut self, marks: impl Fn(GridInput) -> Vec<GridMark> + 'a) -> Self {
         self.y.log = true;
         self.plot = self.plot.y_axis_formatter(|mark, _| decade_label(mark));
         self.y_grid_spacer(marks)
     }
 
-    /// Names at places upwards in place of numbers, on the screen where wanted.
+    /// Sets names instead of numbers on the vertical axis. The screen shows them only if `shown` is true.
     pub fn names_y(mut self, names: Vec<(f64, String)>, shown: bool) -> Self {
         let marks: Vec<GridMark> = names.iter().map(|(value, _)| GridMark { value: *value, step_size: 1.0 }).collect();
         self.y.names.clone_from(&names);
@@ -140,31 +141,31 @@ impl<'a> PlotFrame<'a> {
         self.y_grid_spacer(move |_| marks.clone())
     }
 
-    /// What runs to the right, for paper: on the screen it stands below a neighbour.
+    /// Sets the title of the horizontal axis on paper. On the screen it is below a neighbouring plot.
     pub fn paper_x(mut self, title: impl Into<String>) -> Self {
         self.x.on_paper = title.into();
         self
     }
 
-    /// What runs upwards, for paper.
+    /// Sets the title of the vertical axis on paper.
     pub fn paper_y(mut self, title: impl Into<String>) -> Self {
         self.y.on_paper = title.into();
         self
     }
 
-    /// In SI units a value to the right is so many times as large, under this title.
+    /// Sets factor and title of the horizontal axis in SI units.
     pub fn si_x(mut self, factor: f64, title: &str) -> Self {
         in_si(&mut self.x, self.manner.units, factor, title);
         self
     }
 
-    /// The same upwards.
+    /// Sets factor and title of the vertical axis in SI units.
     pub fn si_y(mut self, factor: f64, title: &str) -> Self {
         in_si(&mut self.y, self.manner.units, factor, title);
         self
     }
 
-    /// Shows it under the name by which screen readers know it, and by which it leaves as a figure.
+    /// Draws the plot under its accessible name, which is also its name in the export.
     pub fn show<R>(
         self,
         ui: &mut Ui,
@@ -213,7 +214,7 @@ impl<'a> PlotFrame<'a> {
 fn in_si(axis: &mut Axis, units: Units, factor: f64, title: &str) {
     if units == Units::Si && factor.is_finite() && factor > 0.0 {
         axis.factor = factor;
-        // What the screen has elsewhere stays there.
+        // A title that the screen shows elsewhere stays empty.
         for name in [&mut axis.title, &mut axis.on_paper] {
             if !name.is_empty() {
                 title.clone_into(name);
@@ -222,7 +223,7 @@ fn in_si(axis: &mut Axis, units: Units, factor: f64, title: &str) {
     }
 }
 
-/// Marks that are round once they are multiplied.
+/// Returns marks that are round after multiplication with a factor.
 fn scaled_marks(input: GridInput, marks: f64, factor: f64) -> Vec<GridMark> {
     let (from, to) = input.bounds;
     let scaled = GridInput { bounds: (from * factor, to * factor), base_step_size: input.base_step_size * factor };

@@ -1,26 +1,27 @@
-//! What the hand takes along in a plot: a line, or the contact itself.
+//! Dragging of an object in a plot: a line, or the contact itself.
 
 use egui::{Id, Pos2, Ui};
 
-/// Something that can be taken along.
+/// Object that can be dragged.
 #[derive(Clone, Copy)]
 pub struct Grip(Id);
 
 impl Grip {
-    /// What goes by a name in one plot.
+    /// Creates the object with this name in one plot.
     pub fn new(plot: &str, name: &str) -> Self {
         Self(Id::unique(("grip", plot.to_owned(), name.to_owned())))
     }
 
-    /// Whether the hand holds it: then the plot itself stays where it is.
+    /// Returns true while the user drags the object. The plot itself must then not move.
     pub fn is_held(self, ui: &Ui) -> bool {
         ui.data(|data| data.get_temp(self.0).unwrap_or(false))
     }
 
-    /// Where the hand takes it in this frame; `near` says whether the pointer is where it can be taken hold of.
+    /// Returns the position of the pointer while the user drags the object. `near` states whether the pointer can
+    /// grab it.
     pub fn follow(self, ui: &Ui, near: bool) -> Option<Pos2> {
         let mut held = self.is_held(ui);
-        // Taking hold before the drag begins keeps the plot itself still.
+        // Grabbing starts before the drag, so that the plot itself does not move.
         if ui.input(|i| i.pointer.primary_pressed()) {
             held = near;
         }

@@ -1,5 +1,4 @@
-//! What the curves and marks of a plot mean: by a piece of each above the plot, where it covers nothing, or by a name at
-//! the curve itself.
+//! Key of a plot: a sample of each curve and mark above the plot, or a name next to the curve.
 
 use crate::app::figure::Canvas;
 use crate::app::plot::axes::TITLE_SIZE;
@@ -8,16 +7,16 @@ use egui::{Align2, Color32, Pos2, Sense, Shape, Stroke, Ui, vec2};
 use egui_plot::{LineStyle, PlotPoint, Text};
 use std::hash::Hash;
 
-/// Length of a piece of a line.
+/// Length of a sample of a line.
 const PIECE: f32 = 26.0;
-/// Room between entries.
+/// Space between entries.
 const APART: f32 = 16.0;
-/// Room between a piece and its name.
+/// Space between a sample and its name.
 const BESIDE: f32 = 5.0;
-/// Room of a mark.
+/// Width of a mark.
 const MARK: f32 = 12.0;
 
-/// How a curve or a mark looks, with its width or radius.
+/// Style of a curve or mark, with its width or radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sample {
     Line(f32),
@@ -35,7 +34,7 @@ pub enum Sample {
 }
 
 impl Sample {
-    /// The sample of a line of a plot.
+    /// Returns the sample of a line of a plot.
     pub fn of_line(style: LineStyle, width: f32) -> Self {
         match style {
             LineStyle::Solid => Self::Line(width),
@@ -48,12 +47,12 @@ impl Sample {
         matches!(self, Self::Line(_) | Self::Dashed(_) | Self::Dotted(_))
     }
 
-    /// How wide a piece of it is.
+    /// Returns the width of the sample.
     fn width(self) -> f32 {
         if self.is_line() { PIECE } else { MARK }
     }
 
-    /// Draws a piece of it.
+    /// Draws the sample.
     pub fn ui(self, ui: &mut Ui, color: Color32) {
         let width = self.width();
         let (rect, _) = ui.allocate_exact_size(vec2(width, 12.0), Sense::hover());
@@ -76,7 +75,7 @@ impl Sample {
     }
 }
 
-/// A curve or a kind of mark with its name, in which symbols stand in braces.
+/// Curve or kind of mark with its name, in which symbols are in braces.
 pub struct Entry {
     name: String,
     color: Color32,
@@ -84,13 +83,13 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// A name and how it looks.
+    /// Creates an entry from its name and style.
     pub fn new(name: impl Into<String>, color: Color32, sample: Sample) -> Self {
         Self { name: name.into(), color, sample }
     }
 }
 
-/// The key alone.
+/// Draws the key.
 pub fn ui(ui: &mut Ui, entries: impl IntoIterator<Item = Entry>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = APART;
@@ -98,10 +97,10 @@ pub fn ui(ui: &mut Ui, entries: impl IntoIterator<Item = Entry>) {
     });
 }
 
-/// The entries in a row that has begun, with names of a size.
+/// Draws the entries in an existing row, with names of this size.
 pub fn entries_ui(ui: &mut Ui, entries: impl IntoIterator<Item = Entry>, size: f32) {
     for Entry { name, color, sample } in entries {
-        // A name stands beside its piece, whatever is wrapped.
+        // A name stays next to its sample when entries wrap.
         let words = rich(&name, size, ui.visuals().text_color());
         let wide = sample.width() + BESIDE + ui.painter().layout_job(words.clone()).size().x;
         let begun = ui.cursor().left() > ui.max_rect().left() + 1.0;
@@ -116,7 +115,7 @@ pub fn entries_ui(ui: &mut Ui, entries: impl IntoIterator<Item = Entry>, size: f
     }
 }
 
-/// A plot under its key, both as high as given.
+/// Draws a plot below its key, together as high as `height`.
 pub fn over<R>(
     ui: &mut Ui,
     height: f32,
@@ -132,7 +131,7 @@ pub fn over<R>(
     .inner
 }
 
-/// A name at a place of a plot, in a shade of its curve that can be read.
+/// Draws a name at a position of a plot, in a readable shade of its curve.
 pub fn name(plot: &mut Canvas<'_, '_>, id: impl Hash, at: PlotPoint, name: &str, color: Color32, anchor: Align2) {
     let ink = Palette::of_screen(plot.ctx()).ink(color);
     let text = Text::new("", at, rich(&format!("  {name}  "), TITLE_SIZE, ink)).anchor(anchor);

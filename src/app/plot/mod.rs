@@ -1,4 +1,4 @@
-//! Parts that plots of several tabs share.
+//! Parts shared by the plots of several tabs.
 
 pub mod axes;
 pub mod color_bar;

@@ -1,10 +1,9 @@
-//! A field of a point contact as a picture of pixels, both halves: by a table of colours, or as the interferogram that
-//! a rig shows.
+//! Field of a point contact as an image of both halves, with a colour table or as the interferogram of a rig.
 
 use crate::solver::physics::optics::{Interferometer, RGB_WAVELENGTHS_M};
 use egui::{Color32, ColorImage};
 
-/// Pixels per Hertzian radius, and the fewest per semi-axis of an ellipse.
+/// Number of pixels per Hertzian radius, and the minimum number per semi-axis of an elliptical contact.
 const RESOLUTION: f64 = 100.0;
 const FEWEST: f64 = 50.0;
 
@@ -15,7 +14,7 @@ pub struct Raster {
     values: Vec<f32>,
 }
 
-/// Between which nodes a pixel lies, and how near the upper one.
+/// Returns for each pixel the index of its upper node and the weight of that node.
 fn places(nodes: &[f64], count: usize) -> Vec<(usize, f32)> {
     let (Some(&first), Some(&last)) = (nodes.first(), nodes.last()) else { return Vec::new() };
     let mut upper = 1;
@@ -31,10 +30,10 @@ fn places(nodes: &[f64], count: usize) -> Vec<(usize, f32)> {
 }
 
 impl Raster {
-    /// Samples a node array of a point contact bilinearly, times a scale, so that pixels are square: `kappa` is b/a, with
-    /// X in a and Y in b. Node (i, j) at (X_i, Y_j) has the index i·n_y + j.
+    /// Samples a node array of a point contact bilinearly, times a scale, with square pixels. `kappa` is b/a; X is
+    /// scaled with a, Y with b. Node (i, j) at (X_i, Y_j) has the index i·n_y + j.
     pub fn new((x, y): (&[f64], &[f64]), kappa: f64, field: &[f64], scale: f64) -> Self {
-        // As many in all as of a circle, so that long ellipses do not fill the memory.
+        // The number of pixels equals that of a circular contact, so that long ellipses do not fill the memory.
         let per_shorter = (RESOLUTION / kappa.max(kappa.recip()).sqrt()).max(FEWEST);
         let (per_a, per_b) =
             if kappa >= 1.0 { (per_shorter, per_shorter * kappa) } else { (per_shorter / kappa, per_shorter) };
@@ -59,15 +58,15 @@ impl Raster {
         Self { width, rows, values }
     }
 
-    /// The picture by a table of colours that spans `low` to `high`.
+    /// Returns the image by a colour table that spans `low` to `high`.
     pub fn colored(&self, table: &[Color32], (low, high): (f64, f64)) -> ColorImage {
         let last = table.len().saturating_sub(1) as f32;
         let (low, factor) = (low as f32, last / (high - low) as f32);
         self.mirrored(|k| table[((self.values[k] - low) * factor).clamp(0.0, last) as usize])
     }
 
-    /// The interferogram of films in m: in the rig's own light as grey, or in three colours. Fringes that are narrower
-    /// than two pixels fade to their mean, as they do in a camera.
+    /// Returns the interferogram of film thicknesses in m: in grey for the light of the rig, or in three colours.
+    /// Fringes narrower than two pixels fade to their mean, as in a camera.
     pub fn interferogram(&self, rig: &Interferometer, three_colors: bool) -> ColorImage {
         const STEPS: usize = 1024;
         let table: Vec<f32> =
@@ -78,9 +77,9 @@ impl Raster {
             let table = &table;
             move |film: f32, change: f32| {
                 let order = film * per_metre + offset;
-                // Films are positive, and so are orders: cutting off is rounding down.
+                // Film thicknesses and orders are positive, so truncation rounds down.
                 let step = ((order - (order as u32) as f32) * STEPS as f32) as usize;
-                // Half an order from one pixel to the next is what a picture can just show.
+                // Half an order between neighbouring pixels is the limit of resolution.
                 let sharp = (1.0 - (2.0 * change * per_metre).powi(2)).max(0.0);
                 (255.0 * (0.5 + sharp * table[step.min(STEPS - 1)])) as u8
             }
@@ -103,7 +102,7 @@ impl Raster {
         }
     }
 
-    /// Both halves from the colours of one.
+    /// Returns both halves from the colours of one.
     fn mirrored(&self, color: impl Fn(usize) -> Color32) -> ColorImage {
         let mut pixels: Vec<Color32> = (0..self.values.len()).map(color).collect();
         for row in (0..self.rows).rev() {
@@ -113,7 +112,7 @@ impl Raster {
     }
 }
 
-/// The colour of a film \[m\] in an interferogram.
+/// Returns the colour of a film thickness \[m\] in an interferogram.
 pub fn fringe(rig: &Interferometer, three_colors: bool, film: f64) -> Color32 {
     let light = |wavelength: f64| (255.0 * rig.intensity(film, wavelength)) as u8;
     if three_colors {

@@ -1,4 +1,4 @@
-//! Writing the session on a thread of its own: a change is on disk soon, whether or not another frame is drawn.
+//! Writing of the session in a separate thread. A change is on disk soon, even if no further frame is drawn.
 
 use super::state::{FILE, Session};
 use crate::app::explorer::Explorer;
@@ -10,10 +10,10 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// From a change to its being written: a gesture of many changes is written now and then only.
+/// Delay between a change and its writing, so that a gesture of many changes is written only once in a while.
 const DELAY: Duration = Duration::from_secs(2);
 
-/// Keeps the session of a window on disk.
+/// Writer of the session of a window.
 pub struct Keeper {
     given: Option<Session>,
     sessions: Option<Sender<Session>>,
@@ -21,10 +21,10 @@ pub struct Keeper {
     writer: Writer,
 }
 
-/// Who writes.
+/// Place where the session is written.
 enum Writer {
     Thread(Option<JoinHandle<()>>),
-    /// The window itself where there are no threads: what waits, where it goes, and when the last was written.
+    /// The window itself, if there are no threads: waiting sessions, their path, and the time of the last write.
     Window {
         waiting: Receiver<Session>,
         path: PathBuf,
@@ -34,10 +34,10 @@ enum Writer {
 }
 
 impl Keeper {
-    /// A keeper that writes to a folder, which is made where it does not exist.
+    /// Creates a keeper that writes to a folder. Creates the folder if it does not exist.
     ///
     /// # Errors
-    /// A sentence when there is no such folder or no thread.
+    /// A sentence if there is no such folder or no thread.
     pub fn new(folder: &Path) -> Result<Self, Refusal> {
         let cannot =
             |error: std::io::Error| Refusal::new(format!("No session can be kept in {}: {error}", folder.display()));
@@ -49,7 +49,7 @@ impl Keeper {
             let write = move || {
                 while let Ok(mut session) = waiting.recv() {
                     let first = Stopwatch::start();
-                    // The last one counts; when no more can come, it is written at once.
+                    // Only the last session counts. It is written immediately when the channel is closed.
                     while let Ok(later) = worker::receive(&waiting, DELAY.saturating_sub(first.elapsed())) {
                         session = later;
                     }
@@ -63,12 +63,12 @@ impl Keeper {
         Ok(Self { given: None, sessions: Some(sessions), refusals, writer })
     }
 
-    /// Hands over what has changed since the last call, and tells why former changes could not be written.
+    /// Passes on changes since the last call. Returns why previous changes could not be written.
     pub fn follow(&mut self, explorer: &Explorer) -> Option<Refusal> {
         if !self.given.as_ref().is_some_and(|given| given.is_of(explorer)) {
             let session = Session::of(explorer);
             if let Some(sessions) = &self.sessions {
-                // The writer ends with its keeper.
+                // The writer lives as long as its keeper, so sending cannot fail.
                 let _ = sessions.send(session.clone());
             }
             self.given = Some(session);
@@ -79,7 +79,7 @@ impl Keeper {
 }
 
 impl Writer {
-    /// Writes what waits where the window does so, unless the last time was less than `delay` ago.
+    /// Writes the waiting session if the window writes itself, at most once per `delay`.
     fn write_due(&mut self, delay: Duration) {
         let Self::Window { waiting, path, says, last } = self else { return };
         if last.is_none_or(|last| last.elapsed() >= delay)
@@ -93,7 +93,7 @@ impl Writer {
 
 fn write(session: &Session, path: &Path, says: &Sender<Refusal>) {
     if let Err(sentence) = session.write(path) {
-        // A window that has closed hears nothing.
+        // A closed window receives no message.
         let _ = says.send(sentence);
     }
 }

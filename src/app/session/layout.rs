@@ -1,16 +1,16 @@
-//! The arrangement of the tabs as a file has it: built anew from what makes sense of it.
+//! Checked arrangement of the tabs, rebuilt from the valid parts of a file.
 
 use crate::app::tab::Tab;
 use egui_tiles::{Container, Linear, Tabs, Tile, TileId, Tiles, Tree};
 use std::collections::HashSet;
 
-/// Containers and tabs that a layout has at most.
+/// Maximum number of containers and tabs of a layout.
 const MOST_TILES: usize = 100;
 
-/// A layout with every tab once, those that are new since it was kept at its end; none where it is damaged or another
-/// program's.
+/// Returns a layout with every tab once. Tabs that the file does not contain are appended. `None` if the layout is
+/// damaged or comes from another program.
 pub fn checked(tree: &Tree<Tab>) -> Option<Tree<Tab>> {
-    // The count bounds the depth as well: nothing is visited twice.
+    // The count also limits the depth, because no tile is visited twice.
     let root = tree.root().filter(|_| tree.tiles.iter().count() <= MOST_TILES)?;
     let mut copy = Copy { from: &tree.tiles, to: Tiles::default(), seen: HashSet::new(), tabs: Vec::new() };
     let root = copy.tile(root)?;
@@ -58,7 +58,7 @@ impl Copy<'_> {
                 }
                 Container::Linear(copied)
             }
-            // No layout of this window has one.
+            // No layout of this window has a grid.
             Container::Grid(_) => return None,
         };
         Some(self.to.insert_container(copied))
@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn tabs_beside_each_other_keep_their_shares_and_cycles_and_foreign_numbers_are_refused() {
-        // Two groups of tabs beside each other, the first of them twice as wide.
+        // Two groups of tabs next to each other, the first twice as wide.
         let side_by_side = |share: f32| {
             let mut tiles = Tiles::default();
             let groups = [&Tab::ALL[..3], &Tab::ALL[3..]].map(|group| {

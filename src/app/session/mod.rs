@@ -1,4 +1,4 @@
-//! The last session.
+//! Storage of the last session.
 
 mod keeper;
 mod layout;

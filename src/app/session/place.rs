@@ -1,16 +1,16 @@
-//! The place of the window on the screen.
+//! Position and size of the window on the screen.
 
 use egui::{Context, Rect};
 use serde::{Deserialize, Serialize};
 
-/// Where the window stands and how large it is, in points of the screen, whatever the size of everything in it.
+/// Position and size of the window in points of the screen, independent of the zoom factor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Place {
     pub(super) corner: Option<(f32, f32)>,
     /// Width and height.
     pub size: (f32, f32),
-    /// Whether it fills the screen.
+    /// True if it fills the screen.
     pub maximized: bool,
     /// Width of the panel with the sliders.
     pub sliders: f32,
@@ -22,18 +22,18 @@ impl Default for Place {
     }
 }
 
-/// Whether a number of a file lies where numbers of its kind do; not a number lies nowhere.
+/// Returns true if a value lies in a range. False for NaN.
 pub fn within<T: PartialOrd>(value: T, (from, to): (T, T)) -> bool {
     from <= value && value <= to
 }
 
 impl Place {
-    /// Smallest size of a window.
+    /// Minimum size of a window.
     pub const LEAST: (f32, f32) = (900.0, 560.0);
-    /// Widths of the panel with the sliders.
+    /// Range of widths of the panel with the sliders.
     pub const SLIDERS: (f32, f32) = (250.0, 520.0);
 
-    /// Returns true if all numbers lie where numbers of their kind do.
+    /// Returns true if all numbers lie in their ranges.
     pub fn is_sound(&self) -> bool {
         let ((width, height), (least_width, least_height)) = (self.size, Self::LEAST);
         within(width, (0.5 * least_width, 16e3))
@@ -42,7 +42,7 @@ impl Place {
             && self.corner.is_none_or(|(x, y)| within(x, (-16e3, 16e3)) && within(y, (-16e3, 16e3)))
     }
 
-    /// Takes in where the window stands; a window that fills the screen remembers where it stood before.
+    /// Stores the present position. A window that fills the screen keeps its previous position.
     pub fn follow(&mut self, ctx: &Context) {
         let zoom = ctx.zoom_factor();
         ctx.input(|input| {
@@ -65,7 +65,7 @@ impl Place {
             .with_inner_size([self.size.0, self.size.1])
             .with_min_inner_size([Self::LEAST.0, Self::LEAST.1])
             .with_maximized(self.maximized);
-        // Windows shows nothing of a window whose screen has been taken away.
+        // Windows would show nothing if the screen of this position has been removed.
         match self.corner.filter(|_| !cfg!(windows)) {
             Some((x, y)) => window.with_position([x, y]),
             None => window,

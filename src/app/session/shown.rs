@@ -1,4 +1,4 @@
-//! How everything is shown.
+//! Display settings in the session file.
 
 use super::place::within;
 use crate::app::desk::Desk;
@@ -9,21 +9,21 @@ use crate::app::tab::Tab;
 use crate::app::tabs::all::Tabs;
 use serde::{Deserialize, Serialize};
 
-/// How everything is shown.
+/// Display settings in the session file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Shown {
     #[serde(flatten)]
     display: Display,
     figures: FigureSettings,
-    /// What the tabs keep, as text.
+    /// Settings of the tabs as text.
     tabs: Vec<(Tab, String)>,
-    /// Tabs whose axes stand still.
+    /// Tabs whose axes are locked.
     locked: Vec<Tab>,
 }
 
 impl Shown {
-    /// Returns how the window shows things.
+    /// Returns the present display settings.
     pub fn of(desk: &Desk) -> Self {
         Self {
             display: desk.display,
@@ -39,7 +39,7 @@ impl Shown {
         (desk.figures.settings, desk.locked) = (self.figures, self.locked);
     }
 
-    /// Returns true if it makes sense as a whole.
+    /// Returns true if all settings are valid.
     pub fn is_sound(&self) -> bool {
         let Display { cuts, zoom, thresholds, .. } = self.display;
         thresholds.check().is_ok()

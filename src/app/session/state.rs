@@ -1,5 +1,5 @@
-//! The last session: one file, `session.ron`, that is replaced as a whole soon after every change. Whatever of it cannot
-//! be read is left at its default, said, and kept beside it as `session.ron.bad`.
+//! Last session: one file, `session.ron`, that is replaced as a whole soon after every change. Unreadable parts are
+//! set to their defaults and reported, and the file is kept as `session.ron.bad`.
 
 use super::layout;
 use super::place::Place;
@@ -20,10 +20,10 @@ use std::path::{Path, PathBuf};
 
 /// Name of the file in the session's folder.
 pub(super) const FILE: &str = "session.ron";
-/// Largest file that is read \[bytes\]: two scenes and a few lines.
+/// Maximum size of the file \[bytes\]: two scenes and a few lines.
 const MAX_BYTES: u64 = 16 << 20;
 
-/// What is restored when the explorer is started again.
+/// State that is restored when the explorer starts again.
 #[derive(Clone, PartialEq)]
 pub struct Session {
     document: Document,
@@ -35,7 +35,7 @@ pub struct Session {
     tree: Tree<Tab>,
 }
 
-/// The same as it is written.
+/// Session in the form of the file.
 #[derive(Serialize, Deserialize)]
 #[serde(default)]
 struct Written {
@@ -65,7 +65,7 @@ impl Default for Written {
 }
 
 impl Session {
-    /// What there is to restore.
+    /// Returns the present state.
     pub fn of(explorer: &Explorer) -> Self {
         let desk = &explorer.desk;
         Self {
@@ -79,7 +79,7 @@ impl Session {
         }
     }
 
-    /// Whether it is what [`Session::of`] would give.
+    /// Returns true if it equals [`Session::of`].
     pub(super) fn is_of(&self, explorer: &Explorer) -> bool {
         let (desk, files) = (&explorer.desk, &explorer.desk.files);
         self.document == desk.document
@@ -91,10 +91,10 @@ impl Session {
             && self.tree == explorer.tree
     }
 
-    /// The text of the file.
+    /// Returns the text of the file.
     ///
     /// # Errors
-    /// A sentence; in practice never.
+    /// A sentence. In practice never.
     fn to_ron(&self) -> Result<String, Refusal> {
         let written = Written {
             document: self.document.to_ron()?,
@@ -108,7 +108,7 @@ impl Session {
         Ok(ron::ser::to_string_pretty(&written, ron::ser::PrettyConfig::new())?)
     }
 
-    /// A session from the text of the file, with what of it had to be left at its default.
+    /// Returns a session from the text of the file, with the names of the parts that were set to their defaults.
     fn from_ron(text: &str) -> (Self, Vec<&'static str>) {
         let mut lost = Vec::new();
         let written = ron::from_str::<Written>(text).unwrap_or_else(|_| {
@@ -141,7 +141,7 @@ impl Session {
         (session, lost)
     }
 
-    /// Restores how things are shown, and the document too when `with_document`.
+    /// Restores the display settings, and the document if `with_document` is true.
     fn restore(self, explorer: &mut Explorer, with_document: bool) {
         self.shown.restore(&mut explorer.desk);
         explorer.place = self.place;
@@ -155,10 +155,10 @@ impl Session {
         }
     }
 
-    /// Writes it as a whole or not at all.
+    /// Writes the file as a whole or not at all.
     ///
     /// # Errors
-    /// A sentence when it cannot be written.
+    /// A sentence if it cannot be written.
     pub(super) fn write(&self, path: &Path) -> Result<(), Refusal> {
         let text = self.to_ron()?;
         atomic_file::replace(path, text.as_bytes()).map_err(|WriteError { path, reason }| {
@@ -167,7 +167,7 @@ impl Session {
     }
 }
 
-/// The text of the last session in a folder, if there was one.
+/// Returns the text of the last session in a folder, if there was one.
 fn text_in(folder: &Path) -> io::Result<Option<String>> {
     match files::read_at_most(&folder.join(FILE), MAX_BYTES) {
         Ok(bytes) => String::from_utf8(bytes).map(Some).map_err(io::Error::other),
@@ -176,7 +176,7 @@ fn text_in(folder: &Path) -> io::Result<Option<String>> {
     }
 }
 
-/// Keeps unsaved changes of the last session as a file of their own where another scene takes their place.
+/// Saves unsaved changes of the last session as a separate file, because another scene replaces them.
 fn set_aside(explorer: &mut Explorer, folder: &Path, document: &Document) -> Result<String, Refusal> {
     let free = (1..).map(|n| folder.join(format!("unsaved-{n}.ron"))).find(|path| !files::exists(path));
     let path = free.unwrap_or_else(|| folder.join("unsaved.ron"));
@@ -188,7 +188,8 @@ fn set_aside(explorer: &mut Explorer, folder: &Path, document: &Document) -> Res
     Ok(format!("Unsaved changes of the last session are kept in {} (File, Recent)", path.display()))
 }
 
-/// Restores the last session of a folder, the document too when `with_document`; says what could not be restored.
+/// Restores the last session of a folder, with its document if `with_document` is true. Reports what could not be
+/// restored.
 pub fn restore(explorer: &mut Explorer, folder: &Path, with_document: bool) {
     let path = folder.join(FILE);
     let (session, lost) = match text_in(folder) {
@@ -224,7 +225,7 @@ mod tests {
     use crate::solver::parameters::Quantity;
     use crate::solver::physics::contact::Moes;
 
-    /// An explorer with its session in a folder of the system's for this test.
+    /// Returns an explorer with its session in a temporary folder for this test.
     fn in_folder(name: &str) -> (PathBuf, impl Fn(bool) -> Explorer) {
         let folder = std::env::temp_dir().join(format!("ehl-session-{name}-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&folder);
@@ -232,7 +233,7 @@ mod tests {
         (folder, move |with_document| Explorer::new(None).keeping_session_in(&kept, with_document))
     }
 
-    /// Ends the explorer after what it has is handed over.
+    /// Closes the explorer after its state has been passed to the keeper.
     fn close(mut explorer: Explorer) {
         let mut keeper = explorer.keeper.take().unwrap();
         assert_eq!(keeper.follow(&explorer), None);

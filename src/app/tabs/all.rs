@@ -1,4 +1,4 @@
-//! The tabs of a window, each an object.
+//! Tabs of a window, each as one object.
 
 use super::view::View;
 use crate::app::tab::Tab;
@@ -6,7 +6,7 @@ use crate::app::tabs::every_tab;
 
 macro_rules! objects {
     ($($(#[$what:meta])* $tab:ident $title:literal $field:ident: $module:ident::$type:ident,)*) => {
-        /// All tabs with what they keep.
+        /// All tabs with their state.
         #[derive(Default)]
         pub struct Tabs {
             $($(#[$what])* pub $field: super::$module::$type,)*
@@ -33,22 +33,22 @@ macro_rules! objects {
 every_tab!(objects);
 
 impl Tabs {
-    /// Receives what the jobs of all tabs have found since the last frame.
+    /// Receives results of the jobs of all tabs since the last frame.
     pub fn receive(&mut self) {
         Tab::ALL.iter().for_each(|tab| self.of_mut(*tab).receive());
     }
 
-    /// Stops the jobs of all tabs; what they have found stays.
+    /// Stops the jobs of all tabs and keeps their results so far.
     pub fn stop(&mut self) {
         Tab::ALL.iter().for_each(|tab| self.of_mut(*tab).stop());
     }
 
-    /// Returns what the session keeps of each tab, as text.
+    /// Returns the settings of each tab as text, for the session.
     pub fn kept(&self) -> Vec<(Tab, String)> {
         Tab::ALL.iter().filter_map(|tab| Some((*tab, self.of(*tab).kept()?))).collect()
     }
 
-    /// Takes over what a session kept; returns false if a text makes no sense. Its tab is then unchanged.
+    /// Restores the settings of the tabs. Returns false if a text is invalid; its tab is then unchanged.
     pub fn restore(&mut self, kept: &[(Tab, String)]) -> bool {
         kept.iter().fold(true, |sound, (tab, text)| self.of_mut(*tab).restore(text) && sound)
     }

@@ -1,4 +1,4 @@
-//! The frame around the tabs: bar of titles, menu of exports, switches of units and axes.
+//! Frame around the tabs: bar of titles, menu of exports, switches for units and axes.
 
 use super::offer;
 use crate::app::command::Command;
@@ -11,37 +11,37 @@ use crate::app::units::{Manner, Units};
 use egui::Ui;
 use egui_tiles::{Behavior, TileId, Tiles, UiResponse};
 
-/// Draws one tab, whatever is around it.
+/// Draws one tab without its frame.
 pub fn tab_ui(ui: &mut Ui, tab: Tab, desk: &mut Desk, commands: &mut Commands) {
-    // The tabs are taken out while one is drawn: it sees everything else, and nobody sees it half changed.
+    // Move the tabs out while one is drawn, so that it can be changed while the rest of the state is borrowed.
     let mut tabs = std::mem::take(&mut desk.tabs);
     tabs.of_mut(tab).ui(ui, &desk.context(), commands);
     desk.tabs = tabs;
 }
 
-/// The switch between ratios and SI units; a tab on which it would change nothing says so.
+/// Draws the switch between dimensionless and SI units. It is disabled on a tab without such units.
 fn units_ui(ui: &mut Ui, there: bool, units: Units, commands: &mut Commands) {
     let switch = egui::Button::selectable(units == Units::Si && there, "SI");
     let switch = ui.add_enabled(there, switch);
     let tip = "Axes and exports in SI units, or dimensionless (F7)";
-    let none = "Errors, ratios and counts have no unit, and what has one is in SI units on this tab always";
+    let none = "Errors, ratios and counts have no unit, and all other quantities of this tab are always in SI units";
     if switch.on_hover_text(tip).on_disabled_hover_text(none).clicked() {
         commands.push(Command::SiUnits);
     }
 }
 
-/// Draws the tabs.
+/// Drawing of the tabs.
 pub struct Frame<'a> {
-    /// What they show.
+    /// State that the tabs show.
     pub desk: &'a mut Desk,
-    /// What they ask for.
+    /// Commands of the tabs.
     pub commands: &'a mut Commands,
-    /// Whether their titles stand close.
+    /// True if the titles are closely spaced.
     pub narrow: bool,
 }
 
 impl Frame<'_> {
-    /// Draws one tab with the margin around it.
+    /// Draws one tab with a margin.
     pub fn tab_ui(&mut self, ui: &mut Ui, tab: Tab) {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
@@ -62,10 +62,11 @@ impl Behavior<Tab> for Frame<'_> {
         UiResponse::None
     }
 
-    /// What is at the same place of every tab: what can be taken away, the manner of its plots, the note for teaching.
+    /// Draws the same controls for every tab: exports, units and axes of its plots, and the explanation for
+    /// teaching.
     fn top_bar_right_ui(&mut self, tiles: &Tiles<Tab>, ui: &mut Ui, _: TileId, tabs: &egui_tiles::Tabs, _: &mut f32) {
         ui.add_space(6.0);
-        // Tabs want the room.
+        // The tabs need the space.
         ui.spacing_mut().item_spacing.x = 2.0;
         ui.spacing_mut().button_padding.x = 4.0;
         let Some(tab) = tabs.active.and_then(|tile| tiles.get_pane(&tile)).copied() else { return };
@@ -75,14 +76,14 @@ impl Behavior<Tab> for Frame<'_> {
         }
         let has_units = self.desk.tabs.of(tab).about().has_units;
         units_ui(ui, has_units, self.desk.display.units, self.commands);
-        let (locked, tip) = (self.desk.locked.contains(&tab), "The axes of this tab stand still (F8)");
+        let (locked, tip) = (self.desk.locked.contains(&tab), "Locks the axes of this tab (F8)");
         let lock = lock_ui(ui, [20.0, 22.0], locked);
         if named(ui, lock, &format!("Lock the axes of {}", tab.title())).on_hover_text(tip).clicked() {
             self.commands.push(Command::LockAxesOf(tab));
         }
-        // A narrow bar leaves its room to the tabs: the note is in the menu View as well.
+        // A narrow bar leaves its space to the tabs. The menu View also has this command.
         if !presenting && !self.narrow {
-            let tip = "What is seen in a tab and why it is so, in three sentences";
+            let tip = "Explains the content of the tab in three sentences";
             if ui.selectable_label(self.desk.display.why, "Why").on_hover_text(tip).clicked() {
                 self.commands.push(Command::ShowWhy);
             }

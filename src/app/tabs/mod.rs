@@ -1,5 +1,5 @@
-//! The tabs, each a question with its picture. A tab owns its view, sees the document and the answers, and asks for
-//! everything else by commands. No tab uses another one.
+//! Tabs of the window. Each tab shows one view of the contact. It owns its state, reads the document and the
+//! answers, and changes everything else by commands. No tab uses another one.
 
 pub mod accuracy;
 pub mod all;

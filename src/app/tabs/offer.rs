@@ -1,4 +1,4 @@
-//! Exports of a tab: one menu at the same place of each.
+//! Exports of a tab, in a menu at the same place of each tab.
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
@@ -9,7 +9,7 @@ use crate::app::tab::Tab;
 use crate::engine::arrays::{Array, npz};
 use egui::{Button, Ui};
 
-/// An export with its name and a function that makes it. `None` if there is nothing to export yet.
+/// Export with its name and a function that makes it. `None` if there is nothing to export yet.
 pub struct Offer<'a> {
     name: &'static str,
     tip: &'static str,
@@ -17,13 +17,13 @@ pub struct Offer<'a> {
 }
 
 impl<'a> Offer<'a> {
-    /// What a command gives, where it is there.
+    /// Creates an export from a function that returns its command.
     pub fn new(name: &'static str, tip: &'static str, make: Option<impl Fn() -> Command + 'a>) -> Self {
         let make = make.map(|make| Box::new(make) as Box<dyn Fn() -> Command + 'a>);
         Self { name, tip, make }
     }
 
-    /// Arrays for numpy, where they are there.
+    /// Creates an export of arrays for numpy.
     pub fn arrays<T: 'a>(
         name: &'static str,
         tip: &'static str,
@@ -34,7 +34,7 @@ impl<'a> Offer<'a> {
         Self::new(name, tip, of.map(|of| move || write(arrays(&of))))
     }
 
-    /// A table of something, where it is there.
+    /// Creates an export of a table.
     pub fn table<T: 'a>(
         name: &'static str,
         tip: &'static str,
@@ -45,12 +45,12 @@ impl<'a> Offer<'a> {
     }
 }
 
-/// The menu of a tab; what it holds is asked for while it is open.
+/// Draws the menu of a tab. Its entries are computed only while it is open.
 pub fn menu<'a>(ui: &mut Ui, tab: Tab, offers: impl FnOnce() -> Vec<Offer<'a>>, commands: &mut Commands) {
     let shown = ui.menu_button("Export", |ui| {
         let item = |ui: &mut Ui, name: &str, tip: &str, there: bool| {
             let response = ui.add_enabled(there, Button::new(name)).on_hover_text(tip);
-            let clicked = response.on_disabled_hover_text("There is nothing of it yet").clicked();
+            let clicked = response.on_disabled_hover_text("Not available yet").clicked();
             if clicked {
                 ui.close();
             }
@@ -70,8 +70,8 @@ pub fn menu<'a>(ui: &mut Ui, tab: Tab, offers: impl FnOnce() -> Vec<Offer<'a>>, 
         }
         ui.separator();
         for form in Form::ALL {
-            let tip = "Inputs with units, results, how they were checked, published formulas beside: of the contact on the \
-                       screen, in full and by the reduced model";
+            let tip = "Inputs with units, results, checks and published formulas for the contact on the screen, in \
+                       full and by the reduced model";
             if item(ui, form.name(), tip, true) {
                 commands.push(Command::ExportSheet(form));
             }

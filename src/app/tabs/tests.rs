@@ -1,4 +1,4 @@
-//! Every tab is drawn.
+//! Test that every tab can be drawn.
 
 use super::frame::tab_ui;
 use crate::app::context::Commands;
@@ -11,11 +11,11 @@ use egui::Ui;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
-/// What stands in each tab when it is all there is.
+/// Texts of each tab when it is drawn alone.
 const SHOWN: [(Tab, &[&str]); 10] = [
     (Tab::Profiles, &["Pin curve", "Pressure profile", "Film profile"]),
-    (Tab::ContactMap, &["Show a ball instead"]),
-    (Tab::Regimes, &["Chart of M and L", "Film by published formulas"]),
+    (Tab::ContactMap, &["Show a circular contact"]),
+    (Tab::Regimes, &["Chart of M and L", "Film thickness by published formulas"]),
     (Tab::Traction, &["Laws of the fluid"]),
     (Tab::Basis, &["Mode shapes", "Singular values"]),
     (Tab::Accuracy, &["Failure map"]),

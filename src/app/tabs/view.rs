@@ -1,4 +1,4 @@
-//! What a tab is to the window.
+//! Interface of a tab to the window.
 
 use super::offer::Offer;
 use crate::app::context::{Commands, Context};
@@ -7,38 +7,38 @@ use egui::Ui;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// What never changes about a tab.
+/// Constant properties of a tab.
 pub struct About {
-    /// Words that people search for.
+    /// Keywords for the search.
     pub keywords: &'static str,
     /// Page of the manual.
     pub page: &'static str,
-    /// Its axes can be shown in ratios and in SI units. Those of the other tabs show numbers of the contact, relative
-    /// errors, or are in SI units always.
+    /// True if its axes can be shown in dimensionless and SI units. The axes of other tabs show numbers of the
+    /// contact or relative errors, or they are always in SI units.
     pub has_units: bool,
-    /// What is seen in it and why, in three sentences.
+    /// Explanation of its content in three sentences.
     pub why: &'static str,
 }
 
-/// A tab: how it looks, which jobs it runs, what can be exported from it and what the session keeps of it.
+/// Tab: its drawing, its jobs, its exports, and its settings for the session.
 pub trait View {
-    /// Returns what never changes about it.
+    /// Returns its constant properties.
     fn about(&self) -> &'static About;
 
-    /// Draws it and asks for changes by commands.
+    /// Draws the tab and adds commands.
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands);
 
-    /// Returns what can be exported from it.
+    /// Returns its exports.
     fn offers<'a>(&'a self, _: &Context<'a>) -> Vec<Offer<'a>> {
         Vec::new()
     }
 
-    /// Returns the parameters of its plots for the caption of a figure, where they are not those of the contact.
+    /// Returns the parameters of its plots for the caption of a figure, if they are not those of the contact.
     fn caption(&self, _: &Context<'_>) -> Option<String> {
         None
     }
 
-    /// Receives what its jobs have found since the last frame.
+    /// Receives results of its jobs since the last frame.
     fn receive(&mut self) {}
 
     /// Returns the progress of its jobs.
@@ -46,34 +46,34 @@ pub trait View {
         Vec::new()
     }
 
-    /// Stops its jobs; what they have found stays.
+    /// Stops its jobs and keeps their results so far.
     fn stop(&mut self) {}
 
-    /// Returns what the session keeps of it, as text.
+    /// Returns its settings as text, for the session.
     fn kept(&self) -> Option<String> {
         None
     }
 
-    /// Takes over what a session kept; returns false and changes nothing if that makes no sense.
+    /// Restores its settings. Returns false and changes nothing if the text is invalid.
     fn restore(&mut self, _: &str) -> bool {
         true
     }
 }
 
-/// Seconds after which a job that follows a dragged slider is shown: before, it comes and goes.
+/// Age from which a job that follows a dragged slider is shown \[s\]. Shorter jobs would only flicker.
 const FOLLOWS_S: f64 = 0.5;
 
-/// Returns the progress of a job that follows a slider, if it lasts.
+/// Returns the progress of a job that follows a slider if it runs longer.
 pub fn lasting(standing: Option<Standing>) -> Option<Standing> {
     standing.filter(|standing| standing.since_s > FOLLOWS_S)
 }
 
-/// Returns settings as the session keeps them.
+/// Returns settings as text for the session.
 pub fn kept(settings: &impl Serialize) -> Option<String> {
     ron::to_string(settings).ok()
 }
 
-/// Takes over settings that a session kept, if they are sound.
+/// Restores settings of a session if they are valid.
 pub fn restore<T: DeserializeOwned>(settings: &mut T, text: &str, sound: impl Fn(&T) -> bool) -> bool {
     match ron::from_str::<T>(text) {
         Ok(kept) if sound(&kept) => *settings = kept,

@@ -1,22 +1,23 @@
-//! What a browser does around a page. A native program has none.
+//! Functions of a browser around a page. A native program has no browser.
 
 use std::path::PathBuf;
 
-/// Whether the program is a page.
+/// True if the program runs as a web page.
 pub const PAGE: bool = false;
 
-/// A file that was dropped on the page since the last call. Those dropped on a native window come with its events.
+/// Returns a file that was dropped on the page since the last call. Files dropped on a native window arrive with
+/// its events.
 pub fn dropped() -> Option<PathBuf> {
     None
 }
 
-/// The fragment of the page's address, if it was opened or changed by the user since the last call.
+/// Returns the fragment of the page's address, if the user has opened or changed it since the last call.
 pub fn asked() -> Option<String> {
     None
 }
 
-/// Puts a fragment into the page's address.
+/// Sets the fragment of the page's address.
 pub fn show(_fragment: &str) {}
 
-/// Says something to people who cannot see the canvas.
+/// Announces a message to users of screen readers.
 pub fn say(_news: &str) {}

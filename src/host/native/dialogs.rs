@@ -1,15 +1,15 @@
-//! File dialogs of the system.
+//! File dialogs of the operating system.
 
 use super::worker;
 use crate::host::wanted::Wanted;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, channel};
 
-/// Whether a path can also be typed.
+/// True if the user can also type a path.
 pub const TYPED: bool = true;
 
-/// Opens a dialog and calls when it is closed. The answer is a path, or nothing; where there is no dialog, the channel is
-/// closed at once.
+/// Opens a dialog and calls `call` when it is closed. The channel returns a path, or `None` after a cancel. If the
+/// system has no dialog, the channel is closed immediately.
 pub fn ask(wanted: Wanted, call: impl FnOnce() + Send + 'static) -> Receiver<Option<PathBuf>> {
     let (sender, receiver) = channel();
     let run = move || {
@@ -20,12 +20,12 @@ pub fn ask(wanted: Wanted, call: impl FnOnce() + Send + 'static) -> Receiver<Opt
             dialog = dialog.set_directory(folder);
         }
         let answer = if reads { dialog.pick_file() } else { dialog.set_file_name(name).save_file() };
-        // The window may be closed by now: then nobody waits for the answer.
+        // The window may be closed already. Then there is no receiver.
         if sender.send(answer).is_ok() {
             call();
         }
     };
-    // Without a thread the receiver is disconnected at once.
+    // Without a thread the receiver is disconnected immediately.
     let _handle = worker::spawn("file dialog", run);
     receiver
 }

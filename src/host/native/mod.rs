@@ -1,4 +1,4 @@
-//! A native program: threads, a file system, dialogs of the system.
+//! Native program: threads, a file system, and dialogs of the operating system.
 
 pub mod browser;
 #[cfg(feature = "screen")]

@@ -1,12 +1,12 @@
-//! Files of the trained models that are part of the program.
+//! Files of the built-in trained models.
 
-/// The content of the file of a model; nothing where the program was built without it.
+/// Returns the content of a model's file. Always `None`, because a native program has no files to fetch.
 pub fn now(_name: &str) -> Option<Vec<u8>> {
     None
 }
 
-/// Calls `then` once the file of a model is there, from any thread.
+/// Calls `then` from another thread.
 pub fn then(name: &str, then: impl FnOnce() + Send + 'static) {
-    // Without a thread nobody calls.
+    // If no thread can be started, `then` is not called.
     let _handle = super::worker::spawn(name, then);
 }

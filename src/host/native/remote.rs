@@ -1,6 +1,6 @@
-//! Work in another instance of the program. A native program has threads instead.
+//! Work in another instance of the program. A native program uses threads instead.
 
-/// Sends a task to another instance. Returns `None`: there is none.
+/// Sends a task to another instance. Always returns `None`, because there is no other instance.
 pub fn post(
     _lane: usize,
     _kind: &str,
@@ -10,11 +10,11 @@ pub fn post(
     None
 }
 
-/// A task in another instance.
+/// Task in another instance.
 pub enum Posted {}
 
 impl Posted {
-    /// Tells it how often it was asked to stop.
+    /// Reports to the instance how often the task was requested to stop.
     pub fn stop(&self, _times: u8) {
         match *self {}
     }

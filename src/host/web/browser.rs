@@ -1,10 +1,10 @@
-//! What the browser does around the page.
+//! Functions of the browser around the page.
 
 use super::{files, page};
 use std::cell::RefCell;
 use std::path::PathBuf;
 
-/// Whether the program is a page.
+/// True if the program runs as a web page.
 pub const PAGE: bool = true;
 
 thread_local! {
@@ -12,32 +12,32 @@ thread_local! {
     static ASKED: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// Takes a file that was dropped on the page: its name, a zero, its content. Called by the page.
+/// Receives a file that was dropped on the page, as its name, a zero byte and its content. Called by the page.
 pub fn take_dropped(file: &[u8]) {
     DROPPED.set(Some(files::arrived(file)));
 }
 
-/// Takes the fragment of an address that the user has opened. Called by the page.
+/// Receives the fragment of an address that the user has opened. Called by the page.
 pub fn ask(fragment: String) {
     ASKED.set(Some(fragment));
 }
 
-/// A file that was dropped on the page since the last call.
+/// Returns a file that was dropped on the page since the last call.
 pub fn dropped() -> Option<PathBuf> {
     DROPPED.take()
 }
 
-/// The fragment of the page's address, if it was opened or changed by the user since the last call.
+/// Returns the fragment of the page's address, if the user has opened or changed it since the last call.
 pub fn asked() -> Option<String> {
     ASKED.take()
 }
 
-/// Puts a fragment into the page's address.
+/// Sets the fragment of the page's address.
 pub fn show(fragment: &str) {
     page::link(fragment);
 }
 
-/// Says something to people who cannot see the canvas.
+/// Announces a message to users of screen readers.
 pub fn say(news: &str) {
     page::news(news);
 }

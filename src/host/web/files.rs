@@ -1,5 +1,5 @@
-//! Files of a page: those that the user has chosen stand in memory, those of the session are kept by the browser, and
-//! everything else that is written is offered for download.
+//! Files of a web page. Files that the user has chosen are kept in memory, and files of the session are stored by
+//! the browser. All other written files are offered for download.
 
 use super::page;
 use std::cell::RefCell;
@@ -7,13 +7,13 @@ use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Folder of what the browser keeps.
+/// Folder of the files that the browser stores.
 pub const SESSION: &str = "/session";
-/// Folder of what the user has chosen.
+/// Folder of the files that the user has chosen.
 pub(super) const CHOSEN: &str = "/chosen";
 
 thread_local! {
-    /// By path; nothing where a file was too large to be read.
+    /// Content by path. `None` if a file was too large to be read.
     static FILES: RefCell<HashMap<PathBuf, Option<Vec<u8>>>> = RefCell::default();
 }
 
@@ -25,24 +25,24 @@ fn kept(path: &Path) -> Option<String> {
     path.starts_with(SESSION).then(|| page::kept(&path.to_string_lossy())).flatten()
 }
 
-/// Takes a file that the user has chosen: its name, a zero, its content; the name alone where the file is too large to
-/// be read. Returns its path.
+/// Receives a file that the user has chosen, as its name, a zero byte and its content. Only the name arrives if the
+/// file is too large to be read. Returns the path of the file.
 pub fn arrived(file: &[u8]) -> PathBuf {
     let mut parts = file.splitn(2, |byte| *byte == 0);
     let name = String::from_utf8_lossy(parts.next().unwrap_or_default()).into_owned();
     let content = parts.next().map(<[u8]>::to_vec);
     FILES.with_borrow_mut(|files| {
-        // A file that is chosen anew may have changed: it gets a folder of its own.
+        // A file that is chosen again may have changed. Therefore every choice gets a separate folder.
         let path = Path::new(CHOSEN).join(files.len().to_string()).join(name);
         files.insert(path.clone(), content);
         path
     })
 }
 
-/// Reads a file, at most so many bytes of it.
+/// Reads at most `most` bytes of a file.
 ///
 /// # Errors
-/// When there is none.
+/// If there is no such file.
 pub fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let most = usize::try_from(most).unwrap_or(usize::MAX);
     if let Some(text) = kept(path) {
@@ -56,20 +56,20 @@ pub fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     })
 }
 
-/// Size of a file \[bytes\].
+/// Returns the size of a file \[bytes\].
 ///
 /// # Errors
-/// When there is none.
+/// If there is no such file.
 pub fn size(path: &Path) -> io::Result<u64> {
     Ok(read_at_most(path, u64::MAX)?.len() as u64)
 }
 
-/// Whether there is a file of this path.
+/// Returns true if there is a file with this path.
 pub fn exists(path: &Path) -> bool {
     size(path).is_ok()
 }
 
-/// There are no folders.
+/// Does nothing, because a page has no folders.
 ///
 /// # Errors
 /// Never.
@@ -77,18 +77,18 @@ pub fn make_folder(_path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Gives a file another name.
+/// Copies a file to another name.
 ///
 /// # Errors
-/// When there is none, or it cannot be kept.
+/// If there is no such file, or the browser cannot store it.
 pub fn rename(path: &Path, other: &Path) -> io::Result<()> {
     replace(other, &read_at_most(path, u64::MAX)?)
 }
 
-/// Keeps a file of the session, or offers a file for download.
+/// Stores a file of the session, or offers another file for download.
 ///
 /// # Errors
-/// When the browser cannot keep it.
+/// If the browser cannot store it.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if !path.starts_with(SESSION) {
         page::download(&path.file_name().unwrap_or_default().to_string_lossy(), bytes);

@@ -1,4 +1,5 @@
-//! A web page, or a worker of it: no threads, files in memory, dialogs of the browser, other instances for long work.
+//! Web page, or one of its workers: no threads, files in memory, dialogs of the browser, and other instances for
+//! long work.
 
 #![allow(unsafe_code, reason = "functions of the page are declared here")]
 

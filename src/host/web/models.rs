@@ -2,12 +2,12 @@
 
 use super::page;
 
-/// The content of the file of a model, if it has been fetched; a worker fetches it.
+/// Returns the content of a model's file if it has been fetched. In a worker this call fetches it.
 pub fn now(name: &str) -> Option<Vec<u8>> {
     page::model(name)
 }
 
-/// Calls `then` once the file of a model is there, or cannot be had.
+/// Calls `then` once the file of a model is available, or cannot be fetched.
 pub fn then(name: &str, then: impl FnOnce() + Send + 'static) {
     let mut then = Some(then);
     let ticket = page::ticket(move |_| {

@@ -2,8 +2,8 @@
 
 use super::page;
 
-/// Sends a task to another instance. `receive` gets what that sends, and `None` if it ended without another word; it
-/// returns whether it waits for more. Returns `None` where there is no other instance.
+/// Sends a task to another instance. `receive` gets its messages, and `None` if it ended without a last message; it
+/// returns true while it expects more. Returns `None` if there is no other instance.
 pub fn post(
     lane: usize,
     kind: &str,
@@ -18,11 +18,11 @@ pub fn post(
     None
 }
 
-/// A task in another instance.
+/// Task in another instance.
 pub struct Posted(u32);
 
 impl Posted {
-    /// Tells it how often it was asked to stop.
+    /// Reports to the instance how often the task was requested to stop.
     pub fn stop(&self, times: u8) {
         page::stop(self.0, times);
     }

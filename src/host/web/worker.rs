@@ -1,10 +1,11 @@
-//! There are no threads in a page: what would run on one is done at once by its caller, or by another instance.
+//! Substitutes for threads, which a page does not have. The caller does the work itself, or another instance does
+//! it.
 
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
 
-/// Whether work can run beside the caller in this process.
+/// True if this process can run work in parallel to the caller.
 pub const THREADS: bool = false;
 
 /// Memory of an instance from which on models that can be read again are given back \[bytes\].
@@ -17,7 +18,7 @@ pub fn is_crowded() -> bool {
     core::arch::wasm32::memory_size::<0>() * PAGE > CROWDED
 }
 
-/// Would start a thread.
+/// Refuses to start a thread.
 ///
 /// # Errors
 /// Always.
@@ -28,13 +29,13 @@ pub fn spawn<T: Send + 'static>(
     Err(io::Error::new(io::ErrorKind::Unsupported, "a page has no threads"))
 }
 
-/// Would let the calling thread sleep; a page must not.
+/// Does nothing, because a page must not sleep.
 pub fn pause(_duration: Duration) {}
 
-/// The next value, if it is there: a page must not wait.
+/// Returns the next value if it is available. A page must not wait.
 ///
 /// # Errors
-/// When none is there, or none can come any more.
+/// If no value is available, or the channel is closed.
 pub fn receive<T>(values: &Receiver<T>, _patience: Duration) -> Result<T, RecvTimeoutError> {
     values.try_recv().map_err(|none| match none {
         TryRecvError::Empty => RecvTimeoutError::Timeout,

@@ -1,4 +1,4 @@
-//! What is asked of the worker, and what comes back.
+//! Requests to the worker and their results.
 
 use crate::app::document::Key;
 use crate::engine::{Answer, Store};
@@ -10,24 +10,24 @@ use crate::solver::reduced::ReducedModel;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What a full solve is for.
+/// Purpose of a full solve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum JobKind {
-    /// The live picture where no reduced model serves.
+    /// The live picture where no reduced model covers the contact.
     Live,
-    /// The same contact on the grid that was chosen, after a live picture on a quick one.
+    /// The same contact on the chosen grid, after a live picture on a quick grid.
     Refine,
-    /// The check of a picture.
+    /// The check of a reduced picture.
     Verify,
-    /// The same contact on a second grid, to estimate what the first one costs.
+    /// The same contact on a second grid, to estimate the discretisation error of the first.
     Estimate,
 }
 
 impl JobKind {
-    /// How many kinds there are.
+    /// Number of kinds.
     pub const COUNT: usize = Self::Estimate as usize + 1;
 
-    /// For people.
+    /// Returns the name that the screen shows.
     pub fn name(self) -> &'static str {
         match self {
             Self::Live => "Full solve for the picture",
@@ -38,18 +38,18 @@ impl JobKind {
     }
 }
 
-/// The grid of a solve: one that exists, or one to build.
+/// Grid of a solve: an existing grid, or the specification of one to build.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(from = "Stated", into = "Stated")]
 pub enum GridChoice {
-    /// A reduced model's own grid.
+    /// Grid of a reduced model.
     Existing(ContactGrid),
-    /// The same, to build.
+    /// Grid of a reduced model, to be built from its specification.
     OfModel(GridSpec),
     Spec(GridSpec),
 }
 
-/// The same as another instance of the program gets it, which has grids of its own.
+/// Serialised form, for another instance of the program, which builds its own grids.
 #[derive(Serialize, Deserialize)]
 struct Stated {
     of_model: bool,
@@ -69,8 +69,8 @@ impl From<Stated> for GridChoice {
 }
 
 impl GridChoice {
-    /// The grid of the window of a model that serves a contact; without a model the chosen one of a point contact, or
-    /// the explorer's.
+    /// Returns the grid of the local model that covers the contact. Without a model, returns the chosen grid of a
+    /// point contact or the default grid of a line contact.
     pub fn of(model: Option<&ReducedModel>, plane: Option<PointGridSpec>, point: &OperatingPoint) -> Self {
         match (model.and_then(|model| model.windows.get(model.window_for(point))), plane) {
             (Some(window), _) => Self::Existing(window.grid.clone()),
@@ -79,7 +79,7 @@ impl GridChoice {
         }
     }
 
-    /// What the grid is built from.
+    /// Returns the specification of the grid.
     pub fn spec(&self) -> GridSpec {
         match self {
             Self::Existing(grid) => grid.spec(),
@@ -87,7 +87,7 @@ impl GridChoice {
         }
     }
 
-    /// The grid as a request states it.
+    /// Returns the grid in the form that a request uses.
     pub fn stated(&self) -> Grid {
         match self {
             Self::Existing(_) | Self::OfModel(_) => Grid::Model,
@@ -95,10 +95,10 @@ impl GridChoice {
         }
     }
 
-    /// The grid itself.
+    /// Returns the grid, and builds it if necessary.
     ///
     /// # Errors
-    /// When the specification is refused.
+    /// If the specification is refused.
     pub fn with(&self, store: &Store) -> Result<ContactGrid, GridError> {
         match self {
             Self::Existing(grid) => Ok(grid.clone()),
@@ -107,22 +107,22 @@ impl GridChoice {
     }
 }
 
-/// A full solve that is wanted.
+/// Request for a full solve.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct FullSolve {
     pub kind: JobKind,
-    /// What to solve.
+    /// Contact to solve.
     pub key: Key,
-    /// On which grid.
+    /// Grid to solve it on.
     pub grid: GridChoice,
-    /// A solution to start from.
+    /// Solution that serves as initial guess.
     pub start: Option<Arc<Solution>>,
 }
 
-/// What comes back.
+/// Result of a full solve.
 pub enum Outcome {
-    /// An answer, converged or not.
+    /// Answer, converged or not.
     Solved(Box<Answer>),
-    /// A sentence why there is none.
+    /// Reason why there is no answer, as a sentence.
     Failed(String),
 }

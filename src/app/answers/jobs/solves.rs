@@ -1,4 +1,5 @@
-//! Full solves for the picture: one thread, newest request first, cancellable, and unable to take the window down.
+//! Full solves for the picture. They run in one thread, the newest request first. They can be cancelled, and a
+//! panic does not end the program.
 
 use super::request::{FullSolve, JobKind, Outcome};
 use crate::app::document::Key;
@@ -13,7 +14,7 @@ use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// News of a solve.
+/// Messages of a running solve.
 #[derive(Serialize, Deserialize)]
 pub enum News {
     Step(NewtonStep),
@@ -21,24 +22,24 @@ pub enum News {
     Solved(Box<Answer>),
 }
 
-/// A job as the strip at the bottom shows it.
+/// Job as the status strip at the bottom shows it.
 pub struct Running {
-    /// What it was asked for.
+    /// Purpose of the solve.
     pub kind: JobKind,
-    /// The parameters it is for.
+    /// Parameters of the solve.
     pub key: Key,
     /// Newton steps so far.
     pub steps: Vec<NewtonStep>,
-    /// Krylov iterations of the present Newton step, where they are counted.
+    /// Krylov iterations of the present Newton step. Zero if they are not counted.
     pub krylov: usize,
-    /// When it was handed over.
+    /// Time since the job was submitted.
     pub since: Stopwatch,
     solved: Option<Box<Answer>>,
     job: Job<News>,
 }
 
 impl Running {
-    /// Takes in what came; what it has led to, once it has ended.
+    /// Receives the messages of the solve. Returns the outcome once the solve has ended.
     fn receive(&mut self) -> Option<Outcome> {
         let Self { job, steps, krylov, solved, .. } = self;
         let ending = job.poll(|news| match news {
@@ -57,14 +58,14 @@ impl Running {
     }
 }
 
-/// The solves for the picture that wait or run.
+/// Full solves for the picture that wait or run.
 pub struct Jobs {
     queue: Queue<FullSolve, News>,
     running: Vec<Running>,
 }
 
-/// A live solve that ran longer than this is given up for a newer one. A point contact's takes longer: were it given up
-/// at every movement of the hand, the picture would stand still.
+/// Run time after which a newer request ends a live solve. The limit is longer for a point contact: if every slider
+/// movement ended its solve, the picture would never change.
 fn live_patience(kind: ContactKind) -> Duration {
     match kind {
         ContactKind::Line => Duration::from_millis(80),
@@ -73,13 +74,13 @@ fn live_patience(kind: ContactKind) -> Duration {
 }
 
 impl Jobs {
-    /// Solves with what is in a store.
+    /// Creates an empty queue that uses the grids and solvers of a store.
     pub fn new(store: &Store) -> Self {
         Self { queue: Queue::of_tasks("solver", JobKind::COUNT, store), running: Vec::new() }
     }
 
-    /// Hands a solve over. It replaces one of the same kind that has not started; all but live solves of other
-    /// parameters stop.
+    /// Submits a solve. It replaces a solve of the same kind that has not started. Running solves of other
+    /// parameters stop, except live solves.
     pub fn submit(&mut self, ctx: &egui::Context, request: FullSolve) {
         let (kind, key) = (request.kind, request.key);
         for running in &self.running {
@@ -96,7 +97,7 @@ impl Jobs {
         self.running.push(Running { kind, key, steps: Vec::new(), krylov: 0, since, solved: None, job });
     }
 
-    /// What has finished since the last call, with what it was for.
+    /// Returns the jobs that have finished since the last call, with their outcomes.
     pub fn poll(&mut self) -> Vec<(Running, Outcome)> {
         let mut finished = Vec::new();
         let mut place = 0;
@@ -109,17 +110,17 @@ impl Jobs {
         finished
     }
 
-    /// Everything that waits or runs.
+    /// Returns all jobs that wait or run.
     pub fn running(&self) -> &[Running] {
         &self.running
     }
 
-    /// Whether a job of a kind waits or runs.
+    /// Returns true if a job of a kind waits or runs.
     pub fn busy(&self, kind: JobKind) -> bool {
         self.running.iter().any(|r| r.kind == kind)
     }
 
-    /// Stops everything.
+    /// Stops all jobs.
     pub fn cancel_all(&self) {
         for running in &self.running {
             running.job.stop();
@@ -143,7 +144,7 @@ impl Task for FullSolve {
     }
 }
 
-/// Passes Newton steps and Krylov iterations on.
+/// Reports Newton steps and Krylov iterations.
 struct Steps<'a>(&'a Reporter<News>);
 
 impl Observer for Steps<'_> {

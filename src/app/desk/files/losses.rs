@@ -1,4 +1,4 @@
-//! The question before something is lost: it says what that is, and is asked only then.
+//! Confirmation before data is lost. It lists what would be lost and is shown only in this case.
 
 use super::open::is_model;
 use super::state::Pending;
@@ -6,30 +6,30 @@ use crate::app::desk::Desk;
 use egui::{Context, Id, Modal};
 
 impl Pending {
-    /// What the answer is called that lets it happen.
+    /// Returns the label of the button that confirms the loss.
     fn consent(&self) -> &'static str {
         match self {
             Self::New | Self::OpenDialog | Self::Open(_) | Self::OpenScene(_) | Self::OpenLink(_) => "Discard changes",
-            Self::Quit => "Quit all the same",
-            Self::Train => "Start all the same",
-            Self::DiscardTraining | Self::ThrowModelAway => "Throw it away",
+            Self::Quit => "Quit anyway",
+            Self::Train => "Start anyway",
+            Self::DiscardTraining | Self::ThrowModelAway => "Discard it",
         }
     }
 }
 
 impl Desk {
-    /// What would be lost by it, each a sentence.
+    /// Returns what would be lost, one sentence each.
     pub(super) fn losses(&self, pending: &Pending) -> Vec<String> {
         let edits = || {
             let text = "The operating point or its settings have changed since they were last saved.";
             self.dirty().then(|| text.to_owned())
         };
         let study = || {
-            let text = "The study of the scene runs: what it has found so far is not saved.";
+            let text = "The study of the scene is running. Its results so far are not saved.";
             self.tabs.results.would_lose().then(|| text.to_owned())
         };
         let march = || {
-            let text = "The contact is being followed in time: what was computed so far is not saved.";
+            let text = "A transient run is being computed. Its results so far are not saved.";
             self.transient.runs_by_hand().then(|| text.to_owned())
         };
         match pending {
@@ -41,7 +41,7 @@ impl Desk {
             Pending::Train => self.tabs.training.work.replaced(),
             Pending::DiscardTraining => {
                 let solutions = self.tabs.training.work.unfinished.as_ref().map_or(0, |state| state.solutions());
-                vec![format!("{solutions} full solutions of the training that was stopped are forgotten.")]
+                vec![format!("{solutions} full solutions of the stopped training will be discarded.")]
             }
             Pending::ThrowModelAway => self.tabs.training.work.unsaved().into_iter().collect(),
         }

@@ -1,5 +1,5 @@
-//! Opening, saving and exporting: never blocks the window, never overwrites what the user did not name, never loses
-//! work unasked.
+//! Opening, saving and exporting. These actions never block the window, and they overwrite or discard nothing
+//! without the user's consent.
 
 use super::state::Pending;
 use crate::app::desk::{Desk, Opened};
@@ -17,9 +17,9 @@ use crate::scene::{Scene, Study};
 use egui::{Context, Ui, ViewportCommand};
 use std::path::{Path, PathBuf};
 
-/// Recent files kept.
+/// Number of recent files.
 const MOST_RECENT: usize = 8;
-/// The tab that answers a scene's question.
+/// Returns the tab that shows the result of a scene's study.
 fn answering(study: &Study) -> Tab {
     match study {
         Study::Point(_) => Tab::Profiles,
@@ -35,12 +35,13 @@ pub(super) fn is_model(path: &Path) -> bool {
 }
 
 impl Desk {
-    /// Whether there is something to lose.
+    /// Returns true if there are unsaved changes.
     pub fn dirty(&self) -> bool {
         self.document != *self.files.saved()
     }
 
-    /// Does something that ends what there is, after asking when there is something to lose.
+    /// Executes an action that replaces the present content. Requests a confirmation first if something would be
+    /// lost.
     pub fn request(&mut self, ctx: &Context, pending: Pending) {
         if self.losses(&pending).is_empty() {
             self.proceed(ctx, pending);
@@ -87,10 +88,11 @@ impl Desk {
         }
     }
 
-    /// Opens a scene, watches a campaign (its folder, or `campaign.ron` in it), or puts a reduced model (`.rom`) in use.
+    /// Opens a scene, watches a campaign (its folder, or `campaign.ron` in it), or puts a reduced model (`.rom`) in
+    /// use.
     ///
     /// # Errors
-    /// A sentence when it cannot be read; what is on the screen stays.
+    /// A sentence if the file cannot be read. The screen then keeps its content.
     pub fn open_path(&mut self, path: &Path) -> Result<(), Refusal> {
         if is_model(path) {
             let model = self.answers.store().model_of_file(path)?;
@@ -119,7 +121,7 @@ impl Desk {
     /// Opens a scene that has no file, with its question above the tabs.
     ///
     /// # Errors
-    /// A sentence when the explorer cannot solve it; what is on the screen stays.
+    /// A sentence if the explorer cannot solve it. The screen then keeps its content.
     fn open_untitled(&mut self, scene: &Scene) -> Result<(), Refusal> {
         let document = Document::of_scene(scene.clone())?;
         self.replace_document(document);
@@ -131,10 +133,10 @@ impl Desk {
         Ok(())
     }
 
-    /// Opens what a link holds.
+    /// Opens the content of a link.
     ///
     /// # Errors
-    /// A sentence; what is on the screen stays.
+    /// A sentence. The screen then keeps its content.
     pub fn open_link(&mut self, text: &str) -> Result<(), Refusal> {
         let mut fragment = Fragment::read(text)?;
         if let Some(document) = fragment.document.take() {
@@ -147,7 +149,7 @@ impl Desk {
         Ok(())
     }
 
-    /// Saves to the known path or asks for one.
+    /// Saves to the present path, or opens a dialog for a path.
     pub fn save(&mut self, ctx: &Context) {
         match self.files.path.clone() {
             Some(path) => {
@@ -168,14 +170,14 @@ impl Desk {
         Ok(())
     }
 
-    /// Puts a scene first among those that were used.
+    /// Puts a scene first in the list of recent files.
     pub fn remember(&mut self, path: &Path) {
         self.files.recent.retain(|p| p != path);
         self.files.recent.insert(0, path.to_owned());
         self.files.recent.truncate(MOST_RECENT);
     }
 
-    /// The windows of this module, dropped files, and the question before closing.
+    /// Draws the windows of this module, handles dropped files, and confirms the closing of the window.
     pub fn files_ui(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         let dropped: Vec<PathBuf> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_path_buf()).collect());

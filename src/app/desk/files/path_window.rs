@@ -1,5 +1,5 @@
-//! The window that asks for a path: the system's own dialog first; where there is none it says so, and a text field
-//! does the same.
+//! Window to choose a path. It opens the file dialog of the system. If there is none, it says so and offers a text
+//! field.
 
 use crate::app::controls::message_ui;
 use crate::app::desk::Desk;
@@ -15,10 +15,10 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 use std::time::Duration;
 
-/// A system dialog that is gone sooner than this was never there.
+/// A system dialog that closes faster than this was never shown.
 const NO_DIALOG: Duration = Duration::from_millis(700);
 
-/// What the window knows.
+/// State of the window.
 pub struct PathWindow {
     purpose: Purpose,
     path: String,
@@ -26,12 +26,12 @@ pub struct PathWindow {
     overwrite: Option<PathBuf>,
     browse: Option<(Receiver<Option<PathBuf>>, Stopwatch)>,
     fresh: bool,
-    /// Whether the system was found to have no dialog.
+    /// True if the system has no file dialog.
     no_dialog: bool,
 }
 
 impl Desk {
-    /// Asks for a path, by the system's dialog and by a text field for where there is none.
+    /// Requests a path by the file dialog of the system, or by a text field if there is none.
     pub fn ask_path(&mut self, ctx: &Context, purpose: Purpose) {
         let known = self.files.path.as_deref().filter(|_| purpose == Purpose::Save);
         let suggestion = known.unwrap_or(Path::new(purpose.words().name)).display().to_string();
@@ -59,7 +59,7 @@ impl Desk {
         window.browse = None;
         match answer {
             Some(path) => {
-                // The system's dialog has asked about overwriting already.
+                // The system dialog has already confirmed overwriting.
                 window.overwrite = Some(path.clone());
                 window.path = path.display().to_string();
                 self.act_on_path(ctx);
@@ -104,7 +104,7 @@ impl Desk {
             ui.horizontal(|ui| {
                 let exists = window.overwrite.is_some() && !window.purpose.reads();
                 act |= ui.button(if exists { "Replace the file" } else { action }).clicked();
-                again = ui.button("Browse…").on_hover_text("The system's file dialog, where there is one").clicked();
+                again = ui.button("Browse…").on_hover_text("The file dialog of the system, if there is one").clicked();
                 close = ui.button("Cancel").clicked();
             });
         });
@@ -120,7 +120,7 @@ impl Desk {
         }
     }
 
-    /// What stands in the window while the system's dialog is open: a way on where that does not come.
+    /// Draws the window while the system dialog is open. It offers to continue if that dialog does not appear.
     fn waiting_ui(&mut self, ctx: &Context) {
         let Some(window) = &mut self.files.window else { return };
         let (mut typed, mut close) = (false, false);
@@ -170,8 +170,7 @@ impl Desk {
             Purpose::Cases => self.load_cases.read(&path),
             Purpose::Beside => self.tabs.training.work.add_beside(self.answers.store(), &path),
             Purpose::Notes(sheet) => atomic_file::replace_all(&sheet.notes(&path)).map_err(Refusal::from).map(|()| {
-                self.files.notice =
-                    Some(Notice::Done(format!("Exported {} with its figures beside it", path.display())))
+                self.files.notice = Some(Notice::Done(format!("Exported {} and its figures", path.display())))
             }),
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };
@@ -197,7 +196,7 @@ impl Desk {
     }
 }
 
-/// Opens the system's dialog.
+/// Opens the file dialog of the system.
 fn browse(ctx: &Context, purpose: &Purpose, suggestion: &str) -> Receiver<Option<PathBuf>> {
     let Words { files, endings, .. } = purpose.words();
     let wanted = Wanted { reads: purpose.reads(), files, endings, suggestion: PathBuf::from(suggestion) };

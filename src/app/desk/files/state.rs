@@ -1,4 +1,4 @@
-//! What the window knows about files.
+//! State of files in the window.
 
 use super::path_window::PathWindow;
 use crate::app::document::Document;
@@ -7,38 +7,38 @@ use crate::scene::Scene;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What waits for the answer about unsaved changes.
+/// Action that waits for a confirmation.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pending {
-    /// A fresh document.
+    /// Start a new document.
     New,
-    /// The dialog to open a scene.
+    /// Open the dialog for a scene.
     OpenDialog,
-    /// A certain scene.
+    /// Open the scene at a path.
     Open(PathBuf),
-    /// A scene that lies nowhere yet.
+    /// Open a scene that has no file.
     OpenScene(Arc<Scene>),
-    /// What a link holds.
+    /// Open the content of a link.
     OpenLink(String),
-    /// The end.
+    /// Close the program.
     Quit,
-    /// Another training.
+    /// Start another training.
     Train,
-    /// The end of a training that was stopped.
+    /// Discard a stopped training.
     DiscardTraining,
-    /// The end of a model that was trained.
+    /// Discard a trained model.
     ThrowModelAway,
 }
 
-/// What the window knows about files.
+/// State of files in the window.
 pub struct Files {
-    /// Where the document was opened from or saved to.
+    /// File that the document was opened from or saved to.
     pub path: Option<PathBuf>,
     /// Recently used scenes, newest first.
     pub recent: Vec<PathBuf>,
-    /// A sentence about the last file action: what was done, or what went wrong.
+    /// Notice about the last file action.
     pub notice: Option<Notice>,
-    /// Whether the system's file dialog is tried.
+    /// True if the file dialog of the system is used.
     pub native_dialogs: bool,
     pub(super) saved: Document,
     pub(super) window: Option<PathWindow>,
@@ -48,7 +48,7 @@ pub struct Files {
 }
 
 impl Files {
-    /// Nothing opened, nothing to lose.
+    /// Creates the state without files and without unsaved changes.
     pub fn new(document: &Document) -> Self {
         Self {
             path: None,
@@ -63,17 +63,17 @@ impl Files {
         }
     }
 
-    /// Declares what is on disk, as a restored session does.
+    /// Sets the saved state of the document, for a restored session.
     pub fn set_saved(&mut self, saved: Document) {
         self.saved = saved;
     }
 
-    /// What is on disk.
+    /// Returns the saved state of the document.
     pub fn saved(&self) -> &Document {
         &self.saved
     }
 
-    /// Whether a window of this module is open.
+    /// Returns true if a window of this module is open.
     pub fn asks(&self) -> bool {
         self.window.is_some() || self.pending.is_some()
     }

@@ -1,4 +1,4 @@
-//! The reduced model along the test trajectory (3.21), and its error against full solutions.
+//! View of the reduced model along the test trajectory (3.21), and of its error against full solutions.
 
 use super::parts::{CONTACT_COLUMNS, contact_cells, count, run_or_stop, stale_note};
 use crate::app::context::Context;
@@ -22,13 +22,13 @@ use crate::solver::physics::contact::ContactKind;
 use egui::{Color32, ComboBox, Id, Ui, Vec2b};
 use egui_plot::{Line, LineStyle, VLine};
 
-/// Where the trajectory runs.
+/// Range of the trajectory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 enum Through {
-    /// Table 3.1's or 3.4's box, as in the dissertation.
+    /// The range of Table 3.1 or 3.4, as in the dissertation.
     #[default]
     Dissertation,
-    /// What the model was trained for.
+    /// The trained range of the model.
     Trained,
 }
 
@@ -42,14 +42,14 @@ impl Through {
     }
 }
 
-/// Which trajectory is wanted.
+/// Requested trajectory.
 #[derive(Clone, Copy, PartialEq)]
 struct Wanted {
     through: Through,
     points: usize,
 }
 
-/// One contact of the trajectory by the reduced model and in full.
+/// Contact of the trajectory, solved by the reduced model and by the full solver.
 pub struct Step(PathRow);
 
 impl Step {
@@ -82,24 +82,24 @@ impl Step {
     }
 }
 
-/// What was found along a trajectory.
+/// Results along a trajectory.
 pub struct Followed {
     in_use: InUse,
     wanted: Wanted,
-    /// Whether nobody asked for it.
+    /// True if it was started automatically.
     unasked: bool,
-    /// Its contacts so far.
+    /// Contacts so far.
     pub steps: Vec<Step>,
-    /// Whether more may come.
+    /// True if further contacts may follow.
     open: bool,
 }
 
 /// State of the view.
 pub struct Along {
     wanted: Wanted,
-    /// What runs, and why the last run ended early.
+    /// Running study, and the reason why the last one ended early.
     pub work: Background<StudyRow>,
-    /// What was found so far.
+    /// Results so far.
     pub results: Option<Followed>,
 }
 
@@ -111,7 +111,7 @@ impl Default for Along {
 }
 
 impl Along {
-    /// Takes in what came.
+    /// Receives results.
     pub fn receive(&mut self) {
         let Some(results) = &mut self.results else { return };
         self.work.receive(|row| {
@@ -122,7 +122,7 @@ impl Along {
         results.open = self.work.job().is_some();
     }
 
-    /// Follows a few contacts unasked, unless somebody has asked for others.
+    /// Starts a short trajectory automatically, unless the user has requested another one.
     fn show(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse) {
         let through = self.wanted.through;
         let other = |results: &Followed| results.in_use != *in_use || results.wanted.through != through;
@@ -135,14 +135,15 @@ impl Along {
         }
     }
 
-    /// Stops what nobody asked for, and forgets it: it begins anew when it is looked at again.
+    /// Stops and discards a trajectory that was started automatically. It starts again when the view is shown
+    /// again.
     pub fn hide(&mut self) {
         if self.work.job().is_some() && self.results.as_ref().is_some_and(|results| results.unasked) {
             (self.results, self.work) = (None, Background::default());
         }
     }
 
-    /// Each full solution starts from its neighbour on the path, never from a reduced one.
+    /// Starts the trajectory. Each full solution starts from its neighbour on the path, never from a reduced one.
     fn begin(&mut self, ctx: &egui::Context, store: &Store, in_use: &InUse, (wanted, unasked): (Wanted, bool)) {
         self.results = Some(Followed { in_use: in_use.clone(), wanted, unasked, steps: Vec::new(), open: true });
         let range = match wanted.through {
@@ -156,13 +157,13 @@ impl Along {
     }
 }
 
-/// The view.
+/// Draws the view.
 pub fn ui(ui: &mut Ui, along: &mut Along, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     along.show(&ctx, context.answers.store(), in_use);
     let kind = in_use.model.contact();
     ui.horizontal_wrapped(|ui| {
-        let through = ui.label("Through").on_hover_text("The range in which the parameters swing by (3.21)");
+        let through = ui.label("Through").on_hover_text("The range in which the parameters vary by (3.21)");
         let choice =
             ComboBox::from_id_salt("through").selected_text(along.wanted.through.name(kind)).show_ui(ui, |ui| {
                 for option in [Through::Dissertation, Through::Trained] {
@@ -180,7 +181,7 @@ pub fn ui(ui: &mut Ui, along: &mut Along, context: &Context<'_>, in_use: &InUse)
         message_ui(ui, message);
     }
     let Some(results) = &along.results else {
-        super::parts::nothing_yet(ui, "Follow the trajectory to see film and error along it");
+        super::parts::nothing_yet(ui, "Follow the trajectory to see film thickness and error along it");
         return;
     };
     let stale = drawn::is_grey(ui.ctx(), "trajectory", Owner::Model(results.in_use.clone()), context);
@@ -202,7 +203,7 @@ fn summary(results: &Followed) -> String {
     let excluded = if results.open { 0 } else { wanted.points.saturating_sub(steps.len()) };
     let worst = steps.iter().filter_map(Step::error).fold(0.0, f64::max);
     let mut text = format!(
-        "{} of {} contacts through {}, {failures} failures, largest error of {{H_c}} {}",
+        "{} of {} contacts through {}, {failures} failures, maximum error of {{H_c}} {}",
         steps.len() + excluded,
         wanted.points,
         wanted.through.name(results.in_use.model.contact()),
@@ -212,19 +213,20 @@ fn summary(results: &Followed) -> String {
         text.push_str(&format!(", {outside} outside the trained range"));
     }
     if excluded > 0 {
-        text.push_str(&format!(", {excluded} left out beyond its largest pressure"));
+        text.push_str(&format!(", {excluded} omitted above its pressure limit"));
     }
     text
 }
 
 impl Followed {
-    /// Unbroken pieces of a quantity along the path; where the range excludes a place a line ends as well.
+    /// Returns the connected pieces of a quantity along the path. A line also ends where the range excludes a
+    /// place.
     fn pieces(&self, value: impl Fn(&Step) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {
         pieces(self.steps.iter().map(|step| (step.c(), value(step))), 3.0 / (self.wanted.points - 1) as f64)
     }
 }
 
-/// Pieces of a line through places that have a value and are not further apart than a limit.
+/// Returns the pieces of a line. Neighbouring points of a piece have values and are not further apart than a limit.
 fn pieces(points: impl Iterator<Item = (f64, Option<f64>)>, apart: f64) -> Vec<Vec<[f64; 2]>> {
     let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
     let mut former = None;
@@ -254,7 +256,7 @@ fn linked<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str) -> P
         .auto_bounds(Vec2b::TRUE)
 }
 
-/// By which the plots are known.
+/// Accessible names of the plots.
 const FILM: &str = "Film along the trajectory";
 const ERROR: &str = "Error along the trajectory";
 
@@ -278,7 +280,7 @@ fn film_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
 fn error_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     let palette = Palette::of(ui);
     let grey = |color| if stale { palette.reference } else { color };
-    // Smaller errors are the full solver's own tolerance, and zero has no logarithm.
+    // Smaller errors are below the tolerance of the full solver, and zero has no logarithm.
     let log = |value: Option<f64>| value.map(|v| v.max(1e-12).log10());
     let (film, accent, wrong) = (grey(palette.film), grey(palette.accent), grey(palette.wrong));
     let failed = || results.steps.iter().filter(|step| step.reduced().is_none());
@@ -303,7 +305,7 @@ fn error_plot(ui: &mut Ui, results: &Followed, stale: bool, height: f32) {
     });
 }
 
-/// Every contact as a row.
+/// Returns every contact as a row of CSV.
 pub fn csv(results: &Followed) -> String {
     let comments = [
         results.in_use.describe(),

@@ -1,5 +1,5 @@
-//! Random tests in the M–L plane: where the reduced model fails, and how large its error is elsewhere. A click goes
-//! there.
+//! Random validation in the M–L plane: failures of the reduced model, and its error elsewhere. A click moves the
+//! contact there.
 
 use super::parts::{CONTACT_COLUMNS, contact_cells, tests_toolbar};
 use super::random_tests::{RandomTests, Results, bound_of, error_of};
@@ -18,24 +18,24 @@ use crate::solver::physics::contact::{Moes, OperatingPoint};
 use egui::{Color32, Ui};
 use egui_plot::{HoverPosition, MarkerShape, PlotPoint, PlotPoints, Points};
 
-/// How near (in screen points) a click must come to a test.
+/// Maximum distance of a click from a test, in screen points.
 const NEAR: f32 = 12.0;
-/// Decades that have a colour of their own, from 10^FIRST on; what is smaller or larger shares the end ones.
+/// Decades with separate colours, from 10^FIRST. Smaller and larger errors share the colours at the ends.
 const FIRST: i32 = -7;
 const CLASSES: usize = 7;
 
-/// By what a test is judged.
+/// Error that colours a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum By {
     /// The calibrated bound on the error of H_c.
     #[default]
     Bound,
-    /// Its true error, where a full solution was compared.
+    /// The true error, if a full solution was computed.
     Truth,
 }
 
 impl By {
-    /// The error it looks at.
+    /// Returns the error of a test.
     pub fn of(self, tested: &Tested) -> Option<f64> {
         match self {
             Self::Bound => bound_of(tested),
@@ -52,7 +52,7 @@ pub struct Map {
     worst: Worst,
 }
 
-/// The tests as series of points, made when something changed.
+/// Tests as series of points, updated after a change.
 struct DrawnTests {
     of: (usize, usize, By),
     classes: [Vec<PlotPoint>; CLASSES],
@@ -76,7 +76,7 @@ impl DrawnTests {
     }
 }
 
-/// By which drawings and lists know that they are out of date.
+/// Returns a stamp by which drawings and lists detect that they are out of date.
 pub fn stamp(results: &Results, by: By) -> (usize, usize, By) {
     (results.revision, results.tests.len(), by)
 }
@@ -100,12 +100,12 @@ fn at(moes: Moes) -> PlotPoint {
     PlotPoint::new(moes.m.log10(), moes.l)
 }
 
-/// By which the plot is known.
-const MAP: &str = "Map of the random tests";
-/// Under this name a contact that was gone to is refused.
+/// Accessible name of the plot.
+const MAP: &str = "Map of the random validation";
+/// Name under which the refusal of a chosen contact is stored.
 const FIELD: &str = "failure map";
 
-/// The view.
+/// Draws the view.
 pub fn ui(
     ui: &mut Ui,
     (map, tests): (&mut Map, &mut RandomTests),
@@ -118,7 +118,7 @@ pub fn ui(
     let Some(results) = &tests.results else {
         super::parts::nothing_yet(
             ui,
-            "Run tests to see where the model fails and how large its error is over its whole range",
+            "Run the validation to see where the model fails and how large its error is over its whole range",
         );
         return;
     };
@@ -128,7 +128,7 @@ pub fn ui(
         ui.selectable_value(&mut map.by, By::Bound, bound);
         let truth = rich("true error of {H_c}", 13.5, ui.visuals().text_color());
         ui.selectable_value(&mut map.by, By::Truth, truth)
-            .on_hover_text("Only tests that were compared with full solutions have a colour");
+            .on_hover_text("Only contacts that were compared with full solutions have a colour");
         ui.weak(summary(results));
     });
     if map.by == By::Bound {
@@ -162,7 +162,7 @@ pub fn ui(
     }
 }
 
-/// Whether tests are of another model than the one in use; the rest of the room stands back then.
+/// Returns true if the tests belong to another model than the one in use. Fades the remaining widgets in this case.
 pub fn is_former(ui: &mut Ui, results: &Results, context: &Context<'_>) -> bool {
     let former = drawn::is_grey(ui.ctx(), "random tests", Owner::Model(results.in_use.clone()), context);
     if former {
@@ -171,7 +171,7 @@ pub fn is_former(ui: &mut Ui, results: &Results, context: &Context<'_>) -> bool 
     former
 }
 
-/// Numbers of tests, failures and comparisons.
+/// Returns the numbers of tests, failures and comparisons as text.
 pub fn summary(results: &Results) -> String {
     let (made, wanted) = (results.tests.len(), results.wanted.tests);
     let failures = match results.failures() {
@@ -183,7 +183,7 @@ pub fn summary(results: &Results) -> String {
     let (as_they_came, beyond) = results.tests.split_at(results.wanted.compared.min(made));
     let worst = match of_truth(beyond) {
         0 => String::new(),
-        count => format!(", {count} more that look worst"),
+        count => format!(", {count} more with the largest expected errors"),
     };
     format!("{made} of {wanted} tests, {failures}, {} compared{worst}", of_truth(as_they_came))
 }
@@ -236,19 +236,19 @@ fn chart(ui: &mut Ui, map: &Map, results: &Results, here: Moes, height: f32, sta
     nearest(results, |moes| transform.position_from_point(&at(moes)).distance(pointer)).map(|(test, _)| test.point)
 }
 
-/// The test nearest by a distance on the screen, if it is near.
+/// Returns the test with the smallest distance on the screen, if it is near enough.
 fn nearest(results: &Results, distance: impl Fn(Moes) -> f32) -> Option<&Tested> {
     let distances = results.tests.iter().map(|tested| (tested, distance(tested.0.point.moes())));
     distances.filter(|(_, d)| *d < NEAR).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(tested, _)| tested)
 }
 
-/// What is known of the test at a place of the map.
+/// Returns the text about the test at a place of the map.
 fn label(results: &Results, place: PlotPoint) -> Option<String> {
     let tested = results.tests.iter().find(|(test, _)| at(test.point.moes()) == place)?;
     let point = &tested.0.point;
     let error = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numbers::error_percent);
     Some(format!(
-        "{}, α {}/GPa\nerror of H_c within {}, truly {}\nclick to go there",
+        "{}, α {}/GPa\nerror bound of H_c {}, true error {}\nclick to go to this contact",
         numbers::moes(point.moes()),
         numbers::digits(point.alpha_per_pa * 1e9, 3),
         error(bound_of(tested)),
@@ -256,7 +256,7 @@ fn label(results: &Results, place: PlotPoint) -> Option<String> {
     ))
 }
 
-/// Every test as a row.
+/// Returns every test as a row of CSV.
 pub fn csv(results: &Results) -> String {
     let comments = [
         results.in_use.describe(),

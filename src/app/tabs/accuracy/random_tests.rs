@@ -1,4 +1,4 @@
-//! Random tests (3.17) of the reduced model over what it was trained for: the study of a scene that asks for them.
+//! Random validation (3.17) of the reduced model over its trained range, as the study of a scene.
 
 use crate::app::in_use::InUse;
 use crate::engine::Store;
@@ -8,22 +8,22 @@ use crate::scene::{Study, StudyRow};
 use crate::solver::physics::contact::ContactKind;
 use egui::Context;
 
-/// Fewest and most tests that can be asked for.
+/// Permitted numbers of tests.
 pub const TESTS: std::ops::RangeInclusive<usize> = 200..=10_000;
-/// Most comparisons with full solutions.
+/// Maximum number of comparisons with full solutions.
 pub const MOST_COMPARED: usize = 2_000;
 
-/// Tests that look worst and are solved in full first, at most.
+/// Maximum number of tests with the largest expected errors that are solved in full first.
 const MOST_WORST: usize = 20;
 
-/// How many tests are wanted, and which.
+/// Requested number and seed of the tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
-    /// Reduced solves.
+    /// Number of reduced solves.
     pub tests: usize,
-    /// Full solves to compare with, at the first of the points.
+    /// Number of full solves for comparison, at the first contacts.
     pub compared: usize,
-    /// Seed of the points.
+    /// Seed of the contacts.
     pub seed: u64,
 }
 
@@ -34,7 +34,7 @@ impl Default for Wanted {
 }
 
 impl Wanted {
-    /// What is tested unasked: as many as are there within a moment.
+    /// Returns a small number of tests that can run automatically within a moment.
     fn small(in_use: &InUse) -> Self {
         let compared = match in_use.model.contact() {
             ContactKind::Line => 20,
@@ -44,67 +44,68 @@ impl Wanted {
     }
 }
 
-/// The calibrated bound on the error of H_c of a test.
+/// Returns the calibrated bound on the error of H_c of a test.
 pub fn bound_of(tested: &Tested) -> Option<f64> {
     tested.0.bounds()[0]
 }
 
-/// The true error of H_c of a test, where it is known.
+/// Returns the true error of H_c of a test. `None` if it was not computed.
 pub fn error_of(tested: &Tested) -> Option<f64> {
     errors(tested)[0]
 }
 
-/// Tests that were made, and of what.
+/// Tests of a run.
 pub struct Results {
-    /// The model that was tested.
+    /// Tested model.
     pub in_use: InUse,
-    /// How it was tested.
+    /// Settings of the run.
     pub wanted: Wanted,
-    /// Whether nobody asked for them.
+    /// True if it was started automatically.
     unasked: bool,
-    /// The tests so far.
+    /// Tests so far.
     pub tests: Vec<Tested>,
-    /// Rises with everything that comes in.
+    /// Counter that increases with every new row.
     pub revision: usize,
 }
 
 impl Results {
-    /// Tests in which the reduced model did not converge.
+    /// Returns the number of tests in which the reduced model did not converge.
     pub fn failures(&self) -> usize {
         self.tests.iter().filter(|(test, _)| test.film.is_none()).count()
     }
 
-    /// Bound and true error of H_c, where both are known of tests that were compared as they came.
+    /// Returns bound and true error of H_c of the compared tests that have both. The tests selected for their large
+    /// expected errors are excluded.
     pub fn pairs(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.tests.iter().take(self.wanted.compared).filter_map(|tested| Some((bound_of(tested)?, error_of(tested)?)))
     }
 }
 
-/// The tests of the tab: those that run and those that ended.
+/// State of the random validation in the tab.
 #[derive(Default)]
 pub struct RandomTests {
-    /// What the next run tests.
+    /// Settings of the next run.
     pub wanted: Wanted,
-    /// The present or last run.
+    /// Present or last run.
     pub results: Option<Results>,
-    /// What runs, and why the last run ended early.
+    /// Running study, and the reason why the last one ended early.
     pub work: Background<StudyRow>,
 }
 
 impl RandomTests {
-    /// Starts anew.
+    /// Starts a new run.
     pub fn start(&mut self, ctx: &Context, store: &Store, in_use: &InUse) {
         self.begin(ctx, store, in_use, (self.wanted, false));
     }
 
-    /// Makes a few tests of a model unasked, unless somebody has asked for others.
+    /// Starts a few tests of a model automatically, unless the user has requested others.
     pub fn show(&mut self, ctx: &Context, store: &Store, in_use: &InUse) {
         if self.results.as_ref().is_none_or(|results| results.unasked && results.in_use != *in_use) {
             self.begin(ctx, store, in_use, (Wanted::small(in_use), true));
         }
     }
 
-    /// Stops tests that nobody asked for, and forgets them: they begin anew when they are looked at again.
+    /// Stops and discards tests that were started automatically. They start again when the view is shown again.
     pub fn hide(&mut self) {
         if self.work.job().is_some() && self.results.as_ref().is_some_and(|results| results.unasked) {
             (self.results, self.work) = (None, Background::default());
@@ -117,11 +118,11 @@ impl RandomTests {
         let (range, compare) = (in_use.trained_range(), compared.min(tests));
         let worst = compare.min(MOST_WORST);
         let study = Study::RandomTest(RandomTest { range, tests, seed, method: in_use.method(), compare, worst });
-        let question = in_use.question("Random tests", study).map_err(|why| why.to_string());
+        let question = in_use.question("Random validation", study).map_err(|why| why.to_string());
         self.work.start(question.map(|question| in_use.ask(ctx, store, question)));
     }
 
-    /// Takes in what came.
+    /// Receives results.
     pub fn receive(&mut self) {
         let Some(results) = &mut self.results else { return };
         self.work.receive(|row| {

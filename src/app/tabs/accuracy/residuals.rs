@@ -1,4 +1,4 @@
-//! How the last full solve converged.
+//! View of the convergence of the last full solve.
 
 use crate::app::answers::jobs::Running;
 use crate::app::context::Context;
@@ -12,14 +12,14 @@ use crate::solver::full::Report;
 use egui::{Grid, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, Points};
 
-/// A solve younger than this is no news: showing it would only flicker.
+/// Age from which a solve is shown \[s\]. Shorter solves would only flicker.
 const NEWS_S: f64 = 0.12;
 /// Width of both lines.
 const WIDTH: f32 = 1.6;
-/// By which the plot is known.
+/// Accessible name of the plot.
 const PLOT: &str = "Newton residuals of the last solve";
 
-/// The view: the solve that runs, else the last one that ended.
+/// Draws the running solve, otherwise the last one that ended.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let news = |job: &&Running| job.since.elapsed().as_secs_f64() > NEWS_S && !job.steps.is_empty();
     if let Some(job) = context.answers.running().iter().find(news) {
@@ -36,14 +36,14 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         ui.strong("Last full solve");
         ui.label(format!("{}: {}", numbers::moes(moes), report.termination.describe()));
         if !current {
-            ui.weak("(of other parameters than the sliders’)");
+            ui.weak("(other parameters than the sliders)");
         }
     });
     Grid::new("solve").num_columns(4).spacing([14.0, 3.0]).show(ui, |ui| {
         let cells = [
             ("Newton steps", report.newton_iterations.to_string()),
             ("Krylov steps", report.linear_iterations.to_string()),
-            ("Starts tried", report.attempts.to_string()),
+            ("Initial guesses", report.attempts.to_string()),
             ("Final residual", numbers::digits(report.residual_norm, 3)),
         ];
         for (name, _) in &cells {
@@ -62,7 +62,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     residual_plot(ui, &report.residuals, &report.steps, current);
 }
 
-/// Every Newton step as a row.
+/// Returns every Newton step as a row of CSV.
 pub fn csv(key: &Key, report: &Report) -> String {
     let moes = key.point.moes();
     let rows = report.residuals.iter().zip(&report.steps).enumerate();
@@ -71,12 +71,12 @@ pub fn csv(key: &Key, report: &Report) -> String {
     export::csv(&[comment], &["newton_step", "residual", "relative_step"], rows)
 }
 
-/// A solve at work: its parameters and its residuals so far.
+/// Draws a running solve: its parameters and its residuals so far.
 fn running_ui(ui: &mut Ui, job: &Running, context: &Context<'_>) {
     let current = !drawn::is_grey(ui.ctx(), "residuals", Owner::Contact(job.key), context);
     ui.horizontal_wrapped(|ui| {
         ui.strong(job.kind.name());
-        ui.label(format!("{}: at work", numbers::contact(&job.key.point)));
+        ui.label(format!("{}: running", numbers::contact(&job.key.point)));
         if let Some(step) = job.steps.last() {
             ui.weak(format!("Newton step {}, residual {}", step.iteration, numbers::digits(step.residual, 3)));
         }

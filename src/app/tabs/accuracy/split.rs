@@ -1,4 +1,4 @@
-//! Where the error of this contact comes from: basis, projection, sampling and discretisation beside each other.
+//! View of the parts of this contact's error: basis, projection, sampling and discretisation.
 
 use super::parts::{run_or_stop, stale_note};
 use crate::app::answers::REST_S;
@@ -21,39 +21,43 @@ use egui::{Align2, Grid, Ui, Vec2b};
 use egui_plot::{Bar, BarChart, PlotPoint, Text};
 use std::sync::Arc;
 
-/// Decades that the bars show at most: what is smaller than the rest by more does not matter.
+/// Maximum number of decades of the bars. Much smaller parts are not relevant.
 const DECADES: f64 = 7.0;
-/// Width that a label of the logarithmic axis needs.
+/// Width of a label of the logarithmic axis.
 const LABEL: f32 = 66.0;
-/// Width of the rows' names beside the bars.
+/// Width of the row names next to the bars.
 const NAMES: f32 = 152.0;
 
-/// The rows of bars and table, from top to bottom: name, explanation.
+/// Rows of bars and table from top to bottom: name and explanation.
 const ROWS: [(&str, &str); 6] = [
     (
         "Basis",
-        "The full solution’s best approximation in the pressure basis, under the basis’ own weights, against the full \
-         solution: no reduced solution has a nearer pressure. More snapshots or modes lower it",
+        "Difference between the full solution and its best approximation in the pressure basis, in the norm of the \
+         basis. No reduced solution has a smaller pressure error. More snapshots or modes reduce it",
     ),
     (
         "Projection",
-        "The reduced solution with all rows of the Reynolds equation against that best approximation: Galerkin’s \
-         conditions choose another element of the same basis, often one with a better film",
+        "Difference between the reduced solution with all Reynolds equations and that best approximation. Galerkin’s \
+         conditions select another element of the same basis, often one with a better film thickness",
     ),
     (
         "Sampling",
-        "The reduced solution with its sampled rows against the one with all rows. More or better rows lower it",
+        "Difference between the reduced solution with sampled equations and the one with all equations. More or better \
+         sampled equations reduce it",
     ),
-    ("Reduced against full", "The three above together, with their signs: what the verification shows"),
+    (
+        "Reduced against full",
+        "Sum of the three parts above with their signs, as the check against the full solution shows it",
+    ),
     (
         "Discretisation",
-        "The full solution on the model’s grid against the value to which this grid and the next finer one tend \
-         (Richardson, order two). No reduced model can be nearer to the equations than its grid",
+        "Difference between the full solution on the model’s grid and the limit of this and the next finer grid \
+         (Richardson, order two). No reduced model can be more accurate than its grid",
     ),
-    ("Reduced against the limit", "All four together, with their signs"),
+    ("Reduced against the limit", "Sum of all four parts with their signs"),
 ];
 
-/// What a split is of.
+/// Contact and model of a split.
 #[derive(Clone, PartialEq)]
 pub struct SplitOf {
     key: Key,
@@ -63,18 +67,18 @@ pub struct SplitOf {
 /// State of the view.
 #[derive(Default)]
 pub struct Split {
-    /// What runs, and why there is no split.
+    /// Running study, and the reason why there is no split.
     pub work: Background<StudyRow>,
-    /// What was last asked for, answered or not.
+    /// Last request, complete or not.
     asked: Option<SplitOf>,
-    /// Whether nobody asked for it.
+    /// True if it was started automatically.
     unasked: bool,
-    /// The last answer, and of what it is.
+    /// Last result with its contact and model.
     pub found: Option<(SplitOf, Arc<ErrorSplit>)>,
 }
 
 impl Split {
-    /// Takes in what came.
+    /// Receives the result.
     pub fn receive(&mut self) {
         let Some(asked) = &self.asked else { return };
         let (mut refused, mut answered, worked) = (None, false, self.work.job().is_some());
@@ -87,17 +91,17 @@ impl Split {
             }
         });
         if answered {
-            // One contact has one row: nothing else is to come.
+            // One contact has one row, so the study is complete.
             self.work = Background::default();
         } else if worked && self.work.job().is_none() && self.work.message.is_none() {
-            refused = Some("stopped before it was done".to_owned());
+            refused = Some("stopped before it was complete".to_owned());
         }
         if refused.is_some() {
             self.work.message = refused;
         }
     }
 
-    /// Stops what nobody asked for, and forgets it: it begins anew when it is looked at again.
+    /// Stops and discards a study that was started automatically. It starts again when the view is shown again.
     pub fn hide(&mut self) {
         if self.work.job().is_some() && self.unasked {
             (self.asked, self.work) = (None, Background::default());
@@ -107,7 +111,7 @@ impl Split {
     fn start(&mut self, ctx: &egui::Context, store: &Store, asked: SplitOf, unasked: bool) {
         self.unasked = unasked;
         let study = ErrorSplitStudy { contacts: Contacts::Here, method: asked.in_use.method() };
-        // A film that ruptures by another law than the model's would count as an error of its basis.
+        // A cavitation model that differs from the one of the reduced model would count as an error of its basis.
         let mut key = asked.key;
         if !matches!(key.lubricant.cavitation, Cavitation::MassConserving { .. }) {
             key.lubricant.cavitation = asked.in_use.model.domain.lubricant.cavitation;
@@ -118,13 +122,14 @@ impl Split {
     }
 }
 
-/// The view.
+/// Draws the view.
 pub fn ui(ui: &mut Ui, own: &mut Split, context: &Context<'_>, in_use: &InUse) {
     let ctx = ui.ctx().clone();
     let now = SplitOf { key: context.document.key(), in_use: in_use.clone() };
     start_when_rested(ui, own, context, &now);
     ui.horizontal_wrapped(|ui| {
-        let tip = "Solves this contact reduced, reduced with all rows, in full, and in full on the next finer grid";
+        let tip = "Solves this contact by the reduced model, by the reduced model with all equations, in full, and in \
+                   full on the next finer grid";
         if run_or_stop(ui, "Split the error", tip, &own.work) {
             own.start(&ctx, context.answers.store(), now.clone(), false);
         }
@@ -139,7 +144,7 @@ pub fn ui(ui: &mut Ui, own: &mut Split, context: &Context<'_>, in_use: &InUse) {
         warning_ui(ui, &format!("{why}; the split is made on request only"));
     }
     let Some((asked, split)) = &own.found else {
-        super::parts::nothing_yet(ui, "The parts appear when the sliders rest");
+        super::parts::nothing_yet(ui, "The parts appear when the sliders are idle");
         return;
     };
     let owner = Owner::ContactByModel(asked.key, asked.in_use.clone());
@@ -153,7 +158,7 @@ pub fn ui(ui: &mut Ui, own: &mut Split, context: &Context<'_>, in_use: &InUse) {
     table(ui, split, current);
 }
 
-/// Starts by itself once per contact and model, when the sliders rest where the model was trained.
+/// Starts the study automatically once per contact and model, when the sliders are idle inside the trained range.
 fn start_when_rested(ui: &Ui, own: &mut Split, context: &Context<'_>, now: &SplitOf) {
     let known = own.asked.as_ref() == Some(now);
     let trained = Problem::new(&now.key.point, now.key.lubricant)
@@ -170,7 +175,7 @@ fn start_when_rested(ui: &Ui, own: &mut Split, context: &Context<'_>, now: &Spli
     }
 }
 
-/// A scalar's value for each of [`ROWS`].
+/// Returns the value of a scalar for each of [`ROWS`].
 fn values(parts: &Parts) -> [f64; 6] {
     let Parts { basis, projection, sampling, discretisation } = *parts;
     [basis, projection, sampling, parts.reduction(), discretisation, parts.whole()]
@@ -182,7 +187,7 @@ fn bars(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     let logs = both.iter().flat_map(|(_, _, parts)| values(parts)).map(|v| v.abs().log10()).filter(|v| v.is_finite());
     let (low, high) = logs.fold((0.0f64, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     let high = if high.is_finite() { high.ceil() } else { 0.0 };
-    // One axis for both, so that they can be compared; room on the right for the numbers.
+    // Both plots share one axis, so that they are comparable. The right side is reserved for the numbers.
     let low = low.floor().max(high - DECADES).min(high - 2.0);
     let end = high + 0.32 * (high - low);
     let wide = ui.available_width() > 560.0;
@@ -193,7 +198,7 @@ fn bars(ui: &mut Ui, split: &ErrorSplit, current: bool) {
         bar_plot(ui, (symbol, name), &values(parts), &drawing);
     };
     if wide {
-        // The rows' names stand once, on the left.
+        // The row names are shown once, on the left.
         let bars = 0.5 * (ui.available_width() - NAMES - 22.0);
         ui.horizontal_top(|ui| {
             for (k, width) in [NAMES + bars, bars].into_iter().enumerate() {
@@ -209,7 +214,7 @@ fn bars(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     }
 }
 
-/// How one plot of bars is drawn: its axis (log10), its height, whether rows have their names, whether it is up to
+/// Settings of a plot of bars: its axis (log10), its height, whether the row names are shown, whether it is up to
 /// date.
 struct Drawing {
     range: (f64, f64),
@@ -278,13 +283,13 @@ fn row_name(value: f64) -> String {
         .map_or_else(String::new, |(_, (name, _))| (*name).to_owned())
 }
 
-/// A signed relative error in the units of the axis.
+/// Returns a signed relative error in the units of the axis.
 fn relative(value: f64) -> String {
     let text = numbers::digits(value, 2);
     if value > 0.0 { format!("+{text}") } else { text }
 }
 
-/// A signed relative error in percent.
+/// Returns a signed relative error in percent.
 fn signed(value: f64) -> String {
     let sign = if value < 0.0 { "−" } else { "+" };
     let size = numbers::error_percent(value);
@@ -316,7 +321,7 @@ fn table(ui: &mut Ui, split: &ErrorSplit, current: bool) {
     });
 }
 
-/// Every part as a row.
+/// Returns every part as a row of CSV.
 pub fn csv(asked: &SplitOf, split: &ErrorSplit) -> String {
     let moes = asked.key.point.moes();
     let rows: Vec<&str> = ROWS.iter().map(|row| row.0).collect();

@@ -1,5 +1,5 @@
-//! How far results can be believed: where the error of this contact comes from, how the model does over its whole
-//! range, what its calibrated bound is worth, and how the last full solve converged.
+//! Accuracy tab: parts of this contact's error, validation of the model over its whole range, quality of its
+//! calibrated bound, and convergence of the last full solve.
 
 use super::random_tests::RandomTests;
 use super::{along, failure_map, residuals, split, truth};
@@ -11,13 +11,13 @@ use crate::scene::StudyRow;
 
 use egui::Ui;
 
-/// A view of the tab.
+/// View of the tab.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 enum Part {
-    /// The parts of this contact's error.
+    /// Parts of this contact's error.
     #[default]
     Split,
-    /// Random tests in the M–L plane.
+    /// Random validation in the M–L plane.
     FailureMap,
     /// Calibrated bound against true error.
     Truth,
@@ -32,16 +32,16 @@ impl Part {
 
     fn name(self) -> &'static str {
         match self {
-            Self::Split => "Where the error comes from",
+            Self::Split => "Error contributions",
             Self::FailureMap => "Failure map",
-            Self::Truth => "Bound against truth",
+            Self::Truth => "Bound vs. true error",
             Self::Along => "Along the trajectory",
             Self::Residuals => "Newton residuals",
         }
     }
 }
 
-/// The tab's studies and what they found.
+/// Accuracy tab: its studies and their results.
 #[derive(Default)]
 pub struct Accuracy {
     part: Part,
@@ -50,12 +50,12 @@ pub struct Accuracy {
     map: failure_map::Map,
     truth: Option<truth::Scatter>,
     along: along::Along,
-    /// Whether the tab was drawn since the last frame.
+    /// True if the tab was drawn since the last frame.
     shown: bool,
 }
 
 impl Accuracy {
-    /// Whether a study runs.
+    /// Returns true while a study runs.
     pub fn works(&self) -> bool {
         self.studies().into_iter().any(|work| work.standing().is_some())
     }
@@ -69,10 +69,10 @@ const ABOUT: About = About {
     keywords: "error failure map residuals bound",
     page: "trust.md",
     has_units: false,
-    why: "A reduced model errs because its modes are too few, because its equations are met at some places only, \
-          and because its grid is coarse: each share can be measured. A full solution on the same grid gives the \
-          true error, and a calibrated bound predicts it without one. Random tests over the whole range show where \
-          it fails, and how often.",
+    why: "A reduced model has errors from its limited number of modes, from its sampled equations and from its grid, \
+          and each part can be measured. A full solution on the same grid gives the true error, and a calibrated bound \
+          predicts it without a full solution. Random validation over the whole range shows where the model fails, and \
+          how often.",
 };
 
 impl View for Accuracy {
@@ -94,7 +94,9 @@ impl View for Accuracy {
         }
         let Some(in_use) = context.answers.in_use(context.document) else {
             ui.centered_and_justified(|ui| {
-                ui.weak("No reduced model is loaded: every picture is a full solution, and there is nothing to judge")
+                ui.weak(
+                    "No reduced model is loaded: every picture is a full solution, and there is no model to validate",
+                )
             });
             return;
         };
@@ -112,19 +114,19 @@ impl View for Accuracy {
         let tests = self.tests.results.as_ref().filter(|results| !results.tests.is_empty());
         let along = self.along.results.as_ref().filter(|results| !results.steps.is_empty());
         let report = context.answers.last_report();
-        let tested = "Every test with its contact, films, bound and true errors";
-        let followed = "Every contact with both films, bound and true error";
+        let tested = "Every contact with its film thicknesses, bound and true errors";
+        let followed = "Every contact with both film thicknesses, bound and true error";
         let steps = "Residual and step of every Newton step";
         let parts = "All parts for H_c, H_min and the pressure";
         vec![
             Offer::table("Parts of the error as CSV…", parts, split, |(asked, split)| split::csv(asked, split)),
-            Offer::table("Random tests as CSV…", tested, tests, |results| failure_map::csv(results)),
+            Offer::table("Random validation as CSV…", tested, tests, |results| failure_map::csv(results)),
             Offer::table("Trajectory as CSV…", followed, along, |results| along::csv(results)),
             Offer::table("Newton residuals as CSV…", steps, report, |(key, report)| residuals::csv(key, report)),
         ]
     }
 
-    /// Studies that nobody asked for stop where nobody looks.
+    /// Receives results. Stops automatically started studies if the tab is hidden.
     fn receive(&mut self) {
         if !std::mem::take(&mut self.shown) {
             self.split.hide();

@@ -1,4 +1,4 @@
-//! What the calibrated bound is worth: bound against true error of H_c wherever both are known.
+//! View of the quality of the calibrated bound: bound against true error of H_c.
 
 use super::failure_map::{By, is_former, stamp, summary};
 use super::parts::tests_toolbar;
@@ -14,23 +14,23 @@ use crate::engine::{median, rank_correlation};
 use egui::{Grid, Ui, Vec2b};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
-/// Smaller errors are the full solver's own tolerance.
+/// Smaller errors are below the tolerance of the full solver.
 const FLOOR: f64 = 1e-11;
 /// Radius of a test's mark.
 const RADIUS: f32 = 2.8;
-/// By which the plot is known.
+/// Accessible name of the plot.
 const PLOT: &str = "Bound against true error";
 
-/// What a set of pairs (bound, truth) says of the bound.
+/// Quality of the bound, from pairs (bound, true error).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Worth {
-    /// Pairs.
+    /// Number of pairs.
     count: usize,
     /// Spearman's rank correlation.
     correlation: f64,
-    /// Share of pairs whose bound is not below the truth.
+    /// Share of pairs whose true error does not exceed the bound.
     holds: f64,
-    /// Median of bound over truth.
+    /// Median of bound over true error.
     effectivity: f64,
 }
 
@@ -47,20 +47,20 @@ impl Worth {
     }
 }
 
-/// What the view shows, made when something changed.
+/// Content of the view, updated after a change.
 pub struct Scatter {
     of: (usize, usize, By),
     worth: Worth,
-    /// (log10 of the truth, log10 of the bound) where the bound holds.
+    /// (log10 of the true error, log10 of the bound) of pairs where the bound holds.
     holds: Vec<PlotPoint>,
-    /// The same where it is.
+    /// The same for pairs where the bound does not hold.
     fails: Vec<PlotPoint>,
-    /// Where the line of perfect bounds begins and ends.
+    /// Ends of the line of perfect bounds.
     line: (f64, f64),
 }
 
 impl Scatter {
-    /// `None` without any pair.
+    /// Returns the content. `None` without any pair.
     fn new(results: &Results) -> Option<Self> {
         let pairs: Vec<(f64, f64)> = results.pairs().collect();
         if pairs.is_empty() {
@@ -81,7 +81,7 @@ impl Scatter {
     }
 }
 
-/// The view.
+/// Draws the view.
 pub fn ui(
     ui: &mut Ui,
     (shown, tests): (&mut Option<Scatter>, &mut RandomTests),
@@ -90,7 +90,7 @@ pub fn ui(
 ) {
     tests_toolbar(ui, context.answers.store(), tests, in_use);
     let Some(results) = &tests.results else {
-        super::parts::nothing_yet(ui, "Run tests with some of them compared in full to see what the bound is worth");
+        super::parts::nothing_yet(ui, "Run the validation with full solutions to see the quality of the bound");
         return;
     };
     let stale = is_former(ui, results, context);
@@ -114,17 +114,17 @@ fn worth_ui(ui: &mut Ui, worth: &Worth) {
         (
             "Rank correlation",
             numbers::digits(worth.correlation, 3),
-            "Spearman’s: 1 when the bound orders all errors rightly",
+            "Spearman’s rank correlation: 1 if the bound orders all errors correctly",
         ),
         (
             "Bound holds",
             format!("{}{}%", numbers::digits(100.0 * worth.holds, 3), numbers::THIN),
-            "Share of tests whose true error is not larger; the promise is 99 %",
+            "Share of contacts whose true error does not exceed the bound; nominally 99 %",
         ),
         (
             "Median effectivity",
             numbers::digits(worth.effectivity, 3),
-            "Bound over true error: 1 would be perfect, below 10 it is worth something",
+            "Bound over true error: 1 is ideal, below 10 is useful",
         ),
     ];
     Grid::new("worth").num_columns(cells.len()).spacing([22.0, 2.0]).show(ui, |ui| {
@@ -153,7 +153,7 @@ fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
         let sample = if *shape == MarkerShape::Down { Sample::Down(RADIUS) } else { Sample::Dot(RADIUS) };
         Entry::new(*name, *color, sample)
     });
-    let entries = entries.chain([Entry::new("bound = truth", palette.reference, Sample::Dashed(1.2))]);
+    let entries = entries.chain([Entry::new("bound = true error", palette.reference, Sample::Dashed(1.2))]);
     key::over(ui, height, entries, |ui, height| {
         let plot = axes::plot(ui, "truth", height, "True relative error of {H_c}", "Bound on the error of {H_c}")
             .decades_x(8.0)
@@ -168,8 +168,8 @@ fn scatter(ui: &mut Ui, shown: &Scatter, stale: bool) {
                 egui_plot::HoverPosition::Elsewhere { .. } => None,
             });
         axes::show(plot, ui, PLOT, |plot| {
-            // Perfect bounds, as far as there are truths.
-            let identity = Line::new("bound = truth", vec![[low, low], [high, high]]).color(palette.reference);
+            // Line of perfect bounds, over the range of the true errors.
+            let identity = Line::new("bound = true error", vec![[low, low], [high, high]]).color(palette.reference);
             plot.line(identity.width(1.2).style(LineStyle::dashed_dense()).allow_hover(false));
             for (name, points, color, shape) in series.into_iter().filter(|s| !s.1.is_empty()) {
                 let points = Points::new(name, PlotPoints::Borrowed(points));

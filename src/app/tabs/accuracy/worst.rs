@@ -1,4 +1,4 @@
-//! The worst of the random tests, failures first. A click goes there.
+//! List of the worst random tests, failures first. A click moves the contact there.
 
 use super::failure_map::{By, stamp};
 use super::random_tests::{Results, bound_of, error_of};
@@ -8,10 +8,10 @@ use crate::app::theme::{Palette, rich};
 use crate::solver::physics::contact::OperatingPoint;
 use egui::{Grid, ScrollArea, Ui};
 
-/// Cases that are listed.
+/// Number of listed cases.
 const LISTED: usize = 60;
 
-/// Indices of the worst tests, sorted when something changed.
+/// Indices of the worst tests, sorted after a change.
 #[derive(Default)]
 pub struct Worst {
     of: Option<(usize, usize, By)>,
@@ -19,7 +19,7 @@ pub struct Worst {
 }
 
 impl Worst {
-    /// Sorts the tests: failures, then by falling error; what has none is left out.
+    /// Sorts the tests: failures first, then by decreasing error. Tests without an error are omitted.
     pub fn sort(&mut self, results: &Results, by: By) {
         if self.of == Some(stamp(results, by)) {
             return;
@@ -36,11 +36,11 @@ impl Worst {
     }
 }
 
-/// The list; returns the contact that was chosen.
+/// Draws the list. Returns the chosen contact.
 pub fn ui(ui: &mut Ui, worst: &Worst, results: &Results) -> Option<OperatingPoint> {
     let palette = Palette::of(ui);
     let mut wanted = None;
-    ui.strong("Worst cases").on_hover_text("Failures first. A click on M and L goes there");
+    ui.strong("Worst cases").on_hover_text("Failures first. Click on M and L to go to the contact");
     ScrollArea::vertical().id_salt("worst").auto_shrink(false).show(ui, |ui| {
         Grid::new("worst").num_columns(4).spacing([10.0, 3.0]).striped(true).show(ui, |ui| {
             for title in ["", "{M}, {L}", "Bound", "True Δ{H_c}"] {
@@ -53,7 +53,7 @@ pub fn ui(ui: &mut Ui, worst: &Worst, results: &Results) -> Option<OperatingPoin
                 ui.weak((place + 1).to_string());
                 let text = format!("{}, {}", numbers::digits(moes.m, 3), numbers::digits(moes.l, 3));
                 let tip = format!(
-                    "Go there: {}, α {}/GPa (Ctrl+Z comes back)",
+                    "Go to this contact: {}, α {}/GPa (Ctrl+Z returns)",
                     numbers::moes(moes),
                     numbers::digits(point.alpha_per_pa * 1e9, 3)
                 );

@@ -1,4 +1,4 @@
-//! The curves of one window, made once, and what is shown of them.
+//! Curves of one local model, computed once, and the settings of their display.
 
 use super::field::Field;
 use super::plane;
@@ -6,19 +6,19 @@ use crate::solver::reduced::{PodBasis, ReducedModel, Window};
 use egui_plot::PlotPoint;
 use std::sync::Arc;
 
-/// What is shown of the bases.
+/// Settings of the display.
 #[derive(Default)]
 pub struct Shown {
-    /// Whose modes are drawn.
+    /// Field whose modes are drawn.
     pub field: Field,
-    /// The first of these modes, from 0.
+    /// First drawn mode, from 0.
     pub first_mode: usize,
-    /// The tolerance that is being dragged.
+    /// Tolerance that is being dragged.
     pub dragging: Option<Field>,
     pub curves: Option<Curves>,
 }
 
-/// Curves of a window.
+/// Curves of a local model.
 pub struct Curves {
     pub(super) window: usize,
     pub(super) model: Arc<ReducedModel>,
@@ -56,7 +56,7 @@ impl Curves {
     }
 }
 
-/// A place and, off the axis, its mirror image.
+/// Returns a place and, if it is not on the axis, its mirror image.
 fn mirrored((xi, y): (f64, f64)) -> impl Iterator<Item = PlotPoint> {
     let image = (y != 0.0).then(|| PlotPoint::new(xi, -y));
     std::iter::once(PlotPoint::new(xi, y)).chain(image)

@@ -1,13 +1,13 @@
-//! Pressure or deformation.
+//! Field of a basis: pressure or deformation.
 
 use crate::app::theme::Palette;
 use crate::solver::reduced::{PodBasis, Window};
 use egui::Color32;
 
-/// Under this name a truncation is refused.
+/// Name under which the refusal of a truncation is stored.
 pub const TRUNCATION: &str = "truncation";
 
-/// Which of the two bases.
+/// Field of a basis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Field {
     #[default]

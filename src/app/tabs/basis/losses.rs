@@ -1,4 +1,4 @@
-//! Singular values and the loss of information, with the tolerances that can be dragged.
+//! Plots of the singular values and of the loss of information, with tolerances that can be dragged.
 
 use super::curves::Shown;
 use super::field::{Field, TRUNCATION};
@@ -13,9 +13,9 @@ use crate::solver::reduced::Window;
 use egui::{Align2, Color32, RichText, Ui};
 use egui_plot::{HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Text, VLine};
 
-/// How near (in screen points) the pointer must be to take a tolerance along.
+/// Distance in screen points within which the pointer can grab a tolerance.
 const GRAB: f32 = 9.0;
-/// Smallest tolerance that can be dragged to, log10.
+/// Smallest tolerance of a drag, log10.
 const LEAST_LOG_LOSS: f64 = -14.0;
 
 fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> PlotFrame<'a> {
@@ -27,7 +27,7 @@ fn log_plot<'a>(ui: &Ui, id: &str, height: f32, title: &str) -> PlotFrame<'a> {
     })
 }
 
-/// Loss of information against the number of modes, with the tolerances.
+/// Draws the loss of information against the number of modes, with the tolerances.
 pub fn loss_plot(
     ui: &mut Ui,
     own: &mut Shown,
@@ -40,7 +40,7 @@ pub fn loss_plot(
     let palette = Palette::of(ui);
     let Some(curves) = &own.curves else { return };
     let projected = view.projected_deformation;
-    // Without a tolerance every mode is kept: the line rests at the loss of the kept modes.
+    // Without a tolerance every mode is used. The line is then at the loss of these modes.
     let resting = |field: Field| {
         let curve = match field {
             Field::Pressure => &curves.loss[0],
@@ -72,7 +72,7 @@ pub fn loss_plot(
                 let width = if dragging == Some(*field) { 2.6 } else { 1.4 };
                 let line = HLine::new("", *level).id(("tolerance", field.name()));
                 plot.hline(line.color(color).width(width).style(LineStyle::dashed_dense()).allow_hover(false));
-                // At the right end, where curves have fallen below it.
+                // The label is at the right end, where the curves are below the tolerance.
                 let end = curves.loss.iter().filter_map(|points| points.last()).map(|last| last.x).fold(1.0, f64::max);
                 let place = PlotPoint::new(end, *level);
                 let text = RichText::new(format!("tolerance {}", numbers::digits(10f64.powf(*level), 1))).size(11.0);
@@ -86,7 +86,8 @@ pub fn loss_plot(
         },
     );
     let transform = shown.transform;
-    let tip = "Drag the dashed tolerance: the model is truncated at once and profiles, error and time per solve answer";
+    let tip = "Drag the dashed tolerance. The model is truncated at once, and profiles, error and time per solve are \
+               updated";
     let response = shown.response;
     let near = |y: f32| {
         lines.iter().find(|(_, level)| (transform.position_from_point(&PlotPoint::new(0.0, *level)).y - y).abs() < GRAB)
@@ -115,7 +116,7 @@ pub fn loss_plot(
     }
 }
 
-/// The name of a falling curve beside it, on the side where the other one is not.
+/// Draws the name of a falling curve, on the side away from the other curve.
 fn name(plot: &mut Canvas<'_, '_>, field: Field, points: &[PlotPoint], color: Color32) {
     let anchor = match field {
         Field::Pressure => Align2::LEFT_BOTTOM,
@@ -126,7 +127,7 @@ fn name(plot: &mut Canvas<'_, '_>, field: Field, points: &[PlotPoint], color: Co
     }
 }
 
-/// Singular values against their number.
+/// Draws the singular values against their number.
 pub fn singular_plot(ui: &mut Ui, own: &Shown, fit: bool, height: f32) {
     let palette = Palette::of(ui);
     let Some(curves) = &own.curves else { return };

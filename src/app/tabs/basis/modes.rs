@@ -1,4 +1,4 @@
-//! Shapes of the modes, and where the rows are sampled: along ξ, and over the plane for a point contact.
+//! Plots of the modes and of the sampled equations: along ξ, and over the plane for a point contact.
 
 use super::curves::Shown;
 use super::field::Field;
@@ -12,18 +12,18 @@ use crate::solver::reduced::{PodBasis, Window};
 use egui::{Color32, ComboBox, Ui};
 use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points};
 
-/// Modes drawn at once.
+/// Number of modes drawn at once.
 const SHOWN_MODES: usize = 4;
-/// Room that the row of choices takes.
+/// Height of the row of choices.
 const CHOICES: f32 = 30.0;
-/// Least height of a plot.
+/// Minimum height of a plot.
 const LEAST: f32 = 90.0;
-/// Radius of the mark of a sampled row.
+/// Radius of the mark of a sampled equation.
 const MARK: f32 = 3.0;
-/// By which the plot is known.
+/// Accessible name of the plot.
 const SHAPES: &str = "Mode shapes";
 
-/// Choices and plots.
+/// Draws choices and plots.
 pub fn ui(ui: &mut Ui, view: &mut Shown, fit: bool, window: &Window, height: f32) {
     let palette = Palette::of(ui);
     let of_points = window.grid.kind() == ContactKind::Point;
@@ -47,11 +47,13 @@ pub fn ui(ui: &mut Ui, view: &mut Shown, fit: bool, window: &Window, height: f32
         view.first_mode = number.clamp(1, most + 1) - 1;
         let rows = window.sampled_rows.len();
         let said = match (of_points, rows == window.grid.unknowns()) {
-            (_, true) => format!("all {rows} rows are used"),
-            (true, false) => format!("{rows} of {} rows are sampled, the marks in the plane", window.grid.unknowns()),
-            (false, false) => format!("{rows} sampled rows as marks along ξ"),
+            (_, true) => format!("all {rows} equations are used"),
+            (true, false) => {
+                format!("{rows} of {} equations are sampled, the marks in the plane", window.grid.unknowns())
+            }
+            (false, false) => format!("{rows} sampled equations as marks along ξ"),
         };
-        // Beside another tab there is little room.
+        // There is little space next to another tab.
         ui.add(egui::Label::new(egui::RichText::new(said).weak()).truncate());
     });
     let (field, first) = (view.field, view.first_mode);
@@ -74,7 +76,7 @@ pub fn ui(ui: &mut Ui, view: &mut Shown, fit: bool, window: &Window, height: f32
         let half = 0.5 * ui.available_width() - 6.0;
         ui.vertical(|ui| {
             ui.set_width(half);
-            // All rows would hide the mode.
+            // Marks of all equations would hide the mode.
             let sampled = curves.rows.len() < grid.unknowns();
             let rows = if sampled { curves.rows.as_slice() } else { &[] };
             curves.plane.ui(ui, (grid, field.of(window)), (field, first), rows, (height, fit));
@@ -86,7 +88,8 @@ pub fn ui(ui: &mut Ui, view: &mut Shown, fit: bool, window: &Window, height: f32
     });
 }
 
-/// Modes along ξ, the first one strongest, with the sampled rows of a line contact as marks.
+/// Draws modes along ξ, the first one in the strongest colour, with marks of the sampled equations of a line
+/// contact.
 fn shapes(
     ui: &mut Ui,
     shown: &[&(Field, usize, Vec<PlotPoint>)],
@@ -104,7 +107,7 @@ fn shapes(
         let (color, width) = look(*k);
         Entry::new(format!("mode {}", k + 1), color, Sample::Line(width))
     });
-    let marks = rows.map(|(_, color)| Entry::new("sampled rows", color, Sample::Up(MARK)));
+    let marks = rows.map(|(_, color)| Entry::new("sampled equations", color, Sample::Up(MARK)));
     let entries: Vec<Entry> = modes.chain(marks).collect();
     key::over(ui, height, entries, |ui, height| {
         let plot = axes::plot(ui, id, height, x_title, "Mode, scaled to 1").default_x_bounds(-2.2, 1.6);
@@ -116,18 +119,18 @@ fn shapes(
                 plot.line(line.color(color).width(width));
             }
             if let Some((rows, color)) = rows {
-                let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
+                let marks = Points::new("Sampled equations", PlotPoints::Borrowed(rows));
                 plot.points(marks.color(color).radius(MARK).shape(MarkerShape::Up));
             }
         });
     });
 }
 
-/// One mode along the axis Y = 0, scaled to a largest magnitude of one: its weights make the columns themselves hard to
-/// compare.
+/// Returns one mode along the axis Y = 0, scaled to a maximum magnitude of one. The columns themselves contain
+/// weights and are hard to compare.
 fn mode_points(basis: &PodBasis, grid: &ContactGrid, k: usize) -> Vec<PlotPoint> {
     let points = plane::scaled(basis, k).into_iter().enumerate().map(|(node, v)| (grid.place(node), v));
-    // A line contact's node arrays begin with one outside the inlet.
+    // The node arrays of a line contact start with a node outside the inlet.
     let outside = usize::from(grid.kind() == ContactKind::Line);
     points.filter(|((_, y), _)| *y == 0.0).skip(outside).map(|((xi, _), v)| PlotPoint::new(xi, v)).collect()
 }

@@ -1,4 +1,4 @@
-//! A mode of a point contact over the plane, with the rows that the reduced model evaluates.
+//! Mode of a point contact over the plane, with the sampled equations of the reduced model.
 
 use super::field::Field;
 use crate::app::figure::Texture;
@@ -11,14 +11,14 @@ use crate::solver::reduced::PodBasis;
 use egui::{Color32, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
-/// Colours between the two signs.
+/// Number of colours between the two signs.
 const SHADES: usize = 257;
-/// Range of X and Y at first.
+/// Initial range of X and Y.
 const RANGE: (f64, f64) = (-1.5, 1.5);
-/// By which the plot is known.
-const PLOT: &str = "Mode and sampled rows on the plane";
+/// Accessible name of the plot.
+const PLOT: &str = "Mode and sampled equations on the plane";
 
-/// One mode as a picture, kept while it is the one to show.
+/// Image of one mode, kept while it is displayed.
 #[derive(Default)]
 pub struct ModeMap {
     texture: Option<Texture>,
@@ -26,7 +26,7 @@ pub struct ModeMap {
 }
 
 impl ModeMap {
-    /// The mode in colour with the sampled rows over it.
+    /// Draws the mode in colour with marks of the sampled equations.
     pub fn ui(
         &mut self,
         ui: &mut Ui,
@@ -44,7 +44,7 @@ impl ModeMap {
             self.made_of = Some((field, mode, ground));
         }
         let entries = [
-            Entry::new("sampled rows", palette.accent, Sample::Dot(2.0)),
+            Entry::new("sampled equations", palette.accent, Sample::Dot(2.0)),
             Entry::new("dry contact (Hertz)", palette.reference, Sample::Dashed(1.0)),
         ];
         let shown = key::over(ui, height, entries, |ui, height| {
@@ -64,17 +64,17 @@ impl ModeMap {
                 let hertz = PlotPoints::from_parametric_callback(circle, 0.0..=std::f64::consts::TAU, 181);
                 let hertz = Line::new("", hertz).id("hertz").color(palette.reference).width(1.0);
                 plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
-                let marks = Points::new("Sampled rows", PlotPoints::Borrowed(rows));
+                let marks = Points::new("Sampled equations", PlotPoints::Borrowed(rows));
                 plot.points(marks.color(palette.accent).radius(1.6).shape(MarkerShape::Circle));
             })
         });
-        let tip = "The first of the chosen modes, coloured where it is positive and grey where it is negative; marks are the sampled rows of \
-            the Reynolds equation and their mirror images, the dashed circle is the Hertzian contact";
+        let tip = "The first of the chosen modes, coloured where it is positive and grey where it is negative. Marks \
+                   are the sampled equations and their mirror images, the dashed circle is the Hertzian contact";
         shown.response.on_hover_text(tip);
     }
 }
 
-/// Colours from one through a second to a third.
+/// Returns colours from a first through a second to a third.
 fn shades(negative: Color32, zero: Color32, positive: Color32) -> Vec<Color32> {
     let middle = (SHADES / 2) as f32;
     let at = |k: usize| {
@@ -84,7 +84,8 @@ fn shades(negative: Color32, zero: Color32, positive: Color32) -> Vec<Color32> {
     (0..SHADES).map(at).collect()
 }
 
-/// A mode over the node array, scaled so that its value of largest magnitude is one: the sign of a mode means nothing.
+/// Returns a mode over the node array, scaled so that its value of largest magnitude is one. The sign of a mode is
+/// arbitrary.
 pub fn scaled(basis: &PodBasis, k: usize) -> Vec<f64> {
     let column = (0..basis.modes.nrows()).map(|i| basis.modes[(i, k)]);
     let largest = column.clone().fold(0.0, |most: f64, v| if v.abs() > most.abs() { v } else { most });

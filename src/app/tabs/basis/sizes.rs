@@ -1,4 +1,4 @@
-//! Error and time against the numbers of modes and of sampled rows, as curves on which both can be dragged.
+//! Plots of error and time against the numbers of modes and of sampled equations. Both numbers can be dragged.
 
 use super::field::TRUNCATION;
 use crate::app::command::Command;
@@ -22,24 +22,24 @@ use std::sync::Arc;
 
 /// Seed of the contacts.
 const SEED: u64 = 5;
-/// Numbers of modes that are tried.
+/// Number of tested numbers of modes.
 const MODES: usize = 9;
-/// Sampled rows per mode that are tried.
+/// Tested numbers of sampled equations per mode.
 const ROWS_PER_MODE: [f64; 5] = [1.0, 1.25, 1.5, 2.0, 3.0];
-/// How near (in screen points) the pointer must be to take a number along.
+/// Distance in screen points within which the pointer can grab a number.
 const GRAB: f32 = 9.0;
 
-/// What was found of a window of a model.
+/// Results for a local model.
 #[derive(Default)]
 pub struct Sizes {
-    /// The model as it was before its rows were changed, and its window.
+    /// Model before its sampled equations were changed, and the index of its local model.
     of: Option<(Arc<ReducedModel>, usize)>,
     rows: Vec<Row>,
     work: Background<StudyRow>,
 }
 
 impl Sizes {
-    /// How far the study is.
+    /// Returns the progress of the study.
     pub fn standing(&self) -> Option<Standing> {
         self.work.standing()
     }
@@ -48,7 +48,7 @@ impl Sizes {
         self.work.stop();
     }
 
-    /// Takes in what came since the last frame.
+    /// Receives results since the last frame.
     pub fn receive(&mut self) {
         let rows = &mut self.rows;
         self.work.receive(|row| {
@@ -58,7 +58,7 @@ impl Sizes {
         });
     }
 
-    /// Asks for the sizes of a window, unless it has been asked for.
+    /// Requests the study of a local model, unless it has been requested already.
     fn follow(&mut self, ui: &Ui, context: &Context<'_>, model: &Arc<ReducedModel>, window: usize) {
         let same = |other: &Arc<ReducedModel>| Arc::ptr_eq(other, model);
         let resampled = self.rows.iter().filter_map(|row| row.model.as_ref()).any(same);
@@ -74,13 +74,13 @@ impl Sizes {
             rows_per_mode: ROWS_PER_MODE.to_vec(),
         };
         let key = Key { point: context.document.point, lubricant: model.domain.lubricant };
-        let question = question("Modes and rows", &key, Grid::Model, Study::ModelSizes(study));
+        let question = question("Modes and equations", &key, Grid::Model, Study::ModelSizes(study));
         let in_use = InUse::new(model, &View::default());
         *self = Self { of: Some((Arc::clone(model), window)), ..Self::default() };
         self.work.run(in_use.ask(ui.ctx(), context.answers.store(), question));
     }
 
-    /// All sizes of a kind, the model's own among the rows.
+    /// Returns all results of a kind. The model itself is included among the numbers of sampled equations.
     fn varied(&self, varied: Varied) -> Vec<&Row> {
         let own = self.rows.iter().rfind(|row| row.varied == Varied::Modes).filter(|_| varied == Varied::Rows);
         let mut found: Vec<&Row> = self.rows.iter().filter(|row| row.varied == varied).chain(own).collect();
@@ -88,7 +88,7 @@ impl Sizes {
         found
     }
 
-    /// The model with so many rows, or the nearest number of them.
+    /// Returns the model with the number of sampled equations nearest to the wanted one.
     fn with_rows(&self, wanted: f64) -> Option<&Arc<ReducedModel>> {
         let (base, _) = self.of.as_ref()?;
         let far = |row: &&&Row| (row.rows as f64 / wanted).ln().abs();
@@ -98,21 +98,21 @@ impl Sizes {
     }
 }
 
-/// The number that an axis shows.
+/// Returns the number on the horizontal axis.
 fn size(row: &Row, varied: Varied) -> usize {
     if varied == Varied::Modes { row.modes } else { row.rows }
 }
 
-/// A column of plots: what is varied, how its axis is called, the number that the model has now.
+/// Column of plots: the varied number, the title of its axis, and the present number of the model.
 struct Column {
     varied: Varied,
     axis: &'static str,
     present: usize,
-    /// Whether its curves were measured with other settings than those in use.
+    /// True if its curves were computed with other settings than those in use.
     grey: bool,
 }
 
-/// The curves.
+/// Draws the curves.
 pub fn ui(
     ui: &mut Ui,
     own: &mut Sizes,
@@ -123,17 +123,17 @@ pub fn ui(
     own.follow(ui, context, model, at);
     let modes = context.answers.options(context.document).pressure_modes.unwrap_or(window.pressure.count());
     ui.horizontal_wrapped(|ui| {
-        let label =
-            ui.label("Median (line) and largest (dots) of random contacts of this window. Drag the upright lines");
-        let tip = "Numbers of modes are tried with the model’s own rows, numbers of rows with all modes, both with the \
-                   exact deformation. Grey: that is not what is in use now";
+        let label = ui
+            .label("Median (line) and maximum (dots) of random contacts of this local model. Drag the vertical lines");
+        let tip = "Numbers of modes are tested with the model’s own equations, numbers of equations with all modes, \
+                   both with the exact deformation. Grey: not the settings in use";
         label.on_hover_text(tip);
         if ui.add_enabled(!own.rows.is_empty(), egui::Button::new("Export sizes…")).clicked() {
             commands.push(Command::csv(csv(own)));
         }
         let (base, _) = own.of.as_ref().map_or((None, 0), |(base, k)| (Some(base), *k));
         let changed = base.filter(|base| !Arc::ptr_eq(base, model));
-        let back = ui.add_enabled(changed.is_some(), egui::Button::new("The model’s own rows"));
+        let back = ui.add_enabled(changed.is_some(), egui::Button::new("The model’s own equations"));
         if let (true, Some(base)) = (back.clicked(), changed) {
             commands.push(Command::UseModel(InUse::new(base, &context.document.view)));
         }
@@ -142,7 +142,8 @@ pub fn ui(
     if let Some(message) = &own.work.message {
         message_ui(ui, message);
     }
-    // What curves belong to: any number of modes of the model as it was made, any of its rows with all modes.
+    // Owners of the curves: the original model with any number of modes, and the model with any number of sampled
+    // equations and all modes.
     let any_modes = View { pressure_loss: context.document.view.pressure_loss, ..View::default() };
     let made = own.of.as_ref().map_or(model, |(base, _)| base);
     let grey = |name: &'static str, of: InUse| drawn::is_grey(ui.ctx(), name, Owner::Model(of), context);
@@ -152,7 +153,7 @@ pub fn ui(
     ];
     let columns = [
         Column { varied: Varied::Modes, axis: "Pressure modes {k}", present: modes, grey: grey[0] },
-        Column { varied: Varied::Rows, axis: "Sampled rows", present: window.sampled_rows.len(), grey: grey[1] },
+        Column { varied: Varied::Rows, axis: "Sampled equations", present: window.sampled_rows.len(), grey: grey[1] },
     ];
     let height = (0.5 * ui.available_height() - 4.0).max(80.0);
     let width = 0.5 * ui.available_width() - 6.0;
@@ -168,7 +169,7 @@ pub fn ui(
                 Varied::Modes => {
                     let most = window.pressure.count();
                     let wanted = (to.round().max(1.0) as usize).min(most);
-                    // A little more, so that rounding keeps this many.
+                    // The loss is slightly increased, so that rounding errors do not remove a mode.
                     let loss = (wanted < most).then(|| window.pressure.basis().loss(wanted) * (1.0 + 1e-6));
                     let view = View { pressure_loss: loss, ..context.document.view };
                     if view != context.document.view {
@@ -185,12 +186,12 @@ pub fn ui(
     });
 }
 
-/// Errors or times of a column; returns where the hand takes the present number.
+/// Draws errors or times of a column. Returns the number to which the user drags the present one.
 fn plot(ui: &mut Ui, own: &Sizes, column: &Column, errors: bool, height: f32, fit: bool) -> Option<f64> {
     let palette = Palette::of(ui);
     let Column { varied, axis, present, grey } = *column;
     let (y_title, what) = if errors { ("Error of {H_c}", "Error") } else { ("Time [ms]", "Time") };
-    let against = if varied == Varied::Modes { "modes" } else { "rows" };
+    let against = if varied == Varied::Modes { "modes" } else { "equations" };
     let name = format!("{what} against {against}");
     let rows = own.varied(varied);
     let point = |row: &&Row, value: f64| [size(row, varied) as f64, if errors { value.log10() } else { 1e3 * value }];
@@ -247,7 +248,7 @@ fn csv(own: &Sizes) -> String {
         let numbers = [row.modes as f64, row.rows as f64, row.failures as f64, middle, largest, seconds];
         numbers.map(Some).to_vec()
     };
-    let header = ["modes", "rows", "failures", "H_c_error_median", "H_c_error_max", "median_s"];
+    let header = ["modes", "equations", "failures", "H_c_error_median", "H_c_error_max", "median_s"];
     let comment = own.of.as_ref().map_or_else(String::new, |(model, window)| {
         format!("{}, window {}, random contacts with seed {SEED}", model.title, window + 1)
     });

@@ -1,5 +1,5 @@
-//! The reduced basis: how fast the singular values fall, what the tolerances keep, what the modes look like, where rows
-//! are sampled.
+//! Reduced basis tab: decay of the singular values, effect of the tolerances, shapes of the modes, sampled
+//! equations.
 
 use super::curves::{Curves, Shown};
 use super::field::TRUNCATION;
@@ -19,27 +19,27 @@ use egui::Ui;
 
 use std::sync::Arc;
 
-/// What stands below the losses.
+/// Content below the losses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 enum Below {
-    /// Shapes of the modes and sampled rows.
+    /// Shapes of the modes and sampled equations.
     #[default]
     Modes,
     /// Error and time against their numbers.
     Sizes,
-    /// The pressure of the contact, and what the reduced one differs by.
+    /// Pressure of the contact, and its difference to the full solution.
     Difference,
 }
 
 impl Below {
     const ALL: [(Self, &str); 3] = [
-        (Self::Modes, "Modes and rows"),
+        (Self::Modes, "Modes and equations"),
         (Self::Sizes, "Error and time"),
         (Self::Difference, "Profile and difference"),
     ];
 }
 
-/// State of the tab, with the curves of one window.
+/// State of the tab, with the curves of one local model.
 #[derive(Default)]
 pub struct Basis {
     below: Below,
@@ -48,13 +48,13 @@ pub struct Basis {
 }
 
 const ABOUT: About = About {
-    keywords: "singular values modes truncation sampled rows",
+    keywords: "singular values modes truncation sampled equations rows hyper-reduction",
     page: "training.md",
     has_units: true,
-    why: "Pressures of all contacts of a range look alike: a few dozen shapes, the modes, add up to every one of \
-          them. How fast the singular values fall says how many are needed for an error that you choose. The \
-          equations are then solved at a few places only, the sampled rows, which crowd where little is decided \
-          elsewhere: at the inlet and at the spike.",
+    why: "The pressures of all contacts of a range are similar, so that a few dozen shapes, the modes, represent each \
+          of them. The decay of the singular values shows how many modes a chosen error needs. The reduced model then \
+          evaluates only some of the equations, the sampled equations, most of which lie at the inlet and at the \
+          spike.",
 };
 
 impl View for Basis {
@@ -117,7 +117,7 @@ impl View for Basis {
         let window = model.and_then(|model| model.windows.get(model.window_for(&context.document.point)));
         let tip = "Singular values and loss of information";
         let whole =
-            "Bases, singular values, sampled rows and snapshots of every window, in one archive that numpy reads";
+            "Bases, singular values, sampled equations and snapshots of every local model, in one archive for numpy";
         vec![
             Offer::table("Singular values as CSV…", tip, window, |window| csv(window)),
             Offer::arrays("Model as npz…", whole, model, |model| model_arrays::of_model(model)),
@@ -149,7 +149,7 @@ fn toolbar(
     badge::ui(ui, context);
     ui.horizontal_wrapped(|ui| {
         ui.label(format!(
-            "Window {} of {}, M {}…{}, {} of {} modes",
+            "Local model {} of {}, M {}…{}, {} of {} modes",
             at + 1,
             model.windows.len(),
             numbers::digits(window.m.0, 3),
@@ -157,7 +157,7 @@ fn toolbar(
             options.pressure_modes.unwrap_or(window.pressure.count()),
             window.pressure.count()
         ));
-        ui.weak(format!("Films rupture by {}", model.domain.lubricant.cavitation.name()));
+        ui.weak(format!("Cavitation: {}", model.domain.lubricant.cavitation.name()));
         if window.scheme != Scheme::Galerkin {
             ui.weak(format!("Steps by {}", window.scheme.name()));
         }

@@ -1,11 +1,11 @@
-//! Contour lines of a field on a rectangular grid: marching squares, joined to polylines.
+//! Contour lines of a field on a rectangular grid by marching squares, joined to polylines.
 
 use std::collections::HashMap;
 
-/// A line of equal value, as places (X, Y).
+/// Contour line as places (X, Y).
 pub type Polyline = Vec<[f64; 2]>;
 
-/// The field whose contours are wanted: values at nodes (i, j) with the index i·n_y + j.
+/// Field for contour lines: values at nodes (i, j) with the index i·n_y + j.
 pub struct Field<'a> {
     /// Abscissae.
     pub x: &'a [f64],
@@ -14,11 +14,11 @@ pub struct Field<'a> {
     pub values: &'a [f64],
 }
 
-/// An edge of the grid: from a node to its neighbour along X, or to that along Y.
+/// Edge of the grid: from a node to its neighbour along X if true, along Y if false.
 type Edge = (usize, bool);
 
 impl Field<'_> {
-    /// All lines of one level.
+    /// Returns all contour lines of one level.
     pub fn contours(&self, level: f64) -> Vec<Polyline> {
         let ny = self.y.len();
         let mut segments: Vec<[Edge; 2]> = Vec::new();
@@ -27,13 +27,13 @@ impl Field<'_> {
                 let node = i * ny + j;
                 let corners = [node, node + ny, node + ny + 1, node + 1];
                 let above = corners.map(|k| self.values[k] > level);
-                // Edges of the cell in the order of its corners: each lies between one corner and the next.
+                // Edges of the cell in the order of its corners. Each lies between one corner and the next.
                 let edges = [(node, true), (node + ny, false), (node + 1, true), (node, false)];
                 let crossed: Vec<Edge> = (0..4).filter(|&k| above[k] != above[(k + 1) % 4]).map(|k| edges[k]).collect();
                 match *crossed.as_slice() {
                     [a, b] => segments.push([a, b]),
                     [a, b, c, d] => {
-                        // A saddle: its middle says which corners belong together.
+                        // At a saddle the value at the centre decides which corners are connected.
                         let middle = 0.25 * corners.iter().map(|&k| self.values[k]).sum::<f64>() > level;
                         if middle == above[0] {
                             segments.extend([[a, b], [c, d]]);
@@ -48,7 +48,7 @@ impl Field<'_> {
         self.joined(&segments, level)
     }
 
-    /// Where the level crosses an edge.
+    /// Returns the place where the level crosses an edge.
     fn crossing(&self, (node, along_x): Edge, level: f64) -> [f64; 2] {
         let ny = self.y.len();
         let other = if along_x { node + ny } else { node + 1 };
@@ -66,7 +66,7 @@ impl Field<'_> {
             }
         }
         let mut used = vec![false; segments.len()];
-        // From the end of a line onwards, along segments that were not walked yet.
+        // Follows unused segments from the end of a line.
         let walk = |mut edge: Edge, used: &mut Vec<bool>| {
             let mut path = Vec::new();
             while let Some(&next) = at.get(&edge).and_then(|all| all.iter().find(|&&k| !used[k])) {

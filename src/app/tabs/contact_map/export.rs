@@ -1,11 +1,11 @@
-//! The map for other programs: all nodes as a table, and what is said above its picture.
+//! Export of the map: all nodes as a table, and the caption of its image.
 
 use super::map_view::Shown;
 use crate::app::answers::Answers;
 use crate::app::answers::picture::Picture;
 use crate::app::{caption, export as tables};
 
-/// All nodes of both halves, X after X, with their SI twins.
+/// Returns all nodes of both halves, ordered by X, with dimensionless and SI values.
 pub fn csv(picture: &Picture, means: String) -> String {
     let (hertz, scale) = (picture.key.point.hertz(), picture.key.point.film_scale_m());
     let solution = &picture.solution;
@@ -23,7 +23,7 @@ pub fn csv(picture: &Picture, means: String) -> String {
     tables::csv(&comments, &["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"], rows)
 }
 
-/// What a picture of the map has to say beyond the contact: nodes, means, and the light of an interferogram.
+/// Returns the part of the caption after the contact: nodes, method, and the light of an interferogram.
 pub fn particulars(answers: &Answers, view: &super::map_view::MapView) -> Option<String> {
     let picture = answers.picture()?;
     let rig = &view.rig;

@@ -1,4 +1,4 @@
-//! The map as a texture and its contour lines, made anew only when the solution or what is shown of it changes.
+//! Image and contour lines of the map, updated only when the solution or its display changes.
 
 use super::contours::Field;
 use super::map_view::{MapView, Shown, mid_film_rises};
@@ -15,10 +15,10 @@ use egui_plot::PlotPoint;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// A contour line, with its name and where that stands on the longest of its level.
+/// Contour line. The longest line of each level also has its name and the position of the name.
 pub type Contour = (Option<(PlotPoint, String)>, Vec<PlotPoint>);
 
-/// What the tab keeps between frames.
+/// Images kept between frames.
 #[derive(Default)]
 pub struct Images {
     texture: Option<Texture>,
@@ -28,13 +28,13 @@ pub struct Images {
     made_of: Option<(Arc<Solution>, MapView)>,
 }
 
-/// The upper end of a scale of temperatures at least \[K\].
+/// Minimum upper end of a temperature scale \[K\].
 const LEAST_K: f64 = 0.1;
 
-/// Contour lines wanted between both ends of the scale.
+/// Approximate number of contour lines between the ends of the scale.
 const LINES: f64 = 8.0;
 impl Images {
-    /// Makes image and contours anew where they are out of date.
+    /// Updates image and contour lines if they are out of date.
     pub fn follow(&mut self, ctx: &Context, picture: &Picture, view: &MapView) {
         let solution = &picture.solution;
         if self.made_of.as_ref().is_some_and(|(of, with)| Arc::ptr_eq(of, solution) && with == view) {
@@ -52,31 +52,31 @@ impl Images {
         self.made_of = Some((Arc::clone(solution), *view));
     }
 
-    /// The texture and the domain it covers in units of a: inlet, outlet, outer edge.
+    /// Returns the texture and its domain in units of a: inlet, outlet, outer edge.
     pub fn texture(&self, ctx: &Context) -> Option<(TextureId, (f64, f64, f64))> {
         self.texture.as_ref().map(|texture| (texture.shown(ctx), self.domain))
     }
 
-    /// The contour lines of both halves.
+    /// Returns the contour lines of both halves.
     pub fn contours(&self) -> &[Contour] {
         &self.contours
     }
 
-    /// Values at the ends of the scale.
+    /// Returns the values at the ends of the scale.
     pub fn range(&self) -> (f64, f64) {
         self.range
     }
 
-    /// The image as a PNG file; empty where there is none.
+    /// Returns the image as a PNG file. Empty if there is none.
     pub fn png(&self) -> Vec<u8> {
         self.texture.as_ref().map_or_else(Vec::new, |texture| encode(&pixels(texture.image()), None))
     }
 }
 
-/// Ends of the scale: round, so that colours stay still while the contact moves.
+/// Returns the ends of the scale. They are round, so that colours stay fixed while the contact changes.
 fn range(solution: &Solution, shown: Shown) -> (f64, f64) {
     match shown {
-        // Little more than the contact itself: its side lobes are what the colours are for.
+        // The scale ends just above the film thickness of the contact, so that the colours resolve the side lobes.
         Shown::Film => {
             let high = numbers::round_up(1.5 * solution.scalars.h_c);
             let unit = high / UNITS;
@@ -91,12 +91,12 @@ fn range(solution: &Solution, shown: Shown) -> (f64, f64) {
     }
 }
 
-/// The colours of a field's scale: film is bright where it is thin, pressure where it is high.
+/// Returns the colours of a field's scale. Thin film and high pressure are bright.
 pub fn table(shown: Shown) -> Vec<Color32> {
     color_map::table(shown == Shown::Film)
 }
 
-/// What a map shows, node array.
+/// Returns the displayed field as a node array.
 fn values(solution: &Solution, shown: Shown) -> Cow<'_, [f64]> {
     match (shown, solution.heat.as_deref()) {
         (Shown::Temperature, Some(heat)) => Cow::Owned(mid_film_rises(heat)),
@@ -123,7 +123,7 @@ fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
     }
 }
 
-/// Contours at round levels in units of a, each with its mirror image.
+/// Returns contour lines at round levels in units of a, each with its mirror image.
 fn contours(solution: &Solution, kappa: f64, shown: Shown, (low, high): (f64, f64)) -> Vec<Contour> {
     let values = values(solution, shown);
     let field = Field { x: &solution.x, y: &solution.y, values: &values };
@@ -132,7 +132,7 @@ fn contours(solution: &Solution, kappa: f64, shown: Shown, (low, high): (f64, f6
     let mut all = Vec::new();
     for k in levels {
         let level = step * k as f64;
-        // Names of neighbours stand apart: each the golden section of its line further on.
+        // Names of neighbouring lines are placed apart, each further along its line by the golden section.
         let place = (0.618 * k as f64).fract();
         let lines = field.contours(level);
         let longest = lines.iter().map(Vec::len).max().unwrap_or(0);

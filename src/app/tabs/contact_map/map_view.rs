@@ -4,7 +4,7 @@ use crate::solver::full::heat::Temperatures;
 use crate::solver::physics::optics::Interferometer;
 use serde::{Deserialize, Serialize};
 
-/// What the map shows.
+/// Displayed field of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Shown {
     /// Film thickness.
@@ -13,12 +13,12 @@ pub enum Shown {
     Pressure,
     /// Interference of light in the film.
     Interferogram,
-    /// Rise of temperature at mid-film, where heat was computed.
+    /// Temperature rise at mid-film, for a thermal contact.
     Temperature,
 }
 
 impl Shown {
-    /// All of them in their order.
+    /// All fields in their order.
     pub const ALL: [Self; 4] = [Self::Film, Self::Pressure, Self::Interferogram, Self::Temperature];
 
     pub fn name(self) -> &'static str {
@@ -30,30 +30,31 @@ impl Shown {
         }
     }
 
-    /// Returns what it is, for the pointer.
+    /// Returns the tooltip.
     pub fn tip(self) -> &'static str {
         match self {
             Self::Film => "H over the plane, bright where the film is thin: the horseshoe with its side lobes",
             Self::Pressure => "P over the plane",
             Self::Interferogram => {
-                "What an optical rig shows: a glass disc in place of one body, light reflected at both sides of the film"
+                "Image of an optical rig: a glass disc replaces one body, and light is reflected at both sides of the \
+                 film"
             }
-            Self::Temperature => "The rise of temperature at mid-film over the plane",
+            Self::Temperature => "The temperature rise at mid-film over the plane",
         }
     }
 }
 
-/// Settings of the map; not part of the document.
+/// Settings of the map. They are not part of the document.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MapView {
-    /// What is drawn.
+    /// Displayed field.
     pub shown: Shown,
-    /// Whether contour lines are drawn over it.
+    /// True if contour lines are drawn over it.
     pub contours: bool,
-    /// The optics of the interferogram.
+    /// Optics of the interferogram.
     pub rig: Interferometer,
-    /// Whether it is drawn in three colours rather than in one.
+    /// True for three colours, false for one.
     pub three_colors: bool,
 }
 
@@ -63,7 +64,7 @@ impl Default for MapView {
     }
 }
 
-/// Rises at mid-film \[K\] of all nodes.
+/// Returns the temperature rises at mid-film \[K\] of all nodes.
 pub fn mid_film_rises(heat: &Temperatures) -> Vec<f64> {
     heat.rises().map(|rises| rises.mid_film_k).collect()
 }

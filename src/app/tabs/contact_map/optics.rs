@@ -1,4 +1,4 @@
-//! The optics of the interferogram: light, refractive index, phase and visibility, and the formula they stand in.
+//! Optics of the interferogram: light, refractive index, phase and visibility, and their formula.
 
 use super::map_view::MapView;
 use crate::app::controls::{described, named};
@@ -7,26 +7,26 @@ use crate::app::theme::{Palette, rich};
 use crate::solver::physics::optics::Interferometer;
 use egui::{DragValue, Ui};
 
-/// A number of the optics as it is shown and changed.
+/// Number of the optics as a field.
 struct Dial {
     symbol: &'static str,
     name: &'static str,
     tip: &'static str,
-    /// Own units per shown unit.
+    /// Value of one displayed unit in internal units.
     scale: f64,
     range: (f64, f64),
     speed: f64,
     unit: &'static str,
 }
 
-/// A dial in SI units.
+/// Returns a field in SI units.
 const fn dial(symbol: &'static str, name: &'static str, range: (f64, f64), speed: f64, tip: &'static str) -> Dial {
     Dial { symbol, name, tip, scale: 1.0, range, speed, unit: "" }
 }
 
 const WAVELENGTH_TIP: &str = "Wavelength of the monochromatic light in vacuum";
-const INDEX_TIP: &str = "Of the oil; under 1 GPa it is some per cent higher";
-const PHASE_TIP: &str = "What the reflections at coating and ball add; 180° makes touching surfaces dark";
+const INDEX_TIP: &str = "Refractive index of the oil; a few per cent higher at 1 GPa";
+const PHASE_TIP: &str = "Phase shift by the reflections at coating and ball; at 180° touching surfaces are dark";
 const VISIBILITY_TIP: &str = "Contrast of the fringes: 1 where both beams are equally strong";
 
 const WAVELENGTH: Dial =
@@ -36,11 +36,11 @@ const PHASE: Dial =
     Dial { scale: std::f64::consts::PI / 180.0, unit: "°", ..dial("{φ}", "Phase", (0.0, 360.0), 1.0, PHASE_TIP) };
 const VISIBILITY: Dial = dial("{V}", "Visibility", (0.0, 1.0), 0.01, VISIBILITY_TIP);
 
-/// Whether optics that were read from a file are such as can be set.
+/// Returns true if optics read from a file are within their ranges.
 pub fn are_sound(rig: &Interferometer) -> bool {
     let numbers = [rig.wavelength_m, rig.refractive_index, rig.phase, rig.visibility];
     let dials = [WAVELENGTH, REFRACTIVE_INDEX, PHASE, VISIBILITY];
-    // Degrees and back may leave the last digit another.
+    // The conversion to degrees and back may change the last digit.
     dials
         .iter()
         .zip(numbers)
@@ -63,7 +63,7 @@ impl Dial {
     }
 }
 
-/// The row of the optics.
+/// Draws the row of the optics.
 pub fn ui(ui: &mut Ui, view: &mut MapView) {
     ui.horizontal_wrapped(|ui| {
         let tip = "630, 532 and 460 nm at once, as a three-colour camera sees them";

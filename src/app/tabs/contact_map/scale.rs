@@ -1,4 +1,4 @@
-//! The colour bar beside the map, with its values and their SI twins.
+//! Colour bar of the map, with dimensionless and SI values.
 
 use super::images::{Images, table};
 use super::map_view::{MapView, Shown};
@@ -8,7 +8,7 @@ use crate::app::plot::raster;
 use crate::app::units::Scales;
 use egui::{Color32, Ui};
 
-/// The bar.
+/// Draws the bar.
 pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, height: f32) {
     let scales = Scales::of(&picture.key.point);
     let (title, name, in_si) = match view.shown {
@@ -21,18 +21,18 @@ pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, heigh
     color_bar::ui(ui, title, (&colors, images.range()), height, |value| si(picture, view, value));
 }
 
-/// A value of the scale with its unit.
+/// Returns a value of the scale with its unit.
 pub fn si(picture: &Picture, view: &MapView, value: f64) -> String {
     let point = &picture.key.point;
     match view.shown {
         Shown::Pressure => in_gigapascals(value * point.hertz().pressure_pa),
-        // The numbers of the scale are kelvins.
+        // The numbers of the scale are in kelvin already.
         Shown::Temperature => String::new(),
         _ => in_nanometres(value * point.film_scale_m()),
     }
 }
 
-/// The colours of the bar from its lower end to its upper one.
+/// Returns the colours of the bar from its lower to its upper end.
 pub fn colors(picture: &Picture, view: &MapView, (low, high): (f64, f64)) -> Vec<Color32> {
     let place = |k: usize| (k as f64 + 0.5) / STRIPS as f64;
     if view.shown == Shown::Interferogram {

@@ -1,5 +1,5 @@
-//! The contact map: film or pressure of a point contact over the whole plane, and the interferogram that a rig shows of
-//! it. Two lines that can be dragged say where Profiles cuts it.
+//! Contact map tab: film thickness or pressure of a point contact over the whole plane, and its interferogram. Two
+//! lines that can be dragged mark the cuts of the Profiles tab.
 
 use super::images::Images;
 use super::map_view::{MapView, Shown};
@@ -25,52 +25,53 @@ use crate::solver::physics::contact::ContactKind;
 use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, Vec2, vec2};
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotBounds, PlotPoint, PlotPoints, PlotTransform, Text, VLine};
 
-/// X range at first.
+/// Initial X range.
 const X_RANGE: (f64, f64) = (-2.0, 1.6);
-/// Y range at first, in units of b, to both sides.
+/// Initial Y range to both sides, in units of b.
 const Y_RANGE: f64 = 1.45;
-/// Room that the numbers and titles of both axes take.
+/// Space for numbers and titles of both axes.
 const AXES: Vec2 = vec2(66.0, 44.0);
-/// How near (in screen points) the pointer must be to take a cut along.
+/// Distance in screen points within which the pointer can grab a cut.
 const GRAB: f32 = 7.0;
 
-/// By which the map is known to screen readers and as a picture.
+/// Accessible name of the map, also used for the export.
 const NAME: &str = "Map of the contact";
 
-/// The tab: what it shows, and the images it keeps between frames.
+/// Contact map tab: its settings, and the images kept between frames.
 #[derive(Default)]
 pub struct ContactMap {
-    /// What is shown.
+    /// Settings of the map.
     pub view: MapView,
     images: Images,
-    /// κ of the ellipse that the axes were laid about.
+    /// κ of the elliptical contact that the axes were fitted to.
     framed: Option<f64>,
-    /// A line contact over time.
+    /// Map of a line contact over time.
     over_time: space_time::SpaceTime,
 }
 
 impl ContactMap {
-    /// What a line contact has instead: a ball in its place with one click, and its film over time.
+    /// Draws the content for a line contact: a button that changes to a point contact, and the film thickness over
+    /// time.
     fn line(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
-            let tip = "A point contact with the same quantities, whose film differs over the plane";
-            if ui.button("Show a ball instead").on_hover_text(tip).clicked() {
+            let tip = "A circular contact with the same quantities";
+            if ui.button("Show a circular contact").on_hover_text(tip).clicked() {
                 commands.edit(Edit::Shape(Shape::Ball), "contact");
             }
-            ui.weak("A line contact is the same at every Y: what it has is its film over time.");
+            ui.weak("A line contact is the same at every Y. The map shows its film thickness over time.");
         });
         if let Some(why) = context.document.no_transient() {
             ui.weak(sentence(why));
             return;
         }
         shared::follow(context, commands);
-        // Rooms of their own, so that nothing moves as runs begin and end.
+        // Fixed heights, so that nothing moves when runs start and end.
         shared::status(ui, context, None);
         let size = vec2(ui.available_width(), ui.available_height() - 30.0);
         let shown = ui.allocate_ui_with_layout(size, Layout::top_down(Align::LEFT), |ui| {
             ui.set_min_size(size);
             shared::grey_where_stale(ui, context, "film over time");
-            // A little less than its room, so that rounding moves nothing either.
+            // Slightly less than the available height, so that rounding does not move anything.
             self.over_time.ui(ui, context, size.y - 4.0)
         });
         let wanted = shown.inner;
@@ -90,7 +91,7 @@ impl ContactMap {
             let field = self.view.shown != Shown::Interferogram;
             ui.add_enabled(field, egui::Checkbox::new(&mut self.view.contours, "Contours"))
                 .on_hover_text("Lines of equal value")
-                .on_disabled_hover_text("Fringes are lines of equal film already");
+                .on_disabled_hover_text("Fringes are lines of equal film thickness already");
             cut_line::cuts_ui(ui, context, commands);
         });
     }
@@ -100,10 +101,9 @@ const ABOUT: About = About {
     keywords: "interferogram fringes contours horseshoe side lobes",
     page: "tour.md",
     has_units: true,
-    why: "Seen from above the film has a flat middle and a horseshoe of thin film around its sides and its outlet, \
-          where pressure drives oil out. The thinnest places are the two side lobes: there surfaces touch first. \
-          The interferogram shows the same film as a rig with a glass disc photographs it, each colour one \
-          thickness.",
+    why: "Seen from above, the film is flat in the middle and thin in a horseshoe around the sides and the outlet, \
+          where pressure drives oil out. The film is thinnest in the two side lobes, where surfaces touch first. The \
+          interferogram shows the same film as photographed in a rig with a glass disc, each colour one thickness.",
 };
 
 impl View for ContactMap {
@@ -130,7 +130,7 @@ impl View for ContactMap {
         };
         let stale = drawn::is_grey(ui.ctx(), "map", Owner::Contact(picture.key), context);
         let view = match (self.view.shown, &picture.solution.heat) {
-            // The last picture without heat, until the first one with it is there.
+            // Show the last isothermal picture until the first thermal one is available.
             (Shown::Temperature, None) => MapView { shown: Shown::Film, ..self.view },
             _ => self.view,
         };
@@ -157,7 +157,7 @@ impl View for ContactMap {
             return vec![space_time::offer(context)];
         }
         let picture = context.answers.picture().filter(|picture| picture.has_plane());
-        let tip = "X, Y, P, H of all nodes of both halves, with their SI twins";
+        let tip = "X, Y, P, H of all nodes of both halves, dimensionless and in SI units";
         let image = || Command::Ask(Purpose::Write(Written::Png, self.images.png().into()));
         vec![
             Offer::table("Map as CSV…", tip, picture, |picture| export::csv(picture, context.answers.means())),
@@ -183,7 +183,7 @@ impl View for ContactMap {
     }
 }
 
-/// What the hand takes along: the cut at X, and that at Y.
+/// Returns the draggable cuts, at X and at Y.
 fn grips() -> [Grip; 2] {
     ["cut x", "cut y"].map(|cut| Grip::new("map", cut))
 }
@@ -217,14 +217,14 @@ fn drag_cuts(
     }
 }
 
-/// What is drawn in one frame.
+/// Content of one frame.
 struct Drawing<'a> {
     picture: &'a Picture,
     images: &'a Images,
     view: MapView,
     cuts: Cuts,
     fit: bool,
-    /// Whether the axes have room for the ellipse already.
+    /// True if the axes already fit the elliptical contact.
     framed: bool,
     stale: bool,
 }
@@ -235,7 +235,7 @@ impl Drawing<'_> {
         let held = grips().iter().any(|grip| grip.is_held(ui));
         let Self { picture, images, view, cuts, fit, framed, stale } = *self;
         let length_mm = Scales::of(&picture.key.point).length_mm;
-        // Drawn in units of a both ways, so that an ellipse has its true shape.
+        // Both axes are in units of a, so that an elliptical contact has its true shape.
         let kappa = picture.kappa();
         let (from, to) = frame(kappa, vec2(ui.available_width(), height) - AXES);
         let y_title = if kappa == 1.0 { "{Y} = {y}/{a}" } else { "{y}/{a}" };
@@ -263,7 +263,7 @@ impl Drawing<'_> {
                 let hertz = Line::new("", hertz).id("hertz").color(faded(Color32::WHITE, 0.75)).width(1.0);
                 plot.line(hertz.style(LineStyle::dashed_dense()).allow_hover(false));
                 let color = if view.shown == Shown::Interferogram { Color32::WHITE } else { palette.accent };
-                // For the hand: they are no part of a figure.
+                // These lines are for dragging and are not part of a figure.
                 let plot: &mut egui_plot::PlotUi<'_> = plot;
                 plot.vline(VLine::new("", cuts.x).id("cut x").color(color).width(1.6).allow_hover(false));
                 plot.hline(HLine::new("", kappa * cuts.y).id("cut y").color(color).width(1.6).allow_hover(false));
@@ -274,7 +274,8 @@ impl Drawing<'_> {
     }
 }
 
-/// Axes about the whole of an ellipse in some room on the screen; about a circle those of always.
+/// Returns axis ranges that show a whole elliptical contact in the available space. For a circular contact they are
+/// constant.
 fn frame(kappa: f64, room: Vec2) -> ([f64; 2], [f64; 2]) {
     let (middle, half) = (0.5 * (X_RANGE.0 + X_RANGE.1), 0.5 * (X_RANGE.1 - X_RANGE.0));
     let up = kappa * Y_RANGE;
@@ -283,7 +284,7 @@ fn frame(kappa: f64, room: Vec2) -> ([f64; 2], [f64; 2]) {
     ([middle - across, -up], [middle + across, up])
 }
 
-/// Lines that show on every colour of the map.
+/// Draws contour lines that are visible on every colour of the map.
 fn contour_lines<'a>(plot: &mut Canvas<'_, 'a>, images: &'a Images) {
     let color = Color32::from_white_alpha(170);
     for (k, (name, line)) in images.contours().iter().enumerate() {
@@ -334,15 +335,15 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
     ))
 }
 
-/// The map in words.
+/// Returns the map as text for screen readers.
 fn spoken(picture: &Picture, view: &MapView) -> String {
     let (s, scale) = (picture.solution.scalars, picture.key.point.film_scale_m());
     let heat = picture.solution.heat.as_deref();
     let warms = heat.map_or_else(String::new, |heat| {
-        format!(", the film warms by {} at most", numbers::quantity(heat.largest.mid_film_k, "K"))
+        format!(", maximum temperature rise {}", numbers::quantity(heat.largest.mid_film_k, "K"))
     });
     format!(
-        "{} of {}: central film {}, smallest {} at X {}, Y ±{}{warms}",
+        "{} of {}: central film thickness {}, minimum {} at X {}, Y ±{}{warms}",
         view.shown.name(),
         numbers::contact(&picture.key.point),
         numbers::length(s.h_c * scale),

@@ -1,4 +1,4 @@
-//! What the plots of profiles have in common: live, full and pinned curves, their names and marks.
+//! Common parts of the plots of profiles: live, full and pinned curves, their names and marks.
 
 use crate::app::answers::Pin;
 use crate::app::answers::picture::{Cuts, Origin, Picture, value_at};
@@ -15,38 +15,38 @@ use crate::solver::physics::lubricant::Cavitation;
 use egui::{Align2, Color32, Id, Ui, Vec2b};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Span, Text};
 
-/// Where the first pinned curve bears its number, and how much further every other one.
+/// Position of the number on the first pinned curve, and distance to that of the next one.
 const PIN_LABELS: (f64, f64) = (-0.92, 0.1);
 
 fn pin_name(pin: &Pin) -> String {
     format!("Pin {}: {}", pin.number, numbers::contact(&pin.picture.key.point))
 }
 
-/// What the plots of the tab show.
+/// Content of the plots of the tab.
 pub struct Scene<'a> {
-    /// The live picture.
+    /// Live picture.
     pub picture: &'a Picture,
-    /// The full solution over it.
+    /// Full solution drawn over it.
     pub full: Option<&'a Picture>,
     /// Pinned curves.
     pub pins: &'a [Pin],
-    /// Whether the live picture belongs to a former contact.
+    /// True if the live picture belongs to a previous contact.
     pub stale: bool,
-    /// The same of the full solution.
+    /// True if the full solution belongs to a previous contact.
     pub full_stale: bool,
-    /// Whether plots are to be fitted to their data.
+    /// True if plots shall be fitted to their data.
     pub fit: bool,
-    /// Where a point contact is cut.
+    /// Position of the cuts through a point contact.
     pub cuts: Cuts,
 }
 
 impl<'a> Scene<'a> {
-    /// Where the other profile cuts a point contact, in the plot of one quantity.
+    /// Returns the line where the other profile cuts a point contact, in the plot of one quantity.
     pub fn cut_line(&self, direction: Direction, plot: &str) -> Option<CutLine> {
         self.picture.has_plane().then(|| CutLine::new(&direction.id(plot), direction.other(self.cuts)))
     }
 
-    /// Pinned, live and full curves of one quantity; returns the colour of the live one.
+    /// Draws pinned, live and full curves of one quantity. Returns the colour of the live one.
     pub fn curves(
         &self,
         plot: &mut Canvas<'_, 'a>,
@@ -55,7 +55,7 @@ impl<'a> Scene<'a> {
         of: impl Fn(&'a Picture) -> &'a [PlotPoint],
         unit: fn(Scales) -> f64,
     ) -> Color32 {
-        // In SI units a curve of another contact keeps its own scales on the axes of this one.
+        // In SI units a curve of another contact is converted with its own scales to the axes of this one.
         let own = Scales::of(&self.picture.key.point);
         let units = Units::of(plot.ctx());
         let fitted = |picture: &'a Picture| {
@@ -71,7 +71,7 @@ impl<'a> Scene<'a> {
         };
         for (k, pin) in self.pins.iter().enumerate() {
             let (points, hue) = (fitted(&pin.picture), palette.pin(pin.number));
-            // Its number, where numbers of others are not.
+            // Draw its number where no other number is.
             let x = PIN_LABELS.0 + PIN_LABELS.1 * k as f64;
             let height = value_at(points.points(), x);
             plot.line(curve(pin_name(pin), points, hue, THIN_WIDTH));
@@ -92,7 +92,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// What the lines mean, above them: there it covers nothing.
+/// Draws the key above the plots, where it covers nothing.
 pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
     let palette = Palette::of(ui);
     let live = if scene.stale { palette.reference } else { palette.pressure };
@@ -106,7 +106,7 @@ pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
     key::ui(ui, entries);
 }
 
-/// A plot of the stack: shared X axis and cursor.
+/// Returns a plot of the stack, with shared X axis and cursor.
 pub fn stacked<'a>(
     ui: &Ui,
     (direction, length_mm, kappa): (Direction, f64, f64),
@@ -114,7 +114,7 @@ pub fn stacked<'a>(
     (x_title, y_title): (&str, &str),
 ) -> PlotFrame<'a> {
     let group = Id::unique(direction.id("profiles"));
-    // As many marks as have room for their numbers.
+    // Use as many marks as there is space for numbers.
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 9.0));
     axes::plot(ui, &direction.id(id), height, x_title, y_title)
         .marks_x(marks)
@@ -126,7 +126,7 @@ pub fn stacked<'a>(
         .show_y(false)
 }
 
-/// What is said at the pointer.
+/// Returns the text at the pointer.
 pub fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
     move |at| {
         let x = match at {
@@ -148,7 +148,7 @@ pub fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<
     }
 }
 
-/// Where the film has ruptured.
+/// Draws the cavitated region and the starved inlet.
 pub fn cavitated(plot: &mut Canvas<'_, '_>, picture: &Picture, palette: &Palette) {
     if let (Some(from), Some(end)) = (picture.rupture, picture.pressure.last()) {
         plot.span(Span::new("", from..=end.x.max(from)).fill(palette.cavitated).border_width(0.0));
@@ -158,8 +158,8 @@ pub fn cavitated(plot: &mut Canvas<'_, '_>, picture: &Picture, palette: &Palette
     }
 }
 
-/// What the solution has in the ruptured film beside P: λ where complementarity is asked for, or θ where mass is
-/// conserved. A reduced model may rupture films by complementarity where the penalty is asked for.
+/// Draws the additional variable of the cavitated region: λ for the complementarity model, θ for the
+/// mass-conserving model. A reduced model may use complementarity where the penalty is requested.
 pub fn rupture(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) {
     let full = scene.full.filter(|_| !scene.full_stale).unwrap_or(scene.picture);
     let mut draw = |name: &str, points: Vec<[f64; 2]>, at: usize| {
@@ -175,22 +175,22 @@ pub fn rupture(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, palette: &Palette) 
     let quarter = multiplier.len() / 4;
     draw("λ", multiplier, quarter);
     let fraction: Vec<[f64; 2]> = full.solution.axis_fraction().map(Into::into).collect();
-    // Beside the fall behind the contact.
+    // Place the label at the decrease behind the contact.
     let fallen = fraction.iter().rposition(|[_, value]| *value > 0.5).unwrap_or(0);
     draw("θ", fraction, fallen);
 }
 
-/// A curve without a band about it.
+/// Returns a curve without a band.
 pub fn curve(name: String, points: PlotPoints<'_>, color: Color32, width: f32) -> Line<'_> {
     Line::new(name, points).color(color).width(width).allow_band(false)
 }
 
-/// A dot with its name; the name stands clear of the curve by a leading space or line.
+/// Draws a dot with its name. A leading space or line separates the name from the curve.
 pub fn mark(plot: &mut Canvas<'_, '_>, at: (f64, f64), name: &'static str, color: Color32, anchor: Align2) {
     mark_lifted(plot, (at, 0.0), name, color, anchor);
 }
 
-/// The same, with its name so much higher than its dot, as the axis counts.
+/// Draws a dot with its name, with the name raised by `lift` in units of the axis.
 pub fn mark_lifted(
     plot: &mut Canvas<'_, '_>,
     ((x, y), lift): ((f64, f64), f64),

@@ -1,4 +1,5 @@
-//! Shear stress and shear rate across the film, between the surfaces Z = 0 and Z = 1, along the axis of the contact.
+//! Shear stress and shear rate across the film, between the surfaces Z = 0 and Z = 1, along the axis of the
+//! contact.
 
 use crate::app::answers::picture::{Picture, value_at};
 use crate::app::figure::Texture;
@@ -12,13 +13,13 @@ use egui_plot::{HoverPosition, PlotPoint};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Columns and rows of the picture: the shear varies smoothly, and the screen interpolates.
+/// Columns and rows of the image. The shear varies smoothly, and the screen interpolates.
 const COLUMNS: usize = 320;
 const ROWS: usize = 25;
-/// Decades of the shear rate that the colours tell apart, below the largest one.
+/// Number of decades of the shear rate below its maximum that have separate colours.
 const DECADES: f64 = 4.0;
 
-/// What is shown across the film.
+/// Quantity shown across the film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum FilmShear {
     /// Nothing.
@@ -34,7 +35,7 @@ impl FilmShear {
     /// All choices.
     pub const ALL: [Self; 3] = [Self::Off, Self::Stress, Self::Rate];
 
-    /// For people.
+    /// Returns the name on the screen.
     pub fn name(self) -> &'static str {
         match self {
             Self::Off => "no shear",
@@ -54,19 +55,19 @@ impl FilmShear {
     }
 }
 
-/// What is kept between frames: the picture and the values it was made of.
+/// Image kept between frames, with its values and its solution.
 #[derive(Default)]
 pub struct FilmShearImage {
     texture: Option<Texture>,
     made_of: Option<(Arc<Solution>, FilmShear)>,
     /// Stress \[Pa\] or rate \[1/s\], row after row from Z = 0.
     values: Vec<f64>,
-    /// What the ends of the colours stand for: values, or decimal logarithms of sizes.
+    /// Values at the ends of the colour scale, or decimal logarithms of magnitudes.
     range: (f64, f64),
 }
 
 impl FilmShearImage {
-    /// Makes the picture anew where it is out of date.
+    /// Updates the image if it is out of date.
     pub fn follow(&mut self, ctx: &Context, picture: &Picture, shown: FilmShear) {
         let solution = &picture.solution;
         if self.made_of.as_ref().is_some_and(|(of, with)| Arc::ptr_eq(of, solution) && *with == shown) {
@@ -76,7 +77,7 @@ impl FilmShearImage {
         self.range = range(&self.values, shown);
         let colors = color_map::table(false);
         let pixel = |k: usize| {
-            // Images begin at the top, Z at the bottom.
+            // Images start at the top, Z at the bottom.
             let (row, column) = (ROWS - 1 - k / COLUMNS, k % COLUMNS);
             let t = share(self.values[row * COLUMNS + column], shown, self.range);
             colors[(t * (colors.len() - 1) as f64).round() as usize]
@@ -86,7 +87,7 @@ impl FilmShearImage {
         self.made_of = Some((Arc::clone(solution), shown));
     }
 
-    /// The value at a place, where the picture has one.
+    /// Returns the value at a place. `None` outside the image.
     fn at(&self, x: f64, z: f64) -> Option<f64> {
         let (from, to) = Direction::Along.range();
         let inside = (from..=to).contains(&x) && (0.0..=1.0).contains(&z);
@@ -96,7 +97,7 @@ impl FilmShearImage {
     }
 }
 
-/// The shear at the columns' abscissae and the rows' heights; zero outside the domain.
+/// Returns the shear at the columns' abscissae and the rows' heights. Zero outside the domain.
 fn values(solution: &Solution, shown: FilmShear) -> Vec<f64> {
     let heights: Vec<f64> = (0..ROWS).map(|k| k as f64 / (ROWS - 1) as f64).collect();
     let field = solution.shear_field(&heights);
@@ -126,18 +127,18 @@ fn range(values: &[f64], shown: FilmShear) -> (f64, f64) {
     }
 }
 
-/// Where a value stands between the ends of the colours.
+/// Returns the position of a value between the ends of the colour scale, 0…1.
 fn share(value: f64, shown: FilmShear, (low, high): (f64, f64)) -> f64 {
     let value = if shown == FilmShear::Rate { value.abs().max(f64::MIN_POSITIVE).log10() } else { value };
     ((value - low) / (high - low)).clamp(0.0, 1.0)
 }
 
-/// The value with its unit.
+/// Returns the value with its unit.
 fn quantity(value: f64, shown: FilmShear) -> String {
     if shown == FilmShear::Rate { numbers::quantity(value, "1/s") } else { numbers::pressure(value) }
 }
 
-/// The view: its scale, and the film between its surfaces on the profiles' axis.
+/// Draws the scale, and the film between its surfaces on the axis of the profiles.
 pub fn ui(ui: &mut Ui, (image, length_mm): (&FilmShearImage, f64), shown: FilmShear, stale: bool, height: f32) {
     let Some(texture) = image.texture.as_ref().map(|texture| texture.shown(ui.ctx())) else { return };
     scale_ui(ui, image, shown);
@@ -212,12 +213,12 @@ mod tests {
             let mean = 0.5 * (at(0, column) + at(ROWS - 1, column));
             assert!((mean - at(ROWS / 2, column)).abs() < 1e-9 * at(0, column).abs().max(1.0));
         }
-        // ∫ of the middle over the drawn part of the domain, in which nearly all of the traction is.
+        // Integral of mid-film over the drawn part of the domain, which contains nearly all of the traction.
         let (from, to) = Direction::Along.range();
         let step = (to - from) / (COLUMNS - 1) as f64 * point.hertz().half_width_m;
         let traction = (0..COLUMNS).map(|column| at(ROWS / 2, column)).sum::<f64>() * step / point.load;
         assert!((traction / solution.traction_coefficient() - 1.0).abs() < 0.02, "{traction}");
-        // A shear rate integrates to the speed of sliding: exactly so at every place.
+        // The shear rate integrates exactly to the sliding speed at every place.
         let rate = values(&solution, FilmShear::Rate);
         let middle = COLUMNS * 22 / 38;
         let film = solution.scalars.h_c * point.film_scale_m();

@@ -1,4 +1,4 @@
-//! The plots: pressure, film, and what reduced and full differ by.
+//! Plots of pressure, film thickness, and the difference between reduced and full solution.
 
 use super::curves::{Scene, cavitated, curve, hover, mark, mark_lifted, rupture, stacked};
 use crate::app::answers::picture::Comparison;
@@ -10,10 +10,10 @@ use crate::app::units::Scales;
 use egui::{Align2, Ui};
 use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, Text};
 
-/// Room beside the spike that its name wants.
+/// Space that the name of the spike needs next to it.
 const SPIKE_ROOM: f32 = 48.0;
 
-/// The pressure; returns where the hand takes the line of the other cut.
+/// Draws the pressure. Returns the position to which the user drags the line of the other cut.
 pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
     let picture = scene.picture;
@@ -55,7 +55,7 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
                 rupture(plot, scene, &palette);
             }
             if let Some(spike) = picture.spike.filter(|s| on_axis && (s.0 < scalars.x_p_max - 1e-9 || s.0 > 0.5)) {
-                // Beside it, or above it where the plot ends.
+                // The name is next to the spike, or above it if the plot ends.
                 let place = plot.transform().position_from_point(&PlotPoint::new(spike.0, spike.1));
                 let room = plot.response().rect.right() - place.x > SPIKE_ROOM;
                 mark(plot, spike, "spike", live, if room { Align2::LEFT_BOTTOM } else { Align2::CENTER_BOTTOM });
@@ -68,7 +68,7 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
     cut?.moved(ui, &shown.response, &shown.transform)
 }
 
-/// The film; returns where the hand takes the line of the other cut.
+/// Draws the film thickness. Returns the position to which the user drags the line of the other cut.
 pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
     let picture = scene.picture;
@@ -103,7 +103,8 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
                 cut.draw(plot, palette.accent);
             }
             let Some(at) = direction.minimum(picture, scene.cuts) else { return };
-            // Below the curve, or below its outlet, unless the axis would cut the name off: then above the flat film.
+            // The name is below the curve, or below its outlet. If the axis would cut it off, it is above the flat
+            // part of the film.
             let point = plot.transform().position_from_point(&PlotPoint::new(0.0, scalars.h_min));
             let above = (scalars.h_c - scalars.h_min).max(0.0) + 3.0 * plot.transform().dvalue_dpos()[1].abs();
             let (anchor, lift) = match plot.response().rect.bottom() - point.y {
@@ -117,7 +118,7 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     cut?.moved(ui, &shown.response, &shown.transform)
 }
 
-/// What the reduced solution differs from the full one by.
+/// Draws the difference between reduced and full solution.
 pub fn difference_plot(
     ui: &mut Ui,
     (comparison, length_mm): (&Comparison, f64),
@@ -140,7 +141,7 @@ pub fn difference_plot(
             ];
             for (name, label, points, hue, anchor) in lines {
                 plot.line(curve(name.to_owned(), PlotPoints::Borrowed(points), color(hue), 1.4));
-                // At its largest, where it stands clear of the other.
+                // The name is at the maximum of the curve, away from the other curve.
                 if let Some(at) = points.iter().max_by(|a, b| a.y.abs().total_cmp(&b.y.abs())) {
                     let text = Text::new("", *at, rich(&format!("  {label}"), 12.5, palette.ink(color(hue))));
                     plot.text(text.anchor(anchor).id((name, "label")).allow_hover(false));

@@ -1,5 +1,5 @@
-//! Pressure and film against X, one above the other on a shared axis; the difference to the full solution below on
-//! request.
+//! Profiles tab: pressure and film thickness against X, one above the other on a shared axis, and optionally the
+//! difference to the full solution.
 
 use super::curves::{Scene, key_ui};
 use super::film_shear::{self, FilmShear, FilmShearImage};
@@ -20,26 +20,26 @@ use crate::app::{badge, caption, export, numbers};
 use egui::{Checkbox, ComboBox, Ui};
 use serde::{Deserialize, Serialize};
 
-/// What the tab shows beside the curves, and the image below them.
+/// Profiles tab: its settings and the images below the curves.
 #[derive(Default)]
 pub struct Profiles {
-    /// How they are shown.
+    /// Settings of the display.
     pub choices: Choices,
     image: FilmShearImage,
     warm: TemperatureImage,
 }
 
-/// How profiles are shown; kept with the session.
+/// Settings of the profiles, stored with the session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Choices {
-    /// Draw the full solution over the reduced one.
+    /// True if the full solution is drawn over the reduced one.
     pub overlay: bool,
-    /// Draw the difference below.
+    /// True if the difference is drawn below.
     pub difference: bool,
-    /// What is shown across the film.
+    /// Quantity shown across the film.
     pub film_shear: FilmShear,
-    /// Draw temperatures beside them, of a contact with heat.
+    /// True if temperatures of a thermal contact are drawn next to the profiles.
     pub temperatures: bool,
 }
 
@@ -53,10 +53,10 @@ const ABOUT: About = About {
     keywords: "pressure film spike shear",
     page: "tour.md",
     has_units: true,
-    why: "Oil that the surfaces drag into the narrowing gap builds up so much pressure that the bodies flatten: \
-          nearly everywhere the pressure is that of the dry contact, dashed, and the film between is nearly flat. \
-          Near the outlet the film must narrow so that no more oil leaves than enters, and in front of that the \
-          pressure rises to a spike. The film is made in the inlet: more speed or viscosity thickens it, while load \
+    why: "The surfaces drag oil into the narrowing gap, where it builds up pressure; in a heavily loaded contact the \
+          bodies flatten, the pressure is close to that of the dry contact (dashed), and the film is nearly flat. Near \
+          the outlet the film narrows so that no more oil leaves than enters, and in front of this constriction the \
+          pressure rises to a spike. The film forms in the inlet: more speed or viscosity makes it thicker, while load \
           hardly matters.",
 };
 
@@ -94,7 +94,7 @@ impl View for Profiles {
             fit: context.fit,
             cuts: context.cuts,
         };
-        // The room is there from the moment on at which heat is asked for.
+        // The space is reserved as soon as heat is switched on.
         let warm = self.choices.temperatures && context.document.lubricant.heat.is_some();
         let gap = 8.0;
         let half = 0.5 * (ui.available_width() - gap);
@@ -164,10 +164,10 @@ impl View for Profiles {
     fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
         let (answers, cuts) = (context.answers, context.cuts);
         let picture = answers.picture();
-        let tip = "Live, full and pinned profiles with their SI twins, all of the domain";
+        let tip = "Live, full and pinned profiles over the whole domain, dimensionless and in SI units";
         let mut offers = vec![Offer::new("Profiles as CSV…", tip, picture.map(|_| || Command::ExportProfiles))];
         if picture.is_some_and(Picture::has_plane) {
-            let tip = "The live profile across, with its SI twins";
+            let tip = "The live profile across, dimensionless and in SI units";
             let across = move |answers: &&Answers| export::profile_across(answers, cuts.x);
             offers.push(Offer::table("Profile across as CSV…", tip, Some(answers), across));
         }
@@ -188,7 +188,7 @@ impl View for Profiles {
     }
 }
 
-/// The pressure and, as soon as there is a full solution, what the reduced one differs from it by, side by side.
+/// Draws the pressure and, once there is a full solution, the difference of the reduced one to it, side by side.
 pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
     let answers = context.answers;
     let Some(picture) = answers.picture() else {
@@ -211,7 +211,9 @@ pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
                     let length_mm = Scales::of(&context.document.point).length_mm;
                     difference_plot(ui, (comparison, length_mm), (context.fit, stale), height);
                 }
-                None => _ = ui.weak("The difference appears when the sliders rest and the full solution is there"),
+                None => {
+                    _ = ui.weak("The difference appears when the sliders are idle and the full solution is available")
+                }
             }
         });
     });
@@ -231,13 +233,13 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
         let why = "The picture is the full solution itself";
         let switches = [
             ("Full solution", "Draw the full solution over the reduced one", &mut choices.overlay),
-            ("Difference", "Reduced minus full, on an axis of its own", &mut choices.difference),
+            ("Difference", "Reduced minus full, on a separate axis", &mut choices.difference),
         ];
         for (name, tip, on) in switches {
             ui.add_enabled(reduced, Checkbox::new(on, name)).on_hover_text(tip).on_disabled_hover_text(why);
         }
         let shear = &mut choices.film_shear;
-        let tip = "A field between the surfaces below the profiles";
+        let tip = "Shows a field between the surfaces below the profiles";
         let choice = ComboBox::from_id_salt("film shear").selected_text(shear.name()).width(104.0).show_ui(ui, |ui| {
             for option in FilmShear::ALL {
                 ui.selectable_value(shear, option, option.name()).on_hover_text(option.tip());
@@ -245,7 +247,7 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
         });
         named(ui, choice.response, "Across the film").on_hover_text(tip);
         if context.document.lubricant.heat.is_some() {
-            let tip = "Rises of temperature along the film and across it, of both bodies, and where the heat goes";
+            let tip = "Temperature rises along and across the film and of both bodies, and the heat balance";
             ui.checkbox(&mut choices.temperatures, "Temperatures").on_hover_text(tip);
         }
         if ui.button(Command::Verify.name()).on_hover_text("Solve this contact in full now (F5)").clicked() {

@@ -1,5 +1,5 @@
-//! Temperatures of a film with heat: the rises of mid-film and surfaces along X, the film in its true shape coloured by
-//! temperature, and where the heat goes.
+//! Temperatures of a thermal contact: temperature rises of mid-film and surfaces along X, the film in its true
+//! shape coloured by temperature, and the heat balance.
 
 use crate::app::context::Context;
 use crate::app::controls::warning_ui;
@@ -19,40 +19,40 @@ use egui::{Color32, ColorImage, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 use egui_plot::{HoverPosition, PlotPoint, PlotPoints};
 use std::sync::Arc;
 
-/// Columns and rows of the picture.
+/// Columns and rows of the image.
 const COLUMNS: usize = 240;
 const ROWS: usize = 72;
-/// What is drawn of the film, over H_c: its inlet gapes beyond.
+/// Height of the drawn film over H_c. The inlet is higher.
 const TOP: f64 = 2.2;
-/// Height of the bar with its words.
+/// Height of the bar with its text.
 const BAR_HEIGHT: f32 = 40.0;
 
-/// What is kept between frames: the curves, and the picture with what it was made of.
+/// Curves and image kept between frames, with their solution.
 #[derive(Default)]
 pub struct TemperatureImage {
     texture: Option<Texture>,
     made_of: Option<Arc<Solution>>,
-    /// Rises \[K\] at mid-film, of body 1 and of body 2.
+    /// Temperature rises \[K\] at mid-film, of body 1 and of body 2.
     rises: [Vec<PlotPoint>; 3],
-    /// H.
+    /// H, film thickness.
     film: Vec<PlotPoint>,
-    /// The largest rise anywhere in the picture \[K\].
+    /// Maximum temperature rise in the image \[K\].
     largest_k: f64,
-    /// Height of the picture in units of H.
+    /// Height of the image in units of H.
     top: f64,
 }
 
 /// Names of the curves.
 const NAMES: [&str; 3] = ["mid-film", "body 1", "body 2"];
 
-/// Their colours.
+/// Returns their colours.
 fn hues(ui: &Ui, stale: bool) -> [Color32; 3] {
     let palette = Palette::of(ui);
     let hues = [palette.traction, palette.deformation, palette.accent];
     hues.map(|color| if stale { palette.reference } else { color })
 }
 
-/// T − T₀ \[K\] at X and at a height over a², R; none outside the film.
+/// Returns T − T₀ \[K\] at X and at a height scaled with a²/R. `None` outside the film.
 fn rise_at(heat: &Temperatures, x: f64, height: f64) -> Option<f64> {
     let right = heat.x.partition_point(|at| *at < x);
     let left = right.checked_sub(1)?;
@@ -66,7 +66,7 @@ fn rise_at(heat: &Temperatures, x: f64, height: f64) -> Option<f64> {
 }
 
 impl TemperatureImage {
-    /// Makes curves and picture anew where they are out of date.
+    /// Updates curves and image if they are out of date.
     pub fn follow(&mut self, ctx: &egui::Context, solution: &Arc<Solution>) {
         let Some(heat) = solution.heat.as_deref() else { return };
         if self.made_of.as_ref().is_some_and(|of| Arc::ptr_eq(of, solution)) {
@@ -83,7 +83,7 @@ impl TemperatureImage {
         self.top = numbers::round_up(TOP * solution.scalars.h_c);
         let (from, to) = Direction::Along.range();
         let place = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
-        // Images begin at the top.
+        // Images start at the top.
         let values: Vec<Option<f64>> = (0..COLUMNS * ROWS)
             .map(|k| {
                 let (row, column) = (ROWS - 1 - k / COLUMNS, k % COLUMNS);
@@ -104,13 +104,13 @@ impl TemperatureImage {
     }
 }
 
-/// What the lines mean.
+/// Draws the key of the lines.
 pub fn key_ui(ui: &mut Ui, stale: bool) {
     let entries = NAMES.into_iter().zip(hues(ui, stale));
     key::ui(ui, entries.map(|(name, color)| Entry::new(name, color, Sample::Line(LIVE_WIDTH))));
 }
 
-/// The view: two plots of a height, with the bar in the lower one's.
+/// Draws two plots of equal height, the lower one including the bar of the heat balance.
 pub fn ui(ui: &mut Ui, image: &TemperatureImage, context: &Context<'_>, (scales, stale): (Scales, bool), height: f32) {
     let Some((solution, texture)) = image.made_of.as_ref().zip(image.texture.as_ref()) else { return };
     let Some(heat) = solution.heat.as_deref() else { return };
@@ -176,14 +176,14 @@ fn rises_plot(ui: &mut Ui, image: &TemperatureImage, (hues, scales): ([Color32; 
     });
 }
 
-/// A plot on the axis of the profiles.
+/// Returns a plot on the axis of the profiles.
 fn linked<'a>(ui: &Ui, (id, height): (&str, f32), titles: (&str, &str), scales: Scales) -> PlotFrame<'a> {
     let (from, to) = Direction::Along.range();
     let direction = (Direction::Along, Direction::Along.length_mm(scales), 1.0);
     curves::stacked(ui, direction, (id, height), titles).default_x_bounds(from, to)
 }
 
-/// Where the heat goes, as parts of a bar with their names.
+/// Draws the heat balance as parts of a bar with their names.
 fn balance_ui(ui: &mut Ui, balance: &HeatBalance, hues: [Color32; 3]) {
     let palette = Palette::of(ui);
     let [one, two] = balance.into_bodies;
@@ -194,8 +194,8 @@ fn balance_ui(ui: &mut Ui, balance: &HeatBalance, hues: [Color32; 3]) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         ui.weak("Heat").on_hover_text(
-            "Of what shear and compression make up to where the film ruptures; what flows back out of the inlet leaves \
-             with the oil",
+            "Shares of the heat from shear and compression up to the cavitation boundary. Heat of the backflow in the \
+             inlet leaves with the oil",
         );
         let (area, _) = ui.allocate_exact_size(vec2(70.0, 11.0), Sense::hover());
         let mut left = area.left();
@@ -241,7 +241,7 @@ mod tests {
         let hottest = image.rises[0].iter().fold(0.0f64, |hottest, point| hottest.max(point.y));
         assert!((hottest / heat.largest.mid_film_k - 1.0).abs() < 0.02);
         let pixels = &image.texture.as_ref().unwrap().image().pixels;
-        // In the middle the film fills a share of the height, at the inlet's end all of it.
+        // At the centre the film fills part of the height, at the end of the inlet all of it.
         let filled = |column: usize| (0..ROWS).filter(|row| pixels[row * COLUMNS + column].a() > 0).count();
         let middle = filled(COLUMNS * 22 / 38) as f64 / ROWS as f64;
         assert!((middle * image.top / solution.scalars.h_c - 1.0).abs() < 0.05 && filled(2) == ROWS, "{middle}");

@@ -1,4 +1,5 @@
-//! Everything in the M–L chart that does not move: boundaries of regimes, contours, limits. Made once.
+//! Fixed content of the M–L chart: boundaries of regimes, contours, limits. It is computed once per shape and
+//! model.
 
 use crate::app::export;
 use crate::app::theme::Palette;
@@ -15,7 +16,7 @@ use egui_plot::PlotPoint;
 /// Film numbers of the contours.
 const CONTOURS: [f64; 11] = [0.35, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0];
 
-/// What a line of the chart is. The table of the chart knows them by their places here.
+/// Kind of a line of the chart. The exported table contains its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A contour of the film number.
@@ -24,9 +25,9 @@ pub enum Kind {
     Boundary,
     /// p_H = 3.2 GPa in the default realisation.
     PressureLimit,
-    /// Outline of what the model is trained for, cut by its pressure limit.
+    /// Outline of the trained range, cut by its pressure limit.
     Trained,
-    /// Contacts that the model was trained by; no line.
+    /// Training contacts of the model, drawn as points.
     Snapshots,
     /// Outline of the point contacts of Table 3.4.
     Table,
@@ -34,29 +35,29 @@ pub enum Kind {
     Trajectory,
 }
 
-/// A line of the chart in (log10 M, log10 L).
+/// Line of the chart in (log10 M, log10 L).
 pub struct ChartLine {
     pub kind: Kind,
-    /// The film number of a contour; which boundary it is.
+    /// Film number of a contour, or number of a boundary.
     pub value: Option<f64>,
     pub points: Vec<PlotPoint>,
 }
 
 /// All lines of the chart.
 pub struct ChartLines {
-    /// In the order of their kinds.
+    /// Lines in the order of their kinds.
     pub lines: Vec<ChartLine>,
-    /// Where the regimes' names stand.
+    /// Positions of the names of the regimes.
     pub names: Vec<(Regime, PlotPoint)>,
 }
 
-/// A place of the chart.
+/// Returns a place of the chart.
 pub fn point(m: f64, l: f64) -> PlotPoint {
     PlotPoint::new(m.log10(), l.log10())
 }
 
 impl ChartLines {
-    /// All lines for a shape, and of its model where there is one.
+    /// Returns all lines for a shape and, if there is one, its model.
     pub fn new(shape: FilmShape, model: Option<&ReducedModel>) -> Self {
         let kind = match shape {
             FilmShape::Line => ContactKind::Line,
@@ -73,7 +74,7 @@ impl ChartLines {
         for (k, ends) in boundaries(shape).into_iter().enumerate() {
             add(Kind::Boundary, Some(k as f64), ends.map(|[m, l]| point(m, l)).to_vec());
         }
-        // Wide ellipses reach it beyond the chart.
+        // For wide elliptical contacts the limit is outside the chart.
         let limit = pressure_limit(shape);
         if limit.len() > 1 {
             add(Kind::PressureLimit, None, limit);
@@ -84,7 +85,7 @@ impl ChartLines {
             add(Kind::Trained, None, trained(shape, &model.domain));
             add(Kind::Snapshots, None, snapshots.map(|moes| point(moes.m, moes.l)).collect());
         }
-        // The dissertation's balls.
+        // Point contacts of the dissertation.
         if shape == FilmShape::CIRCLE {
             add(Kind::Table, None, outline(&ParameterSpace::table_3_4(), kind));
             add(Kind::Trajectory, None, trajectory(&ParameterSpace::table_3_4(), kind));
@@ -92,7 +93,7 @@ impl ChartLines {
         Self { lines, names: names(shape).into_iter().map(|(regime, [m, l])| (regime, point(m, l))).collect() }
     }
 
-    /// The lines as a table.
+    /// Returns the lines as CSV.
     pub fn csv(&self) -> String {
         let row = |line: &ChartLine, p: &PlotPoint| {
             vec![Some(10f64.powf(p.x)), Some(10f64.powf(p.y)), Some(f64::from(line.kind as u8)), line.value]
@@ -104,7 +105,7 @@ impl ChartLines {
     }
 }
 
-/// The greatest place in a range of positive numbers up to which a condition holds that holds at its lower end.
+/// Returns the largest number in a range up to which a condition holds. It must hold at the lower end.
 fn up_to((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..40 {
         let middle = (low * high).sqrt();
@@ -113,7 +114,7 @@ fn up_to((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
-/// The film number is monotonic in L: bisection in ln L for every M.
+/// Returns a contour. The film number is monotonic in L, so bisection in ln L finds it for every M.
 fn contour(shape: FilmShape, film: f64) -> Vec<PlotPoint> {
     (0..SAMPLES)
         .filter_map(|k| {
@@ -125,7 +126,8 @@ fn contour(shape: FilmShape, film: f64) -> Vec<PlotPoint> {
         .collect()
 }
 
-/// p_H of the default realisation at M and L \[Pa\]. That of an ellipse is a share of the circle's.
+/// Returns a function for p_H \[Pa\] of the default realisation at M and L. For an elliptical contact it is a fixed
+/// share of that of a circular contact.
 fn hertz_pressure(shape: FilmShape) -> impl Fn(f64, f64) -> f64 {
     let pressure = |point: OperatingPoint| point.hertz().pressure_pa;
     let (kind, share) = match shape {
@@ -139,7 +141,8 @@ fn hertz_pressure(shape: FilmShape) -> impl Fn(f64, f64) -> f64 {
     move |m, l| share * si_from_moes(&MoesRequest::new(kind, m, l)).map_or(f64::INFINITY, pressure)
 }
 
-/// L at which the default realisation reaches p_H = 3.2 GPa, for every M that does within the chart. p_H rises with L.
+/// Returns L at which the default realisation reaches p_H = 3.2 GPa, for every M where it is in the chart. p_H
+/// rises with L.
 fn pressure_limit(shape: FilmShape) -> Vec<PlotPoint> {
     const LIMIT: f64 = PLAUSIBLE_HERTZ_PRESSURE_PA;
     let hertz = hertz_pressure(shape);
@@ -153,7 +156,7 @@ fn pressure_limit(shape: FilmShape) -> Vec<PlotPoint> {
         .collect()
 }
 
-/// The box of M and L, its upper right corner cut by the pressure limit.
+/// Returns the rectangle of M and L, with its upper right corner cut by the pressure limit.
 fn trained(shape: FilmShape, domain: &Domain) -> Vec<PlotPoint> {
     let (m, l, highest) = (domain.m(), domain.l(), domain.highest_pressure_pa());
     let hertz = hertz_pressure(shape);
@@ -165,8 +168,9 @@ fn trained(shape: FilmShape, domain: &Domain) -> Vec<PlotPoint> {
     outline
 }
 
-/// The convex hull of a box's contacts, closed. M and L are products of powers of the quantities: in logarithmic axes
-/// the box becomes a polygon, with its corners among those of the box; on linear axes its sides are curved.
+/// Returns the closed convex hull of a box's contacts. M and L are products of powers of the quantities. In
+/// logarithmic axes the box therefore becomes a polygon with corners of the box; on linear axes its sides are
+/// curved.
 fn outline(range: &ParameterSpace, kind: ContactKind) -> Vec<PlotPoint> {
     let moes = range.corners().filter_map(|unit| Some(range.at(kind, &unit)?.moes()));
     let mut corners: Vec<PlotPoint> = moes.map(|moes| point(moes.m, moes.l)).collect();
@@ -187,13 +191,13 @@ fn outline(range: &ParameterSpace, kind: ContactKind) -> Vec<PlotPoint> {
     hull
 }
 
-/// The test trajectory through a box, 0 ≤ c ≤ 2.
+/// Returns the test trajectory through a box, 0 ≤ c ≤ 2.
 fn trajectory(range: &ParameterSpace, kind: ContactKind) -> Vec<PlotPoint> {
     let at = |k: usize| Some(range.trajectory(kind, 2.0 * k as f64 / SAMPLES as f64)?.moes());
     (0..=SAMPLES).filter_map(at).map(|moes| point(moes.m, moes.l)).collect()
 }
 
-/// The regimes as a picture, blended softly where they meet.
+/// Returns the regimes as an image with smooth transitions.
 pub fn shading(shape: FilmShape, palette: &Palette) -> ColorImage {
     let (width, height) = (280, 180);
     let mut pixels = Vec::with_capacity(width * height);
@@ -215,7 +219,7 @@ mod tests {
         for shape in [FilmShape::Line, FilmShape::CIRCLE, FilmShape::Ellipse(0.1), FilmShape::Ellipse(40.0)] {
             let lines = ChartLines::new(shape, None);
             let of = |kind: Kind| lines.lines.iter().filter(move |line| line.kind == kind);
-            // Ellipses that are long along the rolling direction know two regimes only.
+            // Elliptical contacts that are long along the rolling direction have two regimes only.
             let (regimes, boundaries) = if shape == FilmShape::Ellipse(0.1) { (2, 1) } else { (4, 4) };
             assert!(of(Kind::Boundary).count() >= boundaries && of(Kind::Contour).count() >= 6, "{shape:?}");
             assert!(of(Kind::PressureLimit).all(|line| line.points.len() > 10), "{shape:?}");

@@ -1,4 +1,4 @@
-//! The M–L chart and the published film formulas.
+//! M–L chart and published film formulas.
 
 pub mod chart;
 mod tab;

@@ -1,5 +1,5 @@
-//! The M–L chart: which asymptote of Moes' formula rules where, what the reduced model was trained for, and the current
-//! contact, which can be dragged. Beside it the published film formulas.
+//! Regimes tab: the M–L chart with the regimes of Moes' formula, the trained range of the reduced model, and the
+//! current contact, which can be dragged. The published film formulas are next to it.
 
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{message_ui, spoken};
@@ -19,10 +19,10 @@ use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Text};
 use std::sync::Arc;
 
-/// How near (in screen points) the pointer must be to take the contact along.
+/// Distance in screen points within which the pointer can grab the contact.
 const GRAB_RADIUS: f32 = 18.0;
 
-/// What lines were made for: a shape, and its reduced model where there is one.
+/// Key of the lines: a shape, and its reduced model if there is one.
 #[derive(Clone)]
 struct Owner(FilmShape, Option<Arc<ReducedModel>>);
 
@@ -32,7 +32,7 @@ impl PartialEq for Owner {
     }
 }
 
-/// What the chart keeps between frames: its shading as a picture and all lines, made once.
+/// Data kept between frames: the shading as an image, all lines, and the trail of the contact.
 #[derive(Default)]
 pub struct Regimes {
     texture: Option<(FilmShape, bool, Texture)>,
@@ -40,22 +40,22 @@ pub struct Regimes {
     trail: Trail,
 }
 
-/// Under this name a drag is refused.
+/// Name under which the refusal of a drag is stored.
 const FIELD: &str = "regimes";
 /// Height of the table of formulas below the chart.
 const FORMULAS: f32 = 212.0;
-/// Width of the hint with the button beside it.
+/// Width of the hint with the button next to it.
 const HINT: f32 = 560.0;
-/// Size of the name of the regime.
+/// Text size of the regime.
 const LARGE: f32 = 22.0;
 
 impl Regimes {
-    /// Takes note of where the contact is now, whether or not the chart can be seen.
+    /// Adds the present place of the contact to its trail, even if the chart is hidden.
     pub fn follow(&mut self, kind: ContactKind, moes: Moes) {
         self.trail.follow(kind, at(moes));
     }
 
-    /// Forgets where the contact has been: another document is on the screen.
+    /// Clears the trail, because another document is on the screen.
     pub fn forget(&mut self) {
         self.trail = Trail::default();
     }
@@ -66,7 +66,8 @@ impl Regimes {
         let dark = ui.visuals().dark_mode;
         let kind = context.document.point.kind;
         let present = FilmShape::of(&context.document.point);
-        // While the hand moves the shape, the chart of the former one stays: it takes longer than a frame.
+        // While the user drags the shape, the chart of the previous one stays, because a new chart takes longer
+        // than a frame.
         let held = ui.input(|input| input.pointer.any_down());
         let former = self.lines.as_ref().map(|(Owner(shape, _), _)| *shape);
         let both_ellipses = matches!((former, present), (Some(FilmShape::Ellipse(_)), FilmShape::Ellipse(_)));
@@ -75,7 +76,7 @@ impl Regimes {
             let texture = Texture::new(&ctx, "regimes", shading(shape, &palette));
             self.texture = Some((shape, dark, texture));
         }
-        // A model of circles was trained by none of the ellipses on this chart.
+        // A model of circular contacts has no training contacts on a chart of elliptical contacts.
         let model = context.answers.model(context.document).filter(|model| model.is_of(&context.document.point));
         let owner = Owner(shape, model.cloned());
         if self.lines.as_ref().is_none_or(|lines| lines.0 != owner) {
@@ -89,7 +90,7 @@ impl Regimes {
             spoken(ui, name, &format!("Regime: {}", regime.title()));
             ui.label(regime.meaning());
         });
-        // A hint of more than one line has the button below it.
+        // If the hint needs more than one line, the button is below it.
         let beside = ui.available_width() > HINT;
         let row = if beside { egui::Layout::left_to_right(egui::Align::Center) } else { *ui.layout() };
         ui.allocate_ui_with_layout([ui.available_width(), 0.0].into(), row, |ui| {
@@ -99,14 +100,14 @@ impl Regimes {
                 }
                 ContactKind::Point => "Drag the contact. Contours: ({h}/{R})/√(2{U}) of Nijenbanning, Venner and Moes",
             };
-            // In its place, so that the chart stays where the hand is.
+            // A refusal replaces the hint, so that the chart does not move.
             match context.entries.message(FIELD) {
                 Some(refusal) => message_ui(ui, refusal),
                 None if context.presenting => {}
                 None => _ = ui.label(rich(hint, 12.5, palette.quiet)),
             }
             let clear = ui.add_enabled(self.trail.points().len() > 1, egui::Button::new("Clear the trail"));
-            if clear.on_hover_text("Forget where the contact has been").clicked() {
+            if clear.on_hover_text("Removes the path of the contact from the chart").clicked() {
                 self.trail.clear();
             }
         });
@@ -154,7 +155,7 @@ impl Regimes {
                 if let Some(texture) = texture {
                     image(plot, texture);
                 }
-                // Dots lie over lines.
+                // Draw dots over lines.
                 let (dots, all): (Vec<_>, Vec<_>) = lines.lines.iter().partition(|l| l.kind == Kind::Snapshots);
                 for (k, line) in all.into_iter().chain(dots).enumerate() {
                     draw(plot, line, k, &palette);
@@ -163,7 +164,7 @@ impl Regimes {
                     let ink = palette.ink_on_regimes(palette.quiet);
                     let text = RichText::new(regime.name()).size(12.0).color(ink).italics();
                     let name = Text::new("", *place, text).id(("regime", regime.name())).allow_hover(false);
-                    // At an edge it begins or ends there, so that a narrow chart cuts nothing off.
+                    // A name at an edge starts or ends there, so that a narrow chart does not cut it off.
                     let anchor = match place.x {
                         ..0.0 => Align2::LEFT_CENTER,
                         3.0.. => Align2::RIGHT_CENTER,
@@ -208,10 +209,10 @@ const ABOUT: About = About {
     keywords: "chart film formulas Moes asymptotes",
     page: "physics.md",
     has_units: false,
-    why: "Load, speed, size and stiffness act on a film only by two numbers: how heavily it is loaded, M, and how \
-          strongly its viscosity rises with pressure, L. Where bodies stay rigid or the oil stays thin other laws \
-          rule, and the colours say which one does. Every published formula fits a part of this chart, so look \
-          where you stand before you use one.",
+    why: "Load, speed, size and stiffness determine the film thickness only through two numbers: the load number M, \
+          and the lubricant number L, which measures how strongly the viscosity rises with pressure. Different laws \
+          apply for rigid bodies and for constant viscosity, and the colours show these regimes. Every published \
+          formula is valid in a part of this chart, so check the position of your contact before you use one.",
 };
 
 impl View for Regimes {
@@ -221,7 +222,7 @@ impl View for Regimes {
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         if context.presenting {
-            // An audience looks at the chart.
+            // A presentation shows only the chart.
             self.chart(ui, context, commands, ui.available_height());
         } else if ui.available_width() > 760.0 {
             ui.horizontal_top(|ui| {
@@ -244,7 +245,8 @@ impl View for Regimes {
 
     fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {
         let lines = self.lines.as_ref().map(|(_, lines)| lines);
-        let tip = "Each published formula with its film, its range, its source and how far this contact is from it";
+        let tip = "Each published formula with its film thickness, its range, its source and the deviation from this \
+                   contact";
         vec![
             Offer::table("Chart as CSV…", "Contours, boundaries and snapshots", lines, |lines| lines.csv()),
             Offer::table("Formulas as CSV…", tip, Some(*context), formulas::csv),
@@ -256,7 +258,7 @@ fn at(moes: Moes) -> PlotPoint {
     point(moes.m, moes.l)
 }
 
-/// A line of the chart with its name, which stands clear of it.
+/// Draws a line of the chart with its name next to it.
 fn draw<'a>(plot: &mut Canvas<'_, 'a>, line: &'a ChartLine, place: usize, palette: &Palette) {
     let points = &line.points;
     let film = || line.value.map_or_else(String::new, |value| value.to_string());

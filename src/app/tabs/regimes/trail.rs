@@ -1,4 +1,4 @@
-//! Where the contact has been on the chart of regimes: the older the fainter.
+//! Trail of the contact on the chart of regimes. Older parts are fainter.
 
 use crate::app::figure::Canvas;
 use crate::app::theme::faded;
@@ -6,14 +6,14 @@ use crate::solver::physics::contact::ContactKind;
 use egui::Color32;
 use egui_plot::{Line, PlotPoint, PlotPoints};
 
-/// Places kept.
+/// Maximum number of places.
 const MOST: usize = 480;
-/// Shortest way between two of them \[decades\].
+/// Minimum distance between two places \[decades\].
 const STEP: f64 = 0.006;
-/// Shades from the oldest to the newest part.
+/// Number of shades from the oldest to the newest part.
 const SHADES: usize = 12;
 
-/// The way of the contact.
+/// Trail of the contact.
 #[derive(Default)]
 pub struct Trail {
     kind: ContactKind,
@@ -21,7 +21,7 @@ pub struct Trail {
 }
 
 impl Trail {
-    /// Adds where the contact is; another kind of contact begins anew.
+    /// Adds the place of the contact. Another kind of contact starts a new trail.
     pub fn follow(&mut self, kind: ContactKind, here: PlotPoint) {
         if self.kind != kind {
             *self = Self { kind, points: Vec::new() };
@@ -34,12 +34,12 @@ impl Trail {
         }
     }
 
-    /// Its places, the oldest first.
+    /// Returns the places, the oldest first.
     pub fn points(&self) -> &[PlotPoint] {
         &self.points
     }
 
-    /// Forgets all but the last place.
+    /// Removes all but the last place.
     pub fn clear(&mut self) {
         let last = self.points.len().saturating_sub(1);
         self.points.drain(..last);
@@ -49,7 +49,7 @@ impl Trail {
         let each = self.points.len().div_ceil(SHADES).max(1);
         let parts = self.points.len().div_ceil(each);
         for k in 0..parts {
-            // Each part goes on to where the next one begins.
+            // Each part ends where the next one starts.
             let end = ((k + 1) * each + 1).min(self.points.len());
             let Some(part) = self.points.get(k * each..end).filter(|part| part.len() > 1) else { continue };
             let strength = 0.15 + 0.6 * (k + 1) as f32 / parts as f32;

@@ -1,4 +1,4 @@
-//! Any chart of a study: lines, dots and crosses over its axes.
+//! Charts of a study: lines, dots and crosses over its axes.
 
 use crate::app::numbers;
 use crate::app::plot::axes;
@@ -8,10 +8,10 @@ use crate::scene::{Chart, Marks};
 use egui::{Color32, Ui, Vec2b};
 use egui_plot::{Line, MarkerShape, PlotPoints, Points};
 
-/// Series that are named above a chart at most; of more the rest is named under the pointer.
+/// Maximum number of series in the key above a chart. Further series are named on hover.
 const NAMED: usize = 24;
 
-/// Draws a chart with its key, `height` high; `fresh` fits it to its data.
+/// Draws a chart with its key. `height` is the total height; `fresh` fits the chart to its data.
 pub fn ui(ui: &mut Ui, id: &str, chart: &Chart, height: f32, fresh: bool) {
     let palette = Palette::of(ui);
     let entries = chart.series.iter().enumerate().take(NAMED).map(|(k, series)| {
@@ -72,12 +72,12 @@ fn color(palette: &Palette, marks: Marks, k: usize) -> Color32 {
         return palette.wrong;
     }
     let hues = [palette.film, palette.pressure, palette.deformation, palette.traction, palette.accent, palette.text];
-    // After one round the hues come again, fainter.
+    // After all hues have been used, they repeat with a fainter shade.
     let faint = 0.6f32.powi((k / hues.len()) as i32);
     hues.get(k % hues.len()).map_or(Color32::GRAY, |hue| hue.gamma_multiply(faint))
 }
 
-/// Braces mark symbols on the screen; a study's titles have none, but names of files may.
+/// Removes braces. They mark symbols on the screen; titles of a study contain none, but file names may.
 fn plain(text: &str) -> String {
     text.replace(['{', '}'], "")
 }

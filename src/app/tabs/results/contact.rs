@@ -1,5 +1,5 @@
-//! The contact on the screen as a table: what it amounts to by the reduced model and in full, with units, and what
-//! published formulas say. Needs no study.
+//! Table of the contact on the screen: its results by the reduced model and by the full solver, with units, and
+//! published formulas. It needs no study.
 
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::context::Context;
@@ -11,13 +11,13 @@ use crate::scene::Table;
 use crate::solver::physics::contact::ContactKind;
 use egui::{Grid, ScrollArea, Ui};
 
-/// Width from which on the formulas stand beside the table.
+/// Width from which the formulas are placed next to the table.
 const BESIDE: f32 = 860.0;
 
-/// What is less is rounding.
+/// Values below this limit are rounding errors.
 const NOTHING: f64 = 1e-9;
 
-/// A quantity of a picture: name and symbol, a name for files, what it is, its value, and the same in SI units.
+/// Quantity of a picture: name with symbol, name in files, tooltip, value, and value in SI units.
 struct Quantity {
     name: &'static str,
     symbol: &'static str,
@@ -26,7 +26,7 @@ struct Quantity {
     si: String,
 }
 
-/// What is shown, from top to bottom.
+/// Returns the displayed quantities from top to bottom.
 fn quantities(picture: &Picture) -> Vec<Quantity> {
     let (s, point) = (picture.solution.scalars, &picture.key.point);
     let hertz = point.hertz();
@@ -36,13 +36,31 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
     let rolling = picture.solution.rolling_resistance();
     let one = |name, symbol, tip, value, si| Quantity { name, symbol, tip, value, si };
     vec![
-        one("Central film {H_c}", "H_c", "Film at X = 0, and Y = 0; H = hR/a² (2.22)", s.h_c, film(s.h_c)),
-        one("Smallest film {H_min}", "H_min", "Smallest film of the contact zone", s.h_min, film(s.h_min)),
-        one("at {X}", "X_H_min", "Where the film is smallest", s.x_h_min, place(s.x_h_min)),
-        one("Central pressure {P_c}", "P_c", "Pressure at X = 0, and Y = 0; P = p/p_H (2.22)", s.p_c, pressure(s.p_c)),
-        one("Largest pressure {P_max}", "P_max", "Largest pressure of all nodes", s.p_max, pressure(s.p_max)),
-        one("at {X}", "X_P_max", "Where the pressure is largest", s.x_p_max, place(s.x_p_max)),
-        one("Displacement {H_0}", "H_0", "Of both bodies, with the kernel of (2.27) or (2.25)", s.h_0, String::new()),
+        one(
+            "Central film thickness {H_c}",
+            "H_c",
+            "Film thickness at X = 0 and Y = 0; H = hR/a² (2.22)",
+            s.h_c,
+            film(s.h_c),
+        ),
+        one(
+            "Minimum film thickness {H_min}",
+            "H_min",
+            "Minimum film thickness of the contact zone",
+            s.h_min,
+            film(s.h_min),
+        ),
+        one("at {X}", "X_H_min", "Position of the minimum film thickness", s.x_h_min, place(s.x_h_min)),
+        one("Central pressure {P_c}", "P_c", "Pressure at X = 0 and Y = 0; P = p/p_H (2.22)", s.p_c, pressure(s.p_c)),
+        one("Maximum pressure {P_max}", "P_max", "Maximum pressure of all nodes", s.p_max, pressure(s.p_max)),
+        one("at {X}", "X_P_max", "Position of the maximum pressure", s.x_p_max, place(s.x_p_max)),
+        one(
+            "Rigid separation {H_0}",
+            "H_0",
+            "Rigid-body separation, with the kernel of (2.27) or (2.25)",
+            s.h_0,
+            String::new(),
+        ),
         one("Traction coefficient {µ}", "traction", TRACTION, picture.traction, friction(picture)),
         one(
             "Rolling resistance",
@@ -51,14 +69,20 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
             rolling / point.load,
             force(rolling, point.kind),
         ),
-        one("Load left over", "load_residual", "Of the load, relative to it", s.load_residual, String::new()),
+        one(
+            "Load residual",
+            "load_residual",
+            "Load-balance residual, relative to the load",
+            s.load_residual,
+            String::new(),
+        ),
     ]
     .into_iter()
     .chain(temperatures(picture))
     .collect()
 }
 
-/// Rises of temperature and where the heat goes; none without heat.
+/// Returns temperature rises and heat flows. Empty for an isothermal contact.
 fn temperatures(picture: &Picture) -> Vec<Quantity> {
     let Some(heat) = picture.solution.heat.as_deref() else { return Vec::new() };
     let balance = &heat.balance;
@@ -66,40 +90,55 @@ fn temperatures(picture: &Picture) -> Vec<Quantity> {
     let rise = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::quantity(value, "K") };
     let share = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::percent(value) };
     vec![
-        rise("Rise at mid-film", "mid_film_rise_k", "Above the inlet’s temperature, at X = 0", heat.central.mid_film_k),
-        rise("Rise of body 1", "surface_1_rise_k", "Of its surface, at X = 0", heat.central.surfaces_k[0]),
-        rise("Rise of body 2", "surface_2_rise_k", "Of its surface, at X = 0", heat.central.surfaces_k[1]),
-        rise("Largest rise", "mid_film_rise_max_k", "At mid-film under pressure", heat.largest.mid_film_k),
+        rise("Rise at mid-film", "mid_film_rise_k", "Above the inlet temperature, at X = 0", heat.central.mid_film_k),
+        rise(
+            "Rise of body 1",
+            "surface_1_rise_k",
+            "Temperature rise of its surface at X = 0",
+            heat.central.surfaces_k[0],
+        ),
+        rise(
+            "Rise of body 2",
+            "surface_2_rise_k",
+            "Temperature rise of its surface at X = 0",
+            heat.central.surfaces_k[1],
+        ),
+        rise("Maximum rise", "mid_film_rise_max_k", "At mid-film under pressure", heat.largest.mid_film_k),
         share(
             "Heat into body 1",
             "heat_into_body_1",
-            "Of what shear and compression make",
+            "Share of the heat from shear and compression",
             balance.into_bodies[0] / made,
         ),
         share(
             "Heat into body 2",
             "heat_into_body_2",
-            "Of what shear and compression make",
+            "Share of the heat from shear and compression",
             balance.into_bodies[1] / made,
         ),
         share("Heat with the oil", "heat_with_the_oil", "Carried out of the contact", balance.carried / made),
-        share("Heat left over", "energy_balance", "Made, and gone nowhere", balance.residual()),
+        share(
+            "Heat residual",
+            "energy_balance",
+            "Heat-balance residual: heat generated minus heat removed",
+            balance.residual(),
+        ),
     ]
 }
 
-/// What rolling resistance is.
-const ROLLING: &str = "½∫h dp of each body, over the load: what rolling costs even where nothing slides";
+/// Tooltip of the rolling resistance.
+const ROLLING: &str = "½∫h dp of each body, over the load; it is present in pure rolling too";
 
-/// What traction is.
-const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); none in pure rolling";
+/// Tooltip of the traction coefficient.
+const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); zero in pure rolling";
 
-/// The friction force.
+/// Returns the friction force as text.
 fn friction(picture: &Picture) -> String {
     let force = picture.traction * picture.key.point.load;
     picture.unphysical.map_or_else(|| self::force(force, picture.key.point.kind), |doubt| doubt.mark().to_owned())
 }
 
-/// A force, or one per length of a line contact.
+/// Returns a force as text, per length for a line contact.
 fn force(newtons: f64, kind: ContactKind) -> String {
     match kind {
         ContactKind::Line => numbers::quantity(1e-3 * newtons, "N/mm"),
@@ -107,7 +146,7 @@ fn force(newtons: f64, kind: ContactKind) -> String {
     }
 }
 
-/// What is shown beside each other: the picture, and the full solution where that is another one of the same contact.
+/// Returns the picture, and the full solution of the same contact if it is another one.
 fn columns<'a>(context: &Context<'a>) -> Option<(&'a Picture, Option<&'a Picture>)> {
     let picture = context.answers.picture()?;
     let full = context.answers.full();
@@ -118,7 +157,7 @@ fn name(picture: &Picture) -> &'static str {
     if picture.origin == Origin::Full { "Full solution" } else { "Reduced model" }
 }
 
-/// The page.
+/// Draws the table.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let Some((picture, full)) = columns(context) else {
         ui.weak("The first picture is being computed");
@@ -164,17 +203,17 @@ fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>) {
             ui.label(si);
             if let Some(truth) = truths.get(k).map(|truth| truth.value) {
                 ui.label(numbers::significant(truth)).on_hover_text(tip);
-                // What is to be nothing is as good as nothing by both.
+                // Both values are zero up to rounding, so no deviation is shown.
                 let off = |truth| numbers::percent(value / truth - 1.0);
                 ui.label(Some(truth).filter(|truth| truth.abs() > NOTHING).map_or_else(String::new, off))
-                    .on_hover_text("Reduced over full, less one");
+                    .on_hover_text("Reduced over full, minus one");
             }
             ui.end_row();
         }
     });
 }
 
-/// The same for the file, where there is anything.
+/// Returns the table as CSV. `None` without a picture.
 pub fn csv(context: &Context<'_>) -> Option<String> {
     let (picture, full) = columns(context)?;
     let mut titles = vec![if picture.origin == Origin::Full { "full" } else { "reduced" }];

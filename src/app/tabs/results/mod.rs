@@ -1,4 +1,4 @@
-//! The study of the open scene: charts, tables and verdicts.
+//! Results of the study of the open scene: charts, tables and verdicts.
 
 mod chart;
 mod contact;

@@ -10,24 +10,24 @@ use crate::scene::{Chart, Scene, SceneOutcome, StudyRow, Table};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Shortest time between two looks at a study that runs.
+/// Minimum time between two evaluations of a running study.
 const LOOK_EVERY: Duration = Duration::from_millis(250);
-/// A look takes at most this share of the study's time.
+/// Maximum share of the evaluations in the run time is the inverse of this number.
 const LOOK_SHARE: u32 = 20;
-/// Points of a series that are drawn; of more only every second, third… one is.
+/// Maximum number of drawn points of a series. A longer series is thinned by a whole stride.
 const DRAWN: usize = 4000;
 
-/// What a study looks like: while it runs, or when it has ended.
+/// Evaluation of a study, running or complete.
 pub struct Look {
-    /// How its rows are best looked at, thinned where there are very many points.
+    /// Charts of its rows, thinned if there are very many points.
     pub charts: Vec<Chart>,
     /// Values, verdicts and tables.
     pub outcome: SceneOutcome,
-    /// Rows so far.
+    /// Number of rows.
     pub rows: usize,
-    /// Whether this is all there will be.
+    /// True if there will be no further rows.
     pub complete: bool,
-    /// What taking it took.
+    /// Time of the evaluation.
     took: Duration,
 }
 
@@ -46,13 +46,13 @@ impl Look {
         Self { charts, outcome, rows: rows.len(), complete, took: begun.elapsed() }
     }
 
-    /// A table by its name.
+    /// Returns a table by its name.
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.outcome.tables.iter().find(|table| table.name == name)
     }
 }
 
-/// Rows, each with its place: all 0 of a study that runs here, the shard of a campaign's.
+/// Rows with their places. The place is 0 for a study that runs here, and the shard for a campaign.
 #[derive(Default)]
 struct Rows {
     places: Vec<usize>,
@@ -70,7 +70,7 @@ impl Rows {
         self.rows.append(&mut later.rows);
     }
 
-    /// Shards come in any order; rows that are looked at stand in theirs.
+    /// Sorts the rows by their places, because shards arrive in any order.
     fn sort(&mut self) {
         if !self.places.is_sorted() {
             let rows = std::mem::take(&mut self.rows).into_iter();
@@ -81,32 +81,32 @@ impl Rows {
     }
 }
 
-/// A campaign that is watched.
+/// Campaign that is being watched.
 pub struct Campaign {
     pub folder: PathBuf,
-    /// How far it is, once that is known.
+    /// Progress. `None` until it has been read.
     pub status: Option<Status>,
     watching: Background<News>,
 }
 
-/// The study of a scene: its rows, and the last look at them.
+/// Study of a scene, with its rows and their last evaluation.
 pub struct Run {
-    /// The scene as it was when it was run.
+    /// Scene at the start of the study.
     pub scene: Scene,
-    /// The last look at its rows.
+    /// Last evaluation of its rows.
     pub look: Option<Look>,
-    /// The campaign whose rows these are, where they are not computed here.
+    /// Campaign that the rows come from. `None` if they are computed here.
     pub campaign: Option<Campaign>,
-    /// What runs here.
+    /// Running study.
     work: Background<StudyRow>,
-    /// All rows; they are lent to a look while it is taken, and new ones wait here.
+    /// All rows. They are moved into an evaluation while it runs, and new rows are collected here meanwhile.
     rows: Rows,
     looking: Background<(Rows, Look)>,
     wake: Wake,
     begun: Stopwatch,
-    /// Time after `begun`.
+    /// Earliest time of the next evaluation after `begun`.
     next_look: Duration,
-    /// Rows that no look has seen.
+    /// True if there are rows that have not been evaluated.
     unseen: bool,
     stopped: bool,
     /// Seconds of the whole study, once it has ended.
@@ -147,19 +147,19 @@ impl Run {
         }
     }
 
-    /// How far it is, the last look included.
+    /// Returns the progress, including that of the last evaluation.
     pub fn standing(&self) -> Option<Standing> {
         let watching = self.campaign.as_ref().and_then(|campaign| campaign.watching.standing());
         self.work.standing().or(watching).or_else(|| self.looking.standing())
     }
 
-    /// Why it ended early.
+    /// Returns the reason why it ended early.
     pub fn message(&self) -> Option<&String> {
         let watching = self.campaign.as_ref().and_then(|campaign| campaign.watching.message.as_ref());
         self.work.message.as_ref().or(watching)
     }
 
-    /// Stops it; what it has found stays.
+    /// Stops it and keeps its rows.
     pub fn stop(&self) {
         self.work.stop();
         if let Some(campaign) = &self.campaign {
@@ -167,18 +167,18 @@ impl Run {
         }
     }
 
-    /// Whether rows may still come.
+    /// Returns true if further rows may arrive.
     fn goes_on(&self) -> bool {
         self.work.job().is_some() || self.campaign.as_ref().is_some_and(|campaign| campaign.watching.job().is_some())
     }
 
-    /// Takes in what came since the last frame.
+    /// Receives rows since the last frame.
     pub fn receive(&mut self) {
         let Self { campaign, work, looking, rows, look, unseen, .. } = self;
         self.stopped |= work.job().is_some_and(Job::stopping);
         work.receive(|row| {
             *unseen = true;
-            // Fields are in no chart and no table.
+            // Fields occur in no chart and no table.
             if !matches!(row, StudyRow::Transient(transient::Row::State { .. })) {
                 rows.push(0, row);
             }
@@ -214,7 +214,7 @@ impl Run {
         let wall_s = self.wall_s.unwrap_or_else(|| self.begun.seconds());
         let taken = self.look.as_ref().map_or(Duration::ZERO, |look| look.took);
         self.next_look = now + LOOK_EVERY.max(taken * LOOK_SHARE);
-        self.looking.run(Job::start("Looking at the rows", self.wake.clone(), move |reporter| {
+        self.looking.run(Job::start("Evaluating the rows", self.wake.clone(), move |reporter| {
             rows.sort();
             let look = Look::at(&scene, &rows.rows, wall_s, complete);
             reporter.send((rows, look));

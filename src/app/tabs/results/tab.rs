@@ -1,5 +1,5 @@
-//! The answer to a scene's question, whatever it is: its study runs on the engine as it does headless, and its charts,
-//! tables and verdicts come as they are found.
+//! Results tab: results of any scene. Its study runs in the engine as from the command line, and charts, tables and
+//! verdicts are updated while it runs.
 
 use super::run::{Campaign, Look, Run};
 use super::{chart, contact, table};
@@ -17,13 +17,13 @@ use crate::scene::{Method, Scene, Study, Table, Verdict};
 use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
 
-/// Width of the verdicts beside the charts.
+/// Width of the verdicts next to the charts.
 const VERDICTS: f32 = 330.0;
 
-/// What running the study does.
-const RUN_TIP: &str = "Answers the question of the open scene here, as “ehl-explorer run” does without a window";
+/// Tooltip of the button that runs the study.
+const RUN_TIP: &str = "Runs the study of the open scene, as “ehl-explorer run” does without a window";
 
-/// What is shown of a study.
+/// Displayed part of the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum ResultsChoice {
     Charts,
@@ -31,10 +31,10 @@ enum ResultsChoice {
     Table(String),
 }
 
-/// The tab's run and what is shown of it.
+/// Results tab: its run and the displayed part.
 pub struct Results {
     run: Option<Run>,
-    /// The document that was on the screen last, as a scene.
+    /// Document of the last frame with its scene.
     seen: Option<(Document, Scene)>,
     shown: ResultsChoice,
     fresh: bool,
@@ -50,40 +50,40 @@ impl Results {
     /// Runs the study of a scene on a bench.
     pub fn start(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
         let shown = match scene.study {
-            // Their lines are what was asked for.
+            // The table of the load cases is the main result.
             Study::LoadCases(_) => ResultsChoice::Table("load_cases".to_owned()),
             _ => ResultsChoice::Charts,
         };
         *self = Self { run: Some(Run::start(scene, bench, wake)), shown, ..Self::default() };
     }
 
-    /// Watches a campaign of a scene: its charts and tables fill as its shards come.
+    /// Watches a campaign of a scene. Charts and tables are updated as its shards arrive.
     pub fn watch(&mut self, scene: Scene, folder: PathBuf, wake: Wake) {
         *self = Self { run: Some(Run::watch(scene, folder, wake)), ..Self::default() };
     }
 
-    /// Forgets what was run: another scene is on the screen.
+    /// Discards the run, because another scene is on the screen.
     pub fn forget(&mut self) {
         *self = Self::default();
     }
 
-    /// How far the study is that runs.
+    /// Returns the progress of the running study.
     pub fn standing(&self) -> Option<Standing> {
         self.run.as_ref()?.standing()
     }
 
-    /// Whether a study runs here whose rows lie nowhere else.
+    /// Returns true if a study runs whose rows are stored nowhere else.
     pub fn would_lose(&self) -> bool {
         self.run.as_ref().is_some_and(|run| run.campaign.is_none() && run.standing().is_some())
     }
 
-    /// Whether everything has been answered, and whether all expectations hold.
+    /// Returns whether all expectations are met. `None` before the study is complete.
     pub fn verdict(&self) -> Option<bool> {
         let look = self.run.as_ref()?.look.as_ref().filter(|look| look.complete)?;
         Some(look.outcome.passed())
     }
 
-    /// A table by its name, of the last look.
+    /// Returns a table of the last evaluation by its name.
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.run.as_ref()?.look.as_ref()?.table(name)
     }
@@ -99,7 +99,7 @@ impl Results {
         self.toolbar(ui, commands);
         if let Some(why) = context.document.lost_question() {
             let title = &context.document.title;
-            warning_ui(ui, &format!("The question of “{title}” gives way to the contact itself: {why}"));
+            warning_ui(ui, &format!("The study of “{title}” is replaced by the contact itself: {why}"));
         }
         let Some(run) = &self.run else {
             ui.separator();
@@ -115,11 +115,11 @@ impl Results {
         let changed = !drawn::asks_the_same(&run.scene, scene);
         drawn::note(ui.ctx(), "results of a study", Owner::Question(Box::new(run.scene.clone())), changed);
         if changed {
-            warning_ui(ui, "These results belong to the scene as it was when it was run; it has changed since");
+            warning_ui(ui, "These results belong to a previous state of the scene, which has changed since");
         }
         ui.separator();
         let Some(look) = &run.look else {
-            ui.weak("Nothing has been found yet");
+            ui.weak("There are no results yet");
             return;
         };
         if changed {
@@ -150,7 +150,7 @@ impl Results {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
             let runs = standing.is_some();
-            let tip = if runs { "What has been found so far stays (Esc)" } else { RUN_TIP };
+            let tip = if runs { "Keeps the results so far (Esc)" } else { RUN_TIP };
             let watches = self.run.as_ref().is_some_and(|run| run.campaign.is_some());
             let stop = if watches { "Stop watching" } else { "Stop" };
             if either_button(ui, ["Run the study", stop], runs).on_hover_text(tip).clicked() {
@@ -189,9 +189,9 @@ const ABOUT: About = About {
     keywords: "study scene run expectations verdicts table",
     page: "scenes.md",
     has_units: false,
-    why: "A scene is an experiment with a question, and here its answer comes in while it is computed. What the \
-          scene expects, and from where, stands beside what was found. The same scene gives the same numbers from \
-          the command line.",
+    why: "A scene is an experiment with a question, and this tab shows its results while they are computed. The values \
+          that the scene expects, with their sources, are listed next to the results. The same scene gives the same \
+          numbers from the command line.",
 };
 
 impl View for Results {
@@ -244,7 +244,8 @@ impl View for Results {
     }
 }
 
-/// How far a campaign is, and why shards failed: two lines that are always there, so that nothing moves when one fails.
+/// Draws the progress of a campaign and the failures of shards. The two lines are always present, so that nothing
+/// moves after a failure.
 fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
     let palette = Palette::of(ui);
     let folder = campaign.folder.display();
@@ -252,12 +253,12 @@ fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
         None => (format!("Campaign: reading {folder}"), [].as_slice()),
         Some(status) => {
             let left = match status.left_s.filter(|_| !status.open.is_empty()) {
-                Some(left) => format!(", {} of one processor to go in it", numbers::duration(left)),
+                Some(left) => format!(", {} of processor time left in it", numbers::duration(left)),
                 None => String::new(),
             };
             let merged = if status.merged { "; merged" } else { "" };
             let (done, shards, round) = (status.done, status.shards, status.rounds);
-            let text = format!("Campaign: {done} of {shards} shards are there, round {round}{left}{merged}");
+            let text = format!("Campaign: {done} of {shards} shards complete, round {round}{left}{merged}");
             (text, status.failed.as_slice())
         }
     };
@@ -273,7 +274,7 @@ fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
     }
 }
 
-/// Failed shards that are named under the pointer.
+/// Maximum number of failed shards listed on hover.
 const NAMED_FAILURES: usize = 12;
 
 fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {
@@ -287,7 +288,7 @@ fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {
             if charts.is_empty() {
                 match look.outcome.tables.first() {
                     Some(first) => table::ui(ui, first),
-                    None => _ = ui.weak("There is nothing to draw of it yet"),
+                    None => _ = ui.weak("There is no chart yet"),
                 }
                 return;
             }
@@ -310,7 +311,7 @@ fn verdicts_ui(ui: &mut Ui, look: &Look) {
     ScrollArea::vertical().id_salt("verdicts").auto_shrink(false).show(ui, |ui| {
         ui.strong("Expectations");
         let (text, color) = match (look.complete, outcome.verdicts.len()) {
-            (false, _) => (format!("Not all is known yet: {} rows", look.rows), palette.quiet),
+            (false, _) => (format!("Not complete yet: {} rows", look.rows), palette.quiet),
             (true, 0) if outcome.passed() => ("The scene expects nothing; all converged".to_owned(), palette.verified),
             (true, 0) => ("Some solves did not converge".to_owned(), palette.warning),
             (true, all) if outcome.passed() => (format!("All {all} hold"), palette.verified),
@@ -347,7 +348,7 @@ fn verdict_ui(ui: &mut Ui, verdict: &Verdict, complete: bool, palette: &Palette)
     };
     ui.label(rich(mark, 11.0, color));
     let expected = &verdict.expected;
-    let tip = format!("Wanted {}; {}", expected.wanted(), expected.from);
+    let tip = format!("Expected {}; {}", expected.wanted(), expected.from);
     ui.label(of_method(&expected.name, expected.method.as_ref())).on_hover_text(&tip);
     let value = verdict.value.map_or_else(|| "–".to_owned(), numbers::counted);
     ui.label(value).on_hover_text(tip);

@@ -1,4 +1,4 @@
-//! Any table of a study.
+//! Tables of a study.
 
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
@@ -6,10 +6,10 @@ use crate::scene::Table;
 use crate::scene::table::is_whole;
 use egui::{Grid, ScrollArea, Ui};
 
-/// Narrowest column.
+/// Minimum width of a column.
 const COLUMN: f32 = 84.0;
 
-/// Draws a table in what room there is; a long one scrolls.
+/// Draws a table in the available space. A long table scrolls.
 pub fn ui(ui: &mut Ui, table: &Table) {
     let quiet = Palette::of(ui).quiet;
     let row_height = ui.spacing().interact_size.y - 4.0;
@@ -41,7 +41,7 @@ pub fn ui(ui: &mut Ui, table: &Table) {
                         ui.label(label);
                     }
                     for (&value, &counts) in row.iter().zip(&counts) {
-                        // What does not apply is left empty, as in the file.
+                        // Missing values are left empty, as in the file.
                         ui.label(match value.is_finite() {
                             true if counts => numbers::counted(value),
                             true => numbers::significant(value),
@@ -58,7 +58,7 @@ pub fn ui(ui: &mut Ui, table: &Table) {
     });
 }
 
-/// Whether all that is seen of a column is whole: lines, steps and other counts.
+/// Returns true if all visible values of a column are whole numbers: lines, steps and other counts.
 fn is_counted(seen: &[Vec<f64>], column: usize) -> bool {
     seen.iter().filter_map(|row| row.get(column)).filter(|value| value.is_finite()).all(|&value| is_whole(value))
 }

@@ -1,4 +1,4 @@
-//! The two plots: traction above, film below, on one axis; a press in either goes to a contact.
+//! Plots of traction and film thickness with a common axis. A click in a plot moves the contact to that place.
 
 use super::sweeps::{Choices, Markers, SlideView};
 use super::tab::ShownSweep;
@@ -14,36 +14,36 @@ use crate::solver::full::{PLAUSIBLE_TRACTION, TractionDoubt};
 use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, Points, Text, VLine};
 
-/// Heights below which plots cannot be read.
+/// Minimum height of a readable plot.
 const LEAST_HEIGHT: f32 = 110.0;
-/// Metres in the micrometres that films are drawn in.
+/// Metres per micrometre, the unit of the film thickness axis.
 const MICRO: f64 = 1e-6;
 
-/// Strength of a curve by a model that was not trained for it, and of the companion.
+/// Opacity of a curve outside the trained range, and of the companion curve.
 const SKETCH: f32 = 0.7;
 const COMPANION: f32 = 0.55;
-/// Where the curve of a limited lubricant ends its companion is labelled, as a share of the height.
+/// Height of the label on the companion curve, as a share of the plot.
 const COMPANION_LABEL: f64 = 0.9;
-/// Heights of the axis above it up to which curves are drawn.
+/// Number of axis heights above the axis up to which curves are drawn.
 const HEIGHTS: f64 = 20.0;
-/// Where a logarithmic axis of SRR begins, in percent.
+/// Lower end of a logarithmic axis of SRR in percent.
 const LEAST_SRR: f64 = 0.1;
-/// Where the view of small sliding ends, in percent.
+/// Upper end of the view of small SRR in percent.
 pub const NEAR_SRR: f64 = 10.0;
 
 /// Points in the units of the axes.
 type Points2 = Vec<[f64; 2]>;
 
-/// A quantity of a sample; none where it is not known.
+/// Quantity of a sample. `None` if it is not available.
 type Quantity = fn(&Sample) -> Option<f64>;
 
-/// Where samples stand on the axes, logarithms included.
+/// Positions of samples on the axes, including logarithms.
 #[derive(Clone, Copy)]
 struct Axes<'a> {
     against: Against,
     sweep: &'a Sweep,
     logarithmic: (bool, bool),
-    /// First and last place along the axis that are shown.
+    /// Range of the displayed axis along the quantity.
     ends: (f64, f64),
 }
 
@@ -62,12 +62,12 @@ impl<'a> Axes<'a> {
         Self { against, sweep, logarithmic, ends }
     }
 
-    /// A place along the axis as it is drawn; none for what has no logarithm.
+    /// Returns the position on the axis as drawn. `None` if the value has no logarithm.
     fn along(&self, value: f64) -> Option<f64> {
         drawn(value, self.logarithmic.0)
     }
 
-    /// The value of a place along the axis.
+    /// Returns the value at a position on the axis.
     fn value(&self, place: f64) -> f64 {
         if self.logarithmic.0 { 10f64.powf(place) } else { place }
     }
@@ -85,12 +85,13 @@ impl<'a> Axes<'a> {
         Some([self.place(sample)?, drawn(of(sample)?, self.logarithmic.1)?])
     }
 
-    /// The points of a quantity of samples.
+    /// Returns the points of a quantity of samples.
     fn points<'s>(&self, samples: impl IntoIterator<Item = &'s Sample>, of: Quantity) -> Points2 {
         samples.into_iter().filter_map(|sample| self.point(sample, of)).collect()
     }
 
-    /// The ends of the axis up for values that are shown: from nothing, or from the smallest where it is logarithmic.
+    /// Returns the ends of the vertical axis for the displayed values: from zero, or from the smallest value if the
+    /// axis is logarithmic.
     fn up(&self, values: impl Iterator<Item = f64>) -> (f64, f64) {
         let (least, most) = values
             .filter(|value| value.is_finite() && (*value > 0.0 || !self.logarithmic.1))
@@ -104,8 +105,9 @@ impl<'a> Axes<'a> {
     }
 }
 
-/// A curve as far as it stays within some heights of its axis, from where it crosses that level on along it: what is no
-/// physics may leave the picture by millions of heights, and would be dashed all the way.
+/// Returns the parts of a curve below a level of several axis heights, cut where the curve crosses it. An
+/// unphysical curve can exceed the plot by a factor of millions, and dashes along all of it would take too long to
+/// draw.
 fn near(points: Points2, up: (f64, f64)) -> Points2 {
     let level = up.1 + HEIGHTS * (up.1 - up.0);
     let mut kept = Points2::with_capacity(points.len());
@@ -128,13 +130,14 @@ fn drawn(value: f64, logarithmic: bool) -> Option<f64> {
     if !logarithmic { Some(value) } else { (value > 0.0).then(|| value.log10()) }
 }
 
-/// Traction, that of the companion, and both films in µm.
+/// Traction, traction of the companion, and central and minimum film thickness in µm.
 const TRACTION: Quantity = |sample| Some(sample.traction);
 const OF_COMPANION: Quantity = |sample| sample.companion;
 const CENTRAL: Quantity = |sample| Some(sample.h_c_m / MICRO);
 const SMALLEST: Quantity = |sample| Some(sample.h_min_m / MICRO);
 
-/// Largest differences of traction and, relative, of H_c between full solutions and the curve they belong to.
+/// Returns the maximum differences between full solutions and their curve: of the traction coefficient, and of H_c
+/// relative.
 pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64)> {
     let markers = markers.filter(|markers| markers.sweep == curve.sweep && !markers.samples.is_empty())?;
     let pairs = markers.samples.iter().filter_map(|full| {
@@ -157,7 +160,7 @@ pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64
     Some(pairs.fold((0.0, 0.0), worst))
 }
 
-/// The plots; returns the place on the axis that was pressed.
+/// Draws the plots. Returns the clicked position on the axis.
 pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, shown: &ShownSweep<'_>) -> Option<f64> {
     let palette = Palette::of(ui);
     let axes = Axes::new(choices, sweep);
@@ -178,8 +181,8 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
         id: "film",
         titles: (below, "Film in µm"),
         curves: &[
-            Drawn { name: "central film", of: CENTRAL, color: palette.film, width: LIVE_WIDTH },
-            Drawn { name: "smallest film", of: SMALLEST, color: palette.film, width: 1.6 },
+            Drawn { name: "central film thickness", of: CENTRAL, color: palette.film, width: LIVE_WIDTH },
+            Drawn { name: "minimum film thickness", of: SMALLEST, color: palette.film, width: 1.6 },
         ],
         here: here.map(|picture| (picture.central_film_m() / MICRO, false)),
     };
@@ -187,7 +190,7 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
     film.show(ui, context, &axes, shown, unit).or(pressed).map(|place| axes.value(place))
 }
 
-/// A curve of a plot.
+/// Curve of a plot.
 struct Drawn {
     name: &'static str,
     of: Quantity,
@@ -195,15 +198,15 @@ struct Drawn {
     width: f32,
 }
 
-/// One of both plots.
+/// One of the two plots.
 struct LinkedPlot<'a> {
     name: &'static str,
     id: &'static str,
     titles: (&'a str, &'a str),
-    /// What runs to the right, also where the other plot's title says it.
+    /// Quantity of the horizontal axis, also if its title is below the other plot.
     below: &'a str,
     curves: &'a [Drawn],
-    /// The value of the contact on the screen, and whether it is no physics.
+    /// Value of the contact on the screen, and whether it is unphysical.
     here: Option<(f64, bool)>,
 }
 
@@ -256,7 +259,7 @@ impl LinkedPlot<'_> {
         Some(transform.value_from_position(pointer).x)
     }
 
-    /// The ends of the axis up; what is no physics never sets them.
+    /// Returns the ends of the vertical axis. Unphysical values are ignored.
     fn up(&self, axes: &Axes<'_>, shown: &ShownSweep<'_>, here: bool) -> (f64, f64) {
         let seen = |sample: &&Sample| axes.place(sample).is_some_and(|place| axes.shows(place));
         let traction = self.id == "traction";
@@ -268,7 +271,7 @@ impl LinkedPlot<'_> {
         axes.up(of_curves.chain(here))
     }
 
-    /// One curve, grey and thin where it is no physics, with its name at its end.
+    /// Draws one curve with its name at its end. Unphysical parts are grey and thin.
     fn curve(
         &self,
         plot: &mut Canvas<'_, '_>,
@@ -279,7 +282,7 @@ impl LinkedPlot<'_> {
     ) {
         let sketch = shown.curve.is_some_and(|curve| curve.served.untrained.is_some());
         let color = if shown.line_stale() { palette.reference } else { curve.color };
-        // What nobody has measured is no firm line.
+        // Solid lines are for curves inside the trained range only.
         let (color, style) = match (sketch, k) {
             (false, 0) => (color, LineStyle::Solid),
             (false, _) => (color, LineStyle::dashed_loose()),
@@ -293,7 +296,7 @@ impl LinkedPlot<'_> {
         for (part, run) in samples.chunk_by(|a, b| mark(a) == mark(b)).enumerate() {
             let mark = run.first().and_then(mark);
             end += run.len();
-            // Up to where the next part begins.
+            // Extend each part to the start of the next one.
             let next = samples.get(end);
             let (name, color, style, width) = match mark {
                 Some(mark) => (format!("traction, {mark}"), palette.reference, LineStyle::dotted_loose(), THIN_WIDTH),
@@ -305,10 +308,13 @@ impl LinkedPlot<'_> {
         }
         let last = axes.points(samples.iter().filter(|sample| mark(sample).is_none()), curve.of);
         if let Some([x, y]) = last.into_iter().rfind(|point| axes.shows(point[0])) {
-            let name =
-                if sketch { format!("{}, not trained for it  ", curve.name) } else { format!("{}  ", curve.name) };
+            let name = if sketch {
+                format!("{}, outside the trained range  ", curve.name)
+            } else {
+                format!("{}  ", curve.name)
+            };
             let text = Text::new("", PlotPoint::new(x, y), rich(&name, axes::TITLE_SIZE, palette.ink(color)));
-            // The lower curve has its name below it.
+            // The name of the lower curve is placed below it.
             let anchor = if k == 0 { Align2::RIGHT_BOTTOM } else { Align2::RIGHT_TOP };
             plot.text(text.anchor(anchor).id((self.id, k, "name")).allow_hover(false));
         }
@@ -342,7 +348,7 @@ impl LinkedPlot<'_> {
     }
 }
 
-/// What the companion would carry: it sets no axis, and is labelled where it leaves the picture, or at its end.
+/// Draws the companion curve. It does not change the axis. Its label is at its end or where it leaves the plot.
 fn companion(plot: &mut Canvas<'_, '_>, axes: &Axes<'_>, samples: &[Sample], color: Color32, up: (f64, f64)) {
     let points = axes.points(samples, OF_COMPANION);
     let Some(name) = axes.sweep.companion().map(Companion::name).filter(|_| !points.is_empty()) else { return };

@@ -1,4 +1,5 @@
-//! The live curve: a sweep by the reduced model, one at a time. The latest request counts.
+//! Live curve: a sweep by the reduced model. One curve is computed at a time, and the latest request replaces
+//! earlier ones.
 
 use super::sweeps::CURVE;
 use crate::app::refusal::Refusal;
@@ -9,26 +10,26 @@ use crate::scene::{Grid, StudyRow};
 use egui::Context;
 use std::time::Duration;
 
-/// A curve that takes longer than this is given up for a newer one; a shorter one is finished, or it would never be
-/// seen while a slider moves.
+/// Run time after which a newer request ends a curve. Shorter curves are completed, because otherwise no curve
+/// would appear while a slider moves.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A sweep by the reduced model.
+/// Sweep by the reduced model.
 pub struct Curve {
     pub sweep: Sweep,
-    /// What drew it.
+    /// Model that computed it.
     pub served: Served,
-    /// Its contacts, in their order.
+    /// Contacts in their order.
     pub samples: Vec<Sample>,
-    /// How many of its contacts the reduced model did not converge at, or a sentence why there is no curve.
+    /// Number of contacts where the reduced model did not converge, or the reason why there is no curve.
     pub left_out: Result<usize, Refusal>,
-    /// Some contacts of its companion.
+    /// Contacts of the companion.
     companions: Vec<Sample>,
-    /// Seconds it took.
+    /// Computing time \[s\].
     pub wall_s: f64,
 }
 
-/// A curve under way: contacts that have come, the work, and that of its companion.
+/// Curve being computed: contacts received so far, its job, and the job of its companion.
 struct Running {
     curve: Curve,
     contacts: usize,
@@ -37,7 +38,7 @@ struct Running {
     companion: Option<Job<StudyRow>>,
 }
 
-/// The curve under way, and the one that is wanted when it has ended.
+/// Curve being computed, and the request that follows it.
 #[derive(Default)]
 pub struct LiveCurve {
     running: Option<Running>,
@@ -45,7 +46,7 @@ pub struct LiveCurve {
 }
 
 impl LiveCurve {
-    /// Wants a curve; it replaces a request that has not begun.
+    /// Requests a curve. It replaces a request that has not started.
     pub fn ask(&mut self, ctx: &Context, store: &Store, sweep: Sweep, served: Served) {
         self.next = Some((ctx.clone(), store.clone(), sweep, served));
         match &self.running {
@@ -69,12 +70,12 @@ impl LiveCurve {
         self.running = Some(Running { curve, contacts: 0, job, ending: None, companion });
     }
 
-    /// How far it is.
+    /// Returns the progress.
     pub fn standing(&self) -> Option<Standing> {
         self.running.as_ref().map(|running| running.job.standing())
     }
 
-    /// A curve that has been finished since the last call.
+    /// Returns a curve that has been completed since the last call.
     pub fn finished(&mut self) -> Option<Curve> {
         let Running { curve, contacts, job, ending, companion } = self.running.as_mut()?;
         if ending.is_none() {
@@ -84,7 +85,7 @@ impl LiveCurve {
             });
             curve.wall_s = job.since().elapsed().as_secs_f64();
         }
-        // Without its companion a curve is still one.
+        // A missing companion does not prevent the curve.
         if let Some(job) = companion
             && job.poll(|row| curve.companions.extend(Sample::of_row(&row, &curve.sweep))).is_some()
         {
@@ -97,7 +98,7 @@ impl LiveCurve {
         self.start_next();
         curve.sweep.note_companions(&mut curve.samples, &curve.companions);
         match ending? {
-            // It was given up.
+            // The curve was ended for a newer request.
             Ok(()) if contacts < CURVE => None,
             Ok(()) => Some(curve),
             Err(why) => Some(Curve { samples: Vec::new(), left_out: Err(Refusal::new(why.to_string())), ..curve }),

@@ -1,4 +1,4 @@
-//! Traction and film along a quantity for other programs.
+//! Export of traction and film thickness along a quantity.
 
 use super::sweeps::Sweeps;
 use crate::app::document::Key;
@@ -6,21 +6,21 @@ use crate::app::export as tables;
 use crate::app::tabs::traction::{Companion, Sample, Served, Sweep};
 use crate::scene::names;
 
-/// What a sweep belongs to, as lines over a table.
+/// Returns the description of a sweep as lines above a table.
 pub fn describe(sweep: &Sweep) -> Vec<String> {
     std::iter::once(described(sweep)).chain(notes(sweep)).collect()
 }
 
-/// What is to be said of it below its first contact.
+/// Returns the notes that follow the description of the first contact.
 fn notes(sweep: &Sweep) -> impl Iterator<Item = String> {
     let of = match sweep.base.lubricant.heat {
-        Some(_) => "a film with heat over the area under pressure",
-        None => "an isothermal film over the whole domain, (3.41)",
+        Some(_) => "a thermal contact over the area under pressure",
+        None => "an isothermal contact over the whole domain, (3.41)",
     };
     std::iter::once(format!("traction is that of {of}; the first contact is described above")).chain(sweep.unphysical())
 }
 
-/// The first contact of the curve that is drawn, or else of the full solutions, and what is to be said below it.
+/// Returns the first contact of the drawn curve, otherwise of the full solutions, and the notes below it.
 pub fn parameters(view: &Sweeps) -> Option<(&Key, Vec<String>)> {
     match (&view.curve, &view.markers) {
         (Some(curve), _) => Some((&curve.sweep.base, notes(&curve.sweep).chain(untrained(&curve.served)).collect())),
@@ -28,17 +28,18 @@ pub fn parameters(view: &Sweeps) -> Option<(&Key, Vec<String>)> {
     }
 }
 
-/// The line that a curve needs whose model was not trained for it.
+/// Returns a note if the contacts of a curve are outside the trained range.
 fn untrained(served: &Served) -> Option<String> {
     let why = served.untrained.as_ref()?;
-    Some(format!("the reduced model was not trained for this curve ({why}): no bound on its errors is known"))
+    Some(format!("this curve is outside the trained range of the reduced model ({why}): there is no error bound"))
 }
 
 fn described(sweep: &Sweep) -> String {
     tables::describe_contact(&sweep.base.point, &sweep.base.lubricant)
 }
 
-/// The curve and the full solutions, told apart by the column `full`; `None` where there is neither.
+/// Returns the curve and the full solutions as CSV; the column `full` distinguishes them. `None` if there is
+/// neither.
 pub fn csv(view: &Sweeps) -> Option<String> {
     let companion =
         view.curve.iter().map(|curve| &curve.sweep).chain(view.markers.iter().map(|markers| &markers.sweep));

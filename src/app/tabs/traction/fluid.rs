@@ -1,5 +1,5 @@
-//! The laws of the fluid: how its viscosity rises with pressure and falls with shear stress, and how much of both this
-//! contact meets.
+//! Laws of the fluid: viscosity against pressure and against shear stress, with the ranges that occur in this
+//! contact.
 
 use crate::app::context::Context;
 use crate::app::numbers;
@@ -11,26 +11,26 @@ use egui::{Align2, Ui};
 use egui_plot::{HoverPosition, Line, LineStyle, PlotPoint, Span, Text, VLine};
 use std::sync::Arc;
 
-/// Points of a curve.
+/// Number of points of a curve.
 const SAMPLES: usize = 161;
-/// Width from which on the plots stand side by side.
+/// Width from which the plots are placed side by side.
 const SIDE_BY_SIDE: f32 = 620.0;
-/// Decades of stress that are drawn below the critical one, and at least above it.
+/// Number of decades of stress below the critical stress, and minimum number above it.
 const BELOW: f64 = 2.0;
 const ABOVE: f64 = 3.0;
-/// Stress in Pa that a Newtonian flow curve, which has no critical one, is drawn around.
+/// Stress in Pa at the centre of the flow curve of a Newtonian fluid, which has no critical stress.
 const NEWTONIAN_STRESS: f64 = 1e5;
 
-/// What the contact meets.
+/// Fluid of the contact, and the largest values that occur.
 struct Met {
     problem: Problem,
-    /// Largest pressure \[Pa\].
+    /// Maximum pressure \[Pa\].
     pressure_pa: f64,
-    /// Largest shear stress \[Pa\]; `None` without a picture.
+    /// Maximum shear stress \[Pa\]. `None` without a picture.
     stress_pa: Option<f64>,
 }
 
-/// Both plots.
+/// Draws both plots.
 pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &Context<'_>) {
     let key = context.document.key();
     let Ok(problem) = Problem::new(&key.point, key.lubricant) else { return };
@@ -46,9 +46,9 @@ pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &
     let picture = context.answers.picture().filter(|picture| picture.key == key);
     let pressure_pa = picture.map_or(key.point.hertz().pressure_pa, |picture| picture.largest_pressure_pa());
     let met = Met { problem, pressure_pa, stress_pa };
-    let mut text = format!("This contact meets pressures up to {}", numbers::pressure(pressure_pa));
+    let mut text = format!("Pressures in this contact reach {}", numbers::pressure(pressure_pa));
     if let Some(stress) = stress_pa {
-        text.push_str(&format!(" and shear stresses up to {} on its surfaces", numbers::pressure(stress)));
+        text.push_str(&format!(", shear stresses on its surfaces {}", numbers::pressure(stress)));
     }
     ui.weak(text);
     let fit = context.fit;
@@ -69,8 +69,8 @@ pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &
     }
 }
 
-/// The largest shear stress along the axis of a solution \[Pa\]: across the film it is linear, so one of both surfaces
-/// has it.
+/// Returns the maximum shear stress along the axis of a solution \[Pa\]. The stress is linear across the film, so
+/// the maximum occurs at one of the surfaces.
 fn largest_stress(solution: &Solution) -> f64 {
     solution.shear_field(&[0.0, 1.0]).iter().map(|shear| shear.stress_pa.abs()).fold(0.0, f64::max)
 }
@@ -83,7 +83,7 @@ fn logarithmic<'a>(ui: &Ui, id: &str, height: f32, x_title: &str, y_title: &str)
         .show_y(false)
 }
 
-/// µ(p) at rest.
+/// Draws µ(p), the viscosity at zero shear.
 fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     let palette = Palette::of(ui);
     let (problem, hertz_pa) = (&met.problem, met.problem.point.hertz().pressure_pa);
@@ -93,7 +93,7 @@ fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
         (0..SAMPLES).map(|k| end * k as f64 / (SAMPLES - 1) as f64).map(|p| [1e-9 * p, viscosity(p).log10()]).collect();
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 8.0));
     axes::show(
-        logarithmic(ui, "viscosity and pressure", height, "Pressure {p} in GPa", "Viscosity at rest µ in Pa·s")
+        logarithmic(ui, "viscosity and pressure", height, "Pressure {p} in GPa", "Low-shear viscosity µ in Pa·s")
             .marks_x(marks)
             .label_formatter(|at| {
                 Some(format!(
@@ -129,7 +129,7 @@ fn place(at: &HoverPosition<'_>) -> [f64; 2] {
     }
 }
 
-/// η(τ) at ambient and at Hertzian pressure.
+/// Draws η(τ) at ambient and at Hertzian pressure.
 fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     let palette = Palette::of(ui);
     let problem = &met.problem;

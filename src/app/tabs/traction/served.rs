@@ -1,4 +1,4 @@
-//! Which reduced model draws the curve of a sweep, and whether it was trained for it.
+//! Choice of the reduced model for the curve of a sweep, and its trained range.
 
 use super::sweeps::Choices;
 use crate::app::answers::Answers;
@@ -10,21 +10,22 @@ use crate::solver::full::Problem;
 use crate::solver::physics::lubricant::{LARGEST_HEATED_SRR, ShearLaw};
 use crate::solver::reduced::{Domain, Trust};
 
-/// What a logarithmic axis of NPR begins with at least.
+/// Minimum lower end of a logarithmic axis of NPR.
 const LOG_NPR: f64 = 1e-2;
 
-/// The reduced model that draws a curve.
+/// Reduced model of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Served {
-    /// The model and its truncation.
+    /// Model with its truncation.
     pub by: InUse,
-    /// Why it was not trained for the curve: of another fluid, say. It solves the contacts' own equations, but nothing
-    /// is known of its errors.
+    /// Reason why the curve is outside the trained range, such as another fluid. The model solves the equations of
+    /// these contacts, but its errors have not been calibrated for them.
     pub untrained: Option<String>,
 }
 
-/// The sweep through the contact of the sliders, and the reduced model that draws it or why none does. `None` where the
-/// fluid does not answer to the quantity, or a line does not have it.
+/// Returns the sweep through the contact of the sliders, with its reduced model or the reason why there is none.
+///
+/// `None` if the quantity has no effect on the fluid or does not exist for the kind of contact.
 pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Option<(Sweep, Result<Served, Refusal>)> {
     let varied = choices.against.varied();
     let key = document.key();
@@ -45,20 +46,20 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
             },
             None => {
                 let what = match varied {
-                    Varied::RadiusRatio => "circles only",
+                    Varied::RadiusRatio => "circular contacts only",
                     Varied::Plateau => "one plateau ratio only",
-                    Varied::SlideToRoll | Varied::Speed => "no such speed",
+                    Varied::SlideToRoll | Varied::Speed => "other speeds",
                 };
                 (varied.everywhere(&point), Err(Refusal::new(format!("the reduced model was trained for {what}"))))
             }
         },
     };
-    // With heat both bodies must move on.
+    // In a thermal contact both bodies must move.
     let ends = match (varied, key.lubricant.heat) {
         (Varied::SlideToRoll, Some(_)) => (ends.0, ends.1.min(LARGEST_HEATED_SRR)),
         _ => ends,
     };
-    // However sliding is shown, the contacts are the same.
+    // The contacts of a sliding sweep do not depend on the scale of the axis.
     let logarithmic = choices.logarithmic.0 && varied != Varied::SlideToRoll;
     let ends = match varied {
         Varied::Plateau if logarithmic => (ends.0.max(LOG_NPR), ends.1),
@@ -68,11 +69,11 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
     Some((Sweep { varied, base, ends, logarithmic }, served))
 }
 
-/// Why a model was not trained for a sweep, where it was not.
+/// Returns why the contacts of a sweep are outside the trained range. `None` if they are inside.
 ///
 /// # Errors
-/// A sentence where it cannot serve it at all: pressure and film have shapes there that it does not know, or a contact
-/// is refused.
+/// A sentence if the model cannot solve the sweep at all, because it lacks the shapes of pressure and film
+/// thickness, or because a contact is refused.
 fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Result<Option<String>, Refusal> {
     let mut untrained = None;
     for value in [ends.0, ends.1] {
@@ -82,7 +83,8 @@ fn untrained(domain: &Domain, key: &Key, varied: Varied, ends: (f64, f64)) -> Re
         }
         if let Trust::Outside(why) = domain.trust(&problem) {
             if problem.heat.is_some() {
-                // Full solutions are at hand, and with heat the oil and its bodies count as well.
+                // Refuse here, because full solutions are available and a thermal model depends on the oil and the
+                // bodies.
                 return Err(Refusal::new(why.to_string()));
             }
             untrained.get_or_insert(why.to_string());

@@ -1,4 +1,4 @@
-//! Contacts along one quantity: which it is, between which values, and where they stand on an axis.
+//! Sweep of contacts along one quantity: the quantity, its ends, and its position on an axis.
 
 use crate::app::document::Key;
 use crate::app::in_use::question;
@@ -11,18 +11,18 @@ use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::Domain;
 use serde::{Deserialize, Serialize};
 
-/// Half of a curve's contacts lie up to this |SRR| beyond its first one: there traction rises.
+/// Half of the contacts of a curve are within this |SRR| of its first one, where the traction rises.
 const RISES: f64 = 0.05;
 /// SRR is drawn in percent.
 const PERCENT: f64 = 100.0;
 
-/// Ends of SRR and NPR where no model sets them.
+/// Ends of SRR and NPR if no model sets them.
 const SRR: (f64, f64) = (0.0, 2.0);
 const NPR: (f64, f64) = (0.0, 1.0);
-/// Ends of R_y/R: from contacts that are long along the rolling direction to those that are nearly lines.
+/// Ends of R_y/R, from contacts that are long along the rolling direction to nearly line contacts.
 const RADIUS_RATIO: (f64, f64) = (0.2, 20.0);
 
-/// The quantity that a sweep varies.
+/// Quantity varied by a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Varied {
     /// |SRR|.
@@ -35,7 +35,7 @@ pub enum Varied {
     RadiusRatio,
 }
 
-/// What the curves are drawn against; speed, Stribeck's number and M are one quantity in three units.
+/// Quantity on the horizontal axis. Speed, Stribeck number and M are the same quantity in different units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Against {
     /// SRR.
@@ -45,7 +45,7 @@ pub enum Against {
     Plateau,
     /// u_m.
     Speed,
-    /// η₀ u_m/w, as Stribeck drew friction.
+    /// η₀ u_m/w, the Stribeck number.
     Stribeck,
     /// M.
     LoadNumber,
@@ -53,47 +53,47 @@ pub enum Against {
     RadiusRatio,
 }
 
-/// The contacts between two values of a quantity.
+/// Contacts between two values of a quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// What varies.
+    /// Varied quantity.
     pub varied: Varied,
-    /// The contact at the first value, and the laws.
+    /// Contact at the first value, with its laws.
     pub base: Key,
     /// First and last value.
     pub ends: (f64, f64),
-    /// Whether its contacts are spaced by equal ratios; those of SRR are graded however they are drawn.
+    /// True if the contacts are spaced by equal ratios. Contacts of SRR are always graded.
     pub logarithmic: bool,
 }
 
-/// What contacts are compared with, one by one.
+/// Reference case for comparison, contact by contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Companion {
-    /// The lubricant if it were Newtonian and carried every stress.
+    /// The same lubricant as a Newtonian fluid without limiting stress.
     Newtonian,
-    /// The contact if no heat were made.
+    /// The same contact without heat.
     WithoutHeat,
 }
 
-/// One contact of a sweep.
+/// Contact of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// The contact.
+    /// Contact.
     pub point: OperatingPoint,
-    /// Central film \[m\].
+    /// Central film thickness \[m\].
     pub h_c_m: f64,
-    /// Smallest film \[m\].
+    /// Minimum film thickness \[m\].
     pub h_min_m: f64,
-    /// Size of the traction coefficient over the whole domain, (3.41).
+    /// Magnitude of the traction coefficient over the whole domain, (3.41).
     pub traction: f64,
-    /// That of the companion, where it is known.
+    /// Traction coefficient of the companion. `None` if it is not available.
     pub companion: Option<f64>,
-    /// Why its traction is no physics, where it is none.
+    /// Reason why its traction is not physical, if it is not.
     pub unphysical: Option<TractionDoubt>,
 }
 
 impl Companion {
-    /// The title of its question.
+    /// Returns the title of its study.
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::Newtonian => "Newtonian traction",
@@ -101,7 +101,7 @@ impl Companion {
         }
     }
 
-    /// The name of its curve.
+    /// Returns the name of its curve.
     pub fn name(self) -> &'static str {
         match self {
             Self::Newtonian => "if it were Newtonian",
@@ -109,7 +109,7 @@ impl Companion {
         }
     }
 
-    /// The name of its column.
+    /// Returns the name of its column.
     pub(super) fn column(self) -> &'static str {
         match self {
             Self::Newtonian => "newtonian_traction",
@@ -119,7 +119,7 @@ impl Companion {
 }
 
 impl Varied {
-    /// Its value of a contact.
+    /// Returns its value in a contact.
     pub fn of(self, key: &Key) -> f64 {
         let sliding = key.point.sliding;
         match self {
@@ -130,7 +130,7 @@ impl Varied {
         }
     }
 
-    /// The same contact with another value of it.
+    /// Returns the same contact with another value of it.
     pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
         let mut point = *point;
         match self {
@@ -142,12 +142,13 @@ impl Varied {
         point
     }
 
-    /// The values for which a model was trained; speeds at the load, the radius and the fluid of a contact. `None` where there are none.
+    /// Returns the values inside the trained range. Speeds apply to the load, radius and fluid of a contact. `None`
+    /// if there are none.
     pub(super) fn trained(self, domain: &Domain, point: &OperatingPoint) -> Option<(f64, f64)> {
         match self {
             Self::SlideToRoll => {
                 let (from, to) = domain.srr().unwrap_or(SRR);
-                // With heat it is trained up to a speed of sliding as well.
+                // A thermal model is also limited by the sliding speed.
                 let fastest = domain.interval(Quantity::SlidingSpeed).map_or(f64::INFINITY, |(_, fastest)| fastest);
                 Some((from, to.min(fastest / point.speed_m_per_s)))
             }
@@ -155,7 +156,7 @@ impl Varied {
             Self::RadiusRatio => None,
             Self::Speed => {
                 let (e, r) = (point.modulus_pa, point.radius_m);
-                // Both Moes numbers hold the speed in 2 η₀ u/(E′ R) only: (3.19), (3.22).
+                // Both Moes numbers depend on the speed only through 2 η₀ u/(E′ R): (3.19), (3.22).
                 let speed = |group: f64| group * e * r / (2.0 * point.viscosity_pa_s);
                 let of_l = |l: f64| speed((l / (point.alpha_per_pa * e)).powi(4));
                 let of_m = |m: f64| match point.kind {
@@ -169,7 +170,8 @@ impl Varied {
         }
     }
 
-    /// A range that holds the contact's own ratio as well; of speeds it is the range itself, which ends where M or L do.
+    /// Returns a range extended to the contact's own ratio. A range of speeds is returned unchanged, because it
+    /// ends at the limits of M or L.
     pub(super) fn around(self, key: &Key, (from, to): (f64, f64)) -> (f64, f64) {
         match self {
             Self::SlideToRoll | Self::Plateau => (from.min(self.of(key)), to.max(self.of(key))),
@@ -177,7 +179,7 @@ impl Varied {
         }
     }
 
-    /// The values where no model sets them; of the speed the decades around the present one.
+    /// Returns the range of values if no model sets it. For the speed these are the decades around the present one.
     pub(super) fn everywhere(self, point: &OperatingPoint) -> (f64, f64) {
         match self {
             Self::SlideToRoll => SRR,
@@ -192,16 +194,16 @@ impl Varied {
 }
 
 impl Against {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Self; 6] =
         [Self::SlideToRoll, Self::Plateau, Self::Speed, Self::Stribeck, Self::LoadNumber, Self::RadiusRatio];
 
-    /// Whether a kind of contact has it.
+    /// Returns true if the quantity exists for a kind of contact.
     pub fn is_of(self, kind: ContactKind) -> bool {
         self != Self::RadiusRatio || kind == ContactKind::Point
     }
 
-    /// The quantity behind it.
+    /// Returns the varied quantity.
     pub fn varied(self) -> Varied {
         match self {
             Self::SlideToRoll => Varied::SlideToRoll,
@@ -211,7 +213,7 @@ impl Against {
         }
     }
 
-    /// For people.
+    /// Returns the name on the screen.
     pub fn name(self) -> &'static str {
         match self {
             Self::SlideToRoll => "slide-to-roll ratio",
@@ -228,13 +230,15 @@ impl Against {
             Self::SlideToRoll => "SRR = (u₂ − u₁)/u_m in percent (3.25)",
             Self::Plateau => "Newtonian plateau ratio NPR of (3.40)",
             Self::Speed => "Mean entrainment speed u_m at constant load",
-            Self::Stribeck => "η₀ u_m/w at constant load, as Stribeck drew friction",
-            Self::LoadNumber => "M, (3.19) or (3.22), by the speed at constant load",
-            Self::RadiusRatio => "R_y/R at constant load: from ellipses along the rolling direction to nearly lines",
+            Self::Stribeck => "Stribeck number η₀ u_m/w at constant load",
+            Self::LoadNumber => "M, (3.19) or (3.22), varied by the speed at constant load",
+            Self::RadiusRatio => {
+                "R_y/R at constant load: from ellipses along the rolling direction to nearly line contacts"
+            }
         }
     }
 
-    /// Title of its axis, with symbols in braces.
+    /// Returns the title of its axis, with symbols in braces.
     pub fn axis(self, kind: ContactKind) -> &'static str {
         match (self, kind) {
             (Self::SlideToRoll, _) => "Slide-to-roll ratio {SRR} in %",
@@ -247,7 +251,7 @@ impl Against {
         }
     }
 
-    /// Where a contact stands.
+    /// Returns the position of a contact on the axis.
     pub fn of(self, key: &Key) -> f64 {
         let point = &key.point;
         match self {
@@ -258,7 +262,7 @@ impl Against {
         }
     }
 
-    /// The value of the quantity behind a place on the axis.
+    /// Returns the value of the varied quantity at a position on the axis.
     pub fn value(self, point: &OperatingPoint, place: f64) -> f64 {
         match self {
             Self::SlideToRoll => place / PERCENT,
@@ -273,7 +277,7 @@ impl Against {
 }
 
 impl Sweep {
-    /// The question for so many contacts of it by one method.
+    /// Returns the study of `count` contacts of the sweep by one method as a scene.
     pub(super) fn question(&self, title: &str, grid: Grid, count: usize, method: Method) -> Scene {
         let (from, to) = self.ends;
         let (n, half) = (count, from + RISES);
@@ -294,10 +298,11 @@ impl Sweep {
         question(title, &self.base, grid, Study::Sweep(study))
     }
 
-    /// The contact along it that slides, thins or moves as another one does: that one itself, if it lies on the sweep.
+    /// Returns the contact of the sweep with the same value of the varied quantity as another contact. If the other
+    /// contact lies on the sweep, it is returned itself.
     pub fn contact_like(&self, other: &Key) -> Key {
         let mut point = self.varied.at(&self.base.point, self.varied.of(other));
-        // A plateau that is the lubricant's own, and the sense of sliding, make no other sweep.
+        // The sign of sliding, and a plateau ratio that comes from the lubricant, define the same sweep.
         let theirs = other.point.sliding;
         if self.varied == Varied::Plateau {
             point.sliding.newtonian_plateau_ratio = theirs.newtonian_plateau_ratio;
@@ -307,8 +312,8 @@ impl Sweep {
         if srr < 0.0 && point.sliding.slide_to_roll_ratio == -srr { key.exchanged() } else { key }
     }
 
-    /// What its contacts are compared with: with heat those without; without heat those of a lubricant that keeps its
-    /// viscosity under every stress, unless it is one already or it is this that varies.
+    /// Returns the companion: the isothermal contact for a thermal sweep, otherwise the Newtonian contact. `None`
+    /// if the lubricant is Newtonian already or if NPR is varied.
     pub fn companion(&self) -> Option<Companion> {
         let Lubricant { shear, limiting_stress, heat, .. } = self.base.lubricant;
         let bends = shear != ShearLaw::Newtonian || limiting_stress.is_some();
@@ -318,7 +323,7 @@ impl Sweep {
         }
     }
 
-    /// The same contacts of its companion.
+    /// Returns the companion with its sweep.
     pub(super) fn accompanied(&self) -> Option<(Companion, Self)> {
         let companion = self.companion()?;
         let Key { mut point, lubricant } = self.base;
@@ -332,18 +337,18 @@ impl Sweep {
         Some((companion, Self { base: Key { point, lubricant }, ..self.clone() }))
     }
 
-    /// Whether the companion's traction is proportional to what varies: without thinning and heat the film does not feel
-    /// the sliding.
+    /// Returns true if the companion's traction is proportional to the varied quantity. Without shear-thinning and
+    /// heat the film thickness does not depend on the sliding.
     fn is_proportional(&self) -> bool {
         self.varied == Varied::SlideToRoll && self.companion() == Some(Companion::Newtonian)
     }
 
-    /// Contacts of the companion beside so many of the sweep.
+    /// Returns the number of companion contacts for `count` contacts of the sweep.
     pub(super) fn companions(&self, count: usize) -> usize {
         if self.is_proportional() { 2 } else { count }
     }
 
-    /// Notes beside contacts of the sweep what those of the companion amount to.
+    /// Stores the traction of the companion in the contacts of the sweep.
     pub(super) fn note_companions(&self, samples: &mut [Sample], companions: &[Sample]) {
         let lubricant = self.base.lubricant;
         let of = |sample: &Sample| self.varied.of(&Key { point: sample.point, lubricant });
@@ -357,19 +362,19 @@ impl Sweep {
         }
     }
 
-    /// A sentence where every traction along it is no physics.
+    /// Returns a sentence if the traction is unphysical along the whole sweep.
     pub fn unphysical(&self) -> Option<String> {
         Problem::new(&self.base.point, self.base.lubricant).ok()?.traction_warning()
     }
 }
 
 impl Sample {
-    /// A contact that a study of a sweep tells of; none where it failed.
+    /// Returns the contact of a study row. `None` if it failed.
     pub(super) fn of_row(row: &StudyRow, sweep: &Sweep) -> Option<Self> {
         if let StudyRow::Sweep(row) = row { Self::of(row, &sweep.base.lubricant) } else { None }
     }
 
-    /// What a contact of a sweep adds up to by its first method; none where that failed.
+    /// Returns the results of a contact by its first method. `None` if it failed.
     pub(super) fn of(row: &PathRow, lubricant: &Lubricant) -> Option<Self> {
         let result = row.results().first()?;
         let (scalars, scale) = (result.scalars?, result.point.film_scale_m());
@@ -394,7 +399,7 @@ mod tests {
     use crate::solver::physics::contact::Sliding;
     use crate::solver::physics::lubricant::Heat;
 
-    /// Table 3.5's contact as a line or a point contact.
+    /// Returns the contact of Table 3.5 as a line or a point contact.
     fn key(kind: ContactKind) -> Key {
         let load = if kind == ContactKind::Line { 144e3 } else { 23.0 };
         let sliding = Sliding { slide_to_roll_ratio: -0.3, newtonian_plateau_ratio: None };
@@ -408,7 +413,7 @@ mod tests {
         for kind in [ContactKind::Line, ContactKind::Point] {
             let point = key(kind).point;
             let here = point.moes();
-            // A box around the present contact, that the speed leaves by M at one end and by L at the other.
+            // Range around the present contact. The speed leaves it by M at one end and by L at the other.
             let around = |m: (f64, f64)| {
                 let mut domain = model.domain.clone();
                 let ends = [(Quantity::M, m), (Quantity::L, (0.5 * here.l, 1.1 * here.l))];
@@ -440,7 +445,7 @@ mod tests {
         let Study::Sweep(study) = sweep.question("t", Grid::Graded, 41, Method::Full).study else { panic!() };
         let values = study.over[0].values.values();
         assert_eq!(values.iter().filter(|srr| **srr <= 0.05 + 1e-9).count(), 21);
-        // A limited oil has a Newtonian companion, whose traction is proportional to the sliding.
+        // An oil with a limiting stress has a Newtonian companion, whose traction is proportional to the sliding.
         let (companion, newtonian) = sweep.accompanied().unwrap();
         assert_eq!((companion, newtonian.base.lubricant.limiting_stress), (Companion::Newtonian, None));
         assert_eq!((newtonian.companion(), sweep.companions(41)), (None, 2));
@@ -451,7 +456,7 @@ mod tests {
         let mut samples = [sample(0.0, 0.0), sample(0.1, 0.05)];
         sweep.note_companions(&mut samples, &[sample(0.0, 0.0), sample(1.0, 8.0)]);
         assert_eq!(samples.map(|sample| sample.companion), [Some(0.0), Some(0.8)]);
-        // With heat it is the same lubricant without, contact by contact.
+        // A thermal contact has the same contact without heat as companion.
         let heat = Lubricant { heat: Some(Heat::default()), ..MINERAL_OIL };
         let sweep = Sweep { base: Key { lubricant: heat, ..base }, ..sweep };
         let (companion, cold) = sweep.accompanied().unwrap();

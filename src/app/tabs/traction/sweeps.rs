@@ -16,64 +16,64 @@ use crate::solver::parameters::Quantity;
 use egui::Context;
 use serde::{Deserialize, Serialize};
 
-/// Contacts of a curve by the reduced model.
+/// Number of contacts of a curve by the reduced model.
 pub const CURVE: usize = 41;
-/// Full solutions on the curve: every fourth of its contacts.
+/// Number of full solutions on the curve: every fourth of its contacts.
 const MARKERS: usize = 11;
-/// Full solutions of a line contact that are the curve where no model draws one.
+/// Number of full solutions that form the curve of a line contact without a reduced model.
 const FULL_CURVE: usize = 21;
 
 /// Full solutions along a sweep.
 pub struct Markers {
     pub sweep: Sweep,
-    /// Solved contacts so far.
+    /// Contacts solved so far.
     pub samples: Vec<Sample>,
-    /// Some contacts of its companion.
+    /// Contacts of the companion.
     companions: Vec<Sample>,
-    /// Number of contacts that were asked for.
+    /// Number of requested contacts.
     wanted: usize,
-    /// Number of contacts without convergence. They are left out.
+    /// Number of contacts without convergence. They are omitted.
     failed: usize,
-    /// True if they started by themselves. They stop when another sweep is shown.
+    /// True if they started automatically. They stop when another sweep is shown.
     by_themselves: bool,
 }
 
-/// How much of an axis of SRR is shown.
+/// Displayed part of an axis of SRR.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum SlideView {
     /// 0 to 10 %, where traction rises.
     #[default]
     Near,
     Whole,
-    /// All of it, equal ways for equal ratios.
+    /// The whole range on a logarithmic axis.
     Logarithmic,
 }
 
 impl SlideView {
-    /// All of them, with their names and what they show.
+    /// All views with their names and tooltips.
     pub const ALL: [(Self, &'static str, &'static str); 3] = [
         (Self::Near, "0–10 %", "Where traction rises"),
-        (Self::Whole, "0–100 %", "All of the sliding that the curve knows"),
-        (Self::Logarithmic, "Log", "All of it; equal ways along are equal ratios"),
+        (Self::Whole, "0–100 %", "The whole range of the curve"),
+        (Self::Logarithmic, "Log", "The whole range on a logarithmic axis"),
     ];
 }
 
-/// Settings of the tab; not part of the document.
+/// Settings of the tab. They are not part of the document.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Choices {
-    /// What the curves are drawn against.
+    /// Quantity on the horizontal axis.
     pub against: Against,
-    /// Logarithmic axes: along where that is not SRR, and of traction and film.
+    /// Logarithmic axes: horizontal if it is not SRR, and vertical.
     pub logarithmic: (bool, bool),
-    /// How much of SRR is shown.
+    /// Displayed part of an axis of SRR.
     pub slide: SlideView,
-    /// Whether the laws of the fluid are shown in place of the traction.
+    /// True if the laws of the fluid are shown instead of the traction.
     pub shows_fluid: bool,
 }
 
 impl Choices {
-    /// Whether the axis along is logarithmic.
+    /// Returns true if the horizontal axis is logarithmic.
     pub fn logarithmic_along(&self) -> bool {
         match self.against {
             Against::SlideToRoll => self.slide == SlideView::Logarithmic,
@@ -82,14 +82,14 @@ impl Choices {
     }
 }
 
-/// The curve and the full solutions of the tab.
+/// Curve and full solutions of the tab.
 #[derive(Default)]
 pub struct Sweeps {
-    /// The last curve by the reduced model.
+    /// Last curve by the reduced model.
     pub curve: Option<Curve>,
     /// Full solutions.
     pub markers: Option<Markers>,
-    /// Their work.
+    /// Job of the full solutions.
     pub full: Background<StudyRow>,
     beside: Background<StudyRow>,
     live: LiveCurve,
@@ -109,7 +109,7 @@ impl Sweeps {
             None => markers.failed += 1,
         });
         self.beside.receive(|row| markers.companions.extend(Sample::of_row(&row, &markers.sweep)));
-        // A companion that fails is left out.
+        // A companion that fails is omitted.
         self.beside.message = None;
         markers.sweep.note_companions(&mut markers.samples, &markers.companions);
         let (failed, wanted) = (markers.failed, markers.wanted);
@@ -119,7 +119,7 @@ impl Sweeps {
         }
     }
 
-    /// Returns true if the curve is the one that was asked for last.
+    /// Returns true if the curve is the one requested last.
     pub fn curve_is_current(&self) -> bool {
         matches!((&self.curve, &self.wanted), (Some(curve), Some((sweep, served)))
             if curve.sweep == *sweep && curve.served == *served)
@@ -127,12 +127,12 @@ impl Sweeps {
 }
 
 impl Sweeps {
-    /// Returns true if the curve of a sweep has been asked for.
+    /// Returns true if the curve of a sweep has been requested.
     pub fn is_asked(&self, sweep: &Sweep, served: &Served) -> bool {
         self.wanted.as_ref().is_some_and(|(wanted, by)| wanted == sweep && by == served)
     }
 
-    /// Asks for the curve of a sweep, unless it has been asked for.
+    /// Requests the curve of a sweep, unless it has been requested already.
     pub fn follow(&mut self, ctx: &Context, store: &Store, sweep: Sweep, served: Served) {
         if !self.is_asked(&sweep, &served) {
             self.wanted = Some((sweep.clone(), served.clone()));
@@ -145,7 +145,7 @@ impl Sweeps {
         self.markers.as_ref().is_some_and(|markers| markers.sweep == *sweep)
     }
 
-    /// Returns true if full solutions of another sweep run that started by themselves.
+    /// Returns true if automatically started full solutions of another sweep are running.
     pub fn fills_another(&self, sweep: &Sweep) -> bool {
         let another = |markers: &Markers| markers.by_themselves && markers.sweep != *sweep;
         self.full.job().is_some_and(|job| !job.stopping()) && self.markers.as_ref().is_some_and(another)
@@ -156,14 +156,14 @@ impl Sweeps {
         self.live.standing()
     }
 
-    /// Stops the full solutions; those that are there stay.
+    /// Stops the full solutions and keeps those computed so far.
     pub fn stop_markers(&self) {
         self.full.stop();
         self.beside.stop();
     }
 
-    /// Solves contacts of the sweep through the document's contact in full, each from its neighbour. If a model draws the
-    /// curve, its grid is used, so that both can be compared.
+    /// Starts full solutions of the sweep through the document's contact, each from its neighbour. If a model
+    /// computes the curve, they use its grid, so that both are comparable.
     pub fn start_markers(
         &mut self,
         ctx: &Context,
@@ -199,7 +199,7 @@ impl Sweeps {
     }
 }
 
-/// Returns the edit that moves the contact to a place on the axis of the curve.
+/// Returns the edit that moves the contact to a position on the axis of the curve.
 pub fn edit_along(document: &Document, choices: &Choices, place: f64) -> Edit {
     let value = numbers::rounded(choices.against.value(&document.point, place), 3);
     match choices.against.varied() {

@@ -1,4 +1,5 @@
-//! Traction and film along one quantity, live by the reduced model, and the laws of the fluid behind them.
+//! Traction tab: traction and film thickness along one quantity, live by the reduced model, and the laws of the
+//! fluid.
 
 use super::chart::{self, NEAR_SRR};
 use super::fluid;
@@ -24,10 +25,10 @@ use crate::solver::physics::contact::ContactKind;
 use egui::{Align, Button, Checkbox, ComboBox, Layout, ScrollArea, TextStyle, Ui, vec2};
 use std::sync::Arc;
 
-/// The tab: how it shows things, and the largest shear stress of a solution.
+/// Traction tab with its settings, its curves, and the maximum shear stress of a solution.
 #[derive(Default)]
 pub struct Traction {
-    /// What is drawn, and how.
+    /// Settings of the plots.
     pub choices: Choices,
     /// Curve and full solutions.
     pub sweeps: Sweeps,
@@ -38,10 +39,10 @@ const ABOUT: About = About {
     keywords: "friction Stribeck slide-to-roll fluid viscosity",
     page: "physics.md",
     has_units: false,
-    why: "Surfaces that slide shear the film, and its shear stress, summed up over the contact, is the traction. \
-          Pressure makes the oil so stiff that it would soon carry more than any lubricant can: it bends at its \
-          Eyring stress and slips at its limiting one, and the curve levels off. Where neither is known the result \
-          is Newtonian, and under high pressure it is no physics.",
+    why: "Sliding surfaces shear the film, and the shear stress integrated over the contact is the traction. High \
+          pressure raises the viscosity so much that a Newtonian film would carry more stress than any lubricant can; \
+          above the Eyring stress the curve bends, and at the limiting stress it levels off. If neither stress is \
+          given, the result is Newtonian and unphysical at high pressure.",
 };
 
 impl View for Traction {
@@ -51,7 +52,7 @@ impl View for Traction {
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let choices = &mut self.choices;
-        // An audience looks at the curves.
+        // A presentation shows only the curves.
         if !context.presenting {
             ui.horizontal_wrapped(|ui| {
                 ui.selectable_value(&mut choices.shows_fluid, false, "Traction and film");
@@ -86,7 +87,7 @@ impl View for Traction {
         if shown.curve.is_none() && shown.markers.is_none() {
             let waits = match served {
                 Ok(_) if !self.sweeps.curve_is_current() => "The curve is being computed",
-                Ok(_) => "The reduced model has no answer along here: full solutions draw the curve",
+                Ok(_) => "The reduced model has no solution here: full solutions draw the curve",
                 Err(_) => "Full solutions draw the curve here",
             };
             ui.centered_and_justified(|ui| ui.weak(waits));
@@ -101,7 +102,7 @@ impl View for Traction {
         let view = &self.sweeps;
         let there = view.curve.as_ref().is_some_and(|curve| !curve.samples.is_empty())
             || view.markers.as_ref().is_some_and(|markers| !markers.samples.is_empty());
-        let tip = "The curve and the full solutions, every contact with its traction and films";
+        let tip = "The curve and the full solutions, every contact with its traction and film thicknesses";
         let text = |view: &&Sweeps| export::csv(view).unwrap_or_default();
         vec![Offer::table("Curve as CSV…", tip, there.then_some(view), text)]
     }
@@ -135,13 +136,13 @@ impl View for Traction {
 }
 
 impl Traction {
-    /// Solves contacts along the curve in full.
+    /// Starts full solutions along the curve.
     pub fn solve_along(&mut self, ctx: &egui::Context, document: &Document, answers: &Answers) {
         self.sweeps.start_markers(ctx, document, answers, &self.choices, false);
     }
 }
 
-/// Solves contacts along the curve in full once the sliders rest, if no model was trained for it.
+/// Starts full solutions along the curve when the sliders are idle, if no model was trained for it.
 fn fill(
     ui: &Ui,
     sweeps: &mut Sweeps,
@@ -165,7 +166,7 @@ fn fill(
     }
 }
 
-/// What there is to draw, and what of it is old.
+/// Curves to draw, and whether they are out of date.
 pub struct ShownSweep<'a> {
     pub(super) curve: Option<&'a Curve>,
     pub(super) markers: Option<&'a Markers>,
@@ -188,7 +189,7 @@ impl<'a> ShownSweep<'a> {
             |curve: &&Curve| curve.sweep == *sweep && served.as_ref().is_ok_and(|served| *served == curve.served);
         let curve_stale = curve.filter(present).is_none();
         let markers_stale = markers.is_none_or(|markers| markers.sweep != *sweep);
-        // Full solutions of these very contacts replace the curve of others.
+        // Full solutions of the present contacts replace a curve of others.
         let curve = curve.filter(|_| !curve_stale || markers_stale);
         let key = context.document.key();
         let of = |sweep: &Sweep| sweep.contact_like(&key);
@@ -203,7 +204,7 @@ impl<'a> ShownSweep<'a> {
 }
 
 impl ShownSweep<'_> {
-    /// What the line goes through: the reduced model's curve, or where there is none the full solutions.
+    /// Returns the contacts of the line: the curve of the reduced model, or the full solutions if there is none.
     pub(super) fn samples(&self) -> &[Sample] {
         match (self.curve, self.markers) {
             (Some(curve), _) => &curve.samples,
@@ -217,9 +218,11 @@ impl ShownSweep<'_> {
     }
 }
 
-/// What the laws of the fluid are about, for teaching.
-const WHY_FLUID: &str = "Pressure in the contact lets the viscosity rise by many orders of magnitude, shear stress lets it fall again. The shaded parts are \
-     what this very contact meets: their ends decide how much of both the film feels. Where they end left of the bend the lubricant is as good as Newtonian.";
+/// Explanation of the laws of the fluid, for teaching.
+const WHY_FLUID: &str = "Pressure in the contact raises the viscosity by many orders of magnitude, and shear stress \
+                         reduces it again. The shaded ranges occur in this contact, and their upper ends determine how \
+                         strong both effects are. If they end to the left of the bend, the lubricant behaves like a \
+                         Newtonian one.";
 
 fn toolbar(
     ui: &mut Ui,
@@ -237,19 +240,20 @@ fn toolbar(
                 ui.selectable_value(&mut choices.slide, view, name).on_hover_text(tip);
             }
         } else {
-            ui.add(Checkbox::new(along, "Log x")).on_hover_text("Equal ways along are equal ratios");
+            ui.add(Checkbox::new(along, "Log x")).on_hover_text("Logarithmic horizontal axis");
         }
         if choices.slide != before {
             commands.push(Command::FitPlots);
         }
-        ui.add(Checkbox::new(up, "Log y")).on_hover_text("Equal ways up are equal ratios of traction and of film");
+        ui.add(Checkbox::new(up, "Log y")).on_hover_text("Logarithmic axes of traction and film thickness");
         if sweeps.full.standing().is_some() {
-            let stop = ui.add_sized(FULL_BUTTON, Button::new("Stop")).on_hover_text("Full solutions so far stay (Esc)");
+            let stop =
+                ui.add_sized(FULL_BUTTON, Button::new("Stop")).on_hover_text("Keeps the full solutions so far (Esc)");
             if stop.clicked() {
                 sweeps.stop_markers();
             }
         } else {
-            let tip = "Eleven full solutions along the curve, set on it as rings";
+            let tip = "Computes eleven full solutions along the curve, drawn as rings";
             let button = ui.add_enabled(there, Button::new("Add full solutions").min_size(FULL_BUTTON.into()));
             if button.on_hover_text(tip).clicked() {
                 commands.push(Command::SolveAlong);
@@ -259,7 +263,7 @@ fn toolbar(
 }
 
 fn against_ui(ui: &mut Ui, choices: &mut Choices, kind: ContactKind, commands: &mut Commands) {
-    let label = ui.label("Against").on_hover_text("What traction and film are drawn against");
+    let label = ui.label("Against").on_hover_text("Quantity on the horizontal axis");
     let before = choices.against;
     let chosen = &mut choices.against;
     let response =
@@ -270,18 +274,18 @@ fn against_ui(ui: &mut Ui, choices: &mut Choices, kind: ContactKind, commands: &
         });
     response.response.labelled_by(label.id).on_hover_text(before.tip());
     if *chosen != before {
-        // Speeds and radii span decades, ratios of speeds do not.
+        // Speeds and radii span decades, SRR and NPR do not.
         choices.logarithmic.0 = !matches!(choices.against, Against::SlideToRoll | Against::Plateau);
         commands.push(Command::FitPlots);
     }
 }
 
-/// Size of the button that begins full solutions, and of the one that stops them.
+/// Size of the buttons that start and stop full solutions.
 const FULL_BUTTON: [f32; 2] = [136.0, 22.0];
-/// Lines that are always kept for what is said above the plots, so that these stand still.
+/// Number of lines reserved above the plots, so that the plots do not move.
 const STATUS_LINES: f32 = 3.0;
 
-/// What runs, what is amiss, and what the curve says in numbers, in a place of a fixed size.
+/// Draws progress, warnings and a summary of the curve in an area of fixed size.
 fn status(
     ui: &mut Ui,
     context: &Context<'_>,
@@ -307,14 +311,14 @@ fn said(
 ) {
     ui.label(rich(&summary(context, view, sweep), 12.5, Palette::of(ui).quiet)).on_hover_text(
         match sweep.base.lubricant.heat {
-            Some(_) => "Of the traction coefficient over the area under pressure, with heat",
-            None => "Of the traction coefficient over the whole domain of an isothermal film (3.41)",
+            Some(_) => "Traction coefficient of the thermal contact over the area under pressure",
+            None => "Traction coefficient of the isothermal contact over the whole domain (3.41)",
         },
     );
     let place = choices.against.of(&context.document.key());
     if choices.against == Against::SlideToRoll && choices.slide == SlideView::Near && place > NEAR_SRR {
         let place = numbers::quantity(place, "%");
-        ui.weak(format!("The contact on the screen slides at {place}, beyond this view"));
+        ui.weak(format!("The contact on the screen slides at {place}, outside this view"));
     }
     standing_ui(ui, view.full.standing(), "Progress of the full solutions");
     match served {
@@ -322,14 +326,14 @@ fn said(
         Ok(Served { untrained: Some(why), .. }) => warning_ui(
             ui,
             &format!(
-                "the curve is a sketch, for the model was not trained for it: {why}. It solves the equations of these contacts, but no bound on \
-                 its errors is known; full solutions check it"
+                "the curve is a sketch, because it is outside the trained range: {why}. The model solves the equations \
+                 of these contacts, but there is no error bound; full solutions check it"
             ),
         ),
         Err(why) => warning_ui(ui, &format!("no curve by the reduced model: {}", why.trim_end_matches('.'))),
     }
     if let Some(unphysical) = sweep.unphysical() {
-        warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or take less load"));
+        warning_ui(ui, &format!("{unphysical}: it is drawn grey. Set a limiting shear stress, or reduce the load"));
     } else {
         let doubts = || view.curve.iter().flat_map(|curve| &curve.samples).filter_map(|sample| sample.unphysical);
         if doubts().any(|doubt| matches!(doubt, TractionDoubt::Coefficient(_))) {
@@ -357,11 +361,11 @@ fn said(
         view.markers.as_ref().filter(|markers| markers.sweep != *sweep && !markers.samples.is_empty())
     {
         let of = numbers::contact(&markers.sweep.base.point);
-        ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, beginning at {of}")));
+        ui.weak(sentence(&format!("the grey rings are full solutions of another sweep, starting at {of}")));
     }
 }
 
-/// Why there are fewer contacts than the curve should have.
+/// Draws a warning if contacts of the curve are missing.
 fn left_out_ui(ui: &mut Ui, failed: usize) {
     let contacts = match failed {
         0 => return,
@@ -371,7 +375,7 @@ fn left_out_ui(ui: &mut Ui, failed: usize) {
     warning_ui(ui, &format!("the reduced model did not converge at {contacts} left out"));
 }
 
-/// Traction here, the largest of the curve, and how far full solutions lie from it.
+/// Returns the traction of the contact, the maximum of the curve, and the difference to full solutions.
 fn summary(context: &Context<'_>, view: &Sweeps, sweep: &Sweep) -> String {
     let mut parts = Vec::new();
     let here = context.answers.picture().filter(|_| context.answers.picture_is_current());

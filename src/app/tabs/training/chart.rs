@@ -1,40 +1,40 @@
-//! What a training has found so far, as points of a chart.
+//! Progress of a training as points of a chart.
 
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::training::{Plan, TrainingState};
 use serde::{Deserialize, Serialize};
 
-/// Full solutions and bad approximations, all windows, in the order in which they were decided on.
+/// Full solutions and bad approximations of all local models, in the order of the decisions.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Chart {
     /// Full solutions.
     pub solved: Vec<Dot>,
-    /// Bad approximations that the search came upon.
+    /// Bad approximations that the search found.
     pub bad: Vec<Found>,
 }
 
-/// A full solution in the M–L plane.
+/// Full solution in the M–L plane.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Dot {
     /// log10 M and L.
     pub at: [f64; 2],
-    /// Whether the search decided on it; else it was planned from the start.
+    /// True if the search selected it. False if it was planned from the start.
     pub searched: bool,
 }
 
-/// A bad approximation.
+/// Bad approximation.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Found {
     /// log10 M and L.
     pub at: [f64; 2],
-    /// What the indicator said; none where the reduced solve failed.
+    /// Value of the indicator. `None` if the reduced solve failed.
     pub indicator: Option<f64>,
-    /// Full solutions when it was found, all windows.
+    /// Number of full solutions of all local models when it was found.
     pub solutions: usize,
 }
 
 impl Chart {
-    /// The chart of a training.
+    /// Returns the chart of a training.
     pub fn of(state: &TrainingState) -> Self {
         let planned = match state.spec.plan {
             Plan::Adaptive { start, .. } | Plan::WorstOfPool { start, .. } => start,

@@ -1,4 +1,5 @@
-//! The training as pictures: where its full solutions lie, and how bad the approximations were that led to them.
+//! Charts of a training: the position of its full solutions, and the indicators of the bad approximations that led
+//! to them.
 
 use super::chart::Chart;
 use super::trainings::Training;
@@ -11,15 +12,15 @@ use crate::solver::training::Plan;
 use egui::{Color32, RichText, Ui};
 use egui_plot::{GridInput, GridMark, HLine, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
-/// Width of the axes' numbers: both charts are as wide as each other.
+/// Width of the axis numbers, so that both charts are equally wide.
 const AXIS_WIDTH: f32 = 44.0;
 
-/// Marks at whole numbers only.
+/// Keeps only marks at whole numbers.
 fn whole(marks: Vec<GridMark>) -> Vec<GridMark> {
     marks.into_iter().filter(|mark| mark.value.fract() == 0.0).collect()
 }
 
-/// Decades far enough apart for their labels.
+/// Returns decades with enough space for their labels.
 fn legible(input: GridInput, height: f32) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let stride = (34.0 * (high - low) / f64::from((height - 50.0).max(34.0))).ceil().max(1.0);
@@ -27,7 +28,7 @@ fn legible(input: GridInput, height: f32) -> Vec<GridMark> {
     kept.map(|mark| GridMark { step_size: stride, ..mark }).collect()
 }
 
-/// What the marks mean, above the charts: they leave no corner free.
+/// Draws the key of the charts above them, because the charts have no free corner.
 pub fn key(ui: &mut Ui, chart: &Chart) {
     let palette = Palette::of(ui);
     let searched = chart.solved.iter().filter(|dot| dot.searched).count();
@@ -45,20 +46,20 @@ pub fn key(ui: &mut Ui, chart: &Chart) {
     });
 }
 
-/// How what came of a training looks: it stands back where another one is set up now.
+/// Returns a function that fades colours if the form shows another training.
 fn look(ui: &Ui, training: &Training, context: &Context<'_>) -> impl Fn(Color32) -> Color32 + use<> {
-    // While it runs it is what is asked, whatever the form shows.
+    // A running training is always current, whatever the form shows.
     let there = training.job().is_none() && !(training.chart.solved.is_empty() && training.chart.bad.is_empty());
     let of = training.spec.as_ref().filter(|_| there).map(|spec| Owner::Training(spec.clone()));
     let grey = of.is_some_and(|of| drawn::is_grey(ui.ctx(), "training", of, context));
     move |color| if grey { faded(color, 0.4) } else { color }
 }
 
-/// The M–L plane: full solutions by how they were decided on, bad approximations, failed reduced solves, the range.
+/// Draws the M–L plane: full solutions by their selection, bad approximations, failed reduced solves, the range.
 pub fn plane(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f32) {
     let palette = Palette::of(ui);
     let (chart, look) = (&training.chart, look(ui, training, context));
-    // What runs, else what would be started.
+    // Use the range of the running training, otherwise of the training in the form.
     let runs = training.spec.as_deref().filter(|_| training.job().is_some());
     let spec = runs.or_else(|| context.document.training_spec());
     let range = spec.map(|spec| spec.domain()).map(|domain| (domain.m(), domain.l()));
@@ -111,8 +112,8 @@ pub fn plane(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f3
     );
 }
 
-/// The indicator of every bad approximation against the number of full solutions when it was found; tolerances as
-/// lines.
+/// Draws the indicator of every bad approximation against the number of full solutions when it was found.
+/// Tolerances are lines.
 pub fn indicator(ui: &mut Ui, training: &Training, context: &Context<'_>, height: f32) {
     let palette = Palette::of(ui);
     let (chart, look) = (&training.chart, look(ui, training, context));
@@ -126,7 +127,7 @@ pub fn indicator(ui: &mut Ui, training: &Training, context: &Context<'_>, height
         .iter()
         .filter_map(|bad| bad.indicator.filter(|value| *value > 0.0).map(|v| [bad.solutions as f64, v.log10()]))
         .collect();
-    // Failures have no indicator: they stand above all that have one.
+    // Failed solves have no indicator. They are drawn above all others.
     let top = known.iter().map(|p| p[1]).chain(tolerances.iter().map(|t| t.log10())).fold(f64::MIN, f64::max);
     let failed: Vec<[f64; 2]> =
         chart.bad.iter().filter(|bad| bad.indicator.is_none()).map(|bad| [bad.solutions as f64, top + 0.5]).collect();

@@ -1,5 +1,5 @@
-//! Models over the range of one of them: the random test of each with the same seed, one after the other, so that none
-//! disturbs the other's times.
+//! Comparison of models over the range of one of them. The random validation runs with the same seed for each
+//! model, one after the other, so that the measured times are undisturbed.
 
 use crate::app::document::Key;
 use crate::app::export;
@@ -15,14 +15,14 @@ use crate::solver::training::random_points;
 use egui::Context;
 use std::sync::Arc;
 
-/// Random points at which models are compared.
+/// Number of random contacts of a comparison.
 pub const POINTS: usize = 200;
-/// Seed of those points: the same ones for every pair.
+/// Seed of the random contacts. It is the same for every comparison.
 const SEED: u64 = 31;
 
-/// What a model is worth.
+/// Result of a model.
 pub struct ModelScore {
-    /// What it is called beside the others.
+    /// Name in the comparison.
     pub name: String,
     pub model: Arc<ReducedModel>,
     found: Findings,
@@ -30,29 +30,29 @@ pub struct ModelScore {
 }
 
 impl ModelScore {
-    /// A value that its random test has found.
+    /// Returns a value that the random validation has found.
     pub fn value(&self, name: &str) -> f64 {
         self.found.value(name, None).unwrap_or(f64::NAN)
     }
 
-    /// Errors of H_c, ascending.
+    /// Returns the errors of H_c in ascending order.
     pub fn errors(&self) -> Vec<f64> {
         let mut all: Vec<f64> = self.tests.iter().filter_map(|tested| errors(tested)[0]).collect();
         all.sort_by(f64::total_cmp);
         all
     }
 
-    /// A size of its largest window.
+    /// Returns the largest value of a size over its local models.
     pub fn largest(&self, size: fn(&Window) -> usize) -> usize {
         self.model.windows.iter().map(size).max().unwrap_or(0)
     }
 }
 
-/// A comparison under way, or done.
+/// Comparison, running or complete.
 pub struct Comparison {
-    /// What each model is worth that has been tested, in their order.
+    /// Results of the models tested so far, in their order.
     pub scores: Vec<ModelScore>,
-    /// Title of the model or training whose range holds the contacts.
+    /// Title of the model or training whose range contains the contacts.
     pub range_of: String,
     question: Scene,
     models: Vec<(String, Arc<ReducedModel>)>,
@@ -63,10 +63,10 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Begins to compare models by their names at random contacts of a domain, which belongs to `range_of`.
+    /// Starts a comparison of named models at random contacts of a domain, which belongs to `range_of`.
     ///
     /// # Errors
-    /// A sentence when the range holds no contact.
+    /// A sentence if the range contains no contact.
     pub fn start(
         ctx: &Context,
         store: &Store,
@@ -92,7 +92,7 @@ impl Comparison {
         Ok(comparison)
     }
 
-    /// Every contact with each model's errors of H_c and H_min, as a table.
+    /// Returns a table of every contact with the errors of H_c and H_min of each model.
     pub fn csv(&self) -> String {
         let mut header = vec![names::M.to_owned(), names::L.to_owned()];
         for score in &self.scores {
@@ -115,12 +115,12 @@ impl Comparison {
         export::csv(&comments, &titles, (0..count).map(row))
     }
 
-    /// Whether all have been tested.
+    /// Returns true if all models have been tested.
     pub fn done(&self) -> bool {
         self.scores.len() == self.models.len()
     }
 
-    /// How far it is.
+    /// Returns the progress.
     pub fn standing(&self) -> Option<Standing> {
         self.work.standing()
     }
@@ -136,12 +136,12 @@ impl Comparison {
         }
     }
 
-    /// Takes in what came; a sentence where it ended early for a reason.
+    /// Receives results. Returns a sentence if the comparison ended early for a reason.
     pub fn receive(&mut self) -> Option<String> {
         self.work.job()?;
         let rows = &mut self.rows;
         self.work.receive(|row| rows.push(row));
-        // Two rows for each point: one that was stopped has fewer.
+        // Each contact has two rows. A stopped validation has fewer.
         let all = self.rows.len() == 2 * POINTS;
         if self.work.job().is_none() && self.work.message.is_none() && all {
             let rows = std::mem::take(&mut self.rows);

@@ -1,4 +1,4 @@
-//! The model that was made beside those that were there before it.
+//! View of the comparison of models.
 
 use super::trainings::Training;
 use crate::app::command::Command;
@@ -12,13 +12,13 @@ use crate::app::theme::{Palette, rich};
 use egui::{Grid, Ui};
 use egui_plot::{Line, PlotPoints};
 
-/// A row: its name, what it is, and what one model has there.
+/// Row: its name, its tooltip, and the text for one model.
 type Row = (&'static str, &'static str, fn(&ModelScore) -> String);
 
-/// Height of the errors' distributions.
+/// Height of the distributions of errors.
 const HEIGHT: f32 = 200.0;
 
-/// The table and the distributions of errors, when they are there.
+/// Draws table and distributions of errors if the comparison is complete.
 pub fn ui(ui: &mut Ui, training: &Training, commands: &mut Commands) {
     let Some(comparison) = training.comparison.as_ref().filter(|comparison| comparison.done()) else { return };
     ui.add_space(4.0);
@@ -36,26 +36,26 @@ pub fn ui(ui: &mut Ui, training: &Training, commands: &mut Commands) {
     .on_hover_text("Uniform random numbers in the range (3.17)");
     let unknown = comparison.scores.iter().map(|score| score.value("full_failures")).fold(0.0, f64::max);
     if unknown > 0.0 {
-        warning_ui(ui, &format!("At {unknown} points there is no full solution and so no error"));
+        warning_ui(ui, &format!("At {unknown} contacts there is no full solution and therefore no error"));
     }
     let errors = "Relative to the full solution";
     let rows: [Row; 12] = [
-        ("Full solutions", "All windows", |s| {
+        ("Full solutions", "All local models", |s| {
             s.model.windows.iter().map(|window| window.snapshots.len()).sum::<usize>().to_string()
         }),
-        ("Pressure modes", "Largest window", |s| s.largest(|window| window.pressure.count()).to_string()),
-        ("Sampled rows", "Largest window", |s| s.largest(|window| window.sampled_rows.len()).to_string()),
-        ("Online median", "Time of a reduced solve, beside whatever else runs", |s| {
+        ("Pressure modes", "Largest local model", |s| s.largest(|window| window.pressure.count()).to_string()),
+        ("Sampled equations", "Largest local model", |s| s.largest(|window| window.sampled_rows.len()).to_string()),
+        ("Online median", "Time of a reduced solve while other jobs may run", |s| {
             numbers::duration(s.value("median_s"))
         }),
-        ("Not trained for", "Points outside the range it declares", |s| s.value("untrained").to_string()),
+        ("Outside the range", "Contacts outside its trained range", |s| s.value("untrained").to_string()),
         ("Failures", "Reduced solves without convergence", |s| s.value("failures").to_string()),
         ("Error of {H_c}, median", errors, |s| numbers::error_percent(s.value("H_c_error_median"))),
         ("Error of {H_c}, 95 %", errors, |s| numbers::error_percent(s.value("H_c_error_p95"))),
-        ("Error of {H_c}, largest", errors, |s| numbers::error_percent(s.value("H_c_error_max"))),
+        ("Error of {H_c}, maximum", errors, |s| numbers::error_percent(s.value("H_c_error_max"))),
         ("Error of {H_min}, median", errors, |s| numbers::error_percent(s.value("H_min_error_median"))),
         ("Error of {H_min}, 95 %", errors, |s| numbers::error_percent(s.value("H_min_error_p95"))),
-        ("Error of {H_min}, largest", errors, |s| numbers::error_percent(s.value("H_min_error_max"))),
+        ("Error of {H_min}, maximum", errors, |s| numbers::error_percent(s.value("H_min_error_max"))),
     ];
     Grid::new("model comparison")
         .num_columns(1 + comparison.scores.len())
@@ -79,7 +79,7 @@ pub fn ui(ui: &mut Ui, training: &Training, commands: &mut Commands) {
     distributions(ui, &comparison.scores);
 }
 
-/// The share of contacts whose error is no larger, for each model.
+/// Draws the share of contacts whose error does not exceed a value, for each model.
 fn distributions(ui: &mut Ui, scores: &[ModelScore]) {
     let palette = Palette::of(ui);
     let hues =
@@ -89,10 +89,11 @@ fn distributions(ui: &mut Ui, scores: &[ModelScore]) {
         scores.iter().enumerate().map(|(k, score)| Entry::new(score.name.as_str(), hue(k), Sample::Line(2.0)));
     let name = "Distribution of errors";
     key::over(ui, HEIGHT, entries, |ui, height| {
-        let plot = axes::plot(ui, "errors of models", height, "Relative error of {H_c}", "Contacts with no more / %")
-            .decades_x(8.0)
-            .include_y(0.0)
-            .include_y(100.0);
+        let plot =
+            axes::plot(ui, "errors of models", height, "Relative error of {H_c}", "Contacts up to this error / %")
+                .decades_x(8.0)
+                .include_y(0.0)
+                .include_y(100.0);
         axes::show(plot, ui, name, |plot| {
             for (k, score) in scores.iter().enumerate() {
                 let errors = score.errors();

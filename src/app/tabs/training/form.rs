@@ -1,5 +1,4 @@
-//! The specification of a training as a form: presets, range, plan, reduction. What makes no sense is refused beside
-//! its field.
+//! Form of a training: presets, range, plan, reduction. Invalid entries are refused next to their field.
 
 use super::tab::TrainingTab;
 use crate::app::context::{Commands, Context};
@@ -14,7 +13,7 @@ use crate::solver::reduced::{Sampling, Scheme};
 use crate::solver::training::{Indicator, Plan, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
 
-/// The form.
+/// Draws the form.
 pub fn ui(ui: &mut Ui, tab: &mut TrainingTab, context: &Context<'_>, commands: &mut Commands) {
     let Some(before) = context.document.training_spec() else { return };
     let mut spec = before.clone();
@@ -35,20 +34,20 @@ pub fn ui(ui: &mut Ui, tab: &mut TrainingTab, context: &Context<'_>, commands: &
         reduction_ui(ui, &mut form, &mut spec);
     });
     let law = context.document.lubricant.cavitation.name();
-    ui.weak(format!("Films rupture by {law}, as chosen beside the lubricant."));
+    ui.weak(format!("Cavitation: {law}, as chosen for the lubricant."));
     if spec.range != before.range {
         presets::fit_windows(&mut spec);
     }
     let edit = (spec != *before).then(|| Edit::Training(Box::new(spec)));
     tab.last = form.ask(edit, "presets", commands);
     if !context.document.saves_training() && context.document.training.is_some() {
-        ui.weak("The open scene asks another question: it is saved without this training.");
+        ui.weak("The open scene has another study and is saved without this training.");
     }
 }
 
-/// The title, taken when it is left: not every letter is an edit to undo.
+/// Draws the title. It is submitted when the field loses the focus, so that not every letter is an edit to undo.
 fn title_ui(ui: &mut Ui, typed: &mut Option<String>, spec: &mut TrainingSpec) {
-    let tip = "What the model will be called";
+    let tip = "Name of the model";
     row(ui, "Title", tip, |ui| {
         let mut text = typed.take().unwrap_or_else(|| spec.title.clone());
         let response = ui.add(TextEdit::singleline(&mut text).desired_width(f32::INFINITY));
@@ -68,7 +67,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     heading(ui, "Range");
     let is_box = spec.range.is_si_box();
     let mut wanted = is_box;
-    choose(ui, "Given by", "What the model shall be good for", &mut wanted, &[true, false], |is_box| {
+    choose(ui, "Given by", "Range for which the model is trained", &mut wanted, &[true, false], |is_box| {
         if is_box {
             ("SI quantities", "A box of R, u_m, w and α, as Tables 3.1 and 3.4")
         } else {
@@ -98,19 +97,19 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     ui.weak(described_windows(&spec.windows));
 }
 
-/// The interval of a quantity of a kind of contact.
+/// Draws the interval of a quantity for a kind of contact.
 fn quantity_ui(ui: &mut Ui, form: &mut Form<'_>, (quantity, kind): (Quantity, ContactKind), ends: &mut (f64, f64)) {
     form.interval(ui, quantity.field(), quantity.reading_unit(kind), ends, quantity.meaning(kind));
 }
 
-/// The windows of M in a line.
+/// Returns the local models and the grid in one line.
 fn described_windows(windows: &Windows) -> String {
     let given = match windows {
         Windows::Automatic { modes } => {
-            return format!("Windows of M and grid: chosen by the training, at most {modes} modes each");
+            return format!("Local models in M and grid: chosen by the training, at most {modes} modes each");
         }
         Windows::Anchored { count, modes, .. } => {
-            return format!("{count} windows around anchors in ln M and ln L, at most {modes} modes each");
+            return format!("{count} local models in (ln M, ln L), at most {modes} modes each");
         }
         Windows::Given(given) => given,
     };
@@ -123,10 +122,10 @@ fn described_windows(windows: &Windows) -> String {
             Err(error) => format!(", {error}"),
         },
     });
-    format!("Windows of M: {}{grid}", ranges.join(", "))
+    format!("Local models in M: {}{grid}", ranges.join(", "))
 }
 
-/// The same range, as far as it can be, given the other way.
+/// Returns a range of the other form that covers the same contacts as far as possible.
 fn converted(spec: &TrainingSpec) -> ParameterSpace {
     let domain = spec.domain();
     let viscosity = domain.middle_viscosity_pa_s();
@@ -144,7 +143,7 @@ fn converted(spec: &TrainingSpec) -> ParameterSpace {
         .fixing([(Quantity::Viscosity, viscosity)])
 }
 
-/// Which plan.
+/// Kind of plan.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Adaptive,
@@ -175,7 +174,7 @@ impl Kind {
         }
     }
 
-    /// A plan of this kind with as much of another as it can take over.
+    /// Returns a plan of this kind with the settings of another plan that it also has.
     fn plan(self, start: usize, indicator: Indicator, tolerances: &[f64], limit: usize) -> Plan {
         let tolerance = tolerances.last().copied().unwrap_or(1e-3);
         match self {
@@ -201,7 +200,7 @@ fn plan_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     let kind = Kind::of(&spec.plan);
     let mut wanted = kind;
     let kinds = [Kind::Adaptive, Kind::Pool, Kind::Precomputed, Kind::Grid];
-    choose(ui, "Full solutions", "Where they are taken", &mut wanted, &kinds, Kind::describe);
+    choose(ui, "Full solutions", "Choice of the training contacts", &mut wanted, &kinds, Kind::describe);
     if wanted != kind {
         spec.plan = match &spec.plan {
             Plan::Adaptive { start, indicator, tolerances, limit, .. } => {
@@ -218,11 +217,11 @@ fn plan_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
         form.changed = Some("Full solutions");
     }
     form.message(ui, "Full solutions");
-    let start_tip = "Spread by (3.16) before the search begins, per window";
-    let limit_tip = "The search ends here at the latest, per window";
+    let start_tip = "Contacts spread by (3.16) before the search, per local model";
+    let limit_tip = "Maximum number of full solutions, per local model";
     match &mut spec.plan {
         Plan::FarthestPoint { snapshots } => {
-            form.count(ui, "How many", snapshots, "Full solutions per window");
+            form.count(ui, "How many", snapshots, "Full solutions per local model");
         }
         Plan::Grid { nodes } => {
             for (name, n) in ["Nodes of {R}", "Nodes of {u_m}", "Nodes of {w}", "Nodes of {α}"].into_iter().zip(nodes)
@@ -239,28 +238,40 @@ fn plan_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
                 ui,
                 "Good in a row",
                 successes,
-                "Good approximations of the global search (3.17) that end a rung",
+                "Consecutive good approximations of the global search (3.17) that end a tolerance level",
             );
-            form.row(ui, "Local width {σ}", PLAIN, local_sigma, "Of the local search (3.18), in widths of the range");
+            form.row(
+                ui,
+                "Local width {σ}",
+                PLAIN,
+                local_sigma,
+                "Width of the local search (3.18), relative to the range",
+            );
             form.count(
                 ui,
                 "Local good",
                 local_successes,
-                "Good ones in a row that end a local search; 0 leaves it out",
+                "Consecutive good approximations that end a local search; 0 omits it",
             );
-            form.count(ui, "Vicinity", vicinity, "Candidates around a bad point of which the worst is solved in full");
+            form.count(ui, "Vicinity", vicinity, "Candidates around a bad approximation; the worst is solved in full");
         }
         Plan::WorstOfPool { start, indicator, pool, per_round, tolerance, limit } => {
             form.count(ui, "Pre-computed", start, start_tip);
             form.count(ui, "At most", limit, limit_tip);
             indicator_ui(ui, form, indicator);
-            form.row(ui, "Tolerance", PLAIN, tolerance, "The search ends with a pool that has no worse point");
-            form.count(ui, "Pool", pool, "Random points judged per round");
-            form.count(ui, "Per round", per_round, "The worst that are solved in full");
+            form.row(
+                ui,
+                "Tolerance",
+                PLAIN,
+                tolerance,
+                "The search ends when no contact of a pool has a larger indicator",
+            );
+            form.count(ui, "Pool", pool, "Random contacts evaluated per round");
+            form.count(ui, "Per round", per_round, "Number of worst contacts that are solved in full");
         }
     }
     let mut seed = usize::try_from(spec.seed).unwrap_or(usize::MAX);
-    form.count(ui, "Seed", &mut seed, "Of everything random: the same one gives the same model");
+    form.count(ui, "Seed", &mut seed, "Seed of all random numbers; the same seed gives the same model");
     spec.seed = seed as u64;
 }
 
@@ -269,22 +280,24 @@ fn indicator_ui(ui: &mut Ui, form: &mut Form<'_>, indicator: &mut Indicator) {
     let options = [Indicator::Correction, Indicator::Residual, Indicator::Dissertation];
     choose(ui, "Judged by", "The indicator of a bad approximation", indicator, &options, |indicator| match indicator {
         Indicator::Correction => {
-            ("Newton steps", "What three Newton steps of the full system change of film and state, relative")
+            ("Newton steps", "Relative change of film thickness and state in three Newton steps of the full system")
         }
         Indicator::Dissertation => (
             "Residual, 2-norm",
             "The dissertation's e_f^I: Euclidean norm, deformation modes in the state, the nearest snapshot as start",
         ),
-        Indicator::Residual => ("Residual", "The residual at the sampled rows, e_f^I (3.15): no large-scale work"),
+        Indicator::Residual => {
+            ("Residual", "Residual of the sampled equations, e_f^I (3.15), without full-size computations")
+        }
     });
     if *indicator != before {
         form.changed = Some("Judged by");
     }
 }
 
-/// The tolerances, descending; each shown as a number of its own.
+/// Draws the tolerances in descending order, each as a number field.
 fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
-    let tip = "On the indicator, descending: a rung ends with enough good approximations in a row";
+    let tip = "Tolerances of the indicator, descending. A level ends after enough consecutive good approximations";
     row(ui, "Tolerances", tip, |ui| {
         ui.vertical(|ui| {
             for (k, tolerance) in tolerances.iter_mut().enumerate() {
@@ -292,13 +305,13 @@ fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
             }
             ui.horizontal(|ui| {
                 let more = ui.small_button("+");
-                let more = named(ui, more, "Add a tolerance").on_hover_text("One more, a third of the last");
+                let more = named(ui, more, "Add a tolerance").on_hover_text("Adds a tolerance of a third of the last");
                 if more.clicked() {
                     tolerances.push(tolerances.last().map_or(1e-2, |last| last / 3.0));
                     form.changed = Some("Tolerances");
                 }
                 let fewer = ui.small_button("−");
-                let fewer = named(ui, fewer, "Remove the last tolerance").on_hover_text("Leave the last out");
+                let fewer = named(ui, fewer, "Remove the last tolerance").on_hover_text("Removes the last tolerance");
                 if fewer.clicked() {
                     tolerances.pop();
                     form.changed = Some("Tolerances");
@@ -309,7 +322,7 @@ fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
     form.message(ui, "Tolerances");
 }
 
-/// By what the online step is found.
+/// Draws the choice of the online scheme.
 fn scheme_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     let before = spec.scheme;
     let options = [
@@ -319,20 +332,23 @@ fn scheme_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
         Scheme::Gnat { weighted: true },
         Scheme::Gnat { weighted: false },
     ];
-    let tip = "By what each step of the reduced iteration is found";
+    let tip = "Conditions that determine each step of the reduced iteration";
     choose(ui, "Scheme", tip, &mut spec.scheme, &options, |scheme| match scheme {
-        Scheme::Galerkin => ("Galerkin", "The rows tested by the pressure modes vanish"),
+        Scheme::Galerkin => ("Galerkin", "The projection of the residual on the pressure modes vanishes"),
         Scheme::LeastSquares { weighted: true } => {
-            ("Least squares, weighted", "The rows' squares are least, each weighted by the first mode (D.10)–(D.13)")
+            ("Least squares, weighted", "Minimises the squared residuals, weighted by the first mode (D.10)–(D.13)")
         }
         Scheme::LeastSquares { weighted: false } => (
             "Least squares",
-            "The rows' squares are least (2.68): the far inlet counts most, and by the penalty it fails",
+            "Minimises the squared residuals (2.68); the far inlet dominates, and with the penalty it fails",
         ),
-        Scheme::Gnat { weighted: true } => {
-            ("GNAT, weighted", "The squares of what two bases make of the rows (2.80), weighted by the first mode")
+        Scheme::Gnat { weighted: true } => (
+            "GNAT, weighted",
+            "Minimises the squared residuals reconstructed from two bases (2.80), weighted by the first mode",
+        ),
+        Scheme::Gnat { weighted: false } => {
+            ("GNAT", "Minimises the squared residuals reconstructed from two bases (2.80)")
         }
-        Scheme::Gnat { weighted: false } => ("GNAT", "The squares of what two bases make of the sampled rows (2.80)"),
     });
     if spec.scheme != before {
         form.changed = Some("Scheme");
@@ -347,18 +363,26 @@ fn reduction_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     form.row(ui, "Deformation loss", PLAIN, &mut spec.deformation_loss, &format!("{tip} (2.93)"));
     let before = spec.sampling;
     let options = [Sampling::QDeim, Sampling::Cubature, Sampling::Greedy, Sampling::All];
-    choose(ui, "Rows by", "How rows of the Reynolds equation are sampled", &mut spec.sampling, &options, |s| match s {
-        Sampling::QDeim => ("Q-DEIM", "Pivoted QR picks the rows, a fixed matrix reconstructs the rest"),
-        Sampling::Cubature => ("Cubature", "Rows with non-negative weights that reproduce the Newton steps"),
-        Sampling::Greedy => ("Greedy", "The dissertation’s choice, Fig. 2.9"),
-        Sampling::All => ("All rows", "No sampling error, at large-scale cost"),
-    });
+    choose(
+        ui,
+        "Sampling",
+        "Method to select the sampled equations (hyper-reduction)",
+        &mut spec.sampling,
+        &options,
+        |s| match s {
+            Sampling::QDeim => ("Q-DEIM", "Pivoted QR selects the equations, a fixed matrix reconstructs the others"),
+            Sampling::Cubature => ("Cubature", "Equations with non-negative weights that reproduce the Newton steps"),
+            Sampling::Greedy => ("Greedy", "The dissertation’s choice, Fig. 2.9"),
+            Sampling::All => ("All equations", "No sampling error, at the cost of the full size"),
+        },
+    );
     if spec.sampling != before {
-        form.changed = Some("Rows by");
+        form.changed = Some("Sampling");
     }
-    form.message(ui, "Rows by");
+    form.message(ui, "Sampling");
     scheme_ui(ui, form, spec);
-    form.row(ui, "Rows per mode", PLAIN, &mut spec.rows_per_mode, "Sampled rows per pressure mode");
-    let tip = "Penalty factor of (2.36) in the reduced equations; few rows of a point contact want it softer than the full system's";
+    form.row(ui, "Rows per mode", PLAIN, &mut spec.rows_per_mode, "Sampled equations per pressure mode");
+    let tip = "Penalty factor of (2.36) in the reduced equations; with few sampled equations of a point contact it \
+               must be smaller than in the full system";
     form.row(ui, "Penalty {γ}", PLAIN, &mut spec.penalty, tip);
 }

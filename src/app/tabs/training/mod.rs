@@ -1,4 +1,4 @@
-//! Training reduced models: form, running training, comparison of models.
+//! Training of reduced models: form, running training, comparison of models.
 
 pub mod chart;
 mod charts;

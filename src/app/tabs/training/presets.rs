@@ -1,11 +1,11 @@
-//! Trainings to begin with, read from the scenes that come with the program.
+//! Preset trainings, read from the built-in scenes.
 
 use crate::scene::{Scene, Study};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::{TrainingSpec, Windows};
 use std::sync::LazyLock;
 
-/// What there is for a kind of contact, by name; the first is what the tab shows where the document describes no
+/// Returns the presets for a kind of contact with their names. The tab shows the first one if the document has no
 /// training.
 pub fn of_kind(kind: ContactKind) -> Vec<(&'static str, &'static TrainingSpec)> {
     let all = match kind {
@@ -15,21 +15,21 @@ pub fn of_kind(kind: ContactKind) -> Vec<(&'static str, &'static TrainingSpec)> 
     all.into_iter().filter_map(|(name, spec)| Some((name, spec?))).collect()
 }
 
-/// Table 3.4's box, corrected, of one oil.
+/// Returns the range of Table 3.4, corrected, for one oil.
 fn table_3_4() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
         LazyLock::new(|| spec_of(include_str!("../../../../scenes/training/table_3_4_model.ron")));
     SPEC.as_ref()
 }
 
-/// Table 3.1's box by the automatic algorithm.
+/// Returns the range of Table 3.1 with the automatic algorithm.
 fn table_3_1() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
         LazyLock::new(|| spec_of(include_str!("../../../../scenes/plans/table_3_2_adaptive_graded.ron")));
     SPEC.as_ref()
 }
 
-/// What the sliders reach, of one oil.
+/// Returns the range of the sliders, for one oil.
 fn slider_range() -> Option<&'static TrainingSpec> {
     static SPEC: LazyLock<Option<TrainingSpec>> =
         LazyLock::new(|| spec_of(include_str!("../../../../scenes/training/slider_range_model.ron")));
@@ -43,7 +43,8 @@ fn spec_of(scene: &str) -> Option<TrainingSpec> {
     }
 }
 
-/// Lets given windows follow a range that was changed: those it no longer meets go, the outer ends move to its own.
+/// Adapts the given local models to a changed range. Those outside the range are removed, and the outer ends move
+/// to the ends of the range.
 pub fn fit_windows(spec: &mut TrainingSpec) {
     let (low, high) = spec.domain().m();
     if !(low > 0.0 && low < high && high.is_finite()) {

@@ -1,4 +1,4 @@
-//! Making a reduced model: what it shall be trained for and how, the training as it runs, and what its model is worth.
+//! Training tab: specification of a reduced model, the running training, and the comparison of its model.
 
 use super::trainings::{Training, TrainingCommand};
 use super::{charts, comparison_view, form};
@@ -17,14 +17,14 @@ use egui::{Button, Label, ProgressBar, ScrollArea, Ui};
 /// Width of the form.
 const FORM_WIDTH: f32 = 316.0;
 
-/// The tab: what is being entered in its form.
+/// Training tab with the state of its form.
 #[derive(Default)]
 pub struct TrainingTab {
-    /// The title while it is typed.
+    /// Title while it is typed.
     pub title: Option<String>,
-    /// The field that was changed last.
+    /// Field that was changed last.
     pub last: LastField,
-    /// Trainings and what came of them.
+    /// Trainings and their results.
     pub work: Training,
 }
 
@@ -32,9 +32,9 @@ const ABOUT: About = About {
     keywords: "snapshots model plan range",
     page: "training.md",
     has_units: false,
-    why: "A reduced model is learnt from full solutions, its snapshots, of contacts all over a range. A plan that \
-          always adds the contact that is represented worst needs fewest of them. Outside its range a model knows \
-          nothing, so choose the range for what you are going to ask.",
+    why: "A reduced model is trained from full solutions, its snapshots, of contacts all over a range. A plan that \
+          always adds the contact with the worst approximation needs the fewest snapshots. Outside its range a model \
+          is not valid, so choose the range for the contacts that you need.",
 };
 
 impl View for TrainingTab {
@@ -94,21 +94,22 @@ fn buttons(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &m
     ui.horizontal_wrapped(|ui| {
         if runs {
             let tip =
-                "Ends the work; a training keeps its full solutions and makes a model of them. Again: no model either";
+                "Stops the job. A training keeps its full solutions and makes a model of them; a second click omits \
+                 the model";
             button(ui, true, "Stop", tip, Command::Training(C::Stop));
         } else {
             let free = !training.left_behind;
             let tip = if free {
-                "Takes the full solutions and makes a model of them, beside the live picture"
+                "Computes the full solutions and makes a model of them in the background"
             } else {
-                "First resume or discard the training that was left unfinished"
+                "First resume or discard the unfinished training"
             };
             button(ui, free, "Start training", tip, Command::Train);
         }
         if training.unfinished.is_some() {
-            let tip = "Goes on as if it had never been stopped: the model will be the same";
+            let tip = "Resumes the training; the model is the same as without the stop";
             button(ui, !runs, "Resume training", tip, Command::Training(C::Resume));
-            button(ui, !runs, "Discard…", "Forgets the unfinished training", Command::DiscardTraining);
+            button(ui, !runs, "Discard…", "Discards the unfinished training", Command::DiscardTraining);
         }
     });
     if let Some(made) = &training.made {
@@ -117,7 +118,7 @@ fn buttons(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &m
     compare_ui(ui, training, context, commands);
 }
 
-/// A button that asks for something.
+/// Draws a button that submits a command.
 fn button(ui: &mut Ui, commands: &mut Commands, on: bool, (name, tip): (&str, &str), command: Command) {
     let button = ui.add_enabled(on, Button::new(name)).on_hover_text(tip).on_disabled_hover_text(tip);
     if button.clicked() {
@@ -125,7 +126,7 @@ fn button(ui: &mut Ui, commands: &mut Commands, on: bool, (name, tip): (&str, &s
     }
 }
 
-/// What can be done with the model that was made.
+/// Draws the actions on the trained model.
 fn made_ui(ui: &mut Ui, (training, made): (&Training, &Made), context: &Context<'_>, commands: &mut Commands) {
     use TrainingCommand as C;
     let mut button = |ui: &mut Ui, on: bool, name: &str, tip: &str, command: Command| {
@@ -136,24 +137,24 @@ fn made_ui(ui: &mut Ui, (training, made): (&Training, &Made), context: &Context<
         let tip = "The picture, the badge and all tabs use it from now on";
         button(ui, !used, "Use this model", tip, Command::Training(C::UseMade));
         if used {
-            let tip = "Puts the model in use that was before";
-            button(ui, true, "Back to the former model", tip, Command::Training(C::UseFormer));
+            let tip = "Uses the previous model again";
+            button(ui, true, "Restore previous model", tip, Command::Training(C::UseFormer));
         }
         let save = Command::Ask(Purpose::Write(Written::Model, made.bytes.clone()));
         button(ui, true, "Save model…", "Writes it as a .rom file", save);
-        let tip = "Forgets this model; until then the session’s folder keeps it";
-        button(ui, !made.saved, "Throw away…", tip, Command::ThrowModelAway);
+        let tip = "Discards this model; until then the session’s folder stores it";
+        button(ui, !made.saved, "Discard model…", tip, Command::ThrowModelAway);
     });
 }
 
-/// Which models stand beside each other.
+/// Draws the choice of models to compare.
 fn compare_ui(ui: &mut Ui, training: &Training, context: &Context<'_>, commands: &mut Commands) {
     ui.horizontal_wrapped(|ui| {
         let several = training.comparable(context.answers, context.document).len() > 1;
         let ready = several && training.standing().is_none();
         let tip = match several {
-            true => "Size, time and errors of all of them at the same random points, against full solutions",
-            false => "Another model of this kind of contact is needed: train one, or add that of a file",
+            true => "Size, time and errors of all models at the same random contacts, against full solutions",
+            false => "Another model of this kind of contact is needed: train one, or add one from a file",
         };
         button(ui, commands, ready, ("Compare models", tip), Command::CompareModels);
         let tip = "Reads the model of a .rom file for the comparison alone: the picture stays with the one in use";
@@ -162,8 +163,8 @@ fn compare_ui(ui: &mut Ui, training: &Training, context: &Context<'_>, commands:
             let serves = context.document.training_spec().is_some_and(|spec| spec.is_of(model));
             ui.add_enabled(serves, Label::new(name))
                 .on_hover_text(&model.title)
-                .on_disabled_hover_text("It is for another kind of contact, and left out");
-            let cross = ui.small_button("×").on_hover_text("Leaves it out of the comparison");
+                .on_disabled_hover_text("It is for another kind of contact and is omitted");
+            let cross = ui.small_button("×").on_hover_text("Removes it from the comparison");
             if named(ui, cross, &format!("Leave out {name}")).clicked() {
                 commands.push(Command::Training(TrainingCommand::LeaveOut(k)));
             }
@@ -191,8 +192,8 @@ fn status(ui: &mut Ui, training: &Training) {
         let largest =
             |size: fn(&crate::solver::reduced::Window) -> usize| model.windows.iter().map(size).max().unwrap_or(0);
         let text = format!(
-            "{}, {} pressure modes, {} rows, {} MB",
-            if windows == 1 { "One window".to_owned() } else { format!("{windows} windows") },
+            "{}, {} pressure modes, {} sampled equations, {} MB",
+            if windows == 1 { "One local model".to_owned() } else { format!("{windows} local models") },
             largest(|w| w.pressure.count()),
             largest(|w| w.sampled_rows.len()),
             numbers::digits(made.bytes.len() as f64 / 1e6, 2)
@@ -213,7 +214,7 @@ fn status(ui: &mut Ui, training: &Training) {
     }
 }
 
-/// What runs, how far it is, and how long it may take.
+/// Draws the running job, its progress, and its remaining time.
 fn standing_ui(ui: &mut Ui, standing: Standing, running: Option<&Running>) {
     let Standing { stage, done, total, .. } = standing;
     let count = if total > 0 { format!("{done} of {total}") } else { String::new() };

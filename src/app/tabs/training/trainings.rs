@@ -40,7 +40,7 @@ pub enum TrainingCommand {
     UseMade,
     /// Use the previous model.
     UseFormer,
-    /// Leave a model of a file, by its place, out of the comparison.
+    /// Remove a model of a file from the comparison, by its index.
     LeaveOut(usize),
 }
 
@@ -49,21 +49,21 @@ pub enum TrainingCommand {
 pub struct Training {
     job: Option<Running>,
     looking: Background<Found>,
-    /// What is drawn.
+    /// Chart of the training.
     pub chart: Arc<Chart>,
-    /// The training that the chart and the model belong to.
+    /// Training that the chart and the model belong to.
     pub spec: Option<Box<TrainingSpec>>,
-    /// A training that was stopped, failed, or was left by a former session.
+    /// Training that was stopped, failed, or was left by a previous session.
     pub unfinished: Option<Box<TrainingState>>,
-    /// Whether a former session left it: then it is not replaced unasked.
+    /// True if a previous session left it. It is then not replaced without a confirmation.
     pub left_behind: bool,
     /// Last trained model.
     pub made: Option<Made>,
     /// Model that was in use before it.
     pub former: Option<Arc<ReducedModel>>,
-    /// Models of files that others are compared with, by the names of these.
+    /// Models of files for the comparison, with the names of the files.
     pub beside: Vec<(String, Arc<ReducedModel>)>,
-    /// All of them side by side.
+    /// Comparison of all models.
     pub comparison: Option<Comparison>,
     /// Messages about the last job.
     pub notices: Vec<Notice>,
@@ -77,7 +77,7 @@ impl Training {
         self.files = (!browser::PAGE).then(files);
     }
 
-    /// Looks for what a former session left behind.
+    /// Searches for files of a previous session.
     pub fn look(&mut self, ctx: &Context) {
         if let Some(files) = &self.files {
             self.looking.run(worker::look(ctx, files.clone()));
@@ -88,7 +88,7 @@ impl Training {
     pub fn replaced(&self) -> Vec<String> {
         let unfinished = self.unfinished.iter().map(|state| {
             format!(
-                "The training “{}”, which stopped at {} full solutions, gives way to the new one.",
+                "The training “{}”, stopped at {} full solutions, is replaced by the new one.",
                 state.spec.title,
                 state.solutions()
             )
@@ -99,9 +99,12 @@ impl Training {
     /// Returns what is lost when the window closes, each as a sentence.
     pub fn unkept(&self) -> Vec<String> {
         let folder = self.files.is_some();
-        let runs = self.job.is_some().then(|| "A training runs, and no folder keeps its full solutions.".to_owned());
+        let runs = self
+            .job
+            .is_some()
+            .then(|| "A training is running, and its full solutions are not stored on disk.".to_owned());
         let stopped = self.unfinished.as_ref().map(|state| {
-            format!("The training “{}” was stopped, and no folder keeps its full solutions.", state.spec.title)
+            format!("The training “{}” was stopped, and its full solutions are not stored on disk.", state.spec.title)
         });
         let in_memory = runs.into_iter().chain(stopped).filter(|_| !folder);
         let model = self.unsaved().filter(|_| self.made.as_ref().is_some_and(|made| !made.kept));
@@ -114,7 +117,7 @@ impl Training {
         Some(format!("The model “{}” was trained and is not saved.", made.model.title))
     }
 
-    /// Notes that a model was written to a file.
+    /// Records that a model was written to a file.
     pub fn saved(&mut self, bytes: &Arc<Vec<u8>>) {
         if let Some(made) = self.made.as_mut().filter(|made| Arc::ptr_eq(&made.bytes, bytes)) {
             made.saved = true;
@@ -139,16 +142,16 @@ impl Training {
         self.job.as_ref()
     }
 
-    /// Returns the progress of a training, of the look for an unfinished one, or of a comparison.
+    /// Returns the progress of a training, of the search for an unfinished one, or of a comparison.
     pub fn standing(&self) -> Option<Standing> {
         let trains = self.job.as_ref().map(|running| running.job.standing());
         trains.or_else(|| self.looking.standing()).or_else(|| self.comparison.as_ref()?.standing())
     }
 
-    /// Starts the training that the document shows, unless its specification is refused.
+    /// Starts the training of the document, unless its specification is refused.
     pub fn start(&mut self, ctx: &Context, document: &Document) {
         let Some(spec) = document.training_spec().cloned() else { return };
-        // Its films rupture as those of the contact do, and warm themselves where it is about heat.
+        // The training uses the cavitation model of the contact, and its heat for a thermal model.
         let heat = document.lubricant.heat.filter(|_| spec.heats());
         let spec = spec.under(document.lubricant.cavitation).heated(heat);
         match spec.check() {
@@ -194,10 +197,10 @@ impl Training {
         self.made.as_ref().is_some_and(|made| answers.models().contains(&made.model))
     }
 
-    /// Adds the model of a file to the comparison; it is not used for the picture.
+    /// Adds the model of a file to the comparison. It is not used for the picture.
     ///
     /// # Errors
-    /// A sentence when it cannot be read.
+    /// A sentence if the file cannot be read.
     pub fn add_beside(&mut self, store: &Store, path: &Path) -> Result<(), Refusal> {
         let model = store.model_of_file(path)?;
         let name = path.file_stem().map_or_else(|| model.title.clone(), |stem| stem.to_string_lossy().into_owned());
@@ -206,8 +209,9 @@ impl Training {
         Ok(())
     }
 
-    /// Returns the contacts at which models are compared, and what they belong to: those of the trained model, else of the
-    /// last one that was added of the kind that the form shows, else of the one in use, else those of the form.
+    /// Returns the contacts for the comparison of models, and the title they belong to. These are the contacts of
+    /// the trained model. Without one, they are those of the model added last for the kind of contact in the form,
+    /// otherwise of the model in use, otherwise of the form.
     fn compared(&self, answers: &Answers, document: &Document) -> Option<(String, Domain)> {
         let of = |model: &Arc<ReducedModel>| (model.title.clone(), model.domain.clone());
         if let Some(made) = &self.made {
@@ -220,15 +224,15 @@ impl Training {
         Some(model.map_or_else(|| (spec.title.clone(), own), of))
     }
 
-    /// The models that can be compared, by what they are called: the program's, the one in use, the one before, those of
-    /// files, and the one that was made.
+    /// Returns the models that can be compared, with their names: the built-in model, the one in use, the previous
+    /// one, those of files, and the trained one.
     pub fn comparable(&self, answers: &Answers, document: &Document) -> Vec<(String, Arc<ReducedModel>)> {
         self.compared(answers, document).map_or_else(Vec::new, |(_, domain)| self.of_domain(answers, &domain))
     }
 
-    /// The models that can be compared at the contacts of a domain.
+    /// Returns the models that can be compared at the contacts of a domain.
     fn of_domain(&self, answers: &Answers, domain: &Domain) -> Vec<(String, Arc<ReducedModel>)> {
-        // That of ellipses is large: it stands here once it is in use.
+        // The model of elliptical contacts is large. It is listed only once it is in use.
         let round = catalogue().iter().filter(|entry| !domain.space.of_ellipses() && alike(&entry.domain, domain));
         let nearest = round.max_by(|a, b| {
             let [a, b] = [a, b].map(|entry| loads_in_common(&entry.domain, domain));
@@ -241,7 +245,7 @@ impl Training {
         let made = self.made.iter().map(|made| ("new".to_owned(), Arc::clone(&made.model)));
         let kind = |domain: &Domain| (domain.contact, domain.space.of_ellipses(), domain.heats());
         let mut models: Vec<(String, Arc<ReducedModel>)> = Vec::new();
-        // The new one keeps its name, though it may be in use.
+        // The trained model keeps its name even if it is in use.
         let is_made = |model: &Arc<ReducedModel>| self.made.iter().any(|made| Arc::ptr_eq(&made.model, model));
         for (name, model) in known.chain(self.beside.iter().cloned()).filter(|(_, model)| !is_made(model)).chain(made) {
             if kind(domain) == kind(&model.domain) && !models.iter().any(|(_, known)| Arc::ptr_eq(known, &model)) {
@@ -264,7 +268,7 @@ impl Training {
         }
     }
 
-    /// Continues a training.
+    /// Runs a training from a state.
     fn run(&mut self, ctx: &Context, state: TrainingState) {
         self.chart = Arc::new(Chart::of(&state));
         self.spec = Some(Box::new(state.spec.clone()));
@@ -305,7 +309,7 @@ impl Training {
         });
         if let Some(made) = left {
             let title = &made.model.title;
-            let text = format!("The model “{title}” of a former session is not saved: save it, or throw it away");
+            let text = format!("The model “{title}” of a previous session is not saved: save or discard it");
             self.notices.push(Notice::Short(text));
             self.made = Some(made);
         }
@@ -316,7 +320,7 @@ impl Training {
             self.left_behind = true;
         }
         if let Some(why) = self.looking.message.take() {
-            // Whatever it is, it is not ours to overwrite.
+            // The file may belong to another program and must not be overwritten.
             self.files = None;
             self.notices.push(Notice::Wrong(format!("{why}. Until then trainings are not kept on disk")));
         }
@@ -359,7 +363,7 @@ impl Training {
     }
 }
 
-/// Tolerances that a finished search could not meet within its limit.
+/// Returns tolerances that a finished search could not meet within its limit.
 fn missed_tolerances(state: &TrainingState) -> Vec<String> {
     let (tolerances, limit) = match &state.spec.plan {
         Plan::Adaptive { tolerances, limit, .. } => (tolerances.as_slice(), *limit),
@@ -370,8 +374,8 @@ fn missed_tolerances(state: &TrainingState) -> Vec<String> {
         let missed = tolerances.get(window.search.rungs.len())?;
         let round = |m: f64| (m * 1e3).round() / 1e3;
         Some(format!(
-            "The tolerance {missed:e} could not be met for M {}…{} within the limit of {limit} full solutions; \
-             the model is made of what there is",
+            "The tolerance {missed:e} could not be met for M {}…{} within the limit of {limit} full solutions; the \
+             model is made of the present solutions",
             round(window.window.m.0),
             round(window.window.m.1)
         ))
@@ -380,7 +384,7 @@ fn missed_tolerances(state: &TrainingState) -> Vec<String> {
 }
 
 impl Document {
-    /// The training that the Training tab shows: the document's, or one to begin with.
+    /// Returns the training that the Training tab shows: the document's, or a default.
     pub fn training_spec(&self) -> Option<&TrainingSpec> {
         let kind = self.point.kind;
         let own = self.training.as_ref().filter(|spec| spec.contact() == kind);

@@ -1,4 +1,5 @@
-//! One training or comparison at a time, on threads of its own, so that the live picture keeps answering.
+//! Background execution of one training or comparison at a time, in separate threads, so that the live picture
+//! stays responsive.
 
 use crate::app::refusal::Refusal;
 use crate::app::tabs::training::chart::Chart;
@@ -18,75 +19,75 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Checkpoints by which the pace is judged.
+/// Number of checkpoints for the estimate of the pace.
 const PACE: usize = 12;
 
-/// How a training ended.
+/// End of a training.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Ended {
-    /// By its plan.
+    /// The plan was completed.
     Complete,
-    /// By the user.
+    /// The user stopped it.
     Stopped,
-    /// By what the sentence says.
+    /// It failed. With the reason as a sentence.
     Failed(String),
 }
 
-/// What a training leaves.
+/// Result of a training.
 #[derive(Serialize, Deserialize)]
 pub struct Trained {
-    /// Everything that was solved.
+    /// All full solutions.
     #[serde(with = "training_file::whole")]
     pub state: TrainingState,
-    /// How it ended.
+    /// End of the training.
     pub ended: Ended,
-    /// The model, also of a training that was stopped or failed; or a sentence why there is none.
+    /// The model, also after a stop or a failure, or the reason why there is none.
     pub made: Result<Made, Refusal>,
-    /// Why it could not be kept on disk.
+    /// Reason why it could not be stored on disk.
     pub unkept: Option<String>,
 }
 
-/// A model with the content of its file.
+/// Model with the content of its file.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct Made {
     pub model: Arc<ReducedModel>,
-    /// What is written when it is saved.
+    /// Content of the file.
     pub bytes: Arc<Vec<u8>>,
-    /// Whether the session's folder keeps it until it is saved or thrown away.
+    /// True if the session's folder stores it until it is saved or discarded.
     pub kept: bool,
-    /// Whether it was saved.
+    /// True if it was saved.
     pub saved: bool,
 }
 
-/// Where a session keeps what trainings leave.
+/// Files of the session for trainings.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Files {
-    /// A training that is not at its end.
+    /// File of an unfinished training.
     pub training: PathBuf,
-    /// The last model, until it is saved or thrown away.
+    /// File of the last model until it is saved or discarded.
     pub model: PathBuf,
 }
 
-/// What a former session left.
+/// Item that a previous session left.
 pub enum Found {
-    /// A training that is not at its end.
+    /// An unfinished training.
     Training(Box<TrainingState>),
     /// A model that was not saved.
     Model(Made),
 }
 
-/// News of a training.
+/// Message of a running training.
 #[derive(Serialize, Deserialize)]
 pub enum News {
-    /// Full solutions so far, and the seconds from its beginning until then.
+    /// Full solutions so far, and the seconds since its start.
     Chart(Arc<Chart>, f64),
-    /// Why it is not kept on disk.
+    /// Reason why it is not stored on disk.
     Unkept(String),
     /// It has ended.
     Trained(Box<Trained>),
 }
 
-/// Most full solutions a plan takes.
+/// Returns the maximum number of full solutions of a plan.
 fn most_solutions(spec: &TrainingSpec) -> usize {
     let per_window = match &spec.plan {
         Plan::FarthestPoint { snapshots } => *snapshots,
@@ -96,12 +97,12 @@ fn most_solutions(spec: &TrainingSpec) -> usize {
     match &spec.windows {
         Windows::Given(windows) => per_window * windows.len(),
         Windows::Anchored { count, .. } => per_window * count,
-        // How many it will be is not known before; one is the least.
+        // The number of local models is not known in advance. It is at least one.
         Windows::Automatic { .. } => per_window,
     }
 }
 
-/// A training that begins or goes on, for a thread or another instance of the program.
+/// Training to start or resume, for a thread or another instance of the program.
 #[derive(Serialize, Deserialize)]
 pub struct TrainingTask {
     #[serde(with = "training_file::whole")]
@@ -122,27 +123,28 @@ impl Task for TrainingTask {
     }
 }
 
-/// A training that runs.
+/// Running training.
 pub struct Running {
-    /// Most full solutions there will be.
+    /// Maximum number of full solutions.
     pub most: usize,
-    /// Whether there may be fewer.
+    /// True if there may be fewer.
     pub fewer: bool,
     /// Full solutions so far.
     pub chart: Arc<Chart>,
-    /// Why it is not kept on disk, until that is told.
+    /// Reason why it is not stored on disk, until it has been shown.
     pub unkept: Option<String>,
-    /// Seconds and numbers of full solutions at the last checkpoints of the slowest part: the search, where there is one.
+    /// Seconds and numbers of full solutions at the last checkpoints of the slowest part, which is the search if
+    /// the plan has one.
     pace: VecDeque<(f64, usize)>,
-    /// When the last of them came.
+    /// Time since the last of them.
     last: Stopwatch,
     trained: Option<Trained>,
-    /// How far it is.
+    /// Job with its progress.
     pub job: Job<News>,
 }
 
 impl Running {
-    /// Trains on from a state; it is kept in the file meanwhile.
+    /// Starts a training from a state. The state is stored in the file meanwhile.
     pub fn start(ctx: &egui::Context, state: TrainingState, files: Option<Files>) -> Self {
         let (most, fewer) = (most_solutions(&state.spec), state.spec.plan.searches());
         let chart = Arc::new(Chart::of(&state));
@@ -151,12 +153,13 @@ impl Running {
         Self { most, fewer, chart, unkept: None, pace, last, trained: None, job }
     }
 
-    /// Takes in the news; how it ended and what came of it, once it has ended.
+    /// Receives the messages. Returns the ending and the result once the training has ended.
     pub fn receive(&mut self) -> Option<(Ending, Option<Trained>)> {
         let Self { fewer, chart, unkept, pace, last, trained, job, .. } = self;
         let ending = job.poll(|news| match news {
             News::Chart(latest, seconds) => {
-                // A search retrains for every solution: how fast the first ones came says nothing about it.
+                // A search trains again after every solution. The pace of the planned solutions therefore gives no
+                // estimate for it.
                 if *fewer == latest.solved.last().is_some_and(|dot| dot.searched) {
                     if pace.len() == PACE {
                         pace.pop_front();
@@ -172,7 +175,7 @@ impl Running {
         Some((ending, self.trained.take()))
     }
 
-    /// Seconds left at the present pace, when all full solutions are taken that the plan allows.
+    /// Returns the remaining seconds at the present pace if the plan takes its maximum number of full solutions.
     pub fn time_left(&self) -> Option<f64> {
         let ((begin, from), (end, to)) = (self.pace.front()?, self.pace.back()?);
         let done = to.checked_sub(*from).filter(|done| *done > 0)?;
@@ -182,7 +185,7 @@ impl Running {
     }
 }
 
-/// Shows the work in the window and keeps it on disk.
+/// Observer that shows a training in the window and stores it on disk.
 struct Watched<'a> {
     reporter: &'a Reporter<News>,
     begun: Stopwatch,
@@ -208,10 +211,10 @@ impl TrainingObserver for Watched<'_> {
     }
 }
 
-/// Begins to look for what a former session left behind; nothing comes where there is nothing.
+/// Starts the search for files of a previous session. The job sends nothing if there are none.
 pub fn look(ctx: &egui::Context, files: Files) -> Job<Found> {
-    Job::start("Looking for what was left", wake(ctx), move |reporter| {
-        // A model comes first: one that cannot be read is no reason to leave a training alone.
+    Job::start("Searching for unfinished trainings", wake(ctx), move |reporter| {
+        // Read the model first, because an unreadable model must not hide a training.
         let model = files.model.exists().then(|| found_model(&files.model));
         if let Some(Ok(made)) = model {
             reporter.send(Found::Model(made));
@@ -244,7 +247,7 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
         Ok(Ok(model)) => (Ended::Complete, file_of(model)),
         Ok(Err(TrainingError::Cancelled)) => (Ended::Stopped, rest(&state, watch.reporter)),
         Ok(Err(error)) => (Ended::Failed(error.to_string()), rest(&state, watch.reporter)),
-        // Whatever broke there would break here too.
+        // The same failure would occur here.
         Err(broken) => (Ended::Failed(broken.to_string()), Err(broken.into())),
     };
     let kept = match (keeper, &ended) {
@@ -264,7 +267,7 @@ fn train(mut state: TrainingState, files: Option<Files>, mut watch: Watched<'_>)
     Trained { state, ended, made, unkept }
 }
 
-/// The model of what there is, unless that is not wanted either.
+/// Returns the model of the present full solutions, unless that is also cancelled.
 fn rest(state: &TrainingState, reporter: &Reporter<News>) -> Result<Made, Refusal> {
     match guarded(|| state.model(&reporter.abandoned()))? {
         Ok(model) => file_of(model),

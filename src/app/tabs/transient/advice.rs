@@ -1,9 +1,9 @@
-//! What to do if inputs leave what a linearised model was trained on. The advice follows the measured errors.
+//! Advice for inputs outside the training of a linearised model. It depends on the measured errors.
 
 use super::runs::TransientRuns;
 use crate::scene::study::transient::MarchedBy;
 
-/// Returns what to do, from the errors of H_c against the full run of the same inputs.
+/// Returns the advice from the errors of H_c against the full run of the same inputs.
 pub fn advice(view: &TransientRuns) -> &'static str {
     let least = |of: fn(MarchedBy) -> bool| {
         let runs = view.runs.iter().filter(|run| of(run.by));
@@ -16,8 +16,10 @@ pub fn advice(view: &TransientRuns) -> &'static str {
 
 fn by_errors(reduced: Option<f64>, linearised: Option<f64>) -> &'static str {
     match (reduced, linearised) {
-        (Some(reduced), Some(linearised)) if reduced < linearised => "use the reduced model, which errs less here",
-        (Some(_), Some(_)) => "train on inputs like these; the reduced model errs no less here",
+        (Some(reduced), Some(linearised)) if reduced < linearised => {
+            "use the reduced model, which has smaller errors here"
+        }
+        (Some(_), Some(_)) => "train on inputs like these; the reduced model is not more accurate here",
         _ => "train on inputs like these, or tick Reduced model to compare both",
     }
 }

@@ -1,4 +1,4 @@
-//! How the contact in time on the screen stands: live by models, checked in full, or not there yet.
+//! Trust badge of the transient contact: live by models, checked against the full solution, or not available yet.
 
 use super::runs::TransientRuns;
 use crate::app::badge::{Kind, pill};
@@ -10,10 +10,10 @@ use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
 use egui::Ui;
 
-/// Width that it may take.
+/// Maximum width.
 const WIDTH: f32 = 300.0;
 
-/// First words, what follows them, and why.
+/// Title, text after it, and explanation.
 struct Verdict {
     kind: Kind,
     title: &'static str,
@@ -21,7 +21,7 @@ struct Verdict {
     why: &'static str,
 }
 
-/// The badge of contacts in time.
+/// Draws the badge of the transient contact.
 pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     let Verdict { kind, title, detail, why } = verdict(context.transient, context.thresholds);
     if ui.available_size_before_wrap().x < WIDTH {
@@ -29,13 +29,12 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     }
     let runs = &context.transient.runs;
     let grid = runs.iter().find_map(|run| run.grid_cost).map_or_else(String::new, |(_, cost)| {
-        format!(". The grid leaves H_c off by {}", numbers::error_percent(cost.total()))
+        format!(". Discretisation error of H_c: {}", numbers::error_percent(cost.total()))
     });
     let steps = runs.iter().filter_map(|run| run.trajectory.step_error).reduce(f64::max);
-    let steps = steps.map_or_else(String::new, |error| {
-        format!(". The time steps leave H_c off by about {}", numbers::error_percent(error))
-    });
-    pill(ui, kind, [title, &detail, &format!("{why}{grid}{steps}")], "Trust in the contact in time");
+    let steps = steps
+        .map_or_else(String::new, |error| format!(". Time-step error of H_c: about {}", numbers::error_percent(error)));
+    pill(ui, kind, [title, &detail, &format!("{why}{grid}{steps}")], "Trust in the transient contact");
 }
 
 fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
@@ -45,11 +44,11 @@ fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
     let done = standing.as_ref().map_or_else(String::new, |standing| {
         let percent = (100 * standing.done).checked_div(standing.total).unwrap_or(0);
         let full = standing.stage.ends_with("full");
-        if full { format!("full system {percent}{}%", numbers::THIN) } else { "models are being made".to_owned() }
+        if full { format!("full system {percent}{}%", numbers::THIN) } else { "models are being trained".to_owned() }
     });
     if live && view.is_current() {
         let why =
-            "Models that were made for former inputs replay at once; the full system checks them when the sliders rest";
+            "Models trained for previous inputs replay at once; the full system checks them when the sliders are idle";
         let detail = if done.is_empty() { errors(view) } else { done };
         return make(Kind::Neutral, "Live", detail, why);
     }
@@ -57,31 +56,32 @@ fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
         return make(Kind::Neutral, "Running", done, "The full system first, then the models that it trains");
     }
     if view.runs.is_empty() {
-        return make(Kind::Neutral, "Not run yet", String::new(), "Press Run in time: it takes more than a moment");
+        return make(Kind::Neutral, "Not run yet", String::new(), "Press Run transient: it takes more than a moment");
     }
     if !view.is_current() {
-        let why = "It takes more than a moment: press Run in time for the present set-up";
-        return make(Kind::Warning, "Of a former set-up", String::new(), why);
+        let why = "It takes more than a moment: press Run transient for the present set-up";
+        return make(Kind::Warning, "Previous set-up", String::new(), why);
     }
     if view.runs.iter().any(|run| run.trajectory.ended != Ended::Finished) {
-        return make(Kind::Warning, "Ended early", String::new(), "A run has not come to the end of its duration");
+        return make(Kind::Warning, "Ended early", String::new(), "A run has not reached the end of its duration");
     }
     let warned = view.runs.iter().filter(|run| run.trajectory.step_warning().is_some());
     if let Some(error) = warned.filter_map(|run| run.trajectory.step_error).reduce(f64::max) {
-        let why = "Shorter steps change H_c notably. Set-up, Steps: take shorter ones, or let a tolerance control them";
+        let why = "Shorter steps change H_c noticeably. Choose shorter steps or a tolerance for their error in Set-up, \
+                   Steps";
         return make(Kind::Warning, "Steps too long", format!("H_c ±{}", numbers::error_percent(error)), why);
     }
-    let why = "Greatest relative difference of H_c from the full run";
+    let why = "Maximum relative difference of H_c from the full run";
     let models = view.runs.iter().filter(|run| run.by != MarchedBy::Full);
     match models.filter_map(|run| run.difference).reduce(f64::max) {
-        None => make(Kind::Verified, "Full", String::new(), "Every run is the full system’s"),
+        None => make(Kind::Verified, "Full", String::new(), "All runs are full solutions"),
         Some(worst) if worst <= thresholds.verified => make(Kind::Verified, "Checked", errors(view), why),
         Some(worst) if worst <= thresholds.far_off => make(Kind::Warning, "Roughly right", errors(view), why),
         Some(_) => make(Kind::Wrong, "Far off", errors(view), why),
     }
 }
 
-/// What each model errs by, as far as that is known.
+/// Returns the errors of the models as far as they are available.
 fn errors(view: &TransientRuns) -> String {
     let said = |run: &Run| {
         let name = match run.by {

@@ -1,5 +1,5 @@
-//! The runs as a table, which is the plots' legend too: where each stands at this moment, how far it lies from what it
-//! is compared with, and what it cost.
+//! Table of the runs, which is also the key of the plots: values at the displayed time, error against the
+//! reference, computing time.
 
 use super::runs::TransientRuns;
 use crate::app::numbers;
@@ -11,15 +11,15 @@ use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
 use egui::{Grid, Ui};
 
-/// Width below which the table leaves out what the plots show anyway.
+/// Width below which the table omits columns that the plots show.
 const WIDE: f32 = 590.0;
 
-/// Height of the table.
+/// Returns the height of the table.
 pub fn height(view: &TransientRuns) -> f32 {
     18.0 * (view.setup.as_ref().map_or(0, |setup| setup.runs()).max(view.runs.len()) + 1) as f32
 }
 
-/// The table.
+/// Draws the table.
 pub fn ui(ui: &mut Ui, view: &TransientRuns) {
     let wide = ui.available_width() >= WIDE;
     let quiet = Palette::of(ui).quiet;
@@ -30,19 +30,21 @@ pub fn ui(ui: &mut Ui, view: &TransientRuns) {
         title(ui, "", "");
         title(ui, "", "");
         if wide {
-            title(ui, "{H_c}", "Central film at this moment");
-            title(ui, "{P_c}", "Central pressure at this moment");
+            title(ui, "{H_c}", "Central film thickness at the displayed time");
+            title(ui, "{P_c}", "Central pressure at the displayed time");
         }
-        let tip = "Over the scene’s window or else the second half of the duration, against the stationary start";
+        let tip = "Mean over the scene’s window, otherwise over the second half of the duration, relative to the \
+                   steady start";
         title(ui, "Mean {H_c}", tip);
-        let tip = "Greatest relative difference of {H_c}: of a frame from the first run, of a model from the full system in its frame";
+        let tip = "Maximum relative difference of {H_c}: of a frame from the first run, of a model from the full \
+                   system in its frame";
         title(ui, "Δ{H_c}", &tip.replace(['{', '}'], ""));
         if wide {
             title(ui, "Steps", "Steps taken, and those discarded");
-            title(ui, "Step error", "Estimated greatest relative error of H_c by the lengths of the steps");
+            title(ui, "Step error", "Estimated maximum relative error of H_c due to the time steps");
         }
         title(ui, "Per step", "Median of the time per step");
-        title(ui, "In all", "Time of the whole run");
+        title(ui, "Total", "Time of the whole run");
         ui.end_row();
         for (k, run) in view.runs.iter().enumerate() {
             row(ui, view, k, run, wide);
@@ -83,14 +85,14 @@ fn row(ui: &mut Ui, view: &TransientRuns, k: usize, run: &Run, wide: bool) {
     ui.label(numbers::duration(run.seconds.iter().sum()));
 }
 
-/// A piece of the run's line.
+/// Draws a sample of the run's line.
 fn sample(ui: &mut Ui, view: &TransientRuns, k: usize) {
     let palette = Palette::of(ui);
     let (color, width, style) = series::style(view, k, palette.film, &palette);
     Sample::of_line(style, width).ui(ui, color);
 }
 
-/// Mean of H_c over the window over its stationary start, less 1, in percent.
+/// Returns the mean of H_c over the window relative to its initial steady value, minus 1, in percent.
 fn offset(run: &Run, view: &TransientRuns) -> Option<f64> {
     let study = &view.setup.as_ref()?.study;
     let window = study.window.unwrap_or((0.5 * study.duration, study.duration));

@@ -1,4 +1,4 @@
-//! What drives the contact, at the hand: amplitude and period of the input that varies.
+//! Sliders of amplitude and period of the input that varies.
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -11,14 +11,14 @@ use crate::scene::TransientStudy;
 use crate::solver::full::transient::Signal;
 use egui::{DragValue, Label, Ui};
 
-/// Amplitudes that can be dragged to.
+/// Range of the amplitude slider.
 const AMPLITUDES: (f64, f64) = (0.01, 0.5);
-/// Periods that can be dragged to, in units of T.
+/// Range of the period slider in units of T.
 const PERIODS: (f64, f64) = (1.0, 16.0);
 /// Width of a slider.
 const WIDTH: f32 = 110.0;
 
-/// Words of an input, for what is seen and for what is heard.
+/// Returns the label and the accessible names of an input's sliders.
 fn words(input: Input) -> [&'static str; 3] {
     match input {
         Input::Load => ["Load", "Load amplitude", "Load period"],
@@ -27,7 +27,7 @@ fn words(input: Input) -> [&'static str; 3] {
     }
 }
 
-/// Amplitude and period of a function of time, to be changed; of several the first.
+/// Returns amplitude and period of a function of time, to be changed. Of several amplitudes it returns the first.
 fn swing(signal: &mut Signal) -> Option<(&mut f64, &mut f64)> {
     match signal {
         Signal::Harmonic { amplitude, period } | Signal::TriangleToSquare { amplitude, period, .. } => {
@@ -38,7 +38,7 @@ fn swing(signal: &mut Signal) -> Option<(&mut f64, &mut f64)> {
     }
 }
 
-/// What the input does, in a word.
+/// Returns the kind of a function of time as a word.
 fn shape(signal: &Signal) -> &'static str {
     match signal {
         Signal::Constant => "constant",
@@ -49,14 +49,14 @@ fn shape(signal: &Signal) -> &'static str {
     }
 }
 
-/// The dials of the first input that swings; where none does, a button that lets the load breathe.
+/// Draws the sliders of the first input that varies. If none varies, draws a button that makes the load harmonic.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let before = context.document.transient_study();
     let mut study = before.clone();
     let swings = Input::ALL.into_iter().find(|input| swing(input.of_mut(&mut study.inputs)).is_some());
     let Some(input) = swings else {
         let tip = "1 + A sin(2π T/T_ex), (2.49), with a tenth and a period of 4";
-        if study.inputs.load == Signal::Constant && ui.button("Let the load breathe").on_hover_text(tip).clicked() {
+        if study.inputs.load == Signal::Constant && ui.button("Harmonic load").on_hover_text(tip).clicked() {
             study.inputs.load = Signal::Harmonic { amplitude: 0.1, period: 4.0 };
             commands.edit(Edit::Transient(Box::new(study)), "transient");
         }
@@ -75,7 +75,7 @@ fn swing_ui(ui: &mut Ui, input: Input, study: &mut TransientStudy, scale_s: f64)
     ui.strong(name);
     ui.weak(kind);
     let Some((amplitude, period)) = swing(input.of_mut(&mut study.inputs)) else { return };
-    let tip = "How far it swings, relative to the sliders’ own";
+    let tip = "Amplitude relative to the value of the sliders";
     ui.label("amplitude").on_hover_text(tip);
     let slider = |name: &'static str, (low, high): (f64, f64), home, logarithmic, tooltip: &'static str| RangeSlider {
         name,
@@ -94,7 +94,7 @@ fn swing_ui(ui: &mut Ui, input: Input, study: &mut TransientStudy, scale_s: f64)
     if named(ui, entry, &format!("{amplitude_name} value")).changed() {
         *amplitude = 0.01 * percent;
     }
-    let tip = "How long one swing takes, in units of a/u_m";
+    let tip = "Period in units of a/u_m";
     ui.label("period").on_hover_text(tip);
     if let Some(moved) = slider(period_name, PERIODS, 4.0, true, tip).show(ui, *period, WIDTH) {
         *period = numbers::rounded(moved.clamp(PERIODS.0, PERIODS.1), 3);

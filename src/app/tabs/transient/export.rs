@@ -1,4 +1,4 @@
-//! Contacts in time for other programs: the series of all runs, and their profiles at the moment that is looked at.
+//! Export of the transient contact: the time series of all runs, and their profiles at the displayed time.
 
 use super::runs::TransientRuns;
 use crate::app::tabs::transient::{Run, Setup, method};
@@ -6,10 +6,11 @@ use crate::app::{export, numbers};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
 
-/// A block of columns: its name, and its rows.
+/// Block of columns: its name and its rows.
 type Block = (String, Vec<Vec<Option<f64>>>);
 
-/// All moments of every run with their SI twins, each run in columns of its own.
+/// Returns all time steps of every run with dimensionless and SI values, each run in separate columns. `None`
+/// without a set-up.
 pub fn series(view: &TransientRuns) -> Option<String> {
     const COLUMNS: [&str; 15] = [
         "T", "radius", "speed", "load", "H_c", "H_min", "X_H_min", "P_c", "P_max", "X_P_max", "t_s", "h_c_m",
@@ -27,13 +28,13 @@ pub fn series(view: &TransientRuns) -> Option<String> {
         (name(run), rows.collect())
     });
     let estimated = view.runs.iter().filter_map(|run| Some((run, run.trajectory.step_error?)));
-    let errors: Vec<String> = estimated
-        .map(|(run, error)| format!("{}: the lengths of the steps leave H_c off by about {error:.1e}", name(run)))
-        .collect();
+    let errors: Vec<String> =
+        estimated.map(|(run, error)| format!("{}: time-step error of H_c about {error:.1e}", name(run))).collect();
     Some(table(setup, &errors, &COLUMNS, blocks.collect()))
 }
 
-/// P and H of every run at the moment that is looked at, in the scales of the reference contact and in SI units.
+/// Returns P and H of every run at the displayed time, in the scales of the reference contact and in SI units.
+/// `None` without a set-up.
 pub fn profiles(view: &TransientRuns) -> Option<String> {
     const COLUMNS: [&str; 6] = ["X", "P", "H", "x_m", "p_pa", "h_m"];
     let setup = view.setup.as_ref()?;
@@ -72,7 +73,7 @@ fn table(setup: &Setup, more: &[String], columns: &[&str], blocks: Vec<Block>) -
     export::csv(&comments, &header, (0..length).map(row))
 }
 
-/// What varies with time, in words.
+/// Returns a description of the inputs that vary.
 pub fn inputs(setup: &Setup) -> String {
     let percent = |share: f64| numbers::quantity(100.0 * share, "%");
     let number = |value: f64| numbers::digits(value, 3);
@@ -102,7 +103,7 @@ pub fn inputs(setup: &Setup) -> String {
     varied.chain([format!("T up to {}", number(setup.study.duration))]).collect::<Vec<_>>().join("; ")
 }
 
-/// The set-up as lines over a table.
+/// Returns the set-up as lines above a table.
 pub fn describe(setup: &Setup) -> Vec<String> {
     let Inputs { radius, speed, load } = &setup.study.inputs;
     let grid = match setup.grid.spec() {

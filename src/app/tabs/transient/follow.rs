@@ -1,5 +1,5 @@
-//! How transient runs follow the document while a tab shows them. Existing models replay at once. When the sliders are
-//! idle, the full system checks the models and trains them again.
+//! Update of transient runs after a change of the document, while a tab shows them. Existing models replay at once.
+//! When the sliders are idle, the full system checks the models and trains them again.
 
 use super::linearised::NumberStudy;
 use super::runs::{TransientRuns, insert};
@@ -14,29 +14,29 @@ use crate::solver::physics::contact::OperatingPoint;
 use egui::Context;
 use std::sync::Arc;
 
-/// Idle seconds before the full system starts.
+/// Idle time before the full system starts \[s\].
 const REST_S: f64 = 0.25;
-/// Reference loads, over that of a model's training, at which it is still replayed.
+/// Range of the reference load, relative to that of a model's training, in which the model is replayed.
 const LOADS: (f64, f64) = (0.7, 1.4);
 
 /// Models and the set-up they were trained with.
 type Kept = (Arc<Setup>, Vec<Model>);
 
-/// Set-up that is followed, and the models that replay it.
+/// Followed set-up, and the models that replay it.
 #[derive(Default)]
 pub struct Following {
-    /// Set-up that was asked for last.
+    /// Last requested set-up.
     asked: Option<Arc<Setup>>,
     /// Time of that request on the window's clock \[s\].
     asked_at: f64,
-    /// True if the full system is still to be run.
+    /// True if the full system still has to be run.
     due: bool,
-    /// True if the present runs were started by hand. Only the user stops these.
+    /// True if the user started the present runs. Only the user stops these.
     by_hand: bool,
-    /// Models that were trained last, with their set-up.
+    /// Models trained last, with their set-up.
     kept: Option<Kept>,
     pub(super) replay: Background<StudyRow>,
-    /// Whether the models that were replayed are those that the question under way would make.
+    /// True if the running study would train the same models as those replayed.
     last: bool,
     replaying: Option<Arc<Setup>>,
     runs: Vec<Run>,
@@ -52,7 +52,7 @@ impl Following {
         }
     }
 
-    /// Notes that the present runs were started by hand.
+    /// Records that the user started the present runs.
     pub(super) fn by_hand(&mut self, setup: &Arc<Setup>) {
         *self = Self { asked: Some(Arc::clone(setup)), by_hand: true, kept: self.kept.take(), ..Self::default() };
     }
@@ -63,7 +63,7 @@ impl Following {
         (self.replay, self.replaying) = (Background::default(), None);
     }
 
-    /// Whether the models that were replayed are those that the question under way would make.
+    /// Returns true if the running study would train the same models as those replayed.
     pub(super) fn models_are_last(&self) -> bool {
         self.last
     }
@@ -73,13 +73,13 @@ impl Following {
         model(self.kept.as_ref(), by, frame)
     }
 
-    /// The models that can be replayed, beside that of the program.
+    /// Returns the models that can be replayed in addition to the built-in one. `None` if there is none at all.
     fn serving(&self, wanted: &Setup) -> Option<&[Model]> {
         let embedded = wanted.study.reduced.as_ref().is_some_and(ReducedTransient::is_embedded);
         self.made_for(wanted).or((embedded && wanted.sampled.is_none()).then_some(&[]))
     }
 
-    /// The models that were made last, where they can be replayed.
+    /// Returns the models trained last if they can be replayed.
     fn made_for(&self, wanted: &Setup) -> Option<&[Model]> {
         let (setup, models) = self.kept.as_ref()?;
         let alike = |s: &Setup| (means(&s.study), s.grid, s.lubricant, OperatingPoint { load: 1.0, ..s.point });
@@ -88,7 +88,7 @@ impl Following {
         (near && wanted.sampled.is_none() && alike(setup) == alike(wanted)).then_some(models.as_slice())
     }
 
-    /// Whether the models there are would be made again, to the last bit.
+    /// Returns true if training would give bitwise the same models as the present ones.
     fn final_for(&self, wanted: &Setup) -> bool {
         let kept = self.kept.as_ref().filter(|_| !wanted.study.trains_on_itself());
         let expected = usize::from(wanted.study.reduced.is_some()) * wanted.study.frames.len()
@@ -98,28 +98,28 @@ impl Following {
     }
 }
 
-/// What models of a study are made by, whatever inputs they follow.
+/// Returns the settings of a study that determine its models, without the inputs.
 fn means(study: &TransientStudy) -> TransientStudy {
     TransientStudy { inputs: Inputs::default(), duration: 1.0, window: None, ..study.clone() }
 }
 
 impl TransientRuns {
-    /// Returns true if the runs on the screen are those that the tabs asked for.
+    /// Returns true if the runs on the screen are those that the tabs requested.
     pub fn is_current(&self) -> bool {
         self.following.asked.is_none() || self.setup == self.following.asked
     }
 
-    /// Returns true if a set-up has already been asked for.
+    /// Returns true if a set-up has already been requested.
     pub fn follows(&self, wanted: &Setup) -> bool {
         self.following.asked.as_deref() == Some(wanted)
     }
 
-    /// Returns true if a run or a replay is about to start by itself.
+    /// Returns true if a run or a replay is about to start automatically.
     pub fn waits(&self) -> bool {
         self.following.due || self.following.replaying.is_some()
     }
 
-    /// Returns true while runs are computed that were started by hand.
+    /// Returns true while runs are computed that the user started.
     pub fn runs_by_hand(&self) -> bool {
         self.following.by_hand && self.work.job().is_some()
     }
@@ -145,7 +145,7 @@ impl TransientRuns {
         (*asked, *asked_at) = (Some(Arc::clone(&wanted)), ctx.input(|i| i.time));
         (*due, *by_hand) = (!there && wanted.is_quick(), false);
         if self.work.job().is_some() {
-            // What was being computed is wanted no more.
+            // The running computation belongs to another set-up.
             self.work = Background::default();
             self.end();
             self.next = None;
@@ -159,7 +159,7 @@ impl TransientRuns {
         self.settle(ctx, store);
     }
 
-    /// Replays the models that are there along what is wanted, unless they are at it: what is wanted then comes next.
+    /// Replays the present models for the requested set-up. If a replay is running, the new one starts afterwards.
     fn replay(&mut self, ctx: &Context, store: &Store) {
         self.ctx = Some(ctx.clone());
         let following = &mut self.following;
@@ -193,7 +193,7 @@ impl TransientRuns {
         let Some(setup) = replaying.take() else { return };
         let again = asked.as_ref() != Some(&setup);
         let new: Vec<Run> = std::mem::take(runs).into_iter().filter(|run| run.ended).collect();
-        // What gives no answer takes nobody's place.
+        // A replay without results does not replace the runs on the screen.
         if self.setup.as_ref() != Some(&setup) && !new.is_empty() {
             self.setup = Some(setup);
             self.runs.clear();
@@ -212,7 +212,7 @@ impl TransientRuns {
         }
     }
 
-    /// Starts the full system when the sliders are idle. Called last in every frame.
+    /// Starts the full system when the sliders are idle. Call last in every frame.
     pub fn settle(&mut self, ctx: &Context, store: &Store) {
         if !self.following.due {
             return;
@@ -232,7 +232,8 @@ impl TransientRuns {
         }
     }
 
-    /// The question about what is wanted; without models where those that were replayed are the ones it would make.
+    /// Returns the study of the requested set-up. It contains no models if it would train the same ones as those
+    /// replayed.
     fn checking(&mut self, wanted: &Arc<Setup>) -> Scene {
         let replayed = self.setup.as_ref() == Some(wanted) && self.runs.iter().any(|run| run.replayed);
         self.following.last = replayed && self.following.final_for(wanted);
@@ -244,7 +245,7 @@ impl TransientRuns {
     }
 }
 
-/// The model of a frame that a run is by.
+/// Returns the model of a frame by which a run is computed.
 fn model(kept: Option<&Kept>, by: MarchedBy, frame: Frame) -> Option<&Model> {
     let kind = |kind: &Kind| match kind {
         Kind::Reduced(_) => by == MarchedBy::Reduced,

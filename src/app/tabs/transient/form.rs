@@ -1,5 +1,5 @@
-//! What drives the contact as a form: the three inputs with a preview, duration, steps and frames. What makes no sense
-//! is refused beside its field.
+//! Form of the transient contact: the three inputs with a preview, duration, time steps and frames. Invalid entries
+//! are refused next to their field.
 
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
@@ -18,7 +18,7 @@ use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupporte
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
 
-/// Points of a curve of the preview.
+/// Number of points of a curve of the preview.
 const PREVIEW: usize = 400;
 
 /// Names of the fields of one input.
@@ -32,7 +32,7 @@ struct Names {
     steepness: &'static str,
 }
 
-/// Names of an input's fields from its own.
+/// Builds the names of the fields from the name of the input.
 macro_rules! names {
     ($kind:literal, $tip:literal) => {
         Names {
@@ -54,13 +54,13 @@ fn names(input: Input) -> Names {
     match input {
         Input::Load => names!("Load", "w over that of the sliders, as a function of time (2.20)"),
         Input::Speed => {
-            names!("Speed", "u_m over that of the sliders, as a function of time (2.19); it may turn round")
+            names!("Speed", "u_m over that of the sliders, as a function of time (2.19); it may change its sign")
         }
         Input::Radius => names!("Radius", "R over that of the sliders, as a function of time (2.18)"),
     }
 }
 
-/// The form; `last` is the field that was changed last.
+/// Draws the form. `last` is the field that was changed last.
 pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &mut Commands) {
     let mut read_table = false;
     *last = edit(ui, ("transient", *last), context, commands, |ui, form, study| {
@@ -71,7 +71,7 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
         let tip = "A table with a title line: T and any of radius, speed, load, each relative to its reference";
         read_table = ui.button("Inputs from CSV…").on_hover_text(tip).clicked();
         if let Some(path) = &study.sampled {
-            ui.weak(format!("At every run, inputs are read from {}.", path.display()));
+            ui.weak(format!("Every run reads its inputs from {}.", path.display()));
         }
         preview(ui, &study.inputs, study.duration);
         if !study.further.is_empty() {
@@ -85,10 +85,10 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
     if !context.document.saves_transient() && context.document.transient.is_some() {
         ui.weak(match context.document.unsupported_in_time() {
             Some(Unsupported::MassConservingModel) => {
-                "Models cover cavitation by the penalty and by complementarity: with mass-conserving cavitation the scene \
+                "Models support cavitation by penalty and complementarity. With mass-conserving cavitation the scene \
                  is saved without this set-up."
             }
-            _ => "The open scene asks another question: it is saved without this set-up.",
+            _ => "The open scene has another study and is saved without this set-up.",
         });
     }
     if read_table {
@@ -96,7 +96,7 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
     }
 }
 
-/// Which function of time.
+/// Kind of the function of time.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Constant,
@@ -121,7 +121,7 @@ impl Kind {
 
     fn describe(self) -> (&'static str, &'static str) {
         match self {
-            Self::Constant => ("Constant", "Its reference throughout"),
+            Self::Constant => ("Constant", "The reference value"),
             Self::Harmonic => ("Harmonic", "1 + A sin(2π T/T_ex), (2.49)"),
             Self::TwoScale => ("Two-scale", "1 + A₁ sin(2π T/T₁) + A₂ sin(2π T/T₂), (4.33)"),
             Self::TriangleToSquare => {
@@ -131,7 +131,7 @@ impl Kind {
         }
     }
 
-    /// A function of this kind with as much of another as it can take over.
+    /// Returns a function of this kind with the amplitudes and periods of another one as far as it has them.
     fn signal(self, former: &Signal) -> Signal {
         let (amplitude, period) = match former {
             Signal::Harmonic { amplitude, period } | Signal::TriangleToSquare { amplitude, period, .. } => {
@@ -152,7 +152,7 @@ impl Kind {
     }
 }
 
-/// One input: which function of time, and its constants.
+/// Draws one input: the kind of function and its constants.
 fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signal) {
     let kind = Kind::of(signal);
     let mut wanted = kind;
@@ -192,7 +192,7 @@ fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signa
     }
 }
 
-/// The inputs against time; those that vary are told apart without colour.
+/// Draws the inputs against time. Line styles distinguish them without colour.
 fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
     let palette = Palette::of(ui);
     let looks = [
@@ -204,7 +204,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
         .paper_x("{T}")
         .paper_y("Input over its reference")
         .y_axis_min_width(36.0)
-        // The bar that scrolls the form lies over its edge.
+        // Leave space for the scroll bar of the form.
         .width(ui.available_width() - 14.0)
         .marks_x(4.0)
         .marks_y(2.0)
@@ -241,7 +241,7 @@ fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     study.window = study.window.filter(|window| window.1 <= study.duration);
     let mut rule = StepRule::of(study.time_step);
     let present = rule;
-    choose(ui, "Steps", "How long the steps are", &mut rule, &StepRule::ALL, StepRule::words);
+    choose(ui, "Steps", "Rule for the time steps", &mut rule, &StepRule::ALL, StepRule::words);
     if rule != present {
         study.time_step = rule.steps(study.time_step.longest(study.duration));
         form.changed = Some("Steps");
@@ -252,18 +252,18 @@ fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
             form.row(ui, "Step {ΔT}", plain, step, "A twentieth of the shortest period is coarse, a hundredth fine");
         }
         TimeStep::Adaptive { tolerance, longest } => {
-            let tip = "How far P may lie from its extrapolation, relative";
+            let tip = "Permitted relative distance of P from its extrapolation";
             form.row(ui, "Tolerance", plain, tolerance, tip);
-            form.row(ui, "Longest {ΔT}", plain, longest, "The longest step, and the first");
+            form.row(ui, "Longest {ΔT}", plain, longest, "Maximum step, and the first one");
         }
         TimeStep::Controlled(tolerance) => {
-            let tip = "Estimated error of H_c that the steps may leave, relative";
+            let tip = "Permitted relative error of H_c due to the time steps";
             form.row(ui, "Tolerance", plain, tolerance, tip);
         }
     }
 }
 
-/// The rule that the lengths of steps follow.
+/// Rule for the time step.
 #[derive(Clone, Copy, PartialEq)]
 enum StepRule {
     Equal,
@@ -286,16 +286,15 @@ impl StepRule {
         match self {
             Self::Equal => ("All the same", "The duration is divided evenly"),
             Self::Adaptive => {
-                ("Adaptive", "As long as the solution stays near the straight line through the two former ones")
+                ("Adaptive", "Limited by the distance of the solution from the extrapolation of the previous two")
             }
-            Self::Controlled => (
-                "By their error",
-                "So short that the estimated error of H_c stays below a tolerance; takes several runs",
-            ),
+            Self::Controlled => {
+                ("By their error", "Limited by a tolerance for the estimated error of H_c; needs several runs")
+            }
         }
     }
 
-    /// Steps by this rule in place of others, the longest of which is given.
+    /// Returns the time step by this rule, given its maximum.
     fn steps(self, longest: f64) -> TimeStep {
         match self {
             Self::Equal => TimeStep::Fixed(longest),
@@ -305,7 +304,7 @@ impl StepRule {
     }
 }
 
-/// The frames, each a run of its own.
+/// Draws the choice of frames. Each frame gives a separate run.
 fn frames_ui(ui: &mut Ui, form: &mut Form<'_>, frames: &mut Vec<Frame>) {
     heading(ui, "Frames");
     for frame in Frame::ALL {

@@ -1,5 +1,5 @@
-//! The linearised model of a contact in time as it is looked into: its operating points, what the other rule would choose, and the study of
-//! how many points it takes.
+//! Linearised model of a transient contact for display: its operating points, the choice of the other rule, and the
+//! study of the number of points.
 
 use crate::app::refusal::Refusal;
 use crate::app::tabs::transient::Run;
@@ -15,39 +15,39 @@ use egui::Context;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A linearised model with what is shown of it.
+/// Linearised model with its data for display.
 pub struct Linearised {
     pub model: Arc<TpwlModel>,
     /// Scalars of its training trajectories.
     pub trainings: Vec<Vec<Moment>>,
-    /// Whether it was trained by the run that it is compared with.
+    /// True if it was trained by the run that it is compared with.
     pub own: bool,
-    /// What the other rule chooses when it is to choose as many points, once that is known.
+    /// Points that the other rule chooses for the same number of points. `None` until it has been computed.
     pub other: Option<OtherRule>,
 }
 
-/// A rule, and the moments it chooses of each training trajectory.
+/// Rule with the time steps that it chooses from each training trajectory.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct OtherRule {
-    /// The rule.
+    /// Rule.
     pub selection: Selection,
-    /// Indices of moments, by trajectory.
+    /// Indices of time steps, by trajectory.
     pub chosen: Vec<Vec<usize>>,
 }
 
-/// An operating point at a moment of a run.
+/// Operating point at a time of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointNow {
-    /// Which, among all of the model.
+    /// Index among all points of the model.
     pub point: usize,
-    /// Its weights by [`WEIGHTINGS`]; 0 where that weighting was not run.
+    /// Weights in the order of [`WEIGHTINGS`]. 0 if that weighting was not run.
     pub weights: [f64; 2],
-    /// ‖y − y_i‖/‖y‖ of the state reached, by the first weighting that was run.
+    /// ‖y − y_i‖/‖y‖ of the present state, by the first weighting that was run.
     pub distance: f64,
 }
 
 impl OtherRule {
-    /// The rule that a model was not made by.
+    /// Returns the rule that a model was not made by.
     pub fn of(model: &TpwlModel) -> Self {
         let by_distance = matches!(model.training.selection, Selection::Distance { .. });
         let selection = model.selection_of(RULES[usize::from(by_distance)], model.points.len());
@@ -56,15 +56,15 @@ impl OtherRule {
 }
 
 impl Linearised {
-    /// A quantity of a training trajectory at T.
+    /// Returns a quantity of a training trajectory at T.
     pub fn value(&self, trajectory: usize, quantity: Quantity, time: f64) -> Option<f64> {
         let moments = self.trainings.get(trajectory)?;
-        // A state is that of a moment.
+        // A state belongs to a time step.
         let at = moments.partition_point(|moment| moment.time < time - 1e-9 * time.abs());
         moments.get(at).map(|moment| moment.value(quantity))
     }
 
-    /// All operating points as the runs draw on them at T, in their order.
+    /// Returns all operating points in their order, with their weights at T in the runs.
     pub fn points_at<'a>(&self, runs: &[(Weighting, &'a Run)], time: f64) -> Vec<PointNow> {
         let record =
             |(weighting, run): &(Weighting, &'a Run)| Some((*weighting, (run.record.as_ref()?, run.step_at(time)?)));
@@ -85,7 +85,8 @@ impl Linearised {
             .collect()
     }
 
-    /// The moment of the runs that a point stands for: its own T where the model was trained by the run, else when it weighed most.
+    /// Returns the time of the runs that belongs to a point: its own T if the run trained the model, otherwise the
+    /// time of its largest weight.
     pub fn moment_of(&self, point: usize, runs: &[(Weighting, &Run)]) -> Option<f64> {
         let trained = self.model.points.get(point)?;
         if self.own {
@@ -99,30 +100,31 @@ impl Linearised {
     }
 }
 
-/// A model of one number of points on the run's inputs.
+/// Result of a model with one number of points for the inputs of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NumberRow {
     /// Rule and tolerance.
     pub selection: Selection,
-    /// Operating points it chose.
+    /// Number of operating points that it chose.
     pub points: usize,
     pub weighting: Weighting,
-    /// Relative L2 difference of H_c from the full run; none where the march ended early.
+    /// Relative L2 difference of H_c from the full run. `None` if the run ended early.
     pub difference: Option<f64>,
-    /// Median of the seconds per step.
+    /// Median time per step \[s\].
     pub step_s: f64,
 }
 
-/// How many operating points it takes: both rules on a ladder of tolerances, by both weightings, against the full run.
+/// Study of the number of operating points: both rules with a sequence of tolerances, both weightings, against the
+/// full run.
 #[derive(Default)]
 pub struct NumberStudy {
-    /// What has come of it.
+    /// Results so far.
     pub rows: Vec<NumberRow>,
     pub work: Background<NumberRow>,
     of: Option<Arc<TpwlModel>>,
 }
 
-/// The study of the numbers of operating points on the inputs of a full run.
+/// Study of the numbers of operating points for the inputs of a full run.
 #[derive(Serialize, Deserialize)]
 pub struct NumberTask {
     model: Arc<TpwlModel>,
@@ -139,7 +141,7 @@ impl Task for NumberTask {
     }
 }
 
-/// The rule that a model was not made by: what it would choose takes longer than a frame.
+/// Computation of the rule that a model was not made by. It takes longer than a frame.
 #[derive(Serialize, Deserialize)]
 pub struct OtherRuleTask(pub Arc<TpwlModel>);
 
@@ -155,29 +157,29 @@ impl Task for OtherRuleTask {
 }
 
 const STAGE: &str = "Number of operating points";
-/// Most operating points that are tried.
+/// Maximum number of operating points in the study.
 const MOST_POINTS: usize = 160;
-/// Fewest that are.
+/// Minimum number of operating points in the study.
 const LEAST_POINTS: usize = 4;
-/// Tolerances of the first rung, by [`RULES`].
+/// First tolerances, in the order of [`RULES`].
 const COARSEST: [f64; 2] = [0.5, 0.25];
-/// Rungs of the ladder at most, each half of the one before.
+/// Maximum number of tolerances, each half of the previous one.
 const RUNGS: usize = 24;
 
 impl NumberStudy {
-    /// Starts it anew on the inputs of a full run.
+    /// Starts the study for the inputs of a full run.
     pub fn start(&mut self, ctx: &Context, model: Arc<TpwlModel>, full: Trajectory) {
         self.rows.clear();
         self.of = Some(Arc::clone(&model));
         self.work.run(Job::of(STAGE, wake(ctx), &Store::default(), NumberTask { model, full }));
     }
 
-    /// Whether it was begun for a model.
+    /// Returns true if it was started for a model.
     pub fn is_of(&self, model: &Arc<TpwlModel>) -> bool {
         self.of.as_ref().is_some_and(|of| Arc::ptr_eq(of, model))
     }
 
-    /// Takes in what came.
+    /// Receives results.
     pub fn receive(&mut self) {
         self.work.receive(|row| self.rows.push(row));
     }
@@ -218,7 +220,7 @@ fn work(model: &Arc<TpwlModel>, full: &Trajectory, reporter: &Reporter<NumberRow
     Ok(())
 }
 
-/// One model by one weighting.
+/// Returns the result of one model with one weighting.
 fn tried(
     model: &TpwlModel,
     transient: &Transient,

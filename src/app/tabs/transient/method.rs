@@ -1,11 +1,10 @@
-//! The methods by which the steps of a contact in time can be solved, and the frames they are solved in, as people call
-//! them.
+//! Names of the methods and frames of transient runs.
 
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::{Frame, Interpolation};
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 
-/// The word that stands for a method in tables.
+/// Returns the word for a method in tables.
 pub fn word(by: MarchedBy) -> &'static str {
     match by {
         MarchedBy::Full => "full",
@@ -15,7 +14,7 @@ pub fn word(by: MarchedBy) -> &'static str {
     }
 }
 
-/// A frame for people.
+/// Returns the name of a frame on the screen.
 pub fn frame_name(frame: Frame) -> &'static str {
     match frame {
         Frame::Fixed => "Fixed frame",
@@ -25,37 +24,37 @@ pub fn frame_name(frame: Frame) -> &'static str {
     }
 }
 
-/// What a frame does with the grid.
+/// Returns the description of a frame.
 pub fn frame_meaning(frame: Frame) -> &'static str {
     match frame {
         Frame::Fixed => "The grid stays where it is (2.23)",
-        Frame::ArbitraryLagrangianEulerian => "The nodes move with the dry contact of the moment (4.9)",
+        Frame::ArbitraryLagrangianEulerian => "The nodes move with the present dry contact (4.9)",
         Frame::Remeshed(Interpolation::CubicSpline) => {
-            "A grid of its own for every step; former steps are carried over by a cubic spline (4.10)"
+            "A new grid for every step; previous steps are interpolated with a cubic spline (4.10)"
         }
         Frame::Remeshed(Interpolation::Linear) => {
-            "The same with straight lines, which smear: the dissertation’s Fig. 4.4 shows how much"
+            "The same with linear interpolation, which smears the solution (the dissertation’s Fig. 4.4)"
         }
     }
 }
 
-/// The name of a run among others; the fixed frame, in which most are, is not named.
+/// Returns the name of a run. The fixed frame is the usual one and is not named.
 pub fn run_name(by: MarchedBy, frame: Frame) -> String {
     match (by, frame) {
         (MarchedBy::Full, Frame::Fixed) => "Full system".to_owned(),
         (MarchedBy::Full, frame) => frame_name(frame).to_owned(),
         (MarchedBy::Reduced, Frame::Fixed) => "Reduced model".to_owned(),
         (MarchedBy::Reduced, frame) => format!("{}, reduced", frame_name(frame)),
-        // It lives in the fixed frame alone.
+        // Linearised models exist only in the fixed frame.
         (MarchedBy::Linearised(Weighting::DualTaylor), _) => "Linearised, dual Taylor".to_owned(),
         (MarchedBy::Linearised(Weighting::Dissertation), _) => "Linearised, exponential weights".to_owned(),
     }
 }
 
-/// Both weightings, the one that errs less first.
+/// Both weightings, the one with the smaller error first.
 pub const WEIGHTINGS: [Weighting; 2] = [Weighting::DualTaylor, Weighting::Dissertation];
 
-/// A weighting for people, and what it does.
+/// Returns the name of a weighting and its description.
 pub fn weighting_name(weighting: Weighting) -> (&'static str, &'static str) {
     match weighting {
         Weighting::DualTaylor => (
@@ -68,10 +67,10 @@ pub fn weighting_name(weighting: Weighting) -> (&'static str, &'static str) {
     }
 }
 
-/// Both rules for operating points, with tolerances to begin with.
+/// Both rules for operating points, with default tolerances.
 pub const RULES: [Selection; 2] = [Selection::Distance { tolerance: 0.02 }, Selection::Step { tolerance: 1e-3 }];
 
-/// A rule for people, and what it does.
+/// Returns the name of a rule and its description.
 pub fn rule_name(rule: Selection) -> (&'static str, &'static str) {
     match rule {
         Selection::Distance { .. } => (

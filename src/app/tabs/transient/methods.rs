@@ -1,5 +1,5 @@
-//! The methods of a contact in time: the full system, which models are trained by and compared with, the reduced model
-//! and the linearised one with their settings, and what they are trained on.
+//! Form of the methods of a transient contact: the full system, which trains and checks the models, the reduced and
+//! the linearised model with their settings, and their training inputs.
 
 use crate::app::controls::heading;
 use crate::app::form::{Form, choose};
@@ -8,13 +8,13 @@ use crate::scene::{Drive, LinearisedTransient, ModelSource, ReducedTransient, Tr
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Checkbox, Ui};
 
-/// All methods.
+/// Draws the choice of all methods.
 pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     heading(ui, "Methods");
-    let tip = "Always run: models are trained by it and compared with it";
+    let tip = "Always run: it trains the models and checks them";
     ui.add_enabled(false, Checkbox::new(&mut true, "Full system")).on_disabled_hover_text(tip);
     let mut on = study.reduced.is_some();
-    let tip = "Solves the nonlinear equations in a reduced space, at sampled rows (RNSA); trained beforehand";
+    let tip = "Solves the nonlinear equations in a reduced space, with sampled equations (RNSA); trained beforehand";
     if ui.add(Checkbox::new(&mut on, "Reduced model")).on_hover_text(tip).changed() {
         study.reduced = on.then(ReducedTransient::default);
         form.changed = Some("Methods");
@@ -22,7 +22,7 @@ pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     if let Some(model) = study.reduced.as_ref().and_then(|reduced| reduced.model.as_ref()) {
         let tip = "Saved before, or trained by another scene; switch the reduced model off and on to train one here";
         ui.weak(match model {
-            ModelSource::Embedded => "The model of the program".to_owned(),
+            ModelSource::Embedded => "The built-in model".to_owned(),
             ModelSource::File(path) => format!("The model {}", path.display()),
             ModelSource::Trained(path) => format!("The model that {} trains", path.display()),
         })
@@ -30,17 +30,18 @@ pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     } else if let Some(reduced) = &mut study.reduced {
         let plain = ("", 1.0);
         form.row(ui, "Loss", plain, &mut reduced.loss, "Loss of information of the bases (2.90)");
-        form.row(ui, "Rows per mode", plain, &mut reduced.rows_per_mode, "Sampled rows per pressure mode");
+        form.row(ui, "Rows per mode", plain, &mut reduced.rows_per_mode, "Sampled equations per pressure mode");
     }
     linearised_ui(ui, form, study);
     form.message(ui, "Methods");
     trainings_ui(ui, form, study);
 }
 
-/// The linearised model alone.
+/// Draws the settings of the linearised model.
 pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     let mut on = study.linearised.is_some();
-    let tip = "Superposes linearised systems of trained moments (TPWL, 4.27): one small linear system per step; in the fixed frame";
+    let tip = "Superposes systems linearised about trained states (TPWL, 4.27): one small linear system per step; in \
+               the fixed frame";
     if ui.add(Checkbox::new(&mut on, "Linearised model")).on_hover_text(tip).changed() {
         study.linearised = on.then(LinearisedTransient::default);
         form.changed = Some("Methods");
@@ -49,7 +50,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
     form.count(ui, "Modes", &mut linearised.modes, "Pressure modes of its space; fewer than 85 cost accuracy");
     let own = RULES.iter().position(|rule| rule.name() == linearised.selection.name()).unwrap_or(0);
     let mut rule = own;
-    choose(ui, "Operating points", "Which trained moments are linearised about", &mut rule, &[0, 1], |k| {
+    choose(ui, "Operating points", "Selection of the trained states for linearisation", &mut rule, &[0, 1], |k| {
         rule_name(RULES[k])
     });
     if rule != own {
@@ -58,11 +59,11 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
     }
     form.message(ui, "Operating points");
     let mut by_number = linearised.points.is_some();
-    choose(ui, "How many", "What decides their number", &mut by_number, &[false, true], |by_number| {
+    choose(ui, "How many", "Criterion for the number of points", &mut by_number, &[false, true], |by_number| {
         if by_number {
-            ("A given number", "The tolerance is found that gives about so many")
+            ("A given number", "The tolerance is chosen to give about this number")
         } else {
-            ("By tolerance", "As many as the tolerance asks for")
+            ("By tolerance", "The number follows from the tolerance")
         }
     });
     if by_number != linearised.points.is_some() {
@@ -72,7 +73,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
     form.message(ui, "How many");
     match &mut linearised.points {
         Some(points) => {
-            form.count(ui, "Points", points, "Operating points wanted, of all training trajectories together")
+            form.count(ui, "Points", points, "Number of operating points of all training trajectories together")
         }
         None => {
             let mut tolerance = linearised.selection.tolerance();
@@ -81,7 +82,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
                 "Tolerance β",
                 ("", 1.0),
                 &mut tolerance,
-                "Of the rule; half of it gives about twice the points",
+                "Tolerance of the rule; half the value gives about twice the points",
             );
             linearised.selection = linearised.selection.with_tolerance(tolerance);
         }
@@ -112,7 +113,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
     }
 }
 
-/// What the models are trained on: the run itself, or other inputs that were kept for it.
+/// Draws the training inputs of the models: the run itself, or other inputs that were stored for it.
 pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     if !study.trains() {
         return;
@@ -133,7 +134,7 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy
         ui.weak(format!("At reference contacts of {}.", contacts.collect::<Vec<_>>().join("; ")));
     }
     ui.horizontal(|ui| {
-        let tip = "Keeps the present inputs as a training trajectory: change them then, and see what the models make of others";
+        let tip = "Stores the present inputs as a training trajectory. Then change the inputs to test the models";
         if ui.button("Train on these inputs").on_hover_text(tip).clicked() {
             let (inputs, duration) = (study.inputs.clone(), study.duration);
             if !study.trainings.iter().any(|kept| kept.inputs == inputs && kept.duration == duration) {
@@ -141,7 +142,7 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy
                 form.changed = Some("Methods");
             }
         }
-        if !own && ui.button("On the run itself").on_hover_text("Forgets the other inputs").clicked() {
+        if !own && ui.button("On the run itself").on_hover_text("Discards the other inputs").clicked() {
             study.trainings.clear();
             study.training_loads.clear();
             study.training_contacts.clear();

@@ -1,4 +1,4 @@
-//! Transient contacts: their runs, and the views of them (series, profiles, space and time, linearised model).
+//! Transient contacts: their runs, and the views of them (time series, profiles, space and time, linearised model).
 
 mod advice;
 pub mod badge;

@@ -1,27 +1,27 @@
-//! The moment that is looked at: it follows the computation until somebody takes it, stands still until it is played,
-//! and stops at the end.
+//! Displayed time of transient runs. It follows the computation until the user chooses a time, and then changes
+//! only while playing.
 
-/// Seconds in which the whole duration is played.
+/// Duration of playing the whole run \[s\].
 const WHOLE_S: f64 = 10.0;
 
-/// The moment that is looked at.
+/// Displayed time, and the state of playing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Player {
     /// T.
     time: f64,
-    /// The last T there is.
+    /// Last computed T.
     end: f64,
     playing: bool,
     taken: bool,
 }
 
 impl Player {
-    /// T, as far as the computation has come.
+    /// Returns T, limited to the computed range.
     pub fn time(&self) -> f64 {
         self.time.min(self.end)
     }
 
-    /// The last T there is.
+    /// Returns the last computed T.
     pub fn end(&self) -> f64 {
         self.end
     }
@@ -30,7 +30,7 @@ impl Player {
         self.playing
     }
 
-    /// Says how far the computation has come.
+    /// Sets the last computed T.
     pub fn reached(&mut self, time: f64) {
         self.end = time;
         if !self.taken {
@@ -38,13 +38,13 @@ impl Player {
         }
     }
 
-    /// Goes to a moment and stays there.
+    /// Moves to a time and stops playing.
     pub fn go_to(&mut self, time: f64) {
         (self.taken, self.playing) = (true, false);
         self.time = time.clamp(0.0, self.end);
     }
 
-    /// Plays from here, from the beginning where it stands at the end, or pauses.
+    /// Starts playing from the present time, or from the beginning if it is at the end. Pauses if it is playing.
     pub fn toggle(&mut self) {
         self.taken = true;
         self.playing = !self.playing;
@@ -53,7 +53,7 @@ impl Player {
         }
     }
 
-    /// Goes on by what has passed on the clock, of a whole of `duration`.
+    /// Advances by seconds of the clock in a run of length `duration`.
     pub fn advance(&mut self, seconds: f64, duration: f64) {
         if self.playing {
             self.time = (self.time + seconds * duration / WHOLE_S).min(self.end);
@@ -75,11 +75,11 @@ mod tests {
         player.reached(4.0);
         assert_eq!((player.time(), player.end()), (3.0, 4.0));
         player.advance(1.0, 8.0);
-        assert_eq!(player.time(), 3.0, "nothing moves unasked");
+        assert_eq!(player.time(), 3.0, "nothing moves before the user plays");
         player.reached(1.0);
         assert_eq!(player.time(), 1.0, "a new run has come no farther");
         player.reached(4.0);
-        assert_eq!(player.time(), 3.0, "and goes where somebody wanted to look");
+        assert_eq!(player.time(), 3.0, "and goes to the time that the user chose");
         player.toggle();
         player.advance(1.0, 8.0);
         assert!((player.time() - 3.8).abs() < 1e-12 && player.playing());

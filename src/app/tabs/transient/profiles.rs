@@ -1,4 +1,4 @@
-//! Pressure and film of every run at the moment that is looked at.
+//! Pressure and film thickness of every run at the displayed time.
 
 use super::runs::TransientRuns;
 use crate::app::figure::Canvas;
@@ -13,10 +13,10 @@ use crate::solver::full::transient::{Moment, Quantity};
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints};
 
-/// X range at first, as in the Profiles tab.
+/// Initial X range, as in the Profiles tab.
 const X_RANGE: (f64, f64) = (-2.2, 1.6);
 
-/// Both plots, each as high as given.
+/// Draws both plots, each with this height.
 pub fn ui(ui: &mut Ui, view: &TransientRuns, fit: bool, height: f32) {
     let palette = Palette::of(ui);
     let most = |quantity: Quantity| {
@@ -27,7 +27,7 @@ pub fn ui(ui: &mut Ui, view: &TransientRuns, fit: bool, height: f32) {
     let generation = view.generation;
     let columns = marks(ui.available_width());
     let stacked = |name: &str, titles: (&str, &str), top: f64| {
-        // The axis stays still while the profiles play.
+        // The axis stays fixed while the profiles play.
         let id = format!("transient {name} {generation} {top}");
         axes::plot(ui, &id, height, titles.0, titles.1)
             .paper_x("{X}")
@@ -70,7 +70,7 @@ fn moment_at(run: &Run, time: f64) -> Option<&Moment> {
     run.trajectory.moments.iter().find(|moment| moment.time == state.time)
 }
 
-/// The dry contact of the moment, in the scales of the reference contact (4.1).
+/// Draws the dry contact at the displayed time, in the scales of the reference contact (4.1).
 fn hertz(plot: &mut Canvas<'_, '_>, moment: &Moment, palette: &Palette) {
     let input = moment.input;
     let (half_width, top) = ((input.load * input.radius).sqrt(), (input.load / input.radius).sqrt());

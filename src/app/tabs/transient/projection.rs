@@ -1,24 +1,24 @@
-//! How far the pressure of a reduced run lies from the full one, and how near any pressure of its basis could come: the
-//! projection of the full one, which no reduced run can be better than.
+//! Pressure error of a reduced run, and the smallest error that its basis permits. The latter is the error of the
+//! projection of the full pressure, which no reduced run can improve on.
 
 use crate::app::tabs::transient::Run;
 use crate::solver::discrete::grid::dot;
 use crate::solver::reduced::transient::TrajectoryModel;
 
-/// Times are those of moments: rounding must not tell two apart.
+/// Tolerance for the comparison of times, because of rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// Both over time, relative to the full pressure, in the norm under which the basis is orthonormal.
+/// Both errors over time, relative to the full pressure, in the norm in which the basis is orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldErrors {
     /// T and ‖P̃ − P‖/‖P‖.
     pub own: Vec<(f64, f64)>,
-    /// T and the least that the basis can have.
+    /// T and the smallest error that the basis permits.
     pub least: Vec<(f64, f64)>,
 }
 
 impl FieldErrors {
-    /// Of a run against a full one whose fields are there, wherever both have kept them.
+    /// Compares a run with a full run at all times where both have stored fields.
     pub fn of(run: &Run, full: &Run, model: &TrajectoryModel) -> Self {
         let window = &model.window;
         let weights = window.grid.weights();
@@ -35,7 +35,7 @@ impl FieldErrors {
             while own.next_if(|other| other.time < state.time - ROUNDING).is_some() {}
             let coefficients = window.pressure.basis().coefficients(weights, |i| state.pressure[i]);
             let whole = norm(&|i| state.pressure[i]);
-            // What the modes hold is orthogonal to what they miss.
+            // The projection is orthogonal to its error.
             let missed = (whole * whole - dot(&coefficients, &coefficients)).max(0.0).sqrt();
             errors.least.push((state.time, missed / whole));
             let same = own.peek().filter(|other| other.time <= state.time + ROUNDING && other.pressure.len() == nodes);

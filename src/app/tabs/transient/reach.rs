@@ -1,16 +1,16 @@
-//! How far the inputs of a contact in time leave those that its models learned.
+//! Comparison of the inputs of a transient contact with the training inputs of its models.
 
 use crate::app::document::input::Input;
 use crate::app::numbers;
 use crate::scene::Drive;
 use crate::solver::full::transient::{Inputs, Signal};
 
-/// Samples of an input over its duration.
+/// Number of samples of an input over its duration.
 const SAMPLES: usize = 2000;
-/// How much steeper or wider inputs may be and still count as trained.
+/// Factor by which inputs may be steeper or larger and still count as inside the training.
 const ROOM: f64 = 1.05;
 
-/// Steepest change of an input with T, and its range.
+/// Returns the maximum slope of an input, and its range.
 fn extremes(signal: &Signal, duration: f64) -> (f64, f64, f64) {
     let at = |k: usize| signal.at(duration * k as f64 / SAMPLES as f64);
     let mut found = (0.0f64, at(0), at(0));
@@ -22,8 +22,8 @@ fn extremes(signal: &Signal, duration: f64) -> (f64, f64, f64) {
     found
 }
 
-/// The beginning of a sentence where inputs leave what models learned: how many times steeper they are, or how many
-/// times farther they swing.
+/// Returns the first part of a sentence if inputs are steeper or vary more than the training inputs, with the
+/// factor.
 pub fn beyond(inputs: &Inputs, duration: f64, trainings: &[Drive]) -> Option<String> {
     let (mut steeper, mut wider) = (1.0f64, 1.0f64);
     for input in Input::ALL {
@@ -42,7 +42,7 @@ pub fn beyond(inputs: &Inputs, duration: f64, trainings: &[Drive]) -> Option<Str
     if steeper > ROOM {
         Some(format!("The inputs are {} × steeper than trained", said(steeper)))
     } else if wider > ROOM {
-        Some(format!("The inputs swing {} × farther than trained", said(wider)))
+        Some(format!("The inputs have {} × larger amplitudes than trained", said(wider)))
     } else {
         None
     }
@@ -64,6 +64,6 @@ mod tests {
         assert_eq!(said(0.05, 4.0), None);
         assert!(said(0.14, 4.0).unwrap().contains("1.4 × steeper"));
         assert!(said(0.1, 2.0).unwrap().contains("2.0 × steeper"));
-        assert!(said(0.2, 8.0).unwrap().contains("2.0 × farther"));
+        assert!(said(0.2, 8.0).unwrap().contains("2.0 × larger amplitudes"));
     }
 }

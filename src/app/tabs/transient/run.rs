@@ -11,7 +11,7 @@ use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::warning::Warning;
 use std::sync::Arc;
 
-/// Times are those of moments: rounding must not show the one before.
+/// Tolerance for the comparison of times, so that rounding errors do not select the previous step.
 const ROUNDING: f64 = 1e-12;
 
 /// One method in one frame, as far as it has been computed.
@@ -20,19 +20,20 @@ pub struct Run {
     pub by: MarchedBy,
     /// Computed trajectory. Its `ended` is valid once the run has ended.
     pub trajectory: Trajectory,
-    /// Seconds that each moment took.
+    /// Computing time of each time step \[s\].
     pub seconds: Vec<f64>,
-    /// Whether it has ended.
+    /// True if it has ended.
     pub ended: bool,
     /// Size of its reduced model.
     pub model: Option<ModelSize>,
-    /// Greatest relative difference of H_c from [`super::runs::TransientRuns::reference_of`] it, once it has ended.
+    /// Maximum relative difference of H_c from [`super::runs::TransientRuns::reference_of`] it, once it has ended.
     pub difference: Option<f64>,
     /// Operating points used by each step of a linearised model; set when it has ended.
     pub record: Option<TpwlRecord>,
-    /// What a reader must know of it; set when it has ended.
+    /// Warnings that belong to the run; set when it has ended.
     pub warnings: Vec<Warning>,
-    /// Time and value of the largest discretisation error of a full run among sampled moments; set when it has ended.
+    /// Time and value of the largest discretisation error of a full run among sampled time steps; set when it has
+    /// ended.
     pub grid_cost: Option<(f64, GridCost)>,
     /// Its linearised model, if it has one.
     pub linearised: Option<Arc<TpwlModel>>,
@@ -49,11 +50,11 @@ pub struct Run {
 pub struct ModelSize {
     /// Pressure modes.
     pub modes: usize,
-    /// Sampled rows or operating points.
+    /// Number of sampled equations or operating points.
     pub chosen: usize,
-    /// Which of both.
+    /// Name of what `chosen` counts.
     pub what: &'static str,
-    /// Seconds of its training, with the full trajectories of its own.
+    /// Time of its training \[s\], including its full trajectories.
     pub training_s: f64,
 }
 
@@ -65,7 +66,7 @@ impl From<&Model> for ModelSize {
 }
 
 impl Run {
-    /// Its name among others.
+    /// Returns its name.
     pub fn name(&self) -> String {
         method::run_name(self.by, self.frame())
     }
@@ -97,7 +98,7 @@ impl Run {
         }
     }
 
-    /// Takes in a moment or its fields.
+    /// Receives a time step or its fields.
     pub fn take(&mut self, row: Row) {
         match row {
             Row::Moment { moment, seconds, .. } => {
@@ -109,7 +110,7 @@ impl Run {
         }
     }
 
-    /// It has ended.
+    /// Completes the run.
     pub fn end(&mut self, march: &March) {
         self.ended = true;
         self.trajectory.ended = march.trajectory.ended.clone();
@@ -120,24 +121,25 @@ impl Run {
         self.grid_cost = march.grid_cost;
     }
 
-    /// The step of its record that led to T, or the last one before.
+    /// Returns the index of the recorded step that led to T, or of the last one before.
     pub fn step_at(&self, time: f64) -> Option<usize> {
         let steps = self.record.as_ref()?.steps();
         let next = steps.partition_point(|step| step.time <= time * (1.0 + ROUNDING));
         next.checked_sub(1).or((!steps.is_empty()).then_some(0))
     }
 
-    /// How its domain follows the contact.
+    /// Returns its frame.
     pub fn frame(&self) -> Frame {
         self.trajectory.transient.frame
     }
 
-    /// The last T reached; 0 where not even the start was found.
+    /// Returns the last computed T. 0 if not even the initial state was found.
     pub fn reached(&self) -> f64 {
         self.trajectory.reached()
     }
 
-    /// The fields last kept at or before T, else the first ones; `None` where it has not come to T.
+    /// Returns the last stored fields at or before T, otherwise the first ones. `None` if the run has not reached
+    /// T.
     pub fn state_at(&self, time: f64) -> Option<&State> {
         if self.reached() * (1.0 + ROUNDING) < time {
             return None;
@@ -146,19 +148,20 @@ impl Run {
         self.trajectory.states.get(next.saturating_sub(1))
     }
 
-    /// X, P and H of its fields in the scales of the reference contact, without the node outside the inlet.
+    /// Returns X, P and H of stored fields in the scales of the reference contact, without the node outside the
+    /// inlet.
     pub fn profile<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (f64, f64, f64)> + 'a {
         let scales = state.scales;
         let fields = self.trajectory.x.iter().zip(&state.pressure).zip(&state.film).skip(1);
         fields.map(move |((x, p), h)| (x * scales.half_width, p * scales.pressure, h * scales.film))
     }
 
-    /// Its trajectory with no fields, to be compared with.
+    /// Returns its trajectory without fields, for comparisons.
     pub fn without_fields(&self) -> Trajectory {
         Trajectory { x: Vec::new(), states: Vec::new(), ..self.trajectory.clone() }
     }
 
-    /// The median of the seconds per step, without the start; `None` before the first step.
+    /// Returns the median time per step \[s\] without the initial state. `None` before the first step.
     pub fn seconds_per_step(&self) -> Option<f64> {
         Some(median(self.seconds.get(1..)?)).filter(|seconds| seconds.is_finite())
     }

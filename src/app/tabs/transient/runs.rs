@@ -1,4 +1,4 @@
-//! Transient runs: what was asked, what has been computed so far, and the moment that is shown.
+//! Transient runs: the requested set-up, the results so far, and the displayed time.
 
 use super::player::Player;
 use super::run::Run;
@@ -26,19 +26,19 @@ pub enum TransientCommand {
     Follow(Box<Setup>),
     /// Stop the runs, and the study of their linearised model.
     Stop,
-    /// Show the moment T and stop playing.
+    /// Show the time T and stop playing.
     GoTo(f64),
-    /// Play from the present moment on, or pause.
+    /// Play from the displayed time on, or pause.
     TogglePlay,
-    /// Play on for seconds of the clock.
+    /// Advance the displayed time by seconds of the clock.
     PlayOn(f64),
-    /// Study how many operating points it takes.
+    /// Study the number of operating points.
     StudyNumber,
     /// Stop that study.
     StopNumber,
 }
 
-/// Transient runs and the moment that is shown. Several tabs read them.
+/// Transient runs and the displayed time. Several tabs read them.
 #[derive(Default)]
 pub struct TransientRuns {
     /// Set-up of the runs.
@@ -51,7 +51,7 @@ pub struct TransientRuns {
     pub number: NumberStudy,
     /// Running job, and why the last one ended early.
     pub work: Background<StudyRow>,
-    /// Seconds and moments of the training marches of the last frame, if these are not the runs themselves.
+    /// Seconds and time steps of the training runs of the last frame, if these are not the runs themselves.
     trained: Option<(f64, Vec<Vec<Moment>>)>,
     /// Run that receives the rows.
     filled: Filled,
@@ -59,22 +59,22 @@ pub struct TransientRuns {
     pub(super) next: Option<Arc<Setup>>,
     pub(super) following: Following,
     looking: Background<OtherRule>,
-    /// Why a model could not be made from a run.
+    /// Reasons why a model could not be made from a run.
     pub notes: Vec<String>,
-    /// Moment that is shown.
+    /// Displayed time.
     pub player: Player,
     pub(super) ctx: Option<Context>,
     /// Number of starts. Plots of new results do not keep the zoom of the previous ones.
     pub generation: u64,
 }
 
-/// The run that rows go to.
+/// Run that receives the rows.
 #[derive(Default)]
 enum Filled {
     /// None yet.
     #[default]
     None,
-    /// Run at this place in the list.
+    /// Run at this index of the list.
     Shown(usize),
     /// Run that replaces a replayed one when it has ended.
     Behind(Box<Run>),
@@ -107,7 +107,7 @@ impl TransientRuns {
         self.player.reached(reached);
     }
 
-    /// Ends the job. The run that was computed keeps its results.
+    /// Ends the job. The run in progress keeps its results.
     pub(super) fn end(&mut self) {
         let stopped = self.work.message.is_none();
         if let Some(run) = self.filled().filter(|run| stopped && !run.ended) {
@@ -201,7 +201,7 @@ impl TransientRuns {
         };
         self.linearised = Some(Linearised { model: Arc::clone(model), trainings, own, other: None });
         let model = Arc::clone(model);
-        let name = "Looking into the linearised model";
+        let name = "Analysing the linearised model";
         self.looking.run(Job::of(name, wake(ctx), &Store::default(), OtherRuleTask(model)));
     }
 
@@ -215,8 +215,8 @@ impl TransientRuns {
         self.following.replay.standing()
     }
 
-    /// Returns the run that a run is compared with: for a model the full run in its frame, for a full run the first one.
-    /// `None` for the first run.
+    /// Returns the reference of a run: for a model the full run in its frame, for a full run the first one. `None`
+    /// for the first run.
     pub fn reference_of(&self, k: usize) -> Option<&Run> {
         let (run, earlier) = (self.runs.get(k)?, self.runs.get(..k)?);
         match run.by {
@@ -280,14 +280,14 @@ impl TransientRuns {
         }
     }
 
-    /// Stops the runs, and the study of their linearised model; what they have found stays.
+    /// Stops the runs and the study of their linearised model, and keeps their results.
     pub fn stop(&mut self) {
         self.following.rest();
         self.work.stop();
         self.number.work.stop();
     }
 
-    /// Forgets all runs and models: another document is on the screen.
+    /// Discards all runs and models, because another document is on the screen.
     pub fn forget(&mut self) {
         *self = Self { generation: self.generation + 1, ..Self::default() };
     }
@@ -322,7 +322,7 @@ impl TransientRuns {
     }
 }
 
-/// Inserts a run after the runs of its frame that precede it; returns its place.
+/// Inserts a run after the runs of its frame that precede it. Returns its index.
 pub fn insert(runs: &mut Vec<Run>, run: Run) -> usize {
     let rank = |by: MarchedBy| match by {
         MarchedBy::Full => 0,

@@ -1,4 +1,4 @@
-//! Central pressure and film against time, and how far runs lie apart.
+//! Plots against time: central pressure, central film thickness, and differences between runs.
 
 use super::runs::TransientRuns;
 use crate::app::document::input::Input;
@@ -14,8 +14,8 @@ use crate::solver::reduced::tpwl::Weighting;
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
 
-/// The line of a run: the frame by dashes; a linearised model broad and pale, the reduced model thick, the full one
-/// thin over them, the first of full ones alone thick.
+/// Returns the line style of a run. Dashes distinguish the frames. Lines of linearised models are broad and pale,
+/// of reduced models thick, and of full runs thin and on top. If there are only full runs, the first one is thick.
 pub fn style(view: &TransientRuns, k: usize, color: Color32, palette: &Palette) -> (Color32, f32, LineStyle) {
     let Some(run) = view.runs.get(k) else { return (color, 1.0, LineStyle::Solid) };
     let dashes = match run.frame() {
@@ -34,7 +34,7 @@ pub fn style(view: &TransientRuns, k: usize, color: Color32, palette: &Palette) 
     (color, width, dashes)
 }
 
-/// The runs as they are drawn, thick ones first: a thin line stays visible over a thick one.
+/// Returns the runs in the order of drawing, thick lines first, so that thin lines stay visible.
 pub fn drawn(view: &TransientRuns) -> impl Iterator<Item = (usize, &Run)> {
     let of = |wanted: fn(MarchedBy) -> bool| view.runs.iter().enumerate().filter(move |(_, run)| wanted(run.by));
     of(|by| matches!(by, MarchedBy::Linearised(_)))
@@ -42,10 +42,10 @@ pub fn drawn(view: &TransientRuns) -> impl Iterator<Item = (usize, &Run)> {
         .chain(of(|by| by == MarchedBy::Full))
 }
 
-/// What is drawn against time.
+/// Quantity of the plot against time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Against {
-    /// Film, pressure and load, each relative to its stationary start.
+    /// Film thickness, pressure and load, each relative to its initial steady value.
     #[default]
     Together,
     /// H_c.
@@ -54,27 +54,31 @@ enum Against {
     Pressure,
 }
 
-/// The series.
+/// Plot against time.
 #[derive(Default)]
 pub struct Along {
     against: Against,
 }
 
 impl Along {
-    /// The plot with what it may show over it, above another with the same axis or not; returns the time that was
-    /// clicked at.
+    /// Draws the plot with its choices. `above` is true if another plot with the same axis is below it. Returns the
+    /// time of a click.
     pub fn ui(&mut self, ui: &mut Ui, view: &TransientRuns, height: f32, above: bool) -> Option<f64> {
         let below = if above { "" } else { "{T}" };
         let palette = Palette::of(ui);
         ui.horizontal_wrapped(|ui| {
             let options = [
-                (Against::Together, "Together", "Central film, central pressure and the inputs, relative to the start"),
-                (Against::Film, "Film", "Central film in its own scale"),
+                (
+                    Against::Together,
+                    "Together",
+                    "Central film thickness, central pressure and the inputs, relative to the start",
+                ),
+                (Against::Film, "Film", "Central film thickness"),
                 (
                     Against::Pressure,
                     "Pressure",
-                    "Central pressure in its own scale; below it how far the whole pressure is off, and, dotted, the \
-                     least that any pressure of the reduced basis could be: the projection of the full one",
+                    "Central pressure, with the error of the whole pressure below. Dotted: the smallest error that the \
+                     reduced basis permits, that of the projected full pressure",
                 ),
             ];
             for (option, name, tip) in options {
@@ -95,8 +99,8 @@ impl Along {
         LinkedPlot { name, quantity, color }.show(ui, view, height, (below, title), false)
     }
 
-    /// How far runs lie from what they are compared with, against time: their central film, or the whole pressure where
-    /// that is looked at and a reduced run is there; returns the time that was clicked at.
+    /// Draws the differences of the runs from their references against time: of the central film thickness, or of
+    /// the whole pressure if pressure is chosen and there is a reduced run. Returns the time of a click.
     pub fn deviation(&self, ui: &mut Ui, view: &TransientRuns, height: f32) -> Option<f64> {
         let known = |run: &Run| run.field_errors.as_ref().is_some_and(|errors| !errors.least.is_empty());
         if self.against != Against::Pressure || !view.runs.iter().any(known) {
@@ -113,7 +117,7 @@ impl Along {
                 let (color, width, line_style) = style(view, k, palette.pressure, &palette);
                 let own = Line::new(run.name(), PlotPoints::Owned(percent(&errors.own))).id((k, "own"));
                 plot.line(own.color(color).width(width).style(line_style).allow_band(false));
-                let name = format!("{}: the least that its modes can miss", run.name());
+                let name = format!("{}: projection error", run.name());
                 let least = Line::new(name, PlotPoints::Owned(percent(&errors.least))).id((k, "least"));
                 plot.line(least.color(palette.reference).width(1.6).style(LineStyle::dotted_dense()).allow_band(false));
             }
@@ -123,12 +127,13 @@ impl Along {
     }
 }
 
-/// How far runs lie from what they are compared with, against time; returns the time that was clicked at.
+/// Draws the differences of the central film thickness from the references against time. Returns the time of a
+/// click.
 pub fn deviation(ui: &mut Ui, view: &TransientRuns, height: f32) -> Option<f64> {
     let known = |run: &Run| run.by != MarchedBy::Full && !run.trajectory.moments.is_empty();
     let known = view.runs.iter().any(known) || view.runs.iter().filter(|run| run.by == MarchedBy::Full).count() > 1;
     if !known || !view.runs.iter().any(|run| run.by == MarchedBy::Full) {
-        let waits = "How far each method lies from the full system comes with them";
+        let waits = "The differences from the full system appear with the runs";
         ui.add_sized([ui.available_width(), height], egui::Label::new(egui::RichText::new(waits).weak()));
         return None;
     }
@@ -137,7 +142,7 @@ pub fn deviation(ui: &mut Ui, view: &TransientRuns, height: f32) -> Option<f64> 
     plot.show(ui, view, height, ("{T}", "|Δ{H_c}| / %"), true)
 }
 
-/// Film, pressure and inputs on one axis, in percent of their starts.
+/// Draws film thickness, pressure and inputs on one axis, in percent of their initial values.
 fn together(ui: &mut Ui, view: &TransientRuns, height: f32, below: &str) -> Option<f64> {
     let palette = Palette::of(ui);
     let looks = [(Quantity::CentralFilm, palette.film), (Quantity::CentralPressure, palette.pressure)];
@@ -175,10 +180,10 @@ fn together(ui: &mut Ui, view: &TransientRuns, height: f32, below: &str) -> Opti
     shown.inner
 }
 
-/// By which the plot is known.
+/// Accessible name of the plot.
 const TOGETHER: &str = "Film, pressure and inputs against time";
 
-/// A plot over the duration whose axis of time is that of its neighbours.
+/// Returns a plot over the duration with the same time axis as its neighbours.
 fn linked<'a>(ui: &Ui, view: &TransientRuns, name: &str, height: f32, titles: (&str, &str)) -> PlotFrame<'a> {
     let duration = view.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
     let group = Id::unique(("transient", view.generation));
@@ -196,14 +201,14 @@ fn linked<'a>(ui: &Ui, view: &TransientRuns, name: &str, height: f32, titles: (&
         .auto_bounds(Vec2b::TRUE)
 }
 
-/// The moment that is looked at as a line; returns the time that was clicked at.
+/// Draws the displayed time as a line. Returns the time of a click.
 fn now(plot: &mut Canvas<'_, '_>, view: &TransientRuns, palette: &Palette) -> Option<f64> {
     let now = VLine::new("", view.player.time()).id("now").color(palette.accent).width(1.0);
     plot.vline(now.allow_hover(false));
     plot.response().clicked().then(|| plot.pointer_coordinate()).flatten().map(|at| at.x)
 }
 
-/// One plot of a quantity against time.
+/// Plot of a quantity against time.
 struct LinkedPlot {
     name: &'static str,
     quantity: Quantity,
@@ -211,7 +216,7 @@ struct LinkedPlot {
 }
 
 impl LinkedPlot {
-    /// The quantity of all runs, or how far they lie from what they are compared with, in percent.
+    /// Draws the quantity of all runs, or their differences from the references in percent.
     fn show(
         &self,
         ui: &mut Ui,
@@ -239,7 +244,7 @@ impl LinkedPlot {
         };
         let shown = axes::show(plot, ui, name, |plot| {
             if let Some(start) = first.trajectory.moments.first().filter(|_| !deviation) {
-                let line = HLine::new("Stationary at T = 0", start.value(self.quantity)).color(palette.reference);
+                let line = HLine::new("Steady at T = 0", start.value(self.quantity)).color(palette.reference);
                 plot.hline(line.width(THIN_WIDTH).style(LineStyle::dashed_dense()).allow_hover(false));
             }
             for (k, run) in drawn(view) {
@@ -262,7 +267,7 @@ fn values(run: &Run, quantity: Quantity) -> Vec<PlotPoint> {
     run.trajectory.moments.iter().map(|moment| PlotPoint::new(moment.time, moment.value(quantity))).collect()
 }
 
-/// How far a run lies from another, in percent, as powers of ten; nothing where they are equal.
+/// Returns the differences of a run from another in percent, as powers of ten. Equal values are omitted.
 fn deviations(run: &Run, reference: &Run, quantity: Quantity) -> Vec<PlotPoint> {
     let percent = |time: f64, value: f64| {
         let off = 100.0 * (value / reference.trajectory.at(quantity, time)? - 1.0).abs();
@@ -271,15 +276,15 @@ fn deviations(run: &Run, reference: &Run, quantity: Quantity) -> Vec<PlotPoint> 
     run.trajectory.moments.iter().filter_map(|moment| percent(moment.time, moment.value(quantity))).collect()
 }
 
-/// What is less is not told apart, in percent.
+/// Smallest displayed difference in percent.
 const LEAST_OFF: f64 = 1e-6;
 
-/// Marks of an axis of this width that leave their labels room.
+/// Returns the number of marks on a horizontal axis of this width.
 pub fn marks(width: f32) -> f64 {
     f64::from((width - 60.0).max(75.0) / 75.0)
 }
 
-/// The same for an axis of this height.
+/// Returns the number of marks on a vertical axis of this height.
 pub fn rows(height: f32) -> f64 {
     f64::from((height - 24.0).max(48.0) / 24.0).min(6.0)
 }

@@ -1,4 +1,4 @@
-//! What a contact in time is made of, and the question that it is.
+//! Set-up of a transient contact, and its study as a scene.
 
 use crate::app::document::{Document, Key};
 use crate::app::in_use::question;
@@ -10,27 +10,28 @@ use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::Lubricant;
 use std::path::{Path, PathBuf};
 
-/// What runs belong to.
+/// Set-up of transient runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
-    /// The reference contact.
+    /// Reference contact.
     pub point: OperatingPoint,
     pub lubricant: Lubricant,
-    /// What varies, how long, and how it is followed.
+    /// Inputs, duration and methods.
     pub study: TransientStudy,
-    /// The table that inputs are taken from when it is run.
+    /// Table from which inputs are read at the start of a run.
     pub sampled: Option<PathBuf>,
-    /// The grid of the full system.
+    /// Grid of the full system.
     pub grid: Grid,
 }
 
-/// Why the program's model in time does not serve a study that names it, so that one is trained in its place.
+/// Returns why the built-in transient model does not support a study that names it. A model is then trained
+/// instead.
 fn unserved(document: &Document, study: &TransientStudy) -> Option<String> {
     study.reduced.as_ref().filter(|reduced| reduced.is_embedded())?;
-    // A damaged one is named where it is asked for.
+    // Another place reports a damaged model.
     let model = line_in_time().ok()?;
     if study.frames != [model.frame] {
-        return Some("it knows the fixed frame alone".to_owned());
+        return Some("it supports the fixed frame only".to_owned());
     }
     if document.transient_grid().spec() != Some(model.window.grid.spec()) {
         return Some("it has another grid".to_owned());
@@ -39,21 +40,21 @@ fn unserved(document: &Document, study: &TransientStudy) -> Option<String> {
     model.domain.leaves(&problem, &study.inputs, study.duration)
 }
 
-/// What is said of the reduced model where a document names the program's.
+/// Returns a sentence about the reduced model if a document names the built-in one.
 pub fn model_in_use(document: &Document) -> Option<String> {
     let study = document.transient_study();
     study.reduced.as_ref().filter(|reduced| reduced.is_embedded())?;
     Some(match unserved(document, &study) {
-        None => "The reduced model is the program’s own".to_owned(),
-        Some(why) => format!("The reduced model is trained here, not the program’s: {why}"),
+        None => "The reduced model is the built-in one".to_owned(),
+        Some(why) => format!("The reduced model is trained here instead of the built-in one: {why}"),
     })
 }
 
-/// Node steps of all full marches up to which a contact is run unasked: about two seconds.
+/// Maximum product of nodes and time steps of all full runs for an automatic start. It takes about two seconds.
 const QUICK: f64 = 5e5;
 
 impl Setup {
-    /// What a document would have run; where its file lies, the table lies that it takes inputs from.
+    /// Returns the set-up of a document. A path of an input table is relative to the folder of the document's file.
     pub fn of(document: &Document, file: Option<&Path>) -> Self {
         let mut study = document.transient_study();
         let folder = file.and_then(Path::parent).unwrap_or(Path::new(""));
@@ -74,7 +75,7 @@ impl Setup {
         }
     }
 
-    /// The question: the study itself, without what only headless runs compare.
+    /// Returns the study as a scene, without the comparisons that only headless runs make.
     pub(super) fn question(&self) -> Scene {
         let once = |linearised: &LinearisedTransient| LinearisedTransient { further: Vec::new(), ..linearised.clone() };
         let study = TransientStudy {
@@ -86,20 +87,20 @@ impl Setup {
             ..self.study.clone()
         };
         let key = Key { point: self.point, lubricant: self.lubricant };
-        question("Contact in time", &key, self.grid, Study::Transient(study))
+        question("Transient contact", &key, self.grid, Study::Transient(study))
     }
 
-    /// How many runs it comes to.
+    /// Returns the number of runs.
     pub fn runs(&self) -> usize {
         let TransientStudy { frames, reduced, linearised, .. } = &self.study;
         let linearised = linearised.as_ref().map_or(0, |linearised| linearised.weightings.len());
         frames.len() * (1 + usize::from(reduced.is_some())) + linearised
     }
 
-    /// Whether it is run unasked.
+    /// Returns true if it is fast enough to start automatically.
     pub fn is_quick(&self) -> bool {
         let step = match self.study.time_step {
-            // As many steps as it may come to.
+            // Estimated maximum number of time steps.
             TimeStep::Controlled(tolerance) => 0.1 * tolerance.sqrt(),
             other => other.longest(self.study.duration),
         };
@@ -118,7 +119,7 @@ impl Setup {
         (self.study.duration + trained) / step * nodes * self.study.frames.len() as f64 <= QUICK
     }
 
-    /// Seconds per unit of T: a/u_m of the reference contact.
+    /// Returns the seconds per unit of T: a/u_m of the reference contact.
     pub fn time_scale_s(&self) -> f64 {
         self.point.hertz().half_width_m / self.point.speed_m_per_s
     }

@@ -22,8 +22,8 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, FontId, Label, ScrollArea, Slider, TextStyle, Ui};
 use std::sync::Arc;
 
-/// Shows a form of the document's transient study; returns the field that was changed last. `name` is the name of the
-/// message if a change is refused.
+/// Draws a form of the document's transient study. Returns the field that was changed last. `name` is the name
+/// under which a refusal is stored.
 pub fn edit(
     ui: &mut Ui,
     (name, last): (&'static str, LastField),
@@ -39,7 +39,7 @@ pub fn edit(
     form.ask(edit, "Frames", commands)
 }
 
-/// Lets the transient runs follow the document. Every tab that shows them calls it.
+/// Makes the transient runs follow the document. Every tab that shows them calls it.
 pub fn follow(context: &Context<'_>, commands: &mut Commands) {
     let wanted = Setup::of(context.document, context.file);
     if !context.transient.follows(&wanted) && !context.transient.runs_by_hand() {
@@ -47,18 +47,18 @@ pub fn follow(context: &Context<'_>, commands: &mut Commands) {
     }
 }
 
-/// Says why there are no transient runs of this contact, with a button that changes to a roller if that helps.
+/// Draws the reason why this contact has no transient runs, with a button that changes to a roller if that helps.
 fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Commands) {
     ui.weak(sentence(why));
     let tip = "A line contact with the same quantities";
     if context.document.point.kind == ContactKind::Point
-        && ui.button("Show a roller instead").on_hover_text(tip).clicked()
+        && ui.button("Show a line contact").on_hover_text(tip).clicked()
     {
         commands.edit(Edit::Shape(Shape::Roller), "contact");
     }
 }
 
-/// Returns true if runs are computed or are about to start by themselves.
+/// Returns true if runs are computed or are about to start automatically.
 pub fn is_coming(context: &Context<'_>) -> bool {
     let view = context.transient;
     let wanted = Setup::of(context.document, context.file);
@@ -74,24 +74,23 @@ pub fn grey_where_stale(ui: &mut Ui, context: &Context<'_>, name: &'static str) 
     }
 }
 
-/// Button that starts or stops the runs.
+/// Draws the button that starts or stops the runs.
 pub fn run_button(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let view = context.transient;
     let runs = view.runs_by_hand();
     let tip = if runs {
-        "What has been computed so far stays (Esc)"
+        "Keeps the results so far (Esc)"
     } else {
-        "Takes the contact of the sliders through time, frame after frame, then by each model"
+        "Computes the transient contact in each frame, then with each model"
     };
-    if either_button(ui, ["Run in time", "Stop"], runs).on_hover_text(tip).clicked() {
+    if either_button(ui, ["Run transient", "Stop"], runs).on_hover_text(tip).clicked() {
         let setup = || Box::new(Setup::of(context.document, context.file));
         commands.push(Command::Transient(if runs { TransientCommand::Stop } else { TransientCommand::Run(setup()) }));
     }
 }
 
-/// What runs and how far it is, what was refused, how runs ended that did not reach the end, and whether all of it is
-/// still what the sliders say: in one line that is always there, so that nothing below moves. What does not fit is read
-/// under the pointer.
+/// Draws progress, refusals, early ends, and a warning if the results are out of date. The text takes one line that
+/// is always present, so that nothing below moves. The full text is shown on hover.
 pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoIterator<Item = &'a str>) {
     let view = context.transient;
     let palette = Palette::of(ui);
@@ -105,7 +104,7 @@ pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoItera
     ui.horizontal(|ui| {
         ui.set_min_height(ui.spacing().interact_size.y);
         if view.runs_by_hand() {
-            standing_ui(ui, view.standing(), "Progress of the contact in time");
+            standing_ui(ui, view.standing(), "Progress of the transient runs");
         }
         if !line.is_empty() {
             ui.add(Label::new(line).truncate());
@@ -113,7 +112,7 @@ pub fn status<'a>(ui: &mut Ui, context: &'a Context<'_>, refused: impl IntoItera
     });
 }
 
-/// Returns the messages about the runs, the worst first.
+/// Returns the messages about the runs, the most severe first.
 fn sentences<'a>(
     context: &'a Context<'_>,
     refused: impl IntoIterator<Item = &'a str>,
@@ -132,14 +131,14 @@ fn sentences<'a>(
     let asked = |setup: &&Arc<Setup>| ***setup != wanted && !wanted.is_quick();
     if let Some(setup) = view.setup.as_ref().filter(asked) {
         let of = numbers::moes(setup.point.moes());
-        warn(format!("What is shown belongs to {of} and a former set-up; run it again for the present one"));
+        warn(format!("The results belong to {of} and a previous set-up; run again for the present one"));
     }
     let steep = |(_, run): (_, &Run)| !run.replayed && run.record.as_ref().is_some_and(TpwlRecord::too_steep);
     if view.linearised_runs().any(steep) {
         warn(Warning::TooSteep { advice: advice(view).to_owned() }.to_string());
     }
     let quiet = palette.quiet;
-    // What several runs share is said once.
+    // A warning that several runs share is shown once.
     let of_runs = view.runs.iter().flat_map(|run| run.warnings.iter().map(move |warning| (run, warning)));
     let mut shared: Vec<(&Warning, String)> = Vec::new();
     for (run, warning) in of_runs.filter(|(_, warning)| !matches!(warning, Warning::MarchStopped { .. })) {
@@ -153,7 +152,7 @@ fn sentences<'a>(
     said
 }
 
-/// Shows a tab: its form, if it has a width, and beside it pictures that scroll if necessary, above the time bar.
+/// Draws a tab: its form, if it has a width, next to its plots, which scroll if necessary, above the time bar.
 pub fn page<T>(
     ui: &mut Ui,
     tab: &mut T,
@@ -177,7 +176,7 @@ pub fn page<T>(
             ui.separator();
         }
         ui.vertical(|ui| {
-            // Wide rows of the pictures do not widen the bar.
+            // Wide rows of the plots must not widen the bar.
             let width = ui.available_width();
             let height = (ui.available_height() - TIME_BAR).max(TIME_BAR);
             let area = ScrollArea::vertical().id_salt(name).auto_shrink(false).max_height(height);
@@ -190,10 +189,10 @@ pub fn page<T>(
     });
 }
 
-/// Height of the time bar with the room above it.
+/// Height of the time bar with the space above it.
 const TIME_BAR: f32 = 32.0;
 
-/// Time bar: a slider over the computed moments, and a button that plays them.
+/// Draws the time bar: a slider over the computed time, and a button to play.
 pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
     let Some(setup) = &view.setup else { return };
     let playing = view.player.playing();
@@ -203,7 +202,7 @@ pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
         ask(TransientCommand::PlayOn(f64::from(seconds)));
     }
     ui.horizontal(|ui| {
-        let (name, tip) = if playing { ("Pause", "Stand still here") } else { ("Play", "Play the profiles in time") };
+        let (name, tip) = if playing { ("Pause", "Pauses the display") } else { ("Play", "Play the profiles in time") };
         if ui.button(name).on_hover_text(tip).clicked() {
             ask(TransientCommand::TogglePlay);
         }
@@ -218,8 +217,7 @@ pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
         if response.changed() {
             ask(TransientCommand::GoTo(time));
         }
-        let tip =
-            "The moment whose profiles are shown, in units of a/u_m of the reference contact (2.22) and on the clock";
+        let tip = "Time of the displayed profiles, in units of a/u_m of the reference contact (2.22) and in seconds";
         let time = ui.horizontal(|ui| {
             ui.set_min_width(TIME);
             ui.label(rich(&text, 13.5, ui.visuals().text_color())).on_hover_text(tip);
@@ -232,10 +230,10 @@ pub fn player(ui: &mut Ui, view: &TransientRuns, commands: &mut Commands) {
     });
 }
 
-/// Width of the tab from which on costs stand beside the moment, and their own.
+/// Minimum width of the tab to show computing times next to the time, and their width.
 const COSTS_FROM: f32 = 780.0;
 const COSTS: f32 = 330.0;
-/// Width of the moment in numbers.
+/// Width of the displayed time.
 const TIME: f32 = 120.0;
 
 /// Returns the time per step of each method, as text.

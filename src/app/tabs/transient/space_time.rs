@@ -1,5 +1,5 @@
-//! Film or pressure of a line contact over space and time: X across, T upwards. A drag goes to the moment under the
-//! pointer.
+//! Map of film thickness or pressure of a line contact over space and time: X is horizontal, T vertical. Dragging
+//! moves the displayed time to the pointer.
 
 use super::runs::TransientRuns;
 use crate::app::context::Context;
@@ -17,22 +17,22 @@ use egui::{Color32, ColorImage, Ui, Vec2};
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints};
 use std::sync::Arc;
 
-/// X range that is shown.
+/// Displayed X range.
 const X_RANGE: (f64, f64) = (-2.2, 1.6);
-/// Pixels along X.
+/// Number of pixels along X.
 const COLUMNS: usize = 380;
-/// Pixels along T at most.
+/// Maximum number of pixels along T.
 const ROWS: usize = 480;
-/// Below this width the scale is left out.
+/// Width below which the colour scale is omitted.
 const LEAST_WIDTH: f32 = 320.0;
 
-/// What is shown.
+/// Displayed field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Field {
-    /// H.
+    /// H, film thickness.
     #[default]
     Film,
-    /// P.
+    /// P, pressure.
     Pressure,
 }
 
@@ -68,7 +68,7 @@ impl Field {
     }
 }
 
-/// What an image was made of.
+/// Data that an image was made of.
 #[derive(Clone)]
 struct Made {
     setup: Arc<Setup>,
@@ -82,7 +82,7 @@ impl PartialEq for Made {
     }
 }
 
-/// The view: what it shows, and what it keeps between frames.
+/// State of the map: its settings, and the image kept between frames.
 #[derive(Default)]
 pub struct SpaceTime {
     field: Field,
@@ -91,11 +91,11 @@ pub struct SpaceTime {
     made: Option<Made>,
 }
 
-/// A field at equidistant X, moment by moment.
+/// Field at equidistant X for each stored time.
 #[derive(Default)]
 struct Samples {
     times: Vec<f64>,
-    /// Row by row, in the order of time.
+    /// Values row by row, in the order of time.
     values: Vec<f32>,
     range: (f64, f64),
 }
@@ -122,7 +122,7 @@ impl Samples {
         Self { times: states.iter().map(|state| state.time).collect(), values, range }
     }
 
-    /// Both moments around T, and how near it is to the later one.
+    /// Returns the indices of the stored times around T, and the weight of the later one.
     fn around(&self, time: f64) -> Option<(usize, usize, f32)> {
         let last = self.times.len().checked_sub(1)?;
         let later = self.times.partition_point(|t| *t < time).min(last);
@@ -137,7 +137,7 @@ impl Samples {
         value(earlier) + share * (value(later) - value(earlier))
     }
 
-    /// The value at a place of the picture.
+    /// Returns the value at a place of the map.
     fn value(&self, x: f64, time: f64) -> Option<f64> {
         let column = (x - X_RANGE.0) / (X_RANGE.1 - X_RANGE.0) * COLUMNS as f64;
         let inside = (0.0..COLUMNS as f64).contains(&column) && (0.0..=self.end()).contains(&time);
@@ -148,7 +148,7 @@ impl Samples {
         self.times.last().copied().unwrap_or(0.0)
     }
 
-    /// The picture, the last moment at its top.
+    /// Returns the image, with the last time at its top.
     fn image(&self, table: &[Color32]) -> ColorImage {
         let last = table.len().saturating_sub(1);
         let (low, factor) = (self.range.0 as f32, last as f32 / (self.range.1 - self.range.0) as f32);
@@ -166,7 +166,7 @@ impl Samples {
     }
 }
 
-/// Values at the pixels of a row, from those at rising X, joined by straight lines.
+/// Appends the values at the pixels of a row, linearly interpolated between values at rising X.
 fn resample(nodes: impl Iterator<Item = (f64, f64)>, values: &mut Vec<f32>) {
     let wanted = values.len() + COLUMNS;
     let pixel = (X_RANGE.1 - X_RANGE.0) / COLUMNS as f64;
@@ -183,21 +183,21 @@ fn resample(nodes: impl Iterator<Item = (f64, f64)>, values: &mut Vec<f32>) {
     values.resize(wanted, before.map_or(0.0, |(_, value)| value as f32));
 }
 
-/// The run that is shown: the one that has come farthest, of these the first.
+/// Returns the displayed run: the first of those that have reached the largest T.
 fn shown(view: &TransientRuns) -> Option<&Run> {
     let reached = view.runs.iter().map(Run::reached).fold(0.0, f64::max);
     view.runs.iter().find(|run| run.reached() >= reached && run.trajectory.states.len() > 1)
 }
 
-/// The map as a table.
+/// Returns the export of the map.
 pub fn offer<'a>(context: &Context<'a>) -> Offer<'a> {
     let view = context.transient;
-    let tip = "T, X, P and H of all nodes that are shown, at every moment that was kept";
+    let tip = "T, X, P and H of all displayed nodes, at every stored time";
     Offer::table("Map as CSV…", tip, view.setup.as_ref().zip(shown(view)), |(setup, run)| csv(setup, run))
 }
 
 impl SpaceTime {
-    /// The view, as high as given; returns the moment under a press or a drag.
+    /// Draws the map with this height. Returns the time under a press or a drag.
     pub fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
         let view = context.transient;
         let there = view.setup.as_ref().zip(shown(view));
@@ -237,7 +237,7 @@ impl SpaceTime {
         whole.inner
     }
 
-    /// Makes the image anew where it is out of date.
+    /// Updates the image if it is out of date.
     fn follow(&mut self, ui: &Ui, setup: &Arc<Setup>, run: &Run) {
         let states = run.trajectory.states.len();
         let of = (run.by, run.frame(), run.replayed, states);
@@ -297,7 +297,7 @@ impl SpaceTime {
     }
 }
 
-/// The nodes that are shown at all moments that were kept, with what makes SI units of them.
+/// Returns the displayed nodes at all stored times, with the factors to SI units.
 fn csv(setup: &Setup, run: &Run) -> String {
     let (hertz, seconds) = (setup.point.hertz(), setup.time_scale_s());
     let mut comments = describe(setup);

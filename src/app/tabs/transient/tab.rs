@@ -1,4 +1,5 @@
-//! The contact in time: what drives it, how film and pressure answer, and how the frames differ.
+//! Transient tab: the inputs of the contact, the response of film thickness and pressure, and the difference
+//! between frames.
 
 use super::runs::{TransientCommand, TransientRuns};
 use super::{badge, cost, dials, form, profiles};
@@ -13,14 +14,14 @@ use egui::Ui;
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 300.0;
-/// Width from which on the profiles stand beside the series.
+/// Width from which the profiles are placed next to the time series.
 const SIDE_BY_SIDE: f32 = 560.0;
-/// Height of what stands above the series, with the room between plots.
+/// Height of the rows above the time series, with the space between plots.
 const HEADS: f32 = 48.0;
-/// Heights below which plots cannot be read.
+/// Minimum height of a readable plot.
 const LEAST_HEIGHT: f32 = 96.0;
 
-/// The tab: whether its form is shown, what is being entered there, and what is drawn.
+/// Transient tab: its form with the state of its entries, and its plots.
 #[derive(Default)]
 pub struct Transient {
     form: bool,
@@ -33,9 +34,10 @@ const ABOUT: About = About {
     keywords: "time load speed radius frames",
     page: "transient.md",
     has_units: true,
-    why: "When load, speed or curvature change quickly, oil that entered long before is still inside: the film \
-          remembers. What the inlet made travels through the contact at the mean speed of the surfaces, and arrives \
-          at the outlet later. So film and load are out of step, the more the faster they change.",
+    why: "When load, speed or curvature change quickly, the contact still contains oil that entered before the change. \
+          A change of film thickness in the inlet travels through the contact at the mean speed of the surfaces and \
+          reaches the outlet later. Film thickness and load are therefore out of phase, and the phase shift grows with \
+          the rate of change.",
 };
 
 impl View for Transient {
@@ -58,10 +60,14 @@ impl View for Transient {
         let table = |name, tip, text: Text| {
             Offer::table(name, tip, there, move |view: &&TransientRuns| text(view).unwrap_or_default())
         };
-        let tip = "All moments of every run with their SI twins, each run in columns of its own";
+        let tip = "All time steps of every run, dimensionless and in SI units, each run in separate columns";
         vec![
             table("Series as CSV…", tip, export::series),
-            table("Profiles as CSV…", "Pressure and film of every run at the moment that is shown", export::profiles),
+            table(
+                "Profiles as CSV…",
+                "Pressure and film thickness of every run at the displayed time",
+                export::profiles,
+            ),
             space_time::offer(context),
         ]
     }
@@ -88,7 +94,7 @@ impl Transient {
         let view = context.transient;
         if view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
             if !shared::is_coming(context) {
-                ui.weak("Run it in time to see pressure and film follow the inputs.");
+                ui.weak("Press Run transient to see how pressure and film thickness follow the inputs.");
             }
             return;
         }
@@ -108,15 +114,15 @@ impl Transient {
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
-            ui.toggle_value(&mut self.form, "Set-up")
-                .on_hover_text("Shows what drives the contact, or leaves the room to plots");
+            ui.toggle_value(&mut self.form, "Set-up").on_hover_text("Shows or hides the inputs of the contact");
             shared::run_button(ui, context, commands);
         });
     }
 }
 
 impl Transient {
-    /// The contact over space and time beside its profiles, and the series below; returns the time that was clicked at.
+    /// Draws the map over space and time next to the profiles, and the time series below. Returns the time of a
+    /// click.
     fn plots(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
         let view = context.transient;
         let several = view.setup.as_ref().is_some_and(|setup| setup.runs() > 1);

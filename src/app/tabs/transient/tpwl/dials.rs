@@ -1,5 +1,5 @@
-//! How the linearised model is made, at the hand: how many operating points, by which rule, and what combines them; and
-//! whether the inputs are such as it learned.
+//! Controls of the linearised model: number of operating points, selection rule, weights, and a check of the inputs
+//! against the training.
 
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{RangeSlider, choice};
@@ -10,14 +10,14 @@ use crate::app::tabs::transient::reach::beyond;
 use crate::app::theme::{Palette, rich};
 use egui::{Grid, Ui};
 
-/// Under this name the window knows what was refused.
+/// Name under which refusals are stored.
 pub const NAME: &str = "tpwl";
-/// Numbers of points that can be dragged to.
+/// Range of the slider for the number of points.
 const POINTS: (f64, f64) = (4.0, 160.0);
 /// Width of the slider.
 const WIDTH: f32 = 120.0;
 
-/// The dials.
+/// Draws the controls.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let before = context.document.transient_study();
     let mut study = before.clone();
@@ -25,7 +25,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.label("Number of operating points").on_hover_text("There is no linearised model yet");
         return;
     };
-    let tip = "Operating points wanted, of all training trajectories together";
+    let tip = "Number of operating points of all training trajectories together";
     ui.label("Points").on_hover_text(tip);
     let there = context.transient.linearised.as_ref().map(|linearised| linearised.model.points.len());
     let present = linearised.points.or(there).unwrap_or(30);
@@ -44,7 +44,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     Grid::new("tpwl rule").spacing([6.0, 0.0]).min_col_width(0.0).show(ui, |ui| {
         let own = RULES.iter().position(|rule| rule.name() == linearised.selection.name()).unwrap_or(0);
         let mut rule = own;
-        let tip = "Which trained moments are linearised about";
+        let tip = "Selection of the trained states for linearisation";
         choice(ui, "Rule", tip, &mut rule, &[0, 1], |k| rule_name(RULES[k]));
         if rule != own {
             linearised.selection = RULES[rule];
@@ -53,7 +53,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     Grid::new("tpwl combine").spacing([6.0, 0.0]).min_col_width(0.0).show(ui, |ui| {
         let former = linearised.weightings.first().copied().unwrap_or(WEIGHTINGS[0]);
         let mut weighting = former;
-        choice(ui, "Combine", "How the points share a moment", &mut weighting, &WEIGHTINGS, weighting_name);
+        choice(ui, "Combine", "Weighting of the operating points", &mut weighting, &WEIGHTINGS, weighting_name);
         if weighting != former {
             linearised.weightings = vec![weighting];
         }
@@ -63,7 +63,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     }
 }
 
-/// A line that is always there: whether the inputs are such as the models learned.
+/// Draws a line, always present, that states whether the inputs are inside the training of the models.
 pub fn inputs_ui(ui: &mut Ui, context: &Context<'_>) {
     let view = context.transient;
     let said = view
@@ -74,7 +74,9 @@ pub fn inputs_ui(ui: &mut Ui, context: &Context<'_>) {
     let palette = Palette::of(ui);
     let (text, color) = match said {
         Some(Some(warning)) => (format!("{warning}: {}", advice(view)), palette.warning),
-        Some(None) => ("The inputs are no steeper and swing no farther than trained".to_owned(), palette.quiet),
+        Some(None) => {
+            ("The inputs are no steeper than trained, and their amplitudes no larger".to_owned(), palette.quiet)
+        }
         None => (String::new(), palette.quiet),
     };
     ui.label(rich(&text, 12.5, color));

@@ -1,4 +1,4 @@
-//! The linearised model for other programs: its operating points, the weights of every step, and the study of numbers.
+//! Export of the linearised model: its operating points, the weights of every step, and the study of their number.
 
 use super::shown::ShownModel;
 use crate::app::export;
@@ -12,13 +12,13 @@ use crate::scene::names;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Quantity;
 
-/// What the model belongs to and how it was made.
+/// Returns comment lines about the set-up and the training of the model.
 fn comments(shown: &ShownModel<'_>) -> Vec<String> {
     let model = &shown.linearised.model;
     let selection = model.training.selection;
     let mut lines = shown.view.setup.as_ref().map_or_else(Vec::new, |setup| describe(setup));
     lines.push(format!(
-        "{} pressure modes; {} operating points by rule {}, tolerance {:e}; the moment T {:e}",
+        "{} pressure modes; {} operating points by rule {}, tolerance {:e}; at T {:e}",
         model.space.modes(),
         model.points.len(),
         rule_name(selection).0,
@@ -28,7 +28,7 @@ fn comments(shown: &ShownModel<'_>) -> Vec<String> {
     lines
 }
 
-/// All operating points, with their weights and distances at the moment that is looked at.
+/// Returns all operating points with their weights and distances at the displayed time.
 pub fn points(shown: &ShownModel<'_>) -> String {
     let model = &shown.linearised.model;
     let [across, up] = shown.choices.coordinates;
@@ -78,7 +78,7 @@ pub fn points(shown: &ShownModel<'_>) -> String {
     export::csv(&comments(shown), &header, rows)
 }
 
-/// The operating points and weights of every step, one line for each weight.
+/// Returns the operating points and weights of every step, one line for each weight.
 pub fn weights(shown: &ShownModel<'_>) -> String {
     let mut lines = comments(shown);
     lines.push("weighting 1 is the dual Taylor form, 2 the weights (4.29)".to_owned());
@@ -98,8 +98,8 @@ pub fn weights(shown: &ShownModel<'_>) -> String {
     export::csv(&lines, &header, rows)
 }
 
-/// The model as arrays, with `weights_1` of the dual Taylor form and `weights_2` of (4.29): for every step (`times_1`,
-/// `times_2`) what each operating point counts.
+/// Returns the model as arrays. `weights_1` of the dual Taylor form and `weights_2` of (4.29) contain the weight of
+/// each operating point at every step (`times_1`, `times_2`).
 pub fn arrays(view: &TransientRuns, linearised: &Linearised) -> Vec<Array> {
     let model = &linearised.model;
     let mut arrays = model_arrays::of_linearised(model);
@@ -122,7 +122,7 @@ pub fn arrays(view: &TransientRuns, linearised: &Linearised) -> Vec<Array> {
     arrays
 }
 
-/// The study of numbers.
+/// Returns the study of the number of operating points.
 pub fn numbers(view: &TransientRuns) -> String {
     let mut lines = view.setup.as_ref().map_or_else(Vec::new, |setup| describe(setup));
     let names = RULES.map(|rule| rule_name(rule).0).join(", 2 ");

@@ -1,4 +1,4 @@
-//! The linearised model (TPWL) of a transient contact.
+//! Linearised model (TPWL) of a transient contact.
 
 mod dials;
 mod export;

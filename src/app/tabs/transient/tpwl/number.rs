@@ -1,4 +1,4 @@
-//! Error against the number of operating points: both rules, both weightings.
+//! Error against the number of operating points for both rules and both weightings.
 
 use super::shown::ShownModel;
 use crate::app::plot::axes;
@@ -10,15 +10,15 @@ use crate::solver::full::transient::Quantity;
 use egui::{Color32, RichText, Ui};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
 
-/// Size of what stands above the plot.
+/// Text size above the plot.
 const SIZE: f32 = 11.0;
 
-/// The plot, with logarithmic axes.
+/// Draws the plot with logarithmic axes.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
     let study = &shown.view.number;
     let head = ui.horizontal(|ui| {
         if study.rows.is_empty() {
-            ui.label(rich("Error by number of points: coming", 12.5, shown.palette.quiet));
+            ui.label(rich("Error vs. number of points: being computed", 12.5, shown.palette.quiet));
             return;
         }
         ui.spacing_mut().item_spacing.x = 5.0;
@@ -32,8 +32,8 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) {
         }
     });
     head.response.on_hover_text(
-        "Relative L2 difference of H_c from the full run: solid the points chosen by distance, dashed by missed steps, on a ladder of \
-         tolerances; the dotted line and the diamond are the model in use",
+        "Relative L2 difference of H_c from the full run: solid for points chosen by distance, dashed by missed steps, \
+         for a sequence of tolerances. The dotted line and the diamond are the model in use",
     );
     if study.rows.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! All pictures of a linearised model, as many beside each other as there is room for.
+//! All plots of a linearised model, side by side as far as there is space.
 
 use super::shown::{LEAST_HEIGHT, ShownModel};
 use crate::app::tabs::transient::series;
@@ -6,10 +6,10 @@ use crate::app::tabs::transient::tpwl::table::{self, Sorting};
 use crate::app::tabs::transient::tpwl::{number, plane, trajectory, weights};
 use egui::Ui;
 
-/// Widths from which on two and three pictures stand side by side.
+/// Widths from which two and three plots are placed side by side.
 const SIDE_BY_SIDE: [f32; 2] = [560.0, 840.0];
 
-/// All pictures; returns the moment that was clicked at.
+/// Draws all plots. Returns the time of a click.
 pub fn all(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, rest: f32) -> Option<f64> {
     let width = ui.available_width();
     let columns = 1 + SIDE_BY_SIDE.iter().filter(|least| width >= **least).count();
@@ -30,7 +30,7 @@ pub fn all(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, rest: f32
     clicked
 }
 
-/// What is drawn of a linearised model.
+/// Plot of a linearised model.
 #[derive(Clone, Copy)]
 enum Drawn {
     Trajectory,
@@ -41,14 +41,14 @@ enum Drawn {
     Table,
 }
 
-const ERROR_TIP: &str = "How far H_c of each method lies from the full system’s";
+const ERROR_TIP: &str = "Difference of H_c of each method from the full system";
 
-/// The pictures in their order.
+/// Plots in their order.
 const PICTURES: [Drawn; 6] =
     [Drawn::Trajectory, Drawn::Plane, Drawn::Number, Drawn::Error, Drawn::Weights, Drawn::Table];
 
 impl Drawn {
-    /// Draws it; returns the moment that was clicked at.
+    /// Draws the plot. Returns the time of a click.
     fn ui(self, ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f32) -> Option<f64> {
         match self {
             Self::Trajectory => trajectory::chosen(ui, shown, height),

@@ -1,4 +1,4 @@
-//! The plane of two reduced coordinates: training trajectories, operating points, and the path of the run through them.
+//! Plane of two reduced coordinates: training trajectories, operating points, and the path of the run.
 
 use super::shown::{ShownModel, near, point_under};
 use crate::app::plot::axes;
@@ -7,20 +7,20 @@ use crate::app::tabs::transient::tpwl::trajectory::{marks, weighted};
 use egui::{RichText, Ui, Vec2b};
 use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points};
 
-/// Most points of the run's path that are drawn.
+/// Maximum number of drawn points of the run's path.
 const MOST_POINTS: usize = 2000;
 
-/// A coordinate for people; the last one is H_0.
+/// Returns the name of a coordinate. The last one is H_0.
 pub fn coordinate_name(k: usize, modes: usize) -> String {
     if k >= modes { "H_0".to_owned() } else { format!("Mode {}", k + 1) }
 }
 
-/// The same as an axis title.
+/// Returns the title of a coordinate's axis.
 fn axis_title(k: usize, modes: usize) -> String {
     if k >= modes { "{H_0}".to_owned() } else { format!("Pressure mode {}", k + 1) }
 }
 
-/// The plane; returns the moment that was clicked at.
+/// Draws the plane. Returns the time of a click.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let model = &shown.linearised.model;
     let [across, up] = shown.choices.coordinates;
@@ -44,8 +44,8 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     ui.horizontal(|ui| {
         for (name, color) in key.into_iter().chain([("weights", shown.color(0)), ("now", palette.pressure)]) {
             ui.label(RichText::new(name).small().color(palette.ink(color))).on_hover_text(
-                "Reduced coordinates V^T W P and H_0: the training trajectories, the operating points, as large as they weigh now, the path of \
-                 the run, and a diamond at the moment that is looked at",
+                "Reduced coordinates V^T W P and H_0: the training trajectories, the operating points with a size by \
+                 their weights, the path of the run, and a diamond at the displayed time",
             );
         }
     });
@@ -75,7 +75,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     point_under(shown, drawn.response, under)
 }
 
-/// The path of the first linearised run, and where it is at this moment.
+/// Returns the path of the first linearised run, and its position at the displayed time.
 fn path(shown: &ShownModel<'_>, at: impl Fn(&[f64]) -> Option<PlotPoint>) -> (Vec<PlotPoint>, Option<PlotPoint>) {
     let Some((run, record)) = shown.runs.iter().find_map(|(_, run)| Some((run, run.record.as_ref()?))) else {
         return (Vec::new(), None);

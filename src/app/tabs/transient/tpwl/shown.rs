@@ -1,4 +1,4 @@
-//! What all pictures of a linearised model share in one frame.
+//! Data that all plots of a linearised model share in one frame.
 
 use crate::app::context::Context;
 use crate::app::numbers;
@@ -11,20 +11,20 @@ use crate::solver::reduced::tpwl::Weighting;
 use egui::{Color32, Pos2, Response};
 use egui_plot::{PlotPoint, PlotTransform};
 
-/// Height below which a picture cannot be read.
+/// Minimum height of a readable plot.
 pub const LEAST_HEIGHT: f32 = 118.0;
-/// How near (in screen points) the pointer must be to a point.
+/// Maximum distance of the pointer from a point, in screen points.
 const GRAB: f32 = 12.0;
 
-/// What is drawn.
+/// Settings of the plots.
 pub struct Choices {
-    /// What is drawn along the training trajectory.
+    /// Quantity drawn along the training trajectory.
     pub quantity: Quantity,
-    /// Coordinates of the plane, from 0; the last one is H_0.
+    /// Coordinates of the plane, from 0. The last one is H_0.
     pub coordinates: [usize; 2],
-    /// Which training trajectory is drawn.
+    /// Index of the drawn training trajectory.
     pub trajectory: usize,
-    /// Whether the other rule's points stand in place of the table.
+    /// True if the points of the other rule are shown instead of the table.
     pub other: bool,
 }
 
@@ -34,13 +34,13 @@ impl Default for Choices {
     }
 }
 
-/// What all pictures of one frame share.
+/// Data that all plots of one frame share.
 pub struct ShownModel<'a> {
     pub(super) view: &'a TransientRuns,
     pub(super) choices: &'a Choices,
     pub(super) linearised: &'a Linearised,
     pub(super) runs: Vec<(Weighting, &'a Run)>,
-    /// Its points at the moment that is looked at.
+    /// Operating points at the displayed time.
     pub(super) points: Vec<PointNow>,
     pub(super) palette: Palette,
     pub(super) fit: bool,
@@ -54,7 +54,7 @@ impl<'a> ShownModel<'a> {
         Self { view, choices, linearised, runs, points, palette, fit: context.fit }
     }
 
-    /// The operating points of the trajectory that is drawn.
+    /// Returns the operating points of the drawn trajectory.
     pub(super) fn of_trajectory(&self) -> impl Iterator<Item = &PointNow> {
         self.points.iter().filter(|now| {
             let trained = self.linearised.model.points.get(now.point);
@@ -62,43 +62,44 @@ impl<'a> ShownModel<'a> {
         })
     }
 
-    /// The colour of a weighting, by its place in [`WEIGHTINGS`].
+    /// Returns the colour of a weighting, by its index in [`WEIGHTINGS`].
     pub(super) fn color(&self, weighting: usize) -> Color32 {
         [self.palette.accent, self.palette.warning][weighting]
     }
 
-    /// Whether a weighting, by its place in [`WEIGHTINGS`], was run.
+    /// Returns true if a weighting, by its index in [`WEIGHTINGS`], was run.
     pub(super) fn was_run(&self, weighting: usize) -> bool {
         self.runs.iter().any(|(own, _)| *own == WEIGHTINGS[weighting])
     }
 
-    /// Whether it is run in this set-up, sooner or later: what has a place for it keeps that.
+    /// Returns true if a weighting is part of this set-up, even if it has not been run yet. Its place in the plots
+    /// is reserved.
     pub(super) fn is_run(&self, weighting: usize) -> bool {
         let linearised = self.view.setup.as_ref().and_then(|setup| setup.study.linearised.as_ref());
         linearised.is_some_and(|linearised| linearised.weightings.contains(&WEIGHTINGS[weighting]))
     }
 }
 
-/// The point whose place on the screen is nearest to the pointer, if it is near.
+/// Returns the point nearest to the pointer on the screen, if it is near enough.
 pub fn near<T>(places: impl Iterator<Item = (T, PlotPoint)>, transform: &PlotTransform, pointer: Pos2) -> Option<T> {
     let distance = |place: &PlotPoint| transform.position_from_point(place).distance(pointer);
     let measured = places.map(|(what, place)| (what, distance(&place)));
     measured.filter(|(_, d)| *d < GRAB).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(what, _)| what)
 }
 
-/// What the weights of a point are, for people.
+/// Returns the weights of a point as text.
 pub fn weights_text(shown: &ShownModel<'_>, now: &PointNow) -> String {
     let each = (0..WEIGHTINGS.len()).filter(|&k| shown.was_run(k));
     let said = each.map(|k| format!("{} {}", weighting_name(WEIGHTINGS[k]).0, numbers::digits(now.weights[k], 3)));
     said.collect::<Vec<_>>().join(", ")
 }
 
-/// Says which operating point lies under the pointer; returns the moment to go to when it is clicked.
+/// Shows a tooltip for the operating point under the pointer. Returns its time if it is clicked.
 pub fn point_under(shown: &ShownModel<'_>, response: Response, under: Option<&PointNow>) -> Option<f64> {
     let (now, trained) = under.and_then(|now| Some((now, shown.linearised.model.points.get(now.point)?)))?;
     let clicked = response.clicked();
     response.on_hover_text_at_pointer(format!(
-        "Operating point {}, T = {}\nWeights: {}\nA click goes to its moment",
+        "Operating point {}, T = {}\nWeights: {}\nClick to go to its time",
         now.point + 1,
         numbers::significant(trained.moment.time),
         weights_text(shown, now)

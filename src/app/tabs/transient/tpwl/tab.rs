@@ -1,4 +1,5 @@
-//! The linearised model: where its operating points lie, which of them carry the present moment, and how many it takes.
+//! TPWL tab: operating points of the linearised model, their weights at the displayed time, and the necessary
+//! number of points.
 
 use super::shown::{Choices, ShownModel};
 use super::table::Sorting;
@@ -21,12 +22,12 @@ use egui::{Grid, Ui};
 
 /// Width of the settings.
 const FORM_WIDTH: f32 = 296.0;
-/// What the tab keeps between frames; none of it belongs to the scene.
+/// State of the tab between frames. It is not part of the scene.
 #[derive(Default)]
 pub struct Tpwl {
     choices: Choices,
     sorting: Sorting,
-    /// Whether settings are shown.
+    /// True if the settings are shown.
     form: bool,
     last: LastField,
 }
@@ -41,7 +42,7 @@ impl Tpwl {
         ui.weak("Inputs, duration and steps are those of the Transient tab.");
     }
 
-    /// Lets the study of numbers run by itself, once for each model.
+    /// Starts the study of the number of points automatically, once for each model.
     fn fill_numbers(&self, context: &Context<'_>, commands: &mut Commands) {
         let view = context.transient;
         let Some(linearised) = &view.linearised else { return };
@@ -84,16 +85,16 @@ impl Tpwl {
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         let view = context.transient;
         ui.horizontal_wrapped(|ui| {
-            let tip = "Shows how the linearised model is made, or leaves the room to pictures";
+            let tip = "Shows or hides the settings of the linearised model";
             ui.toggle_value(&mut self.form, "Model set-up").on_hover_text(tip);
             shared::run_button(ui, context, commands);
             let there = view.linearised.is_some();
             let ready = there && view.standing().is_none();
-            let tip = "Error of H_c against the number of operating points: both rules on a ladder of tolerances, by both \
-                       weightings, along these inputs";
+            let tip = "Error of H_c against the number of operating points: both rules with a sequence of tolerances \
+                       and both weightings, for these inputs";
             let runs = view.number.work.standing().is_some();
-            let tip = if runs { "What has been found so far stays (Esc)" } else { tip };
-            let names = ["Number against error", "Stop the study"];
+            let tip = if runs { "Keeps the results so far (Esc)" } else { tip };
+            let names = ["Error vs. number of points", "Stop the study"];
             let button = ui.add_enabled_ui(runs || ready, |ui| either_button(ui, names, runs)).inner;
             if button.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
                 if runs {
@@ -105,7 +106,7 @@ impl Tpwl {
         });
     }
 
-    /// What is drawn: quantity, training, coordinates, and what stands below.
+    /// Draws the choices of the plots: quantity, training, coordinates, and the content of the last plot.
     fn choices(&mut self, ui: &mut Ui, linearised: &Linearised) {
         let modes = linearised.model.space.modes();
         let trainings = linearised.trainings.len();
@@ -124,7 +125,7 @@ impl Tpwl {
                 choice(
                     ui,
                     "Along",
-                    "What is drawn along the training trajectory",
+                    "Quantity along the training trajectory",
                     &mut self.choices.quantity,
                     &quantities,
                     name,
@@ -157,9 +158,9 @@ impl Tpwl {
                     .response
                     .labelled_by(label.id);
             }
-            let tip = "All points with their weights and distances at this moment";
+            let tip = "All points with their weights and distances at the displayed time";
             ui.selectable_value(&mut self.choices.other, false, "Table").on_hover_text(tip);
-            let tip = "The points that the other rule would choose, as many";
+            let tip = "The same number of points, chosen by the other rule";
             ui.selectable_value(&mut self.choices.other, true, "Other rule").on_hover_text(tip);
         });
     }
@@ -169,13 +170,13 @@ const ABOUT: About = About {
     keywords: "linearised operating points weights",
     page: "transient.md",
     has_units: true,
-    why: "Near a state that has been seen, the contact answers a small change of load nearly in proportion: its \
-          equations can be replaced by their tangents there, d/dT Σ w_i (A_i + B_i y + C_i u) = Σ w_i (D_i + E_i y \
-          + F_i u), (4.27), so that a step is one small linear system. The tangents are taken at operating points \
-          along a trained trajectory, and the weights w follow the state: drag the time and watch them pass from \
-          point to point. Tangents on one side of a curved path err to one side; the dual Taylor form expands half \
-          about the points and half about their barycentre, which cancels that, while far from every point, under \
-          inputs steeper than the trained ones, no weights help.",
+    why: "Near a trained state the response of the contact to a small change of load is nearly linear: its equations \
+          can be replaced by their tangents, d/dT Σ w_i (A_i + B_i y + C_i u) = Σ w_i (D_i + E_i y + F_i u), (4.27), \
+          so that a step is one small linear system. The tangents are taken at operating points along a trained \
+          trajectory, and the weights w follow the state: drag the time to see them pass from point to point. Tangents \
+          on one side of a curved path have a systematic error; the dual Taylor form expands half about the points and \
+          half about their barycentre, which cancels it, while far from every point, with inputs steeper than trained, \
+          no weights are sufficient.",
 };
 
 impl View for Tpwl {
@@ -196,17 +197,17 @@ impl View for Tpwl {
         type Text = fn(&ShownModel<'_>) -> String;
         let table = |name, tip, text: Text| {
             let shown = move |linearised: &&'a Linearised| {
-                // Colours are for the screen only.
+                // The export contains no colours.
                 let palette = Palette::for_visuals(&egui::Visuals::light());
                 text(&ShownModel::new(palette, &self.choices, &context, linearised))
             };
             Offer::table(name, tip, there, shown)
         };
-        let points = "All operating points with inputs, state norms, weights and distances at this moment";
-        let weights = "Every step’s operating points and weights, and how far it lies from them";
+        let points = "All operating points with inputs, state norms, weights and distances at the displayed time";
+        let weights = "Operating points and weights of every step, and its distance from them";
         let whole = "Basis, operating points, linearised systems and the weights of every step, in one archive that numpy \
                      reads";
-        let numbers = "Rule, tolerance, number of points, weights and error of every model tried";
+        let numbers = "Rule, tolerance, number of points, weights and error of every tested model";
         let studied = (!view.number.rows.is_empty()).then_some(view);
         vec![
             table("Points as CSV…", points, export::points),
@@ -225,16 +226,16 @@ impl View for Tpwl {
     }
 }
 
-/// What to do where there is no linearised model yet.
+/// Draws what to do if there is no linearised model yet.
 fn nothing_yet(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let mut study = context.document.transient_study();
     if study.linearised.is_none() {
-        ui.weak("This contact in time has no linearised model yet.");
+        ui.weak("This transient contact has no linearised model yet.");
         if ui.button("Linearise this run").on_hover_text("Adds it with its usual settings").clicked() {
             study.linearised = Some(LinearisedTransient::default());
             commands.edit(Edit::Transient(Box::new(study)), dials::NAME);
         }
     } else if !shared::is_coming(context) {
-        ui.weak("Run it in time: the full system first, whose trajectory is then linearised and followed.");
+        ui.weak("Press Run transient. The full system runs first, and its trajectory is then linearised and followed.");
     }
 }

@@ -1,4 +1,4 @@
-//! All operating points as a sorted table: number, T, weights, distance. A click on a row goes to its moment.
+//! Sorted table of all operating points: number, T, weights, distance. A click on a row moves to its time.
 
 use super::shown::ShownModel;
 use crate::app::controls::named;
@@ -9,30 +9,30 @@ use crate::app::theme::rich;
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Button, Grid, ScrollArea, Ui};
 
-/// What the table is sorted by.
+/// Column that the table is sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Column {
     /// Number of the point.
     Point,
-    /// T of its moment.
+    /// T of its time step.
     Time,
-    /// A weight, by its place in [`WEIGHTINGS`].
+    /// A weight, by its index in [`WEIGHTINGS`].
     Weight(usize),
     /// Distance from the state.
     #[default]
     Distance,
 }
 
-/// The order of the table.
+/// Order of the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sorting {
     by: Column,
-    /// The other way round: weights from the smallest, all else from the greatest.
+    /// True for the reverse order: weights ascending, all others descending.
     reversed: bool,
 }
 
 impl Sorting {
-    /// Sorts points, whose moments lie at the given times.
+    /// Sorts points with their times.
     fn sort(self, points: &mut [(PointNow, f64)]) {
         let key = |(now, time): &(PointNow, f64)| match self.by {
             Column::Point => now.point as f64,
@@ -52,7 +52,7 @@ impl Sorting {
     }
 }
 
-/// The table; returns the moment that was clicked at.
+/// Draws the table. Returns the time of a click.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f32) -> Option<f64> {
     let model = &shown.linearised.model;
     let with_time = |now: &PointNow| Some((*now, model.points.get(now.point)?.moment.time));
@@ -75,9 +75,9 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f3
             let color = if sorting.by == *column { shown.palette.accent } else { quiet };
             let tip = match column {
                 Column::Point => "Number of the point, in the order of trajectories and time",
-                Column::Time => "Moment of its training trajectory",
+                Column::Time => "Time on its training trajectory",
                 Column::Weight(k) => weighting_name(WEIGHTINGS[*k]).1,
-                Column::Distance => "|y − y_i|/|y| of the state reached at this moment",
+                Column::Distance => "|y − y_i|/|y| of the state at the displayed time",
             };
             let head = ui.add(Button::new(rich(name, 12.0, color)).frame(false));
             let plain = name.replace(['{', '}'], "");
@@ -97,7 +97,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, sorting: &mut Sorting, height: f3
     area.show_rows(ui, row_height - 4.0, rows.len(), |ui, range| {
         grid("tpwl rows").start_row(range.start).show(ui, |ui| {
             for (now, time) in rows.get(range).unwrap_or(&[]) {
-                let link = ui.link((now.point + 1).to_string()).on_hover_text("Go to its moment");
+                let link = ui.link((now.point + 1).to_string()).on_hover_text("Go to its time");
                 if named(ui, link, &format!("Go to operating point {}", now.point + 1)).clicked() {
                     wanted = shown.linearised.moment_of(now.point, &shown.runs);
                 }

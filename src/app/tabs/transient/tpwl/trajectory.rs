@@ -1,5 +1,4 @@
-//! The training trajectory with its operating points, chosen by the rule in use, and what the other rule would choose
-//! instead.
+//! Training trajectory with the operating points of the rule in use, and those of the other rule.
 
 use super::shown::{ShownModel, near, point_under};
 use crate::app::numbers;
@@ -15,7 +14,7 @@ use crate::solver::reduced::tpwl::Selection;
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
 
-/// The colour of what is drawn, and its symbol.
+/// Returns colour and symbol of the drawn quantity.
 fn look(shown: &ShownModel<'_>) -> (Color32, &'static str) {
     match shown.choices.quantity {
         Quantity::CentralPressure => (shown.palette.pressure, "{P_c}"),
@@ -46,7 +45,7 @@ fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), hei
         .auto_bounds(Vec2b::TRUE)
 }
 
-/// The trajectory as a line.
+/// Returns the trajectory as a line.
 fn curve(shown: &ShownModel<'_>) -> Vec<PlotPoint> {
     let moments = shown.linearised.trainings.get(shown.choices.trajectory).map_or(&[][..], Vec::as_slice);
     axes::thinned(
@@ -54,7 +53,8 @@ fn curve(shown: &ShownModel<'_>) -> Vec<PlotPoint> {
     )
 }
 
-/// What the linearised model makes of it, where it was trained by the run itself: broad and pale, as everywhere.
+/// Returns the runs of the linearised model if the run itself trained it. They are drawn broad and pale, as in all
+/// plots.
 fn runs(shown: &ShownModel<'_>) -> Vec<(String, Vec<PlotPoint>)> {
     let runs = shown.runs.iter().filter(|_| shown.linearised.own);
     let points = |run: &Run| -> Vec<PlotPoint> {
@@ -75,7 +75,7 @@ fn title(ui: &mut Ui, rule: Selection, points: usize, used: &str) {
         .on_hover_text(rule_name(rule).1);
 }
 
-/// The rule in use: points grow with their weights, and a click goes to their moment.
+/// Draws the rule in use. The size of a point shows its weight, and a click moves to its time.
 pub fn chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let rule = shown.linearised.model.training.selection;
     let places: Vec<(&PointNow, PlotPoint)> = shown
@@ -112,10 +112,10 @@ pub fn chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     point_under(shown, drawn.response, under)
 }
 
-/// The other rule, when it is to choose as many points.
+/// Draws the points of the other rule for the same number of points.
 pub fn not_chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     let Some(other) = &shown.linearised.other else {
-        ui.weak("What the other rule would choose is being found out");
+        ui.weak("The points of the other rule are being computed");
         return None;
     };
     let rule = other.selection;
@@ -142,13 +142,14 @@ pub fn not_chosen(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f6
     under.or(Some(drawn.transform.value_from_position(pointer).x))
 }
 
-/// Dots of one size.
+/// Returns dots of one size.
 pub fn marks(name: &str, dots: Vec<PlotPoint>, radius: f32, color: Color32) -> Points<'static> {
     let points = Points::new(name.to_owned(), PlotPoints::Owned(dots)).shape(MarkerShape::Circle);
     points.color(color).radius(radius).allow_hover(false)
 }
 
-/// Points that carry the present moment: as large as their weight; of the second weighting as rings.
+/// Returns the points with a weight at the displayed time. Their size shows the weight; points of the second
+/// weighting are rings.
 pub fn weighted(shown: &ShownModel<'_>, places: &[(&PointNow, PlotPoint)]) -> Vec<Points<'static>> {
     let mut markers = Vec::new();
     for weighting in 0..2 {

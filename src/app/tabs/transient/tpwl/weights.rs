@@ -1,4 +1,4 @@
-//! The weights of the operating points at this moment, both kinds over each other.
+//! Weights of the operating points at the displayed time, both kinds in one plot.
 
 use super::shown::{ShownModel, near, point_under};
 use crate::app::numbers;
@@ -8,12 +8,12 @@ use crate::app::theme::faded;
 use egui::{Align2, RichText, Ui};
 use egui_plot::{Line, PlotBounds, PlotPoint, Text};
 
-/// Width of a stem, by its place in [`WEIGHTINGS`]: the one behind is broader.
+/// Width of a stem, in the order of [`WEIGHTINGS`]. The one behind is broader.
 const STEMS: [f32; 2] = [4.0, 11.0];
-/// Top of the plot: room for the times over the stems.
+/// Top of the plot, with space for the times above the stems.
 const TOP: f64 = 1.15;
 
-/// Stems over the numbers of the points; returns the moment that was clicked at.
+/// Draws stems over the numbers of the points. Returns the time of a click.
 pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     head(ui, shown);
     let number = |point: usize| point as f64 + 1.0;
@@ -35,7 +35,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
             Some((PlotPoint::new(number(now.point), top), time))
         })
         .collect();
-    // Room at the end for the time over the last one.
+    // Space at the end for the time above the last stem.
     let end = 1.05 * number(shown.points.len());
     let bounds = PlotBounds::from_min_max([0.0, 0.0], [end, TOP]);
     let (quiet, fit) = (shown.palette.quiet, shown.fit);
@@ -61,7 +61,7 @@ pub fn ui(ui: &mut Ui, shown: &ShownModel<'_>, height: f32) -> Option<f64> {
     point_under(shown, drawn.response, under)
 }
 
-/// How far the step lies from what was trained, and the key of the colours.
+/// Draws the distance of the step from the training, and the key of the colours.
 fn head(ui: &mut Ui, shown: &ShownModel<'_>) {
     let reach = shown.runs.iter().find_map(|(_, run)| {
         let record = run.record.as_ref()?;
@@ -72,8 +72,8 @@ fn head(ui: &mut Ui, shown: &ShownModel<'_>) {
         .map_or_else(String::new, |reach| format!(", {} distances between points away", numbers::digits(reach, 2)));
     ui.horizontal_wrapped(|ui| {
         ui.weak(format!("Weights{said}")).on_hover_text(
-            "The distance of the extrapolated state from the barycentre of the points that carry it, over the distance between those \
-             points: beyond about two a linearised model knows nothing",
+            "Distance of the extrapolated state from the barycentre of the points that carry it, over the distance \
+             between those points. Above about two a linearised model is not valid",
         );
         let both = (0..WEIGHTINGS.len()).all(|k| shown.was_run(k));
         for k in (0..WEIGHTINGS.len()).filter(|_| both) {
