@@ -45,7 +45,7 @@ pub fn means(answers: &Answers) -> Option<String> {
             let sketch = if answers.is_quick() { ", a sketch on a quick grid" } else { "" };
             let off = picture.grid_errors().map_or_else(String::new, |(h_c, h_min)| {
                 let [h_c, h_min] = [h_c, h_min].map(numbers::error_percent);
-                format!(", discretisation error about {h_c} of H_c, {h_min} of H_min")
+                format!(", discretisation error {h_c} of H_c, {h_min} of H_min")
             });
             format!("full solution{sketch}{off}")
         }

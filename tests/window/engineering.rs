@@ -73,7 +73,7 @@ fn what_was_typed_stays_while_the_sliders_move_and_the_screen_names_what_follows
     }
     set(&mut harness, Role::Slider, "Load number M", 80.0);
     assert!((harness.state().moes().m / 60.0 - 1.0).abs() < 1e-9, "nothing is left to give way");
-    assert!(shows(&harness, "M cannot move"));
+    assert!(shows(&harness, "M cannot change"));
     click(&mut harness, "Free Load w");
     set(&mut harness, Role::Slider, "Load number M", 80.0);
     assert!((harness.state().moes().m / 80.0 - 1.0).abs() < 1e-9);
