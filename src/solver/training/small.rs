@@ -181,8 +181,8 @@ pub(crate) fn sliding_oils_of_points(snapshots: usize) -> TrainingSpec {
 
 const HEATED_GRID: GridSpec = GridSpec::Graded { nodes: 240, domain: (-10.0, 2.0), registered: true };
 
-/// A grid of circular contacts with heat, whose full solves take longest.
-const HEATED_BALLS_GRID: PointGridSpec = PointGridSpec::uniform(0.08, 0.13, (-2.7, 1.5, -1.5));
+/// A grid of point contacts with heat, whose full solves take longest.
+const HEATED_PLANE: PointGridSpec = PointGridSpec::uniform(0.08, 0.13, (-2.7, 1.5, -1.5));
 
 /// Line contacts with heat of an oil whose stress is limited, between steel bodies.
 pub(crate) fn heated(sampling: Sampling, snapshots: usize) -> TrainingSpec {
@@ -252,7 +252,7 @@ pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec
     let m = (25.0, 40.0);
     TrainingSpec {
         range: one_heated(m, (6.0, 8.0), (0.0, 0.5)),
-        windows: Windows::Given(vec![WindowSpec::new(m, GridSpec::Plane(HEATED_BALLS_GRID))]),
+        windows: Windows::Given(vec![WindowSpec::new(m, GridSpec::Plane(HEATED_PLANE))]),
         pressure_loss: 1e-7,
         deformation_loss: 0.1,
         ..heated(sampling, snapshots)
@@ -263,7 +263,7 @@ pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec
 pub(crate) fn heated_ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let mut range = many_heated((25.0, 40.0), (6.0, 8.0));
     range.axes.push(Axis::new(Quantity::RadiusRatio, (0.7, 3.0)));
-    let windows = anchored(1, 40, GridSpec::Plane(POINT_GRID), 0);
+    let windows = anchored(1, 40, GridSpec::Plane(HEATED_PLANE), 0);
     TrainingSpec { range, windows, pressure_loss: 1e-7, ..heated_oils(sampling, snapshots) }
 }
 
