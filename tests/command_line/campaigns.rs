@@ -5,6 +5,7 @@ use crate::common::scratch::Scratch;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// Cold full point contacts on a grid of few nodes, of some hundredths of a second each.
@@ -53,12 +54,16 @@ fn shards(folder: &Path) -> usize {
     files.filter(|path| path.extension().is_some_and(|extension| extension == "shard")).count()
 }
 
-/// One process, shard after shard.
-fn one_machine(scratch: &Scratch) -> BTreeMap<String, Vec<u8>> {
-    let folder = planned(scratch, "one", 60);
-    let output = program(&["campaign", "run", text(&folder), "--on", "local", "--workers", "1"]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    result(&folder)
+/// The result of one process, shard after shard; computed once for all tests.
+fn one_machine() -> &'static BTreeMap<String, Vec<u8>> {
+    static RESULT: OnceLock<BTreeMap<String, Vec<u8>>> = OnceLock::new();
+    RESULT.get_or_init(|| {
+        let scratch = Scratch::new("one-machine");
+        let folder = planned(&scratch, "one", 60);
+        let output = program(&["campaign", "run", text(&folder), "--on", "local", "--workers", "1"]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        result(&folder)
+    })
 }
 
 #[cfg(target_os = "linux")]
@@ -84,7 +89,7 @@ fn a_worker_that_is_killed_in_the_middle_changes_no_byte() {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert!(run.wait().unwrap().success() && killed > 0);
-    assert!(result(&folder) == one_machine(&scratch), "another result");
+    assert!(result(&folder) == *one_machine(), "another result");
 }
 
 #[test]
@@ -111,10 +116,10 @@ fn two_processes_on_the_same_shard_do_no_harm_and_status_says_how_far_it_is() {
     assert!(!folder.join("result").exists());
     assert!(shard("1").wait().unwrap().success());
     assert_eq!(program(&["campaign", "merge", text(&folder)]).status.code(), Some(0));
-    assert!(result(&folder) == one_machine(&scratch), "another result");
+    assert!(result(&folder) == *one_machine(), "another result");
     // Merged again it is the same again.
     assert_eq!(program(&["campaign", "merge", text(&folder)]).status.code(), Some(0));
-    assert!(result(&folder) == result(&scratch.join("one")));
+    assert!(result(&folder) == *one_machine());
 }
 
 #[test]
@@ -188,7 +193,7 @@ fn the_script_for_slurm_takes_every_open_shard_once() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{said}");
     assert_eq!((shards(&folder), said.matches(": done").count()), (3, 3), "{said}");
-    assert!(result(&folder) == one_machine(&scratch), "another result");
+    assert!(result(&folder) == *one_machine(), "another result");
 }
 
 /// A process of the first round and one of a round that the training decided on are killed, and submitted again.

@@ -1,9 +1,11 @@
 //! Scenes that are run and trained.
 
 use crate::commands::{assert_refused, json, program};
+use crate::common::cases::long;
 use crate::common::scratch::Scratch;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 #[test]
 fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
@@ -42,8 +44,20 @@ const SMALL_TRAINING: &str = "Scene(version: 1, title: \"small\", study: Trainin
     plan: Adaptive(start: 20, indicator: Correction, tolerances: [1e-2, 1e-3], successes: 32, local_sigma: 0.1,
         local_successes: 8, vicinity: 4, limit: 32),
     windows: Given([(m: (5.0, 200.0), grid: Graded(nodes: 200, domain: (-6.0, 2.0), registered: true))]),
-    pressure_loss: 1e-7, deformation_loss: 1e-6, rows_per_mode: 2.0, seed: 1,
+    pressure_loss: 1e-7, deformation_loss: 1e-6, rows_per_mode: 2.0, evidence: 120, seed: 1,
 ))";
+
+/// The model that `train` makes of it, trained once for all tests.
+fn trained_at_once() -> &'static [u8] {
+    static MODEL: OnceLock<Vec<u8>> = OnceLock::new();
+    MODEL.get_or_init(|| {
+        let folder = Scratch::new("whole");
+        let (scene, model) = (folder.write("small.ron", SMALL_TRAINING), folder.join("whole.rom"));
+        let output = program(&["train", &scene.to_string_lossy(), "--out", &model.to_string_lossy()]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        std::fs::read(model).unwrap()
+    })
+}
 
 #[test]
 fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
@@ -51,7 +65,8 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     let folder = Scratch::new("killed");
     let scene = folder.join("small.ron");
     std::fs::write(&scene, SMALL_TRAINING).unwrap();
-    let (whole, killed) = (folder.join("whole.rom"), folder.join("killed.rom"));
+    let whole = trained_at_once();
+    let killed = folder.join("killed.rom");
     let kept = folder.join("killed.rom.training");
     let train = |out: &PathBuf| ["train".into(), scene.clone(), "--out".into(), out.clone()];
     let command = |out| {
@@ -59,8 +74,6 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
         command.args(train(out));
         command
     };
-    let output = command(&whole).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let mut child = command(&killed).stderr(std::process::Stdio::null()).spawn().unwrap();
     let begin = Instant::now();
     while !kept.exists() {
@@ -81,7 +94,7 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(said.contains("going on with") && said.contains("full solutions"), "{said}");
-    assert!(std::fs::read(&killed).unwrap() == std::fs::read(&whole).unwrap(), "the files differ");
+    assert!(std::fs::read(&killed).unwrap() == whole, "the files differ");
     assert!(!kept.exists(), "nothing is left beside a finished model");
 }
 
@@ -92,11 +105,9 @@ fn a_scene_that_trains_leaves_the_model_that_train_writes() {
     std::fs::create_dir(&scenes).unwrap();
     let scene = scenes.join("small.ron");
     std::fs::write(&scene, SMALL_TRAINING).unwrap();
-    let model = folder.join("small.rom");
-    let names = [&scene, &scenes, &out, &model].map(|path| path.to_string_lossy().into_owned());
-    let [scene, scenes, out, model] = names.each_ref().map(String::as_str);
-    assert_eq!(program(&["train", scene, "--out", model]).status.code(), Some(0));
-    let wanted = std::fs::read(model).unwrap();
+    let wanted = trained_at_once();
+    let names = [&scene, &scenes, &out].map(|path| path.to_string_lossy().into_owned());
+    let [scene, scenes, out] = names.each_ref().map(String::as_str);
     let left = Path::new(out).join("small.rom");
     for run in [&["run", scene, "--out", out][..], &["run", "--all", "--scenes", scenes, "--out", out]] {
         assert_eq!(program(run).status.code(), Some(0));
@@ -110,11 +121,27 @@ fn a_scene_that_trains_leaves_the_model_that_train_writes() {
 #[test]
 fn scenes_run_in_two_gigabytes_of_address_space() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    for scene in ["point/table_2_3.ron", "reduced/fig_3_7_trajectory.ron"] {
+    // Room does not depend on how many contacts there are.
+    let folder = Scratch::new("address-space");
+    let fewer = |path: &str, at: &str, from: &str, to: &str| {
+        let text = std::fs::read_to_string(scenes.join(path)).unwrap();
+        assert!(text.contains(from), "{path} has no {from}");
+        let to = if long() { from } else { to };
+        folder.write(at, &text.replace(from, to).replace("../training/", ""))
+    };
+    fewer(
+        "training/table_3_1_model.ron",
+        "table_3_1_model.ron",
+        "rows_per_mode: 2.0,",
+        "rows_per_mode: 2.0, evidence: 120,",
+    );
+    let trajectory = fewer("reduced/fig_3_7_trajectory.ron", "trajectory.ron", "points: 201", "points: 21");
+    for scene in [scenes.join("point/table_2_3.ron"), trajectory] {
         let script = "ulimit -v 2000000 && exec \"$0\" run \"$1\"";
         let mut limited = Command::new("sh");
-        limited.args(["-c", script, env!("CARGO_BIN_EXE_ehl-explorer")]).arg(scenes.join(scene));
+        limited.args(["-c", script, env!("CARGO_BIN_EXE_ehl-explorer")]).arg(&scene);
         let output = limited.output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{scene}: {}", String::from_utf8_lossy(&output.stderr));
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{}: {said}", scene.display());
     }
 }

@@ -157,7 +157,7 @@ fn the_frames_of_a_contact_in_time_agree() {
         let mut scene = scene_files::read(name);
         let Study::Transient(study) = &mut scene.study else { panic!("{name} is no contact in time") };
         (study.duration, study.window) = (duration, None);
-        study.time_step = TimeStep::Fixed(0.0025);
+        study.time_step = TimeStep::Fixed(0.005);
         let outcome = scene_files::run(name, &scene);
         // Longer steps than the scene's have other balances of mass.
         let films = outcome.verdicts.iter().filter(|verdict| verdict.expected.name.ends_with("H_c.difference"));

@@ -149,7 +149,7 @@ fn schemes_in_time_are_held_against_the_full_march_of_their_law() {
 
 #[test]
 fn a_coarse_time_step_is_warned_of_and_a_controlled_one_is_not() {
-    let swinging = "inputs: (load: Harmonic(amplitude: 0.15, period: 0.3)), duration: 2.0, reduced: (loss: 1e-5)";
+    let swinging = "inputs: (load: Harmonic(amplitude: 0.15, period: 0.3)), duration: 1.2, reduced: (loss: 1e-5)";
     let with = |time_step: &str| {
         let text = scene(swinging).unwrap().to_ron().unwrap().replace("Fixed(0.005)", time_step);
         let read = Scene::from_ron(&text).unwrap();

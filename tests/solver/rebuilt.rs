@@ -11,24 +11,25 @@ use ehl_explorer::solver::training::{Plan, TrainingSpec, Windows, train};
 /// The training of an embedded model with fewer full solutions, on a coarser grid.
 fn small(scene: &str) -> TrainingSpec {
     let Study::Training(mut spec) = scene_files::read(scene).study else { panic!("{scene} is no training") };
+    let si_box = spec.range.is_si_box();
+    let thins = spec.range.varies(Quantity::NewtonianPlateauRatio);
+    let thinning_line = thins && spec.contact() == ContactKind::Line;
     match &mut spec.plan {
-        Plan::FarthestPoint { snapshots } => *snapshots = 40,
+        Plan::FarthestPoint { snapshots } => *snapshots = if thinning_line { 40 } else { 30 },
         Plan::WorstOfPool { start, pool, per_round, limit, .. } => {
             (*start, *pool, *per_round) = (12, 12, 2);
             *limit = if matches!(spec.windows, Windows::Automatic { .. }) { 40 } else { 16 };
         }
         plan => panic!("{plan:?}"),
     }
-    let (si_box, oils) = (spec.range.is_si_box(), spec.range.varies_lubricant());
-    let thins = spec.range.varies(Quantity::NewtonianPlateauRatio);
-    let thinning_point = thins && spec.contact() == ContactKind::Point;
     for axis in &mut spec.range.axes {
         axis.ends = match axis.quantity {
-            Quantity::M if thinning_point => (30.0, 45.0),
-            Quantity::L if thinning_point => (7.0, 9.0),
-            Quantity::NewtonianPlateauRatio if thinning_point => (0.2, 0.5),
-            Quantity::M if !thins => (20.0, 40.0),
-            Quantity::L if oils => (5.0, 10.0),
+            _ if thinning_line => axis.ends,
+            Quantity::M if thins => (30.0, 45.0),
+            Quantity::L if thins => (7.0, 9.0),
+            Quantity::NewtonianPlateauRatio => (0.2, 0.5),
+            Quantity::M => (20.0, 40.0),
+            Quantity::L => (5.0, 10.0),
             Quantity::Radius if si_box => (10e-3, 11e-3),
             Quantity::Speed if si_box => (2.0, 3.0),
             Quantity::Load if si_box => (30.0, 45.0),
@@ -42,20 +43,20 @@ fn small(scene: &str) -> TrainingSpec {
             *grid = match grid {
                 GridSpec::Plane(_) => {
                     *shared = 24;
-                    GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5)))
+                    GridSpec::Plane(PointGridSpec::uniform(0.08, 0.13, (-2.7, 1.5, -1.5)))
                 }
-                _ => GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true },
+                _ => GridSpec::Graded { nodes: 180, domain: (-8.0, 3.2), registered: true },
             };
         }
         Windows::Given(windows) => windows.iter_mut().for_each(|window| {
             window.grid = match window.grid {
-                GridSpec::Plane(_) => GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-2.7, 1.5, -1.5))),
+                GridSpec::Plane(_) => GridSpec::Plane(PointGridSpec::uniform(0.08, 0.13, (-2.7, 1.5, -1.5))),
                 _ => GridSpec::Graded { nodes: 240, domain: (-8.0, 3.2), registered: true },
             };
         }),
     }
     // Hardly more than a calibration needs; over its whole range the small model of lines that thin fails at many contacts.
-    spec.evidence = if thins && !thinning_point { 300 } else { 120 };
+    spec.evidence = if thinning_line { 300 } else { 110 };
     spec
 }
 

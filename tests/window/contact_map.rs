@@ -23,13 +23,26 @@ fn solved(harness: &mut Window, nodes: (usize, usize)) {
     harness.run();
 }
 
-/// A window on a point contact, solved on the quick grid.
-fn quick_point() -> Window {
-    let mut harness = open();
-    click(&mut harness, "Ball");
-    choose(&mut harness, "Nodes", "Quick, 151×41");
-    solved(&mut harness, (151, 41));
+/// A window on the point contact of the first look, solved on an equidistant grid of so many nodes.
+fn point_on(nodes: (usize, usize)) -> Window {
+    let spacing = |length: f64, nodes: usize| length / (nodes as f64 - 1.0);
+    let scene = format!(
+        "Scene(version: 1, title: \"A ball\", contact: Point, at: Moes(m: 40.0, l: 10.0), study: Point(methods: [Full]),
+            grid: Plane(dx: {}, dy: {}, domain: (-4.0, 2.0, -2.0)))",
+        spacing(6.0, nodes.0),
+        spacing(2.0, nodes.1)
+    );
+    let folder = Scratch::new("a-ball");
+    let mut explorer = Explorer::new(None).without_system_dialogs();
+    explorer.open_scene(&folder.write("ball.ron", &scene)).unwrap();
+    let mut harness = crate::driver::window(explorer, [1280.0, 1500.0]);
+    solved(&mut harness, nodes);
     harness
+}
+
+/// The same on the quick grid.
+fn quick_point() -> Window {
+    point_on((151, 41))
 }
 
 #[test]
@@ -77,7 +90,7 @@ fn a_line_contact_shows_its_film_over_time_and_a_ball_with_one_click() {
 
 #[test]
 fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
-    let mut harness = quick_point();
+    let mut harness = point_on((101, 21));
     let (along, across) = harness.state().profile_peaks().unwrap();
     assert!(along > 0.9 && across.is_some_and(|p| p > 0.9));
     click(&mut harness, "Contact map");
@@ -102,7 +115,7 @@ fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
 
 #[test]
 fn cuts_are_dragged_by_the_hand_in_the_map_and_in_the_profiles() {
-    let mut harness = quick_point();
+    let mut harness = point_on((101, 21));
     // The profile across fills the right part of the window; its line is where the profile along lies.
     drag_line(&mut harness, (960.0, 1270.0), 250.0, 60.0);
     let (x, y) = harness.state().cuts();
@@ -116,7 +129,10 @@ fn cuts_are_dragged_by_the_hand_in_the_map_and_in_the_profiles() {
 
 #[test]
 fn grids_are_chosen_estimated_and_taken_back() {
-    let mut harness = quick_point();
+    let mut harness = open();
+    click(&mut harness, "Ball");
+    choose(&mut harness, "Nodes", "Quick, 151×41");
+    solved(&mut harness, (151, 41));
     let coarse = harness.state().central_film().unwrap();
     click(&mut harness, "Estimate grid error");
     wait(&mut harness, "the estimate", |app| app.grid_errors().is_some());

@@ -42,6 +42,12 @@ pub fn impatient_window(explorer: Explorer, size: [f32; 2]) -> Window {
     Harness::builder().with_size(size).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
 }
 
+/// How long a window rests between two frames when it has waited for so long: frames want the processor too, and take it
+/// from what is waited for.
+fn pause(waited: Duration) -> Duration {
+    (waited / 10).clamp(Duration::from_millis(5), Duration::from_millis(40))
+}
+
 /// Steps until `done`, for at most a while.
 pub fn wait_until(patience: Duration, harness: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
     let begin = Instant::now();
@@ -53,7 +59,7 @@ pub fn wait_until(patience: Duration, harness: &mut Window, what: &str, done: im
         }
         let app = harness.state();
         assert!(begin.elapsed() < patience, "waited in vain for {what}: {}, {}", app.badge(), app.badge_detail());
-        std::thread::sleep(Duration::from_millis(5));
+        std::thread::sleep(pause(begin.elapsed()));
     }
 }
 

@@ -1,6 +1,7 @@
 //! A hand that changes everything at random: what is drawn belongs to what is asked or is grey, what was typed stays,
 //! and nothing moves under the pointer while a field is edited or work runs.
 
+use crate::common::cases::cases;
 use crate::driver::{CONTROLS, TABS, Window, press, undo, write};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect};
@@ -209,7 +210,7 @@ fn assert_held(before: &[(Quantity, f64)], window: &Window, touched: &Touched, s
 
 #[test]
 fn a_hand_that_changes_everything_sees_nothing_stale_loses_nothing_held_and_moves_nothing() {
-    let steps = if std::env::var_os("EHL_LONG").is_some() { 10_000 } else { 300 };
+    let steps = cases(180, 10_000);
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut window = crate::driver::window(explorer, [1280.0, 1000.0]);
     window.run_steps(5);

@@ -263,7 +263,7 @@ pub(crate) fn heated_balls(sampling: Sampling, snapshots: usize) -> TrainingSpec
 pub(crate) fn heated_ellipses(sampling: Sampling, snapshots: usize) -> TrainingSpec {
     let mut range = many_heated((25.0, 40.0), (6.0, 8.0));
     range.axes.push(Axis::new(Quantity::RadiusRatio, (0.7, 3.0)));
-    let windows = anchored(1, 40, GridSpec::Plane(POINT_GRID), 0);
+    let windows = anchored(1, 40, GridSpec::Plane(HEATED_BALLS_GRID), 0);
     TrainingSpec { range, windows, pressure_loss: 1e-7, ..heated_oils(sampling, snapshots) }
 }
 
