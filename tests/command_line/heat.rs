@@ -124,7 +124,7 @@ fn a_model_that_was_trained_with_heat_answers_and_says_what_it_does_not_know() {
     let other = solve(&[&reduced[..], &["--inlet-temperature", "353.15"]].concat());
     assert!(other["warning"].as_str().unwrap().contains("other thermal constants"));
     let cold = json(&program(&[&CONTACT[..], &["--lubricant", "mineral-oil", "--json"], &reduced].concat()));
-    assert!(cold["warning"].as_str().unwrap().contains("trained with heat"));
+    assert!(cold["warning"].as_str().unwrap().contains("trained for thermal contacts"));
     let info = String::from_utf8(program(&["info", &rom]).stdout).unwrap();
     assert!(info.contains("varies: M 18…26, L 9…11, SRR 0…0.5\n") && info.contains("fixes: R 10 mm, "), "{info}");
 }

@@ -26,9 +26,9 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
     let trained = String::from_utf8(output.stdout).unwrap();
     for words in [
         "A load that breathes",
-        "line contacts in time, frame Fixed",
+        "transient line contacts, frame Fixed",
         "load 0.9",
-        "speed at rest",
+        "speed constant",
         "50 steps",
         "one course of inputs",
     ] {
@@ -88,7 +88,7 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
     assert_refused(&["run", word(&folder.write("moving.ron", &moving))], "frames: [Fixed]");
     let unit = folder.join("a.fmu");
     let fmu = ["export", "fmu", word(&model), "--approach", "--out", word(&unit)];
-    assert_refused(&[&fmu[..], &["--library", word(&model)]].concat(), "driven by its load");
+    assert_refused(&[&fmu[..], &["--library", word(&model)]].concat(), "the input of a transient model is its load");
     assert_refused(&["train", word(&uses), "--out", word(&again)], "describes no training");
 }
 

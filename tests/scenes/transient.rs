@@ -157,7 +157,7 @@ fn a_coarse_time_step_is_warned_of_and_a_controlled_one_is_not() {
         run_scene(&read, &mut Workbench::new(""), &()).unwrap()
     };
     let warned = |outcome: &SceneOutcome| {
-        outcome.found.warnings.iter().any(|w| w.to_string().contains("time steps leave H_c off"))
+        outcome.found.warnings.iter().any(|w| w.to_string().contains("time-step error of H_c"))
     };
     let coarse = with("Fixed(0.05)");
     let full = value(&coarse, "fixed.step_error");

@@ -84,7 +84,7 @@ fn a_coarse_step_is_warned_of_and_a_contact_at_rest_has_no_error() {
         trajectory
     };
     let warning = of(swinging).step_warning().unwrap().to_string();
-    assert!(warning.contains("the time steps leave H_c off"), "{warning}");
+    assert!(warning.contains("the time-step error of H_c"), "{warning}");
     let rests = of(Inputs::default());
     assert!(rests.step_error.unwrap() < 1e-6 && rests.step_warning().is_none());
 }

@@ -262,7 +262,7 @@ fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() 
     assert!(detail.starts_with("{H_c} within") && why.starts_with("99 % empirical error bounds"), "{detail}; {why}");
     let (detail, why) = promised(beyond.unwrap());
     assert!(detail.starts_with("no error bound: a neighbouring local model is used"), "{detail}");
-    assert!(why.starts_with("The local model that this contact belongs to"), "{why}");
+    assert!(why.starts_with("The local model of this contact found no solution"), "{why}");
     assert!(!why.contains(".."), "{why}");
     wait(&mut harness, "verification", |app| ["Verified", "Roughly right", "Far off"].contains(&app.badge().as_str()));
 }

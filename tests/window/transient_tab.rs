@@ -119,7 +119,7 @@ fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
     let (mut harness, folder) = open("refused", &scene(inputs, 2.0, "Fixed"));
     run_in_time(&mut harness);
     assert!(shows(&harness, "could not take the step") || shows(&harness, "stopped at T ="), "it is said");
-    assert!(shows(&harness, "what was computed before is kept"));
+    assert!(shows(&harness, "previous steps are kept"));
     assert!((10..=41).contains(&harness.state().transient_moments()));
     let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
     assert_eq!(series.rows.len(), harness.state().transient_moments());
