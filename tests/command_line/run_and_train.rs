@@ -80,7 +80,7 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     let output = command(&killed).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert!(said.contains("going on with") && said.contains("full solutions"), "{said}");
+    assert!(said.contains("continuing") && said.contains("full solutions"), "{said}");
     assert!(std::fs::read(&killed).unwrap() == std::fs::read(&whole).unwrap(), "the files differ");
     assert!(!kept.exists(), "nothing is left beside a finished model");
 }

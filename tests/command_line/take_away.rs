@@ -44,9 +44,12 @@ fn good_load_cases_are_those_of_solve_and_bad_ones_are_named_with_line_and_reaso
     let output = program(&["cases", &table, "--method", "full,reduced", "--csv", out.to_str().unwrap(), "--json"]);
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    for (line, reason) in
-        [(51, "load is -"), (101, "“mm” is no unit of a viscosity"), (151, "give radius too"), (201, "“cone” is none")]
-    {
+    for (line, reason) in [
+        (51, "load is -"),
+        (101, "“mm” is no unit of a viscosity"),
+        (151, "give radius too"),
+        (201, "“cone” is not valid"),
+    ] {
         let named = said.lines().find(|said| said.contains(&format!("line {line} "))).unwrap_or_default();
         assert!(named.contains(reason), "{said}");
     }
@@ -109,7 +112,7 @@ fn a_sheet_says_what_solve_says_in_three_formats() {
     };
     let (csv, result) = sheet("sheet.csv");
     for (name, value) in [
-        ("Central film h_c", &result["h_c_m"]),
+        ("Central film thickness h_c", &result["h_c_m"]),
         ("Hertzian pressure p_H", &result["hertz"]["p_h_pa"]),
         ("Friction coefficient µ", &result["traction"]),
         ("Entrainment speed u_m", &result["si"]["speed"]),
@@ -126,7 +129,7 @@ fn a_sheet_says_what_solve_says_in_three_formats() {
         assert!(figure.starts_with("<svg ") && figure.trim_end().ends_with("</svg>"), "{name}");
     }
     assert!(markdown.contains("| Regime | elastic, piezoviscous: "));
-    assert!(markdown.contains("| Central film h_c | ") && markdown.contains("## Published film formulas"));
+    assert!(markdown.contains("| Central film thickness h_c | ") && markdown.contains("## Published film formulas"));
     let (page, _) = sheet("sheet.html");
     assert!(page.contains("<svg ") && page.contains("Dowson–Toyoda") && page.trim_end().ends_with("</html>"));
     assert!(page.contains(&format!("ehl-explorer {}", env!("CARGO_PKG_VERSION"))));

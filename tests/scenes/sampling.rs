@@ -63,5 +63,5 @@ fn a_range_with_too_few_contacts_is_refused_in_a_sentence() {
     let scene =
         Scene::from_ron(&COMPARISON.replace("Load: (30.0, 45.0, Linear)", "Load: (1e9, 1e10, Linear)")).unwrap();
     let sentence = run_scene(&scene, &mut Workbench::new(&*folder), &()).unwrap_err().to_string();
-    assert!(sentence.contains("hardly any point") && sentence.contains("of 20 were found"), "{sentence}");
+    assert!(sentence.contains("too few points") && sentence.contains("of 20 were found"), "{sentence}");
 }
