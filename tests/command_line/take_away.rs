@@ -1,4 +1,4 @@
-//! What people take away from the built program: a table of load cases, a sheet of one contact.
+//! Exported documents of the built program: a table of load cases, a sheet of one contact.
 
 use crate::common::scratch::Scratch;
 use serde_json::Value;
@@ -18,7 +18,7 @@ fn written(folder: &Scratch, name: &str, text: &str) -> String {
     folder.write(name, text).to_str().unwrap().to_owned()
 }
 
-/// 200 contacts of rollers and a ball; lines 51, 101, 151 and 201 make no sense.
+/// 200 contacts of rollers and a ball; lines 51, 101, 151 and 201 are invalid.
 fn two_hundred() -> String {
     let mut table = String::from("name,contact,R [mm],u,w,modulus [GPa],viscosity,alpha [1/GPa],srr\n");
     for k in 0..200 {
@@ -68,7 +68,7 @@ fn good_load_cases_are_those_of_solve_and_bad_ones_are_named_with_line_and_reaso
             let mut wanted: Value = serde_json::from_slice(&single.stdout).unwrap();
             let is_it = |object: &&Value| object["line"] == k + 2 && object["method"] == wanted["method"];
             let all: Vec<&Value> = objects.iter().filter(is_it).collect();
-            // Where the full solver took over for the model, its result is the second one of that name.
+            // If the full solver replaced the model, its result is the second one of that name.
             let mut got = (*if method == "full" { all.first() } else { all.last() }.unwrap()).clone();
             for object in [&mut got, &mut wanted] {
                 let object = object.as_object_mut().unwrap();
