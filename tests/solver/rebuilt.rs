@@ -1,4 +1,4 @@
-//! A model follows from its scene alone: the same bytes on any number of threads.
+//! A model depends on its scene only: the same bytes on any number of threads.
 
 use crate::common::scene_files;
 use ehl_explorer::engine::model_file::to_bytes;
@@ -8,7 +8,7 @@ use ehl_explorer::solver::parameters::Quantity;
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::training::{Plan, TrainingSpec, Windows, train};
 
-/// The training of an embedded model with fewer full solutions, on a coarser grid.
+/// Returns the training of an embedded model with fewer full solutions, on a coarser grid.
 fn small(scene: &str) -> TrainingSpec {
     let Study::Training(mut spec) = scene_files::read(scene).study else { panic!("{scene} is no training") };
     match &mut spec.plan {
@@ -54,7 +54,7 @@ fn small(scene: &str) -> TrainingSpec {
             };
         }),
     }
-    // Hardly more than a calibration needs; over its whole range the small model of lines that thin fails at many contacts.
+    // Little more than a calibration needs. Over its whole range the small shear-thinning line model often fails.
     spec.evidence = if thins && !thinning_point { 300 } else { 120 };
     spec
 }
