@@ -45,7 +45,7 @@ fn what_is_made_leaves_through_bodies_and_with_the_oil_in_a_plane_as_well() {
     }
 }
 
-/// Solves on three grids, each with half the spacings of the previous one. The energy imbalance falls at least by half.
+/// Solves on three grids, each with half the spacings of the previous one. Differences fall at least by half.
 #[test]
 fn film_traction_and_temperature_converge_with_the_grid() {
     let found = [1.0, 0.5, 0.25].map(|share| {
