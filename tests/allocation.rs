@@ -1,4 +1,4 @@
-//! Online iterations and online steps in time must not allocate: more of them, the same number of allocations.
+//! Online iterations and online time steps do not allocate: more of them need the same number of allocations.
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 #![allow(unsafe_code, reason = "an allocator that counts")]
@@ -24,7 +24,7 @@ use std::sync::{Arc, Mutex};
 struct Counting;
 
 thread_local! {
-    /// Of this thread only: the online phases are sequential, and tests run beside each other.
+    /// Counts this thread only: the online phases are sequential, and tests run in parallel.
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
@@ -32,7 +32,7 @@ fn allocations() -> usize {
     ALLOCATIONS.with(Cell::get)
 }
 
-// SAFETY: every call is handed on to the system allocator unchanged; only a counter is added.
+// SAFETY: every call is passed to the system allocator unchanged; only a counter is added.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.with(|count| count.set(count.get() + 1));
@@ -49,7 +49,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Allocations of a solve whose attempts all run to their limit: a tolerance of zero is never met.
+/// Returns the allocations of a solve whose attempts all run to their limit, since a tolerance of zero is never met.
 fn allocations_of_a_solve(
     model: &Arc<ReducedModel>,
     point: &OperatingPoint,
@@ -128,7 +128,7 @@ fn more_online_iterations_do_not_allocate_more() {
     }
 }
 
-/// Allocations up to each moment of a march.
+/// Returns the allocations up to each time of a march.
 struct Counts(Mutex<Vec<usize>>);
 
 impl Observer for Counts {}
@@ -159,11 +159,11 @@ fn online_steps_in_time_do_not_allocate() {
         assert!(trajectory.finished());
         let counts = counts.0.into_inner().unwrap();
         assert_eq!(counts.len(), 63);
-        // The list of moments doubles its room for the 33rd one and then holds 64.
+        // The list of moments doubles its capacity for the 33rd one, to 64.
         counts[33..].windows(2).filter(|pair| pair[0] != pair[1]).count()
     };
     assert_eq!(steps_that_allocate(&mut ReducedMarch::new(&sampled, &online).unwrap(), &online), 0, "sampled rows");
-    // A rupture boundary travels without further room, remeshed films included.
+    // The cavitation boundary moves without further allocation, also with remeshed films.
     let cavitation = Cavitation::Complementarity;
     for frame in [Frame::Fixed, Frame::Remeshed(Interpolation::CubicSpline)] {
         let held = Transient { frame, lubricant: Lubricant { cavitation, ..online.lubricant }, ..online.clone() };

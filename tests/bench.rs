@@ -1,5 +1,5 @@
-//! The speed table's contract: names, fields, sound numbers, and a full solver far ahead of the dense one. In a program
-//! of its own, so that no other test runs beside it.
+//! The speed table: names, fields, plausible numbers, and a full solver much faster than the dense one. It has a
+//! separate test program, so that no other test runs in parallel.
 
 use serde_json::Value;
 use std::process::Command;

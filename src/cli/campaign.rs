@@ -139,7 +139,7 @@ fn computed(args: &ShardArgs) -> Result<Verdict, Failure> {
     progress.finish();
     let word = match done? {
         Done::Computed => "done",
-        Done::There => "there already",
+        Done::There => "already done",
     };
     output::print(&format!("shard {number}: {word}\n"))?;
     Ok(Verdict::Done)
@@ -179,12 +179,12 @@ fn tell(folder: &Folder, whole: &Whole) -> Result<Verdict, Failure> {
     if whole.processors.len() > 1 {
         let kinds: Vec<&str> = whole.processors.iter().map(String::as_str).collect();
         output::complain(&format!(
-            "shards were computed on processors of several kinds ({}): the last bits of sums may differ between them",
+            "shards were computed on different types of processors ({}): their sums may differ in the last bits",
             kinds.join("; ")
         ));
     }
     let (seconds, path) = (whole.seconds, folder.result_path());
-    output::print(&format!("{seconds:.1} s of one processor in all; the result is in {}\n", path.display()))?;
+    output::print(&format!("{seconds:.1} s of processor time in total; the result is in {}\n", path.display()))?;
     Ok(if whole.outcome.passed() { Verdict::Done } else { Verdict::FellShort })
 }
 
@@ -208,7 +208,7 @@ fn status(args: &StatusArgs) -> Result<Verdict, Failure> {
         let mut text =
             format!("{}: {} of {} shards are done, round {}", status.title, status.done, status.shards, status.rounds);
         if let Some(left) = status.left_s.filter(|_| !status.open.is_empty()) {
-            text += &format!("; about {left:.0} s of one processor are left in it");
+            text += &format!("; about {left:.0} s of processor time remain in it");
         }
         text += if status.merged { "; merged\n" } else { "\n" };
         for (shard, reason) in &status.failed {

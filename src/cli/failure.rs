@@ -21,7 +21,7 @@ pub enum Failure {
     #[error("the run was stopped before it was done")]
     Stopped,
     /// The reader of standard output has closed it. No message can be shown.
-    #[error("nobody reads standard output any more")]
+    #[error("standard output was closed by its reader")]
     ReaderLeft,
     /// Standard output cannot be written.
     #[error("cannot write to standard output: {0}")]

@@ -27,7 +27,7 @@ pub struct InfoArgs {
 }
 
 /// Message for transient models.
-const TRANSIENT: &str = "a transient model was trained from the steps of marches, which its file does not hold; leave out \
+const TRANSIENT: &str = "a transient model was trained from the steps of marches, which its file does not contain; leave out \
                          --snapshots";
 
 /// Runs the command.

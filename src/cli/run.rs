@@ -143,7 +143,7 @@ pub(super) fn describe(outcome: &SceneOutcome) -> String {
         let word = if verdict.holds { "ok   " } else { "SHORT" };
         let value = verdict.value.map_or("no such value".to_owned(), |value| Number(value).to_string());
         let (name, wanted) = (&expected.name, expected.wanted());
-        let _ = writeln!(text, "  {word}  {name:<26} {:<8} {value} (wanted {wanted})", method(&expected.method));
+        let _ = writeln!(text, "  {word}  {name:<26} {:<8} {value} (expected {wanted})", method(&expected.method));
     }
     if !outcome.found.converged {
         let _ = writeln!(text, "  note   some solves did not converge");

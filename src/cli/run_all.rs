@@ -27,10 +27,10 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
         let what = match (all.is_empty(), args.only.is_empty(), args.quick) {
             (true, _, _) => "no scene (.ron) lies below",
             _ if !left_out.is_empty() => {
-                "only scenes that train embedded models, each of which --only must name, lie below"
+                "only scenes that train embedded models, which --only must name one by one, lie below"
             }
             (_, true, _) => "no scene is marked `quick: true` below",
-            (_, _, false) => "no place of a scene begins with what --only says below",
+            (_, _, false) => "no path of a scene starts with a value of --only below",
             (_, _, true) => "no scene that --only names is marked `quick: true` below",
         };
         return Err(Failure::Request(format!("{what} {}; --scenes names their folder", folder.display())));
@@ -219,7 +219,7 @@ mod tests {
         );
         assert_eq!(run(&only("line/good")).unwrap(), Verdict::FellShort);
         let refused = |args: &RunArgs| format!("{:?}", run(args).unwrap_err());
-        assert!(refused(&only("nowhere")).contains("--only says"));
+        assert!(refused(&only("nowhere")).contains("a value of --only"));
         let slow = RunArgs { quick: true, ..only("short") };
         assert!(refused(&slow).contains("no scene that --only names is marked `quick: true`"));
         write("line/wrong.ron", "Scene(".to_owned());

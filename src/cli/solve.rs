@@ -81,7 +81,8 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     if let Some(path) = &args.sheet
         && Sheet::new("", &[], None).files(path).is_empty()
     {
-        let sentence = format!("--sheet {} has no ending that is known; accepted are md, html, csv", path.display());
+        let sentence =
+            format!("--sheet {} has an unsupported file extension; accepted are md, html, csv", path.display());
         return Err(Failure::Request(sentence));
     }
     let mut workbench = Workbench::new("");
@@ -197,20 +198,20 @@ fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>) -> String {
             line(&name, value);
         }
         let [first, second] = heat.into_bodies.map(|share| 100.0 * share);
-        line("heat", format!("{first:.1} % into body 1, {second:.1} % into body 2, the rest with the oil"));
+        line("heat", format!("{first:.1} % into body 1, {second:.1} % into body 2, the rest with the lubricant"));
         line("energy balance", format!("{:.2e}", heat.energy_balance));
     }
     let linear = result.linear_iterations.map_or(String::new(), |n| format!(", {n} linear"));
     line("iterations", format!("{} Newton{linear}", result.newton_iterations));
     if let Some(reduced) = &result.reduced {
         line("reduced", reduced.size.to_string());
-        line("trained here", if reduced.trained { "yes" } else { "no" }.to_owned());
+        line("in trained range", if reduced.trained { "yes" } else { "no" }.to_owned());
         if let Some(estimate) = result.value("reduced.residual_estimate") {
             line("estimate e_f", format!("{estimate:.3e}"));
         }
         for (title, name) in BOUNDS {
             if let Some(bound) = result.value(name) {
-                line(&format!("error of {title}"), format!("below {bound:.2e} (99 of 100)"));
+                line(&format!("error of {title}"), format!("below {bound:.2e} (99 % of contacts)"));
             }
         }
     }

@@ -50,7 +50,7 @@ pub fn run(args: &TrainArgs) -> Result<Verdict, Failure> {
     let keeper = TrainingKeeper::new(kept.clone()).map_err(EngineError::from)?;
     let mut state = match training_file::unfinished(&kept, &spec).map_err(EngineError::from)? {
         Some(state) => {
-            let sentence = format!("going on with {}: {} full solutions are there", kept.display(), state.solutions());
+            let sentence = format!("continuing {}: it contains {} full solutions", kept.display(), state.solutions());
             output::complain(&sentence);
             state
         }

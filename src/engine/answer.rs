@@ -144,7 +144,7 @@ pub(super) fn window_of<'a>(
     model: &'a ReducedModel,
     point: &OperatingPoint,
 ) -> Result<(usize, &'a Window), EngineError> {
-    let none = || EngineError::Study(format!("the reduced model `{}` holds no window", model.title));
+    let none = || EngineError::Study(format!("the reduced model `{}` contains no local model", model.title));
     let place = model.window_for(point);
     model.windows.get(place).map(|window| (place, window)).ok_or_else(none)
 }

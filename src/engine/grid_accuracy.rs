@@ -57,13 +57,13 @@ impl Workbench {
         answer: &Answer,
         observer: &dyn TrainingObserver,
     ) -> Result<GridAccuracy, EngineError> {
-        let none = |why: &str| EngineError::Study(format!("the grid's error cannot be estimated: {why}"));
+        let none = |why: &str| EngineError::Study(format!("the discretisation error cannot be estimated: {why}"));
         let solution = answer.fields().ok_or_else(|| none("the solve did not converge"))?;
         let spec = solution.mesh.plane();
-        let spec = spec.ok_or_else(|| none("only full solutions of point contacts have one"))?;
+        let spec = spec.ok_or_else(|| none("the answer is not a full solution of a point contact"))?;
         let request = Request { grid: Grid::Plane(second_grid(spec)), ..answer.request.clone() };
         let second = self.answer(&request, Some(solution), observer)?;
         let second = second.fields().ok_or_else(|| none("the solve on the second grid did not converge"))?;
-        GridAccuracy::of(solution, second).ok_or_else(|| none("both grids do not belong together"))
+        GridAccuracy::of(solution, second).ok_or_else(|| none("the two grids do not match"))
     }
 }

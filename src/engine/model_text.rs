@@ -12,19 +12,19 @@ use std::fmt::Write;
 /// Describes a transient model.
 pub fn describe_in_time(model: &TrajectoryModel) -> String {
     let (domain, window) = (&model.domain, &model.window);
-    let mut text = format!("{}\n  line contacts in time, frame {:?}\n", model.title, model.frame);
+    let mut text = format!("{}\n  transient line contacts, frame {:?}\n", model.title, model.frame);
     // Writing to a string cannot fail.
     text.push_str(&describe_domain(&domain.reference));
     for (name, reach) in [("load", domain.load), ("speed", domain.speed), ("radius", domain.radius)] {
         let (from, to) = reach.range;
         let _ = match reach.varies() {
             true => writeln!(text, "  {name} {from:.4}…{to:.4} of its reference, {:.4} per unit of T", reach.rate),
-            false => writeln!(text, "  {name} at rest"),
+            false => writeln!(text, "  {name} constant"),
         };
     }
     let _ = writeln!(text, "  steps of T {:.6}", domain.step);
     if domain.only.is_some() {
-        text.push_str("  one course of inputs: along others nothing is known of its errors\n");
+        text.push_str("  one course of inputs: errors along other courses are unknown\n");
     }
     let ruptures = match window.cavitation {
         Cavitation::Penalty => format!("γ̄ {:e}", window.penalty),
@@ -68,7 +68,7 @@ fn driven(inputs: &Inputs) -> String {
         other => Some(format!("{name} {other:?}")),
     };
     let told: Vec<String> = all.into_iter().filter_map(told).collect();
-    if told.is_empty() { "at rest".to_owned() } else { told.join(", ") }
+    if told.is_empty() { "constant inputs".to_owned() } else { told.join(", ") }
 }
 
 /// Describes the grid of a local model.
@@ -136,7 +136,7 @@ pub fn describe(model: &ReducedModel) -> String {
         };
         let _ = writeln!(
             text,
-            "  window M {}…{}{shapes}: {grid}; {} snapshots, {} ({:?}{scheme}), {}",
+            "  local model M {}…{}{shapes}: {grid}; {} snapshots, {} ({:?}{scheme}), {}",
             window.m.0,
             window.m.1,
             window.snapshots.len(),

@@ -51,10 +51,10 @@ pub enum TrainingFileError {
         source: io::Error,
     },
     /// Writing failed.
-    #[error("the unfinished training cannot be kept: {0}")]
+    #[error("the unfinished training cannot be stored: {0}")]
     Write(#[from] WriteError),
     /// The content is not valid.
-    #[error("{} is no unfinished training to go on with ({what}); delete it to train from the beginning", path.display())]
+    #[error("{} is not an unfinished training that can be continued ({what}); delete it to train from the beginning", path.display())]
     Refused {
         /// The file.
         path: PathBuf,
@@ -69,7 +69,7 @@ pub enum TrainingFileError {
     },
     /// The file belongs to another specification.
     #[error(
-        "{} keeps {solutions} full solutions of another training, “{title}”; finish that one with its own scene, delete the file, or choose another --out",
+        "{} contains {solutions} full solutions of another training, “{title}”; finish that one with its own scene, delete the file, or choose another --out",
         path.display()
     )]
     Another {

@@ -251,7 +251,7 @@ fn columns(of: &[In]) -> Vec<&'static str> {
 fn word<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Word, D::Error> {
     let read = String::deserialize(deserializer)?;
     let known = WORDS.into_iter().find(|word| *word == read);
-    known.ok_or_else(|| de::Error::custom(format!("`{read}` is no word of a result")))
+    known.ok_or_else(|| de::Error::custom(format!("`{read}` is not a word of a result")))
 }
 
 impl Value {

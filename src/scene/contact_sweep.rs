@@ -26,16 +26,16 @@ pub enum VariedError {
     #[error("{SHAPE}")]
     Shape,
     /// An end is not a number.
-    #[error("`{0}` is no number; {SHAPE}")]
+    #[error("`{0}` is not a number; {SHAPE}")]
     Number(String),
     /// The number of values is not a whole number.
-    #[error("`{0}` is no count; {SHAPE}")]
+    #[error("`{0}` is not a number of values; {SHAPE}")]
     Count(String),
     /// An end is not finite.
-    #[error("{0} to {1} is no finite range; {SHAPE}")]
+    #[error("{0} to {1} is not a finite range; {SHAPE}")]
     Infinite(f64, f64),
     /// Too many values, or none.
-    #[error("{0} values are asked for; between 1 and {MAX_POINTS} are accepted")]
+    #[error("{0} values are requested; between 1 and {MAX_POINTS} are accepted")]
     TooMany(usize),
     /// Constant ratio between ends that are not both positive.
     #[error("a constant ratio needs positive ends; leave out :log")]

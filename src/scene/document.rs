@@ -242,7 +242,7 @@ impl Scene {
         }
         let bytes = files::read_at_most(path, MAX_BYTES + 1).map_err(|error| unreadable(atomic_file::said(&error)))?;
         if bytes.len() as u64 > MAX_BYTES {
-            return Err(unreadable(format!("it is larger than {MAX_BYTES} bytes, which no scene is")));
+            return Err(unreadable(format!("it is larger than the limit of {MAX_BYTES} bytes")));
         }
         let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
         Self::from_ron(&text).map_err(refused)

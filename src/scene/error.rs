@@ -102,7 +102,7 @@ pub enum RunError {
     #[error("the scene is refused: {0}")]
     Scene(#[from] SceneError),
     /// The scene has another study than a training.
-    #[error("the scene {} describes no training; its study must be Training(…), or Transient(…) with a reduced model of its own", path.display())]
+    #[error("the scene {} describes no training; its study must be Training(…), or Transient(…) with its own reduced model", path.display())]
     NoTraining {
         /// The file.
         path: PathBuf,

@@ -58,7 +58,7 @@ pub(super) fn full_solutions_told(
     tell: impl Fn(usize, Option<&Solution>) + Sync,
 ) -> Result<Vec<Option<Solution>>, RunError> {
     // A full solution may take seconds, so each one is reported.
-    let (stage, total) = ("full solutions to compare with", contacts.len());
+    let (stage, total) = ("full solutions for comparison", contacts.len());
     let count = Count { stage, done: AtomicUsize::new(0), total, every: 1, observer };
     map_with(contacts, Vec::<ContactSolver>::new, |solvers, i, (point, lubricant)| {
         let grid = grid(point);

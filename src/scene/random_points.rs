@@ -24,7 +24,7 @@ pub(super) fn all_random_points(
     }
     if found < n {
         return Err(RunError::Study(format!(
-            "`study.range` holds hardly any point below its largest Hertzian pressure; only {found} of {n} were found"
+            "`study.range` contains too few points below its largest Hertzian pressure; only {found} of {n} were found"
         )));
     }
     Ok(points)

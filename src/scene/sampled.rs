@@ -80,7 +80,7 @@ fn parse_into(inputs: &mut Inputs, text: &str) -> Result<(), (usize, String)> {
             if let (&"T", Some(before)) = (title, column.last())
                 && value <= *before
             {
-                return Err((line, format!("T is {value}, but must be greater than {before}, the one before")));
+                return Err((line, format!("T is {value}, but must be greater than the previous {before}")));
             }
             if matches!(*title, "radius" | "load") && value <= 0.0 {
                 return Err((line, format!("`{title}` is {value}, but must be above zero")));

@@ -244,8 +244,8 @@ fn results(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     let (point, hertz) = (&result.point, result.point.hertz());
     let value = |name: &str| result.value(name);
     let mut part = Part::new("Results");
-    part.number("Central film h_c", value("h_c_m"), "m");
-    part.number("Smallest film h_min", value("h_min_m"), "m");
+    part.number("Central film thickness h_c", value("h_c_m"), "m");
+    part.number("Minimum film thickness h_min", value("h_min_m"), "m");
     part.number("Hertzian pressure p_H", hertz.pressure_pa, "Pa");
     let width = match (point.kind, point.radius_y_m) {
         (ContactKind::Line, _) => "Half width a",
@@ -256,14 +256,14 @@ fn results(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     if point.radius_y_m.is_some() {
         part.number("Semi-axis of the contact across b", hertz.half_length_m, "m");
     }
-    part.number("Largest pressure", value("P_max").map(|p| p * hertz.pressure_pa), "Pa");
+    part.number("Maximum pressure", value("P_max").map(|p| p * hertz.pressure_pa), "Pa");
     if point.sliding.slide_to_roll_ratio != 0.0 {
         let (force, power) = if point.kind == ContactKind::Line { ("N/m", "W/m") } else { ("N", "W") };
         let traction = value("traction");
         let lost = point.sliding.slide_to_roll_ratio * point.speed_m_per_s;
         part.number("Friction coefficient µ", traction, "");
         part.number("Friction force", traction.map(|mu| mu * point.load), force);
-        part.number("Power lost", traction.map(|mu| mu * point.load * lost), power);
+        part.number("Power loss", traction.map(|mu| mu * point.load * lost), power);
     }
     if let (Some(bodies), Some(h_min)) = (bodies, value("h_min_m"))
         && let Ok(ratio) = bodies.film_ratio(h_min)
@@ -277,7 +277,7 @@ fn results(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     let shear = largest_shear(point, bodies.map_or(0.3, |bodies| bodies.0[0].poisson));
     let depth = shear.depth_over_half_width * hertz.half_width_m;
     part.said(
-        "Largest shear under the surface",
+        "Maximum subsurface shear stress",
         shear.over_hertz_pressure * hertz.pressure_pa,
         "Pa",
         format!("of the dry contact, {} m deep", significant(depth, 3)),
@@ -290,7 +290,7 @@ fn results(solved: &Answer, bodies: Option<&Bodies>) -> Part {
 
 fn verification(solved: &Answer) -> Part {
     let result = &solved.result;
-    let mut part = Part::new(&format!("How it was solved: {}", result.method));
+    let mut part = Part::new(&format!("Solution method: {}", result.method));
     part.words("Converged", if result.converged { "yes" } else { "no" });
     let nodes = match result.nodes {
         (nx, 1) => nx.to_string(),
@@ -298,20 +298,20 @@ fn verification(solved: &Answer) -> Part {
     };
     part.words("Grid", format!("{}, {nodes} nodes, {} unknowns", result.grid, result.dofs));
     part.number("Newton steps", result.newton_iterations as f64, "");
-    part.said("Residual of the load balance", result.value("load_residual"), "", "relative to the load");
+    part.said("Load-balance residual", result.value("load_residual"), "", "relative to the load");
     part.number("Residual norm", result.residual_norm, "");
     if let Some(cost) = result.grid_cost {
-        part.said("Cost of the domain’s ends", cost.truncation, "", "relative error of H_c, estimated");
-        part.said("Cost of the spacing", cost.resolution, "", "relative error of H_c, estimated");
+        part.said("Domain-truncation error", cost.truncation, "", "relative error of H_c, estimated");
+        part.said("Discretisation error", cost.resolution, "", "relative error of H_c, estimated");
     }
     if let Some(reduced) = &result.reduced {
         part.words("Reduced model", reduced.size.to_string());
-        part.words("Trained for this contact", if reduced.trained { "yes" } else { "no" });
+        part.words("Inside the trained range", if reduced.trained { "yes" } else { "no" });
         let bounds = [("h_c", "h_c"), ("h_min", "h_min"), ("traction", "µ")].map(|(name, symbol)| {
             (format!("Error bound of {symbol}"), result.value(&format!("reduced.{name}_error_bound")))
         });
         for (name, bound) in bounds {
-            part.said(&name, bound, "", "relative; holds in 99 of 100 contacts");
+            part.said(&name, bound, "", "relative; 99 % empirical error bound");
         }
     }
     for warning in &result.warnings {

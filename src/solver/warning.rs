@@ -75,7 +75,7 @@ pub enum Warning {
         ended: Ended,
     },
     /// The grid is not sufficient at some time of a transient march.
-    #[error("at T = {time:.4} {warning}; the grid does not do for this march")]
+    #[error("at T = {time:.4} {warning}; the grid is not sufficient for this march")]
     DiscretisationErrorInTime {
         /// Dimensionless time T.
         time: f64,
@@ -118,7 +118,7 @@ pub enum Warning {
     },
     /// The energy balance is not met: heat is lost between the nodes.
     #[error(
-        "{:.1} % of the heat that is made goes nowhere: the grid is too coarse for this film's temperatures",
+        "{:.1} % of the generated heat is missing in the balance: the grid is too coarse for the temperatures of this film",
         100.0 * share
     )]
     HeatLost {
@@ -139,7 +139,7 @@ pub enum Warning {
     },
     /// The local model of this contact found no solution, and a neighbouring one was used.
     #[error(
-        "the local model that this contact belongs to found no solution; its neighbour answers, whose errors were not \
+        "the local model of this contact found no solution; the neighbouring one replaced it, whose errors were not \
          measured here"
     )]
     NeighbouringModel,
@@ -173,8 +173,8 @@ pub enum Warning {
     },
     /// The traction coefficient is larger than any measured one.
     #[error(
-        "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant thins under \
-         shear or yields"
+        "a traction coefficient of {traction:.3} is unphysical: beyond {PLAUSIBLE_TRACTION} the lubricant is \
+         shear-thinning or yields"
     )]
     UnphysicalTraction {
         /// Traction coefficient.
@@ -300,15 +300,15 @@ pub struct Repeated {
 fn discretisation(relative: f64, ends: Option<&NearEnds>, spacing: Option<&WideSpacing>) -> String {
     let more = if relative > SATURATED { " or more" } else { "" };
     let ends = ends.map(|NearEnds { x, y, wanted }| match y {
-        None => format!("the inlet at X = {x:.3} is too near, one at {:.0} would do", -wanted),
+        None => format!("the inlet at X = {x:.3} is too near, one at {:.0} would be sufficient", -wanted),
         Some(y) => format!(
-            "the ends of the domain at X = {x:.3} and Y = {y:.3} are too near, {:.0} and {:.0} would do",
+            "the ends of the domain at X = {x:.3} and Y = {y:.3} are too near, {:.0} and {:.0} would be sufficient",
             -wanted,
             -0.5 * wanted
         ),
     });
     let spacing = spacing.map(|WideSpacing { spacing, wanted }| {
-        format!("the spacing of {spacing:.2e} at X = -1 is too wide, {wanted:.1e} would do")
+        format!("the spacing of {spacing:.2e} at X = -1 is too wide, {wanted:.1e} would be sufficient")
     });
     let parts: Vec<String> = ends.into_iter().chain(spacing).collect();
     let colon = if parts.is_empty() { "" } else { ": " };
@@ -320,11 +320,11 @@ fn time_step_error(relative: f64, tolerance: Option<f64>) -> String {
     let percent = 100.0 * relative;
     match tolerance {
         None => format!(
-            "the time steps leave H_c off by about {percent:.2} %: take shorter ones, or let a tolerance control them"
+            "the time-step error of H_c is about {percent:.2} %: take shorter steps, or let a tolerance control them"
         ),
         Some(tolerance) => format!(
-            "the time steps leave H_c off by about {percent:.2} %, and could not be made short enough for the {} % asked \
-             for",
+            "the time-step error of H_c is about {percent:.2} %; the steps could not be made short enough for the \
+             requested {} %",
             100.0 * tolerance
         ),
     }
@@ -355,8 +355,8 @@ mod tests {
         let both = Warning::DiscretisationError { relative: 0.2, ends, spacing };
         assert_eq!(
             both.to_string(),
-            "H_c is off by about 20 % or more: the inlet at X = -4.000 is too near, one at -9 would do; the spacing of \
-             2.00e-2 at X = -1 is too wide, 5.0e-3 would do"
+            "H_c is off by about 20 % or more: the inlet at X = -4.000 is too near, one at -9 would be sufficient; the \
+             spacing of 2.00e-2 at X = -1 is too wide, 5.0e-3 would be sufficient"
         );
         let one = Warning::DiscretisationError { relative: 0.04, ends: None, spacing };
         assert!(one.to_string().starts_with("H_c is off by about 4 %: the spacing"));
@@ -367,9 +367,9 @@ mod tests {
         assert_eq!(Warning::of_time_step(0.029, None), None);
         assert_eq!(Warning::of_time_step(0.009, Some(0.01)), None);
         let far = Warning::of_time_step(0.18, None).unwrap().to_string();
-        assert!(far.starts_with("the time steps leave H_c off by about 18.00 %: take shorter"), "{far}");
+        assert!(far.starts_with("the time-step error of H_c is about 18.00 %: take shorter"), "{far}");
         let missed = Warning::of_time_step(0.02, Some(0.01)).unwrap().to_string();
-        assert!(missed.contains("2.00 %") && missed.contains("the 1 % asked for"), "{missed}");
+        assert!(missed.contains("2.00 %") && missed.contains("the requested 1 %"), "{missed}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Campaigns as schedulers call them: shards that are killed, run twice, or have no room.
+//! Campaigns as schedulers run them: shards that are killed, run twice, or have no disk space.
 
 use crate::commands::{assert_refused, json, program};
 use crate::common::scratch::Scratch;
@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-/// Cold full point contacts on a grid of few nodes, of some hundredths of a second each.
+/// Cold full point contacts on a coarse grid, some hundredths of a second each.
 const SCENE: &str = "Scene(version: 1, title: \"balls\", contact: Point, \
     grid: Plane(dx: 0.04, dy: 0.1, domain: (-3.0, 1.5, -1.5)), \
     study: RandomTest(range: (axes: {Radius: (10e-3, 12e-3, Linear), Speed: (1.0, 3.0, Linear), \
@@ -16,7 +16,7 @@ const SCENE: &str = "Scene(version: 1, title: \"balls\", contact: Point, \
     fixed: {Modulus: 231e9, Viscosity: 0.01}), tests: 60, seed: 3, method: Full), \
     expect: [(name: \"tests\", value: 60, within: Absolute(0), from: \"as many as are asked for\")])";
 
-/// Five full solutions, then a round for each that the search adds.
+/// Five full solutions, then a round for each one that the search adds.
 const ADAPTIVE: &str = "Scene(version: 1, title: \"adaptive\", study: Training(title: \"t\", \
     range: (axes: {Radius: (3e-3, 4e-3, Linear), Speed: (2.0, 4.0, Linear), \
     Load: (2e5, 4e5, Linear), Alpha: (8e-9, 12e-9, Linear)}, \
@@ -43,7 +43,7 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
-/// Every file of a result, byte for byte.
+/// Returns all files of a result with their bytes.
 fn result(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let files = std::fs::read_dir(folder.join("result")).unwrap().map(|entry| entry.unwrap());
     files.map(|file| (file.file_name().into_string().unwrap(), std::fs::read(file.path()).unwrap())).collect()
@@ -80,7 +80,7 @@ fn a_worker_that_is_killed_in_the_middle_changes_no_byte() {
     let (begun, mut killed) = (Instant::now(), 0);
     while run.try_wait().unwrap().is_none() {
         let worker = std::fs::read_to_string(&children).unwrap_or_default();
-        // Not before something is done, so that it is in the middle.
+        // Wait until something is done, so that the kill comes in the middle.
         if let (Some(worker), true) = (worker.split_whitespace().next(), killed < 2 && shards(&folder) > killed) {
             Command::new("kill").args(["-KILL", worker]).status().unwrap();
             killed += 1;
@@ -157,7 +157,7 @@ fn a_model_of_another_version_is_refused_by_its_own_name_before_anything_is_writ
     assert!(!folder.exists());
 }
 
-/// A disk of some pages, where this user may have one.
+/// Mounts a disk of a few pages, if this user may.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_a_sentence_and_what_was_there_stays() {
@@ -183,7 +183,7 @@ fn a_full_disk_is_a_sentence_and_what_was_there_stays() {
     assert!(listed.contains("kept.shard") && !listed.contains("000001.shard") && !listed.contains(".part"), "{listed}");
 }
 
-/// Slurm is not asked: the script is run as a job of its array would be.
+/// Runs the script as a job of its array would be run, without Slurm.
 #[cfg(unix)]
 #[test]
 fn the_script_for_slurm_takes_every_open_shard_once() {
@@ -196,7 +196,7 @@ fn the_script_for_slurm_takes_every_open_shard_once() {
     assert!(result(&folder) == *one_machine(), "another result");
 }
 
-/// A process of the first round and one of a round that the training decided on are killed, and submitted again.
+/// A process of the first round and one of a round that the training added are killed and submitted again.
 #[cfg(unix)]
 #[test]
 fn an_adaptive_training_by_the_script_for_slurm_survives_killed_jobs() {
@@ -223,7 +223,7 @@ fn an_adaptive_training_by_the_script_for_slurm_survives_killed_jobs() {
 
 #[cfg(unix)]
 fn under_a_stand_in_for_slurm(scratch: &Scratch, folder: &Path, program: &Path) -> std::process::Output {
-    // Instead of queuing, jobs are run at once: of an array two tasks, then what depends on it.
+    // Jobs run at once instead of queuing: two tasks of an array, then the job that depends on it.
     let bin = scratch.join("bin");
     std::fs::create_dir(&bin).unwrap();
     let sbatch = "#!/bin/bash\narray=\nwhile [[ \"$1\" == --* ]]; do [[ \"$1\" == --array=* ]] && array=${1#--array=0-}; \

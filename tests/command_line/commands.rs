@@ -1,4 +1,4 @@
-//! The built program as a user meets it: JSON contract, exit codes, sentences.
+//! The built program as users see it: JSON output, exit codes, messages.
 
 use crate::common::scratch::Scratch;
 use serde_json::Value;
@@ -29,7 +29,7 @@ pub fn json(output: &Output) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// Exit code 2, nothing on standard output, one sentence on standard error that holds `words`.
+/// Asserts exit code 2, no standard output, and one sentence on standard error that contains `words`.
 pub fn assert_refused(arguments: &[&str], words: &str) {
     let output = program(arguments);
     let error = String::from_utf8_lossy(&output.stderr);
@@ -63,8 +63,8 @@ fn complementarity_is_asked_for_by_its_name_and_its_multiplier_is_written() {
         ruptured += usize::from(multiplier > 0.0);
     }
     assert!(ruptured > 50);
-    // The models of lines and circles were trained by it and serve the penalty's contacts too, that of ellipses by the
-    // penalty.
+    // The models of line and circular contacts were trained with complementarity and also serve contacts with the
+    // penalty. The model of elliptical contacts was trained with the penalty.
     let reduced = |of: &[&str]| json(&program(&[of, &["--method", "reduced"]].concat()));
     let point = ["solve", "--json", "--contact", "point", "--moes-m", "50", "--moes-l", "6"];
     let held = [&point[..], &["--cavitation", "complementarity"]].concat();
@@ -90,7 +90,7 @@ fn a_supplied_film_starves_the_contact_and_its_fraction_is_written() {
     let to = ["--supply-film", &supply, "--profiles", profiles.to_str().unwrap()];
     let starved = json(&program(&[&asked[..], &to].concat()));
     let (film, meniscus) = (starved["h_c_m"].as_f64().unwrap(), starved["X_meniscus"].as_f64().unwrap());
-    // The oil is compressed by a fifth where the film is told.
+    // The lubricant is compressed by a fifth where the film thickness is reported.
     assert!(film < 0.5 * drawn && film > 0.35 * drawn && (-1.5..-1.0).contains(&meniscus), "{film} {meniscus}");
     let text = std::fs::read_to_string(&profiles).unwrap();
     let mut lines = text.lines();
@@ -178,7 +178,7 @@ fn a_reduced_solve_says_what_served_it_and_whether_it_was_trained() {
     let full = json(&program(&["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--grid", "model"]));
     assert_eq!(full["grid"]["nx"], object["grid"]["nx"]);
     assert!((object["H_c"].as_f64().unwrap() / full["H_c"].as_f64().unwrap() - 1.0).abs() < 1e-3);
-    // Another oil is solved as well; one that it was not trained for says so.
+    // Another lubricant is solved as well, with a warning that the model was not trained for it.
     let reduced = |of: &[&str]| json(&program(&[&["solve", "--json", "--method", "reduced"], of].concat()));
     assert_eq!(reduced(&TABLE_2_1)["reduced"]["trained"], true);
     let other = reduced(&["--moes-m", "40", "--moes-l", "10", "--viscosity", "0.0015"]);
@@ -217,7 +217,7 @@ fn a_point_contact_prints_its_plane_and_its_fields() {
     assert!((report["moes"]["M"].as_f64().unwrap() / 200.0 - 1.0).abs() < 1e-9);
     assert!((-1.2..0.0).contains(&number("Y_H_min")) && number("H_min") < number("H_c"));
     assert!(number("load_residual") < 1e-12 && number("linear_iterations") > number("newton_iterations"));
-    // Side lobes as narrow as this grid's spacing across: the report must say so.
+    // The side lobes are as narrow as this grid's spacing across, which the report must state.
     assert!(report["warning"].as_str().unwrap().contains("H_min"));
     let table = std::fs::read_to_string(&profiles).unwrap();
     assert_eq!(table.lines().count(), 1 + 81 * 16);
@@ -226,7 +226,7 @@ fn a_point_contact_prints_its_plane_and_its_fields() {
     assert!(line["Y_H_min"].is_null() && line["grid"]["ny"] == 1);
 }
 
-/// On the default grid, on an own one, and in full.
+/// On the default grid, on a given grid, and by the full solver.
 #[test]
 fn a_grid_that_does_not_do_is_said_and_the_default_one_does() {
     let short = ["solve", "--json", "--moes-m", "0.25", "--moes-l", "5.86"];
@@ -248,7 +248,7 @@ fn a_grid_that_does_not_do_is_said_and_the_default_one_does() {
     }
 }
 
-/// M = 0.06 lies far outside the embedded model, whose bases hold no such contact.
+/// M = 0.06 is far outside the range of the embedded model.
 #[test]
 fn where_a_reduced_model_fails_the_full_solver_takes_over_and_says_so() {
     let answer = json(&program(&["solve", "--json", "--method", "reduced", "--moes-m", "0.06", "--moes-l", "5"]));
@@ -287,7 +287,7 @@ fn sweep_writes_a_table() {
     assert_eq!(lines.len(), 7);
     assert!(lines[0].starts_with("moes.M,moes.L,si.radius"));
     assert!(lines[3].starts_with("20") && lines[6].starts_with("40,6,"));
-    // Both Moes numbers may come from the sweep alone.
+    // Both Moes numbers may be given by the sweep alone.
     let output = program(&["sweep", "m=10:40:2", "--moes-l", "5", "--dx", "0.02"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 3);
@@ -384,7 +384,7 @@ fn shear_thinning_contacts_slide_and_show_the_shear_across_the_film() {
         "0.5",
     ];
     let line = json(&program(&[&contact[..], &["--load", "144000", "--dx", "0.01", "--film-shear", &path]].concat()));
-    // The independent solutions of the same grids.
+    // Independent solutions on the same grids.
     let traction = line["traction"].as_f64().unwrap();
     assert!((traction / 0.032052 - 1.0).abs() < 0.01, "{traction}");
     let point = json(&program(&[&contact[..], &["--contact", "point", "--load", "23"]].concat()));

@@ -1,4 +1,4 @@
-//! Elliptical contacts by the command line and in scenes.
+//! Elliptical contacts on the command line and in scenes.
 
 use crate::commands::{assert_refused, json, program};
 use ehl_explorer::scene::Scene;
@@ -14,7 +14,7 @@ fn a_radius_across_makes_an_ellipse_that_is_printed_back() {
     let object = json(&program(&[&POINT[..], &COARSE, &ellipse].concat()));
     assert_eq!((&object["contact"], &object["si"]["radius_y"]), (&"point".into(), &0.05.into()));
     let of = |group: &str, name: &str| object[group][name].as_f64().unwrap();
-    // M and L have the radius along.
+    // M and L are formed with the radius along the rolling direction.
     assert!((of("moes", "M") - 50.0).abs() < 1e-9 && of("si", "radius") == 0.01);
     let (a, b, kappa) = (of("hertz", "a_m"), of("hertz", "b_m"), of("hertz", "kappa"));
     assert!((kappa / 2.8901810398 - 1.0).abs() < 1e-9 && (b / (kappa * a) - 1.0).abs() < 1e-12);
@@ -61,7 +61,7 @@ fn what_is_no_ellipse_is_refused_in_one_sentence() {
     }
 }
 
-/// The program's model of ellipses answers; one of circles says that it knows no others.
+/// The embedded model of elliptical contacts is used; a model of circular contacts reports that it supports no others.
 #[test]
 fn a_reduced_model_does_not_pass_a_circle_off_as_an_ellipse() {
     let asked = [&POINT[..], &["--radius-y", "0.05", "--method", "reduced", "--json"]].concat();

@@ -1,4 +1,4 @@
-//! Heat by the command line.
+//! Thermal contacts on the command line.
 
 use crate::commands::{assert_refused, json, program};
 
@@ -26,7 +26,7 @@ fn a_contact_with_heat_tells_its_temperatures_and_writes_them() {
     let eyring = ["--shear", "eyring", "--shear-stress", "6e6", "--profiles", profiles.to_str().unwrap()];
     let warm = json(&program(&[&CONTACT[..], &SLIDING, &eyring].concat()));
     let heat = |name: &str| warm["heat"][name].as_f64().unwrap();
-    // An independent solver, extrapolated to vanishing spacings; its body 1 is the faster one.
+    // Values of an independent solver, extrapolated to vanishing spacings. Its body 1 is the faster one.
     for (found, wanted, within) in [
         (warm["H_c"].as_f64().unwrap(), 0.0744185, 3e-3),
         (warm["traction"].as_f64().unwrap(), 0.0327481, 1e-2),
@@ -54,7 +54,7 @@ fn glass_keeps_the_heat_and_a_limit_makes_less_of_it() {
     assert!(steel["traction"].as_f64().unwrap() < 0.025);
 }
 
-/// A glass disc and a steel ball by their elastic and thermal constants; the disc is the slower one.
+/// A glass disc and a steel ball, given by their elastic and thermal constants. The disc is slower.
 #[test]
 fn exchanged_bodies_that_slide_the_other_way_are_the_same_contact() {
     let oil = ["--radius=0.0127", "--speed=0.74", "--load=1e5", "--viscosity=0.05", "--alpha=1.8e-8", "--heat"];
@@ -77,7 +77,7 @@ fn exchanged_bodies_that_slide_the_other_way_are_the_same_contact() {
     assert!(heat["surface_1_rise_k"].as_f64() > heat["surface_2_rise_k"].as_f64(), "{heat}");
 }
 
-/// A small training with heat around the contact.
+/// Small thermal training around the contact.
 const TRAINING: &str = "Scene(
     version: 1,
     title: \"heat\",
@@ -120,11 +120,11 @@ fn a_model_that_was_trained_with_heat_answers_and_says_what_it_does_not_know() {
     }
     let [a, b] = [&own, &full].map(|object| object["heat"]["mid_film_rise_k"].as_f64().unwrap());
     assert!((a / b - 1.0).abs() < 1e-2 && a > 1.0, "{a} {b}");
-    // Another oil is solved, and told; a model without heat refuses.
+    // Another lubricant is solved with a warning; an isothermal model refuses.
     let other = solve(&[&reduced[..], &["--inlet-temperature", "353.15"]].concat());
     assert!(other["warning"].as_str().unwrap().contains("other thermal constants"));
     let cold = json(&program(&[&CONTACT[..], &["--lubricant", "mineral-oil", "--json"], &reduced].concat()));
-    assert!(cold["warning"].as_str().unwrap().contains("trained with heat"));
+    assert!(cold["warning"].as_str().unwrap().contains("trained for thermal contacts"));
     let info = String::from_utf8(program(&["info", &rom]).stdout).unwrap();
     assert!(info.contains("varies: M 18…26, L 9…11, SRR 0…0.5\n") && info.contains("fixes: R 10 mm, "), "{info}");
 }
@@ -163,7 +163,7 @@ fn the_programs_model_of_lines_knows_warm_inlets_other_bodies_and_other_limits()
         let [a, b] = [&own, &full].map(|object| object["heat"]["mid_film_rise_k"].as_f64().unwrap());
         assert!((a / b - 1.0).abs() < 1e-2 && a > 1.0, "{a} {b}");
     }
-    // Exchanged bodies that slide the other way are the same contact.
+    // The same contact with exchanged bodies and the opposite sliding.
     let one = solve(&["--body1", "silicon-nitride"], "reduced");
     let mut words = [&CONTACT[..], &oil, &["--body2", "silicon-nitride", "--method", "reduced"]].concat();
     words.iter_mut().filter(|word| **word == "0.3").for_each(|word| *word = "-0.3");

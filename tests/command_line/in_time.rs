@@ -1,10 +1,10 @@
-//! Reduced models in time by the command line: trained, shown, used by scenes, and told apart from stationary ones.
+//! Transient reduced models on the command line: trained, shown, used by scenes, and distinguished from steady ones.
 
 use crate::commands::{assert_refused, json, program};
 use crate::common::scratch::Scratch;
 use std::path::Path;
 
-/// A load that breathes, on a coarse grid.
+/// Oscillating load on a coarse grid.
 fn scene(study: &str) -> String {
     format!(
         "Scene(version: 1, title: \"A load that breathes\", at: Si(radius: 0.002, speed: 5.0, load: 2e5, modulus: 2.31e11,
@@ -26,9 +26,9 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
     let trained = String::from_utf8(output.stdout).unwrap();
     for words in [
         "A load that breathes",
-        "line contacts in time, frame Fixed",
+        "transient line contacts, frame Fixed",
         "load 0.9",
-        "speed at rest",
+        "speed constant",
         "50 steps",
         "one course of inputs",
     ] {
@@ -39,7 +39,7 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
     assert_eq!(String::from_utf8(shown.stdout).unwrap(), trained);
     assert!(std::fs::metadata(&arrays).unwrap().len() > 10_000);
 
-    // The same training gives the same file, and a scene that names it marches as one that trains it.
+    // The same training gives the same file. A scene with this file gives the same march as one that trains the model.
     let again = folder.join("again.rom");
     program(&["train", word(&trains), "--out", word(&again)]);
     assert!(std::fs::read(&again).unwrap() == std::fs::read(&model).unwrap());
@@ -54,18 +54,18 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
     for name in ["fixed.rnsa.rows", "fixed.rnsa.modes"] {
         assert_eq!(of(&own, name), of(&saved, name), "{name}");
     }
-    // Modes are kept to some digits.
+    // Modes are stored with a limited number of digits.
     for name in ["fixed.rnsa.H_c.difference_l2", "fixed.rnsa.H_min.difference"] {
         assert!((of(&own, name) - of(&saved, name)).abs() < 1e-7, "{name}");
     }
     assert_eq!((of(&own, "fixed.rnsa.trained"), of(&saved, "fixed.rnsa.trained")), (1.0, 1.0));
     assert!(of(&saved, "fixed.rnsa.H_c.difference_l2") < 1e-4);
 
-    // Trained by another scene on the spot.
+    // Trained by another scene in the same run.
     let trained = folder.write("trained.ron", &scene("reduced: (model: Trained(\"trains.ron\"))"));
     assert_eq!(of(&values(&trained), "fixed.rnsa.H_c.difference_l2"), of(&own, "fixed.rnsa.H_c.difference_l2"));
 
-    // What it was not trained for is said in words.
+    // Inputs outside the trained range cause a warning.
     let fast = scene("reduced: (model: File(\"breathes.rom\"))").replace("period: 0.5", "period: 0.2");
     let fast = json(&program(&["run", word(&folder.write("fast.ron", &fast)), "--json"]));
     let warning = fast["warning"].as_str().unwrap();
@@ -78,7 +78,7 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
     let heavy = json(&program(&["run", word(&folder.write("heavy.ron", &heavy)), "--json"]));
     assert!(heavy["warning"].as_str().unwrap().contains("M = "), "{heavy}");
 
-    // Where one of the other kind is wanted both are named.
+    // A model of the wrong kind is refused with both kinds named.
     let solve = ["solve", "--moes-m", "40", "--moes-l", "10", "--method", "reduced", "--rom", word(&model)];
     assert_refused(&solve, "is a transient reduced model");
     let stationary = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/line.rom");
@@ -88,7 +88,7 @@ fn a_model_in_time_is_trained_saved_shown_and_used_by_a_scene() {
     assert_refused(&["run", word(&folder.write("moving.ron", &moving))], "frames: [Fixed]");
     let unit = folder.join("a.fmu");
     let fmu = ["export", "fmu", word(&model), "--approach", "--out", word(&unit)];
-    assert_refused(&[&fmu[..], &["--library", word(&model)]].concat(), "driven by its load");
+    assert_refused(&[&fmu[..], &["--library", word(&model)]].concat(), "the input of a transient model is its load");
     assert_refused(&["train", word(&uses), "--out", word(&again)], "describes no training");
 }
 

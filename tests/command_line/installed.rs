@@ -1,10 +1,10 @@
-//! The program where it is installed, far from its source.
+//! The installed program, outside its source tree.
 
 use crate::common::scratch::Scratch;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// `export fmu` of one of the program's own models by a program in a folder of its own, in an empty folder.
+/// Runs `export fmu` for an embedded model by a copy of the program in a separate folder, in an empty folder.
 fn export(program: &Path, folder: &Path, model: &str) -> Output {
     let export = ["export", "fmu", model, "--out", "contact.fmu"];
     Command::new(program).args(export).current_dir(folder).env_clear().output().unwrap()

@@ -1,4 +1,4 @@
-//! One contact by every command and by studies: the same numbers, the same trust, the same warnings.
+//! One contact through every command and study: the same numbers, trust and warnings.
 
 use crate::commands::{json, program};
 use crate::common::scratch::Scratch;
@@ -7,7 +7,7 @@ use ehl_explorer::engine::{Workbench, run_scene};
 use ehl_explorer::scene::Scene;
 use serde_json::Value;
 
-/// What an interface says of a contact: named numbers, NaN if it has none, and the warnings as one sentence.
+/// Answer of an interface for a contact: named numbers, NaN if it has none, and the warnings as one sentence.
 type Said = (Vec<f64>, String);
 
 const NAMES: [&str; 6] = ["H_c", "H_min", "traction", "reduced.trained", "reduced.h_c_error_bound", "hertz.p_h_pa"];
@@ -20,12 +20,12 @@ fn of_object(object: &Value) -> Said {
     (NAMES.iter().map(number).collect(), object["warning"].as_str().unwrap_or_default().to_owned())
 }
 
-/// The first row of a table; `tag` stands before the names of results.
+/// Returns the first row of a table; `tag` precedes the names of results.
 fn of_table(csv: &str, tag: &str) -> Said {
     let mut lines = csv.lines();
     let titles: Vec<&str> = lines.next().unwrap().split(',').collect();
     let row = lines.next().unwrap();
-    // The warning is the last cell, and may hold commas.
+    // The warning is the last cell and may contain commas.
     let numbers: Vec<&str> = row.splitn(titles.len(), ',').collect();
     let (warning, numbers) = numbers.split_last().unwrap();
     let number = |name: &&str| {
@@ -107,7 +107,7 @@ fn six_contacts_are_answered_alike_by_commands_and_studies() {
 
 #[test]
 fn a_contact_that_makes_no_sense_refuses_its_own_row_of_a_study() {
-    // At M = 1000 the pressure is beyond the end of Doolittle's law.
+    // At M = 1000 the pressure exceeds the limit of Doolittle's law.
     let study = "Sweep(over: [(vary: M, values: List([1000.0, 20.0]))], methods: [Reduced(model: Embedded)])";
     let lubricant = "viscosity: Doolittle(b: 4.2, r_0: 0.658, volume: (k_0: 1007837000.0, k_0_prime: 11.29)), \
                      density: Tait(k_0: 1007837000.0, k_0_prime: 11.29)";
@@ -126,12 +126,12 @@ fn a_contact_that_makes_no_sense_refuses_its_own_row_of_a_study() {
     assert!(!outcome.found.converged && outcome.found.value("refused", None) == Some(1.0));
     let said = outcome.found.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
     assert!(said.contains("1 of 2 contacts are refused, the first of them: ") && said.contains("Doolittle"), "{said}");
-    // None of the contacts makes sense: the study is refused.
+    // All contacts are invalid: the study is refused.
     let refused = run(&scene(&study.replace(", 20.0", ""))).unwrap_err().to_string();
     assert!(refused.contains("Doolittle"), "{refused}");
 }
 
-/// Named columns of a table with one method, by the first row.
+/// Returns named columns of a table with one method, from the first row.
 fn row<'a>(csv: &'a str, tag: &str) -> impl Fn(&str) -> &'a str {
     let mut lines = csv.lines();
     let titles: Vec<&str> = lines.next().unwrap().split(',').collect();

@@ -1,10 +1,10 @@
-//! Tables of load cases: everything that `solve` takes by flags a table takes in columns.
+//! Tables of load cases: columns accept everything that `solve` accepts as flags.
 
 use crate::commands::{json, program};
 use crate::common::scratch::Scratch;
 use serde_json::Value;
 
-/// A table with one line, as `cases` prints its result; the flags of `solve` that say the same.
+/// Runs a table with one line through `cases`, and `solve` with equal flags.
 fn both(titles: &str, cells: &str) -> [Value; 2] {
     let folder = Scratch::new("load-cases");
     let path = folder.join("cases.csv");

@@ -1,4 +1,4 @@
-//! The program as it is called: its commands, and what the papers promise of it.
+//! The program on the command line: its commands, and the statements of README and manual.
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 

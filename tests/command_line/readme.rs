@@ -1,4 +1,4 @@
-//! README and manual keep their promises: commands run or at least parse, files and links exist, lists are complete.
+//! README and manual are correct: commands run or at least parse, files and links exist, lists are complete.
 
 use crate::common::scene_files as repository;
 use crate::common::scratch::Scratch;
@@ -14,7 +14,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// What is read on the repository's page: README, manual, and what else lies beside the README.
+/// Texts of the repository's page: README, manual, and other documents next to the README.
 fn papers() -> Vec<(PathBuf, String)> {
     let mut papers = Vec::new();
     for folder in [root().to_owned(), root().join("assets/manual")] {
@@ -35,14 +35,14 @@ fn readme() -> String {
     std::fs::read_to_string(root().join("README.md")).unwrap()
 }
 
-/// The command lines of all papers, each once, in their order.
+/// Returns the command lines of all documents in their order, without repetitions.
 fn commands() -> Vec<Vec<String>> {
     let mut seen = BTreeSet::new();
     let all = papers().into_iter().flat_map(|(_, text)| commands_of(&text));
     all.filter(|words| seen.insert(words.clone())).collect()
 }
 
-/// The command lines in fenced `sh` blocks, comments dropped and continued lines joined, and those within the text.
+/// Returns command lines in fenced `sh` blocks, without comments and with continued lines joined, and those in text.
 fn commands_of(text: &str) -> Vec<Vec<String>> {
     let mut commands = Vec::new();
     let (mut inside, mut pending) = (false, String::new());
@@ -72,7 +72,7 @@ fn commands_of(text: &str) -> Vec<Vec<String>> {
     commands
 }
 
-/// The arguments of this program in each command line that calls it; the others must be `cargo`'s.
+/// Returns the arguments of every command line of this program. All others must be `cargo`'s.
 fn own_commands() -> Vec<Vec<String>> {
     let prefixes: [&[&str]; 2] = [&["ehl-explorer"], &["cargo", "run", "--release", "--"]];
     let own = |words: &Vec<String>| {
@@ -82,7 +82,7 @@ fn own_commands() -> Vec<Vec<String>> {
             Some(prefix) => Some(words[prefix.len()..].to_vec()),
             None => {
                 let known = matches!(words[0].as_str(), "cargo" | "git" | "cd" | "pip" | "python3" | "rustup");
-                // Scripts of the repository; they take long.
+                // Scripts of the repository take long.
                 let known = known || root().join(&words[0]).is_file();
                 assert!(known, "an unknown program: {words:?}");
                 None
@@ -111,7 +111,7 @@ fn scene_files(arguments: &[String]) -> Vec<(PathBuf, Scene)> {
     arguments.iter().filter(is_scene).map(read).collect()
 }
 
-/// Asking for help after the other arguments is refused when one of them is unknown, and runs nothing.
+/// A request for help after other arguments is refused if one of them is unknown, and runs nothing.
 fn assert_parses(arguments: &[String]) {
     assert_done(arguments, &program(&[arguments, &["--help".to_owned()]].concat()));
 }
@@ -120,7 +120,7 @@ fn is_quick(scene: &Scene) -> bool {
     matches!(scene.study, Study::Point(_) | Study::GridStudy(_) | Study::FormulaComparison(_))
 }
 
-/// Whether a scene trains a model, at rest or in time.
+/// Returns true if a scene trains a steady or transient model.
 fn trains(scene: &Scene) -> bool {
     matches!(&scene.study, Study::Training(_) | Study::Transient(_))
 }
@@ -129,7 +129,7 @@ fn trains(scene: &Scene) -> bool {
 fn every_command_runs_or_at_least_parses() {
     let folder = Scratch::new("readme");
     let mut seen = BTreeSet::new();
-    // Models that an earlier line has trained are not there: nothing is trained here.
+    // Models trained by previous lines are missing, since nothing is trained here.
     let mut trained: Vec<String> = Vec::new();
     for mut arguments in own_commands() {
         let command = arguments.first().cloned().unwrap_or_default();
@@ -144,9 +144,9 @@ fn every_command_runs_or_at_least_parses() {
                 false
             }
             "campaign" => arguments[1] == "plan",
-            // A unit needs a library that is built apart.
+            // A unit needs a library that is built separately.
             "bench" | "export" => false,
-            // Opening the explorer needs a display: that the scene can be read is all that is seen here.
+            // The window needs a display. The test only checks that the scene can be read.
             _ => {
                 assert_eq!(arguments.len(), scenes.len(), "{arguments:?}");
                 continue;
@@ -189,7 +189,7 @@ fn tests_that_are_named_exist() {
         let path = root().join("tests").join(&words[k + 1]);
         let files = std::fs::read_dir(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         if let Some(filter) = words.get(k + 2).filter(|word| !word.starts_with('-')) {
-            // A filter is a part of `file::name_of_the_test`.
+            // A filter is part of `file::name_of_the_test`.
             let (file, name) = filter.split_once("::").unwrap_or(("", filter));
             let mut texts = files.map(|entry| entry.unwrap().path()).filter(|path| {
                 let stem = path.file_stem().unwrap().to_string_lossy();
@@ -272,7 +272,7 @@ fn every_direct_dependency_is_explained() {
     assert_eq!(rows, dependencies, "README (left) and Cargo.toml (right) name other dependencies");
 }
 
-/// With other versions the program and its bindings could not share what is compiled.
+/// With other versions the program and its bindings could not share compiled crates.
 #[test]
 fn bindings_are_locked_to_what_the_program_is() {
     let versions = |path: &str| -> BTreeSet<(String, String)> {

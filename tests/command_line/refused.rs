@@ -1,4 +1,4 @@
-//! What is refused, each in one sentence.
+//! Refused requests, each with one sentence.
 
 use crate::commands::{TABLE_2_1, assert_refused, program};
 use crate::common::scratch::Scratch;

@@ -1,4 +1,4 @@
-//! Scenes that are run and trained.
+//! Scenes on the command line: run and trained.
 
 use crate::commands::{assert_refused, json, program};
 use crate::common::cases::long;
@@ -35,7 +35,7 @@ fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
     assert_eq!(String::from_utf8(output.stdout).unwrap().lines().count(), 2);
 }
 
-/// A training that takes about a second on an idle core, by the automatic algorithm.
+/// A training of about a second on an idle core, by the automatic algorithm.
 const SMALL_TRAINING: &str = "Scene(version: 1, title: \"small\", study: Training(
     title: \"small\",
     range: (axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear),
@@ -83,7 +83,7 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert!(kept.exists() && !killed.exists(), "killed in the middle");
-    // Another training never overwrites what is kept.
+    // Another training never overwrites a stored state.
     let other = folder.join("other.ron");
     std::fs::write(&other, SMALL_TRAINING.replace("seed: 1", "seed: 2")).unwrap();
     let before = std::fs::read(&kept).unwrap();
@@ -93,7 +93,7 @@ fn a_training_that_is_killed_goes_on_and_gives_the_same_file() {
     let output = command(&killed).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert!(said.contains("going on with") && said.contains("full solutions"), "{said}");
+    assert!(said.contains("continuing") && said.contains("full solutions"), "{said}");
     assert!(std::fs::read(&killed).unwrap() == whole, "the files differ");
     assert!(!kept.exists(), "nothing is left beside a finished model");
 }
@@ -116,7 +116,7 @@ fn a_scene_that_trains_leaves_the_model_that_train_writes() {
     }
 }
 
-/// Matrix products once reserved twice the last-level cache for every thread, which is a gigabyte on some servers.
+/// The buffers of matrix products must not grow with the cache and the number of threads, up to a gigabyte on servers.
 #[cfg(target_os = "linux")]
 #[test]
 fn scenes_run_in_two_gigabytes_of_address_space() {

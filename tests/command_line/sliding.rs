@@ -1,4 +1,4 @@
-//! Sliding oils that thin by Eyring's law, by the command line.
+//! Sliding contacts with Eyring lubricants on the command line.
 
 use crate::commands::{json, program};
 

@@ -1,4 +1,4 @@
-//! What people take away from the built program: a table of load cases, a sheet of one contact.
+//! Exported documents of the built program: a table of load cases, a sheet of one contact.
 
 use crate::common::scratch::Scratch;
 use serde_json::Value;
@@ -18,7 +18,7 @@ fn written(folder: &Scratch, name: &str, text: &str) -> String {
     folder.write(name, text).to_str().unwrap().to_owned()
 }
 
-/// 200 contacts of rollers and a ball; lines 51, 101, 151 and 201 make no sense.
+/// 200 contacts of rollers and a ball; lines 51, 101, 151 and 201 are invalid.
 fn two_hundred() -> String {
     let mut table = String::from("name,contact,R [mm],u,w,modulus [GPa],viscosity,alpha [1/GPa],srr\n");
     for k in 0..200 {
@@ -44,9 +44,12 @@ fn good_load_cases_are_those_of_solve_and_bad_ones_are_named_with_line_and_reaso
     let output = program(&["cases", &table, "--method", "full,reduced", "--csv", out.to_str().unwrap(), "--json"]);
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    for (line, reason) in
-        [(51, "load is -"), (101, "“mm” is no unit of a viscosity"), (151, "give radius too"), (201, "“cone” is none")]
-    {
+    for (line, reason) in [
+        (51, "load is -"),
+        (101, "“mm” is no unit of a viscosity"),
+        (151, "give radius too"),
+        (201, "“cone” is not valid"),
+    ] {
         let named = said.lines().find(|said| said.contains(&format!("line {line} "))).unwrap_or_default();
         assert!(named.contains(reason), "{said}");
     }
@@ -65,7 +68,7 @@ fn good_load_cases_are_those_of_solve_and_bad_ones_are_named_with_line_and_reaso
             let mut wanted: Value = serde_json::from_slice(&single.stdout).unwrap();
             let is_it = |object: &&Value| object["line"] == k + 2 && object["method"] == wanted["method"];
             let all: Vec<&Value> = objects.iter().filter(is_it).collect();
-            // Where the full solver took over for the model, its result is the second one of that name.
+            // If the full solver replaced the model, its result is the second one of that name.
             let mut got = (*if method == "full" { all.first() } else { all.last() }.unwrap()).clone();
             for object in [&mut got, &mut wanted] {
                 let object = object.as_object_mut().unwrap();
@@ -109,7 +112,7 @@ fn a_sheet_says_what_solve_says_in_three_formats() {
     };
     let (csv, result) = sheet("sheet.csv");
     for (name, value) in [
-        ("Central film h_c", &result["h_c_m"]),
+        ("Central film thickness h_c", &result["h_c_m"]),
         ("Hertzian pressure p_H", &result["hertz"]["p_h_pa"]),
         ("Friction coefficient µ", &result["traction"]),
         ("Entrainment speed u_m", &result["si"]["speed"]),
@@ -126,7 +129,7 @@ fn a_sheet_says_what_solve_says_in_three_formats() {
         assert!(figure.starts_with("<svg ") && figure.trim_end().ends_with("</svg>"), "{name}");
     }
     assert!(markdown.contains("| Regime | elastic, piezoviscous: "));
-    assert!(markdown.contains("| Central film h_c | ") && markdown.contains("## Published film formulas"));
+    assert!(markdown.contains("| Central film thickness h_c | ") && markdown.contains("## Published film formulas"));
     let (page, _) = sheet("sheet.html");
     assert!(page.contains("<svg ") && page.contains("Dowson–Toyoda") && page.trim_end().ends_with("</html>"));
     assert!(page.contains(&format!("ehl-explorer {}", env!("CARGO_PKG_VERSION"))));

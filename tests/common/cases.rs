@@ -1,11 +1,11 @@
-//! How many cases a test takes that draws them at random.
+//! Number of random cases of a test.
 
-/// Whether the long run was asked for: where the environment has `EHL_LONG`.
+/// Returns true if the long run is requested by `EHL_LONG` in the environment.
 pub fn long() -> bool {
     std::env::var_os("EHL_LONG").is_some()
 }
 
-/// As many cases as the ordinary run takes, or as the long one does.
+/// Returns the number of cases of the ordinary or the long run.
 pub fn cases(ordinary: usize, many: usize) -> usize {
     if long() { many } else { ordinary }
 }

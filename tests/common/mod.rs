@@ -1,4 +1,4 @@
-//! What the tests of several parts share.
+//! Shared helpers of the tests.
 #![allow(dead_code, reason = "every test binary needs its own part of these")]
 
 pub mod cases;

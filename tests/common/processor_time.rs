@@ -1,9 +1,9 @@
-//! Processor time of a thread: what its work costs, however busy the machine is.
+//! Processor time of a thread: the cost of its work, independent of other load on the machine.
 
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
-/// Processor time this thread has had so far, to about a millisecond; where the system does not tell, time on the wall.
+/// Returns the processor time of this thread, to about a millisecond; wall time if the system does not report it.
 pub fn of_this_thread() -> Duration {
     let told = std::fs::read_to_string("/proc/thread-self/schedstat");
     match told.ok().and_then(|text| text.split_whitespace().next()?.parse().ok()) {
@@ -15,12 +15,12 @@ pub fn of_this_thread() -> Duration {
     }
 }
 
-/// Does work on one thread, so that this thread's processor time is that of all of it.
+/// Runs work on one thread, so that this thread's processor time is that of all of it.
 pub fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(work)
 }
 
-/// A piece of work of the kind that drawing a frame is: numbers are written, kept by name, found again and summed up.
+/// Does work similar to drawing a frame: writes numbers, stores them by name, finds them and adds them up.
 pub fn fixed_work() -> usize {
     let names: Vec<String> = (0..1000_u32).map(|k| format!("{:.4}", f64::from(k).sqrt())).collect();
     let kept: HashMap<&str, usize> = names.iter().enumerate().map(|(k, name)| (name.as_str(), k)).collect();

@@ -1,14 +1,14 @@
-//! Folders that a test may fill.
+//! Temporary folders of tests.
 
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// An empty folder, removed when it goes out of scope.
+/// Empty folder, deleted when it goes out of scope.
 pub struct Scratch(PathBuf);
 
 impl Scratch {
-    /// A folder whose name begins with `name` and that no other test has.
+    /// Creates a unique folder whose name begins with `name`.
     pub fn new(name: &str) -> Self {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -17,7 +17,7 @@ impl Scratch {
         Self(path)
     }
 
-    /// Writes a file into it.
+    /// Writes a file into the folder.
     pub fn write(&self, name: &str, text: &str) -> PathBuf {
         let path = self.0.join(name);
         std::fs::write(&path, text).unwrap();
@@ -41,7 +41,7 @@ impl AsRef<Path> for Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // A folder that stays behind in the temporary directory does no harm.
+        // A folder that remains in the temporary directory is harmless.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }

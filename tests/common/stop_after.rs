@@ -1,4 +1,4 @@
-//! How much work a computation still does once it is no longer wanted.
+//! Work that a computation still does after a stop request.
 
 use super::processor_time::{of_this_thread, on_one_thread};
 use ehl_explorer::scene::StudyObserver;
@@ -8,11 +8,11 @@ use std::sync::Mutex;
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
-/// What the wish to stop may still cost: a frame or two of a person's attention.
+/// Permitted processor time after a stop request: one or two frames.
 pub const PROMISE: Duration = Duration::from_millis(100);
 
-/// Wishes to stop some processor time after a stage has begun. It looks at one thread only: waiting for another costs
-/// nothing and ends with the next question.
+/// Requests a stop some processor time after a stage has begun. Only one thread is observed: waiting for another one
+/// takes no processor time and ends with the next check.
 pub struct StopAfter {
     stage: &'static str,
     after: Duration,
@@ -48,8 +48,8 @@ impl TrainingObserver for StopAfter {}
 
 impl StudyObserver for StopAfter {}
 
-/// Asserts that work on one thread ends within the promise, in processor time, of wishes at several moments after a
-/// stage has begun (any stage, where it has no name). The work says whether it was cancelled.
+/// Asserts that work on one thread ends within the permitted processor time after stop requests at several moments of a
+/// stage (of any stage, if `stage` is empty). `work` returns whether it was cancelled.
 pub fn assert_stops(name: &str, stage: &'static str, moments: &[u64], mut work: impl FnMut(&StopAfter) -> bool + Send) {
     for &after in moments {
         let wish = Duration::from_millis(after);

@@ -1,4 +1,4 @@
-//! Scenes, models and unfinished trainings that are damaged, with checksums that fit.
+//! Damaged scenes, models and unfinished trainings, with correct checksums.
 
 use crate::common::cases::cases;
 use crate::common::scene_files;
@@ -17,10 +17,10 @@ use ehl_explorer::solver::training::{
 use fastrand::Rng;
 use std::sync::Arc;
 
-/// Most bytes that reading a damaged file may take.
+/// Maximum memory that reading a damaged file may take, in bytes.
 const MOST_BYTES: usize = 200_000_000;
 
-/// A sentence that a refusal can be told by: something, on one line, without a panic's words.
+/// Asserts that a refusal is a sentence: not empty, on one line, and without the words of a panic.
 fn is_sentence(text: &str) -> bool {
     !text.is_empty() && !text.contains('\n') && !text.contains("panicked")
 }
@@ -56,7 +56,7 @@ fn damaged_scenes_are_refused_in_a_sentence_or_mean_what_they_say() {
     println!("{read} of the damaged scenes are scenes");
 }
 
-/// A model file that is damaged anywhere, or in the text of its directory.
+/// Returns a model file that is damaged anywhere, or in the text of its directory.
 fn spoiled_model(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
     if rng.bool() { spoil::payload(rng, whole) } else { spoil::directory(rng, whole) }
 }
@@ -86,7 +86,7 @@ fn damaged_models_are_refused_in_a_sentence_or_solve_their_own_snapshots() {
     }
 }
 
-/// A model in time that was trained in a moment.
+/// Returns a transient model that is trained quickly.
 fn model_in_time(cavitation: Cavitation) -> Vec<u8> {
     let grid = GridSpec::Uniform { dx: 0.03, domain: (-3.0, 1.8) };
     let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 0.5 });
@@ -121,7 +121,7 @@ fn damaged_models_in_time_are_refused_in_a_sentence_or_rest_where_their_training
     }
 }
 
-/// A training of which one contact is solved and one is to be.
+/// Returns a training with one solved contact and one to be solved.
 fn training() -> TrainingState {
     let axes = [(Quantity::M, (10.0, 20.0)), (Quantity::L, (2.0, 3.0)), (Quantity::Alpha, (1e-8, 2e-8))];
     let range = ParameterSpace::of(axes.map(|(quantity, ends)| Axis::new(quantity, ends)))

@@ -1,4 +1,4 @@
-//! A window that is killed: what was changed is there again.
+//! A killed window: its changes are restored.
 
 use crate::alone;
 use crate::common::cases::cases;
@@ -11,9 +11,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// The folder of the window that is to be killed.
+/// Environment variable with the folder of the window to be killed.
 const FOLDER: &str = "EHL_KILLED_FOLDER";
-/// From the last change to the end.
+/// Time from the last change to the end.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 fn window(folder: &Path) -> Harness<'static, Explorer> {
@@ -21,12 +21,12 @@ fn window(folder: &Path) -> Harness<'static, Explorer> {
     Harness::builder().with_size([1280.0, 800.0]).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
 }
 
-/// M as the `count`-th change sets it.
+/// Returns the value of M after the `count`-th change.
 fn changed(count: usize) -> f64 {
     20.0 + count as f64
 }
 
-/// Not a test of its own: the window of the test below, which draws no frame after its change.
+/// Not a test by itself: the window of the test below, which draws no frame after its change.
 #[test]
 fn a_window_to_be_killed() {
     let Some(folder) = std::env::var_os(FOLDER).map(PathBuf::from) else { return };
@@ -57,7 +57,7 @@ fn ten_seconds_after_a_change_a_kill_loses_nothing() {
             std::thread::sleep(Duration::from_millis(20));
         }
         std::thread::sleep(PATIENCE);
-        // On Unix this is SIGKILL: nothing of the program runs any more.
+        // On Unix this is SIGKILL: the program stops immediately.
         child.kill().unwrap();
         child.wait().unwrap();
         std::fs::remove_file(folder.join("done")).unwrap();

@@ -1,7 +1,7 @@
-//! Damaged files and senseless gestures: nothing panics, and nothing takes more memory than it should.
+//! Damaged files and random gestures: nothing panics, and memory stays within its limits.
 //!
-//! Every test draws its cases from a seed of its own. Ten thousand steps of the window and twenty thousand files of each
-//! kind are made where the environment has `EHL_LONG`; the ordinary run takes its share of them.
+//! Every test draws its cases from a separate seed. With `EHL_LONG` in the environment there are ten thousand steps of
+//! the window and twenty thousand files of each kind; the ordinary run takes a share of them.
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 #![allow(unsafe_code, reason = "an allocator that counts")]
@@ -23,7 +23,7 @@ struct Counting;
 static NOW: AtomicUsize = AtomicUsize::new(0);
 static MOST: AtomicUsize = AtomicUsize::new(0);
 
-// SAFETY: every call is handed on to the system allocator unchanged; only bytes are counted.
+// SAFETY: every call is passed to the system allocator unchanged; only bytes are counted.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let now = NOW.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
@@ -42,13 +42,13 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// One test at a time: bytes are counted for the whole program.
+/// Runs one test at a time, since bytes are counted for the whole program.
 fn alone() -> MutexGuard<'static, ()> {
     static ONE: Mutex<()> = Mutex::new(());
     ONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Most bytes that some work had in use beyond those before it.
+/// Returns the maximum additional memory of some work, in bytes.
 fn most_bytes<T>(work: impl FnOnce() -> T) -> (usize, T) {
     let before = NOW.load(Ordering::Relaxed);
     MOST.store(before, Ordering::Relaxed);

@@ -1,22 +1,22 @@
-//! Ways to damage a file.
+//! Methods of damaging a file.
 
 use fastrand::Rng;
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Bytes before the hash, and before the payload, of a checked file.
+/// Bytes before the hash, and before the payload, of a file with a checksum.
 const BEFORE_HASH: usize = 20;
 const HEADER: usize = 28;
 
-/// Numbers that somebody might have forgotten.
+/// Extreme numbers.
 const NUMBERS: [&str; 12] =
     ["0", "-1", "1e308", "-1e308", "1e-300", "NaN", "inf", "-inf", "18446744073709551615", "9e99", "true", "\"x\""];
 
-/// One of some things.
+/// Returns a random element.
 pub fn one<'a, T>(rng: &mut Rng, of: &'a [T]) -> &'a T {
     &of[rng.usize(..of.len())]
 }
 
-/// A text with one to four places changed.
+/// Returns a text with one to four changed places.
 pub fn text(rng: &mut Rng, whole: &str) -> String {
     let mut bytes = whole.as_bytes().to_vec();
     for _ in 0..rng.usize(1..=4) {
@@ -51,11 +51,11 @@ pub fn text(rng: &mut Rng, whole: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// A checked file with one to three places of its payload changed, and length and hash made to fit again.
+/// Returns a file with a checksum with one to three changed places of its payload, and adapted length and hash.
 pub fn payload(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
     let mut bytes = whole.to_vec();
     for _ in 0..rng.usize(1..=3) {
-        // What says how much of what there is stands at the beginning, and most of the rest are numbers.
+        // Counts are at the beginning, and most of the rest are numbers.
         let end = if rng.bool() { bytes.len().min(HEADER + 600) } else { bytes.len() };
         let at = rng.usize(HEADER..end.max(HEADER + 1)).min(bytes.len() - 1);
         match rng.u8(..6) {
@@ -67,7 +67,7 @@ pub fn payload(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
                 let to = (at + 8).min(bytes.len());
                 bytes[at..to].copy_from_slice(&value[..to - at]);
             }
-            // The largest number that a length can be.
+            // The largest possible length.
             3 => _ = bytes.splice(at..at + 1, [0xff; 9].into_iter().chain([1])),
             4 => bytes.truncate(at.max(HEADER + 1)),
             _ => _ = bytes.drain(at..(at + rng.usize(1..40)).min(bytes.len())),
@@ -80,8 +80,8 @@ pub fn payload(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// A model file with one to four places of its directory changed, and its length, that of the file and the hash made to
-/// fit again.
+/// Returns a model file with one to four changed places of its directory, with its length, that of the file and hash
+/// adapted.
 pub fn directory(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
     let (header, rest) = whole.split_at(HEADER);
     let (length, rest) = rest.split_first_chunk().unwrap();

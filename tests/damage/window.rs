@@ -1,4 +1,4 @@
-//! The window with a damaged session, and under a hand that knows nothing.
+//! The window with a damaged session, and under random gestures.
 
 use crate::common::cases::cases;
 use crate::common::scratch::Scratch;
@@ -13,13 +13,13 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 const SIZE: Vec2 = vec2(1280.0, 800.0);
-/// Memory \[MB\] that the window may hold, however many steps it has seen: at rest, and while a long study goes on.
+/// Maximum memory of the window \[MB\] after any number of steps: idle, and during a long study.
 const HELD: [f64; 2] = [700.0, 1500.0];
-/// Gestures after which what is shown is held against what is asked.
+/// Number of gestures between comparisons of picture and request.
 const BURST: usize = 5;
-/// How long the last solves may take.
+/// Maximum duration of the last solves.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// What a hand can be laid on.
+/// Roles of controls.
 const ROLES: [Role; 9] = [
     Role::Button,
     Role::Slider,
@@ -53,7 +53,7 @@ fn explorer() -> Explorer {
 }
 
 fn window(explorer: Explorer) -> Harness<'static, Explorer> {
-    // Damaged text may have characters that no font has; the program draws boxes for them.
+    // Damaged text may have characters that no font contains; the program draws boxes for them.
     Harness::builder()
         .with_size(SIZE)
         .allow_missing_glyphs()
@@ -87,12 +87,12 @@ fn a_damaged_session_starts_and_is_kept() {
     println!("{kept} damaged sessions were kept");
 }
 
-/// What is not laid a hand on: what ends the program, and what keeps all cores for minutes.
+/// Controls that are not used: those that end the program, and those that occupy all cores for minutes.
 fn is_left_alone(name: &str) -> bool {
     ["Train", "Resume", "Quit", "Close"].iter().any(|word| name.contains(word))
 }
 
-/// One senseless gesture.
+/// Makes one random gesture.
 fn gesture(rng: &mut Rng, window: &mut Harness<'static, Explorer>) {
     let place = |rng: &mut Rng| pos2(rng.f32() * SIZE.x, rng.f32() * SIZE.y);
     match rng.u8(..20) {
@@ -148,12 +148,12 @@ fn gesture(rng: &mut Rng, window: &mut Harness<'static, Explorer>) {
     }
 }
 
-/// Memory \[MB\] that the program holds. What the system's allocator keeps for later is not the program's.
+/// Returns the memory of the program \[MB\], without memory that the allocator keeps for later.
 fn held_megabytes() -> f64 {
     NOW.load(Ordering::Relaxed) as f64 * 1e-6
 }
 
-/// Lets what is being solved end: what it works on is no leak.
+/// Waits for the end of solves, whose memory is no leak.
 fn rest(window: &mut Harness<'static, Explorer>) {
     let begin = Instant::now();
     while window.state().busy() && begin.elapsed() < PATIENCE {
@@ -166,11 +166,11 @@ fn rest(window: &mut Harness<'static, Explorer>) {
 fn a_hand_that_knows_nothing_breaks_nothing() {
     let _alone = alone();
     let (mut rng, folder) = (Rng::with_seed(5), Scratch::new("senseless"));
-    // What it saves and exports lands there.
+    // Folder for saved and exported files.
     std::env::set_current_dir(&folder).unwrap();
     let mut window = window(explorer().keeping_session_in(&folder, true));
     let (steps, mut held) = (cases(1000, 10_000), Vec::new());
-    // What is kept for every kind of contact is there from the beginning.
+    // Data stored for every contact kind exist from the beginning.
     for name in ["Ball", "Heat", "Ellipse", "Heat", "Roller"] {
         window.get_by_label(name).click();
         window.run_steps(3);
@@ -180,7 +180,7 @@ fn a_hand_that_knows_nothing_breaks_nothing() {
         gesture(&mut rng, &mut window);
         window.step();
         let app = window.state();
-        // An answer that is shown belongs to what was asked.
+        // A displayed answer belongs to the request.
         if let Some(film) = app.central_film() {
             assert!(film.is_finite() && film > 0.0, "step {step}: {film}");
         }

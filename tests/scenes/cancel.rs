@@ -1,4 +1,4 @@
-//! How soon a cancelled study returns: counted in processor time of one thread, so that other work on the machine does
+//! Time until a cancelled study returns, in processor time of one thread, so that other load on the machine does
 //! not matter.
 
 use crate::common::scene_files;

@@ -1,4 +1,4 @@
-//! Studies of training at a small size: plans side by side and an adaptive training cut at its tolerances.
+//! Studies of training at a small size: comparison of plans, and an adaptive training cut at its tolerances.
 
 use crate::common::scratch::Scratch;
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
@@ -14,7 +14,7 @@ fn corner() -> ParameterSpace {
     ParameterSpace::si_box([(2e-3, 3e-3), (3.0, 5.0), (1e5, 2e5), (6e-9, 10e-9)], 231e9, 0.01)
 }
 
-/// A folder with scenes of small trainings.
+/// Folder with scenes of small trainings.
 struct Folder(Scratch);
 
 impl Folder {
@@ -66,7 +66,7 @@ fn plans_are_compared_side_by_side() {
     let value = |name: &str| outcome.found.value(name, None).unwrap_or_else(|| panic!("no {name}"));
     assert_eq!((value("wide.snapshots"), value("corners.snapshots")), (40.0, 16.0));
     assert_eq!((value("full_failures"), value("order.against")), (0.0, 0.0));
-    // More snapshots, spread wider: slower decay of information, better approximation of what was never seen.
+    // More snapshots over a wider range: information decays more slowly, and unseen solutions are approximated better.
     assert!(value("wide.modes_p_1e-6") > value("corners.modes_p_1e-6"));
     assert!(value("wide.unseen_p95") < value("corners.unseen_p95"));
     assert!(value("wide.H_c_error_p95") < 0.3 * value("corners.H_c_error_p95"));
@@ -75,7 +75,7 @@ fn plans_are_compared_side_by_side() {
     assert_eq!(rows("snapshots"), Some((56, 7)));
     assert_eq!(rows("trajectory"), Some((21, 3 + 2 * 8)));
     assert_eq!(rows("loss_of_information"), Some((41, 5)));
-    // Nothing but the two times may differ between runs, and this study measures none.
+    // Only the two times may differ between runs, and this study measures none.
     assert_eq!(folder.run(study).found.values, outcome.found.values);
 }
 

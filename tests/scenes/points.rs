@@ -1,4 +1,4 @@
-//! The contacts that spaces draw: trainings and their models are reproducible only while these stay as they are.
+//! Random contacts of ranges. Trainings and their models are reproducible only while these stay the same.
 
 use crate::common::scene_files;
 use ehl_explorer::scene::Study;
@@ -12,7 +12,7 @@ fn draws(scene: &str, wanted: Drawn) {
     for (point, wanted) in random_points(&spec.range, spec.contact(), 2, 1).iter().zip(wanted) {
         let [radius, speed, load, modulus, viscosity, alpha] = point.quantities();
         let own = [radius, speed, load, modulus, viscosity, alpha, point.sliding.slide_to_roll_ratio];
-        // Powers differ in their last digits from one machine to the next.
+        // Powers differ in their last digits between machines.
         let near = own.iter().zip(wanted).all(|(own, wanted)| (own - wanted).abs() <= 1e-12 * wanted.abs());
         assert!(near, "{scene}: {own:?} instead of {wanted:?}");
     }

@@ -1,4 +1,4 @@
-//! Every scene of the repository: it parses, survives writing, and the quick ones give what they expect.
+//! Every scene of the repository: it parses, can be written and read again, and the quick ones meet their expectations.
 
 use crate::common::scene_files;
 use crate::common::scratch::Scratch;
@@ -39,7 +39,7 @@ fn every_expectation_says_where_its_bound_comes_from_and_none_judges_time() {
             let from = expectation.from.trim();
             let sound = from.len() > 5 && !from.starts_with("bar") && !from.contains(".md");
             assert!(sound, "{name}: {} comes from \"{from}\"", expectation.name);
-            // Seconds depend on the machine: `bench` judges speed by ratios within one run.
+            // Seconds depend on the machine: `bench` compares speeds by ratios within one run.
             let last = expectation.name.rsplit('.').next().unwrap();
             assert!(!last.ends_with("_s") && last != "speed_up", "{name}: {}", expectation.name);
             count += 1;
@@ -48,7 +48,7 @@ fn every_expectation_says_where_its_bound_comes_from_and_none_judges_time() {
     assert!(count > 350, "{count} expectations");
 }
 
-/// Runs those that no other test has begun, so that two processors share the work.
+/// Runs the scenes that no other test has begun, so that two processors share the work.
 fn quick_scenes_give_what_they_expect() {
     static BEGUN: AtomicUsize = AtomicUsize::new(0);
     let quick: Vec<_> = all().into_iter().filter(|(_, scene)| scene.quick).collect();
@@ -73,7 +73,7 @@ fn quick_scenes_give_what_they_expect_on_another() {
     quick_scenes_give_what_they_expect();
 }
 
-/// Asserts that a scene that takes longer than quick ones, made smaller, gives what it expects.
+/// Asserts that a longer scene, reduced in size, meets its expectations.
 fn gives_what_it_expects(name: &str, scene: &Scene) {
     assert!(!scene.quick, "{name} is run as it is");
     let outcome = scene_files::run(name, scene);
@@ -82,7 +82,7 @@ fn gives_what_it_expects(name: &str, scene: &Scene) {
     assert!(outcome.passed() && scene.expect.len() > 1, "{name}: {:?}", outcome.found.warnings);
 }
 
-/// The same over a share of its contacts, but for their number.
+/// The same with a share of its contacts, without the expectation of their number.
 fn a_share_gives_what_is_expected_of_all(name: &str, shrink: impl FnOnce(&mut Study)) {
     let mut scene = scene_files::read(name);
     shrink(&mut scene.study);
@@ -124,7 +124,7 @@ fn corners_of_a_comparison_lie_as_near_to_hamrock_and_dowson() {
 fn error_measures_are_as_correlated_as_in_figure_3_1() {
     let (name, folder) = ("fig_3_1_error_measures", Scratch::new("measures"));
     let Study::Training(spec) = scene_files::read("fig_3_1_model").study else { panic!("no training") };
-    // Error bounds take longest, and nothing here needs them.
+    // Error bounds take longest and are not needed here.
     let model = train(&TrainingSpec { evidence: 0, ..spec }, &()).unwrap();
     let path = folder.join("model.rom");
     model_file::write(&model, &path).unwrap();
@@ -159,7 +159,7 @@ fn the_frames_of_a_contact_in_time_agree() {
         (study.duration, study.window) = (duration, None);
         study.time_step = TimeStep::Fixed(0.005);
         let outcome = scene_files::run(name, &scene);
-        // Longer steps than the scene's have other balances of mass.
+        // Steps longer than the scene's have other mass balances.
         let films = outcome.verdicts.iter().filter(|verdict| verdict.expected.name.ends_with("H_c.difference"));
         let count = films.clone().count();
         let short: Vec<_> = films.filter(|verdict| !verdict.holds).collect();
@@ -223,7 +223,7 @@ fn figures_of_line_contacts_stand_on_the_models_own_grid_in_addition_to_the_refe
         let (mut scene, outcome) = (scene_files::read(name), scene_files::outcome(name));
         let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();
         assert!(short.is_empty() && outcome.verdicts.len() >= 6, "{name}: {short:?}");
-        // Against the dissertation's grid, which begins at X = -4, the grids would be part of the error.
+        // Compared with the dissertation's grid, which begins at X = -4, the error would include that of the grids.
         let of = |outcome: &SceneOutcome| outcome.found.value("H_c_error_max", Some(&Method::EMBEDDED)).unwrap();
         if let Study::Sweep(Sweep { compare_on_model_grid, .. }) = &mut scene.study {
             *compare_on_model_grid = false;
@@ -242,7 +242,7 @@ fn a_model_file_that_is_missing_is_named() {
     assert!(error.contains("no/such/file.rom"), "{error}");
 }
 
-/// Keeps the rows it is told.
+/// Collects the rows that it receives.
 #[derive(Default)]
 struct Rows(Mutex<Vec<StudyRow>>);
 
@@ -266,11 +266,11 @@ fn rows_that_were_told_say_what_the_outcome_says() {
         let rows = rows.0.into_inner().unwrap();
         assert_eq!(rows.len(), streamed);
         let told = scene.outcome(&rows, 0.0);
-        // As text, which tells every bit and takes one gap of a table for another.
+        // As text, which shows every bit and treats gaps of a table as equal.
         let said = |outcome: &SceneOutcome| format!("{:?} {:?}", outcome.found.values, outcome.tables);
         assert_eq!((said(&told), told.found.converged), (said(&outcome), outcome.found.converged));
         assert!(scene.study.charts(&rows).iter().all(|chart| !chart.series.is_empty()));
-        // What was told so far says as much as it can.
+        // The rows so far give all available results.
         assert_eq!(scene.study.tables(&rows[..2])[0].rows.len(), 2);
     }
 }

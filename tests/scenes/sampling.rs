@@ -1,4 +1,4 @@
-//! Ways of sampling rows side by side, on a small point contact: what all rows can, a cubature of few rows can too.
+//! Methods of sampling equations on a small point contact: a cubature of few equations is as good as all equations.
 
 use crate::common::scratch::Scratch;
 use ehl_explorer::engine::{Workbench, run_scene};
@@ -46,7 +46,7 @@ fn a_cubature_of_few_rows_does_what_all_rows_do() {
     assert_eq!(value("all.rows"), 69.0 * 15.0);
     assert!(value("cubature.rows") <= 3.0 * modes + 1.0);
     assert_eq!((value("all.failures"), value("cubature.failures")), (0.0, 0.0));
-    // Ten modes limit the accuracy of either; interpolation by Q-DEIM does not carry a point contact.
+    // Ten modes limit the accuracy of both; interpolation by Q-DEIM is not sufficient for a point contact.
     let worst = |name: &str| value(&format!("{name}.H_c_error_max"));
     assert!(worst("all") < 6e-3 && worst("cubature") < 1.5 * worst("all") && worst("q_deim") > 0.1);
     assert!(value("greedy.rows") > modes && value("q_deim.rows") > modes);
@@ -63,5 +63,5 @@ fn a_range_with_too_few_contacts_is_refused_in_a_sentence() {
     let scene =
         Scene::from_ron(&COMPARISON.replace("Load: (30.0, 45.0, Linear)", "Load: (1e9, 1e10, Linear)")).unwrap();
     let sentence = run_scene(&scene, &mut Workbench::new(&*folder), &()).unwrap_err().to_string();
-    assert!(sentence.contains("hardly any point") && sentence.contains("of 20 were found"), "{sentence}");
+    assert!(sentence.contains("too few points") && sentence.contains("of 20 were found"), "{sentence}");
 }

@@ -1,5 +1,4 @@
-//! A study of a contact in time with several frames, inputs, rules and trained loads: what it gives, and what it
-//! refuses.
+//! A transient study with several frames, inputs, rules and trained loads: its results and refusals.
 
 use ehl_explorer::engine::{SceneOutcome, Workbench, run_scene};
 use ehl_explorer::scene::Scene;
@@ -55,7 +54,7 @@ fn inputs_and_rules_give_the_same_alone_and_among_others() {
     let own = value(&together, "fixed.tpwl.step_0.003.dual_taylor.H_c.difference_l2");
     assert!(own > 0.0 && own < 1e-3, "the training is reproduced: {own:e}");
 
-    // Every march has its series and its row among the costs.
+    // Every march has a series and a row of costs.
     let names: BTreeSet<&str> = together.tables.iter().map(|table| table.name.as_str()).collect();
     assert_eq!(names.len(), together.tables.len(), "tables become files of their names");
     let marches = 2 * (2 + 2 + 2 * 2);
@@ -157,7 +156,7 @@ fn a_coarse_time_step_is_warned_of_and_a_controlled_one_is_not() {
         run_scene(&read, &mut Workbench::new(""), &()).unwrap()
     };
     let warned = |outcome: &SceneOutcome| {
-        outcome.found.warnings.iter().any(|w| w.to_string().contains("time steps leave H_c off"))
+        outcome.found.warnings.iter().any(|w| w.to_string().contains("time-step error of H_c"))
     };
     let coarse = with("Fixed(0.05)");
     let full = value(&coarse, "fixed.step_error");

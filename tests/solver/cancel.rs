@@ -1,5 +1,5 @@
-//! How soon a cancelled training or full solve returns, whatever it was doing: counted in processor time of one thread, so that other work on
-//! the machine does not matter.
+//! Time until a cancelled training or full solve returns from any stage, in processor time of one thread, so that other
+//! load on the machine does not matter.
 
 use crate::common::stop_after::assert_stops;
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
@@ -13,7 +13,7 @@ use ehl_explorer::solver::training::{
 };
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The explorer's grid and enough solutions for bases of their real size.
+/// The explorer's grid, and enough solutions for bases of realistic size.
 fn spec(sampling: Sampling) -> TrainingSpec {
     let plan = Plan::Adaptive {
         start: 60,
@@ -65,7 +65,7 @@ fn a_cancelled_training_returns_within_a_tenth_of_a_second() {
 fn a_cancelled_full_solve_of_a_fine_point_contact_returns_within_a_tenth_of_a_second() {
     let mut solver = PointSolver::new(PointGridSpec::FINE).unwrap();
     let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 200.0, 10.0)).unwrap();
-    // Through all parts of a Newton step: assembly, factorisation, Krylov iterations.
+    // All parts of a Newton step: assembly, factorisation, Krylov iterations.
     let moments: Vec<u64> = (0..9).map(|k| 40 + 57 * k).collect();
     assert_stops("601×81 nodes", "", &moments, |observer| {
         let solution = solver.solve(&point, Default::default(), Start::Cold, observer).unwrap();

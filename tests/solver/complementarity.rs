@@ -1,4 +1,4 @@
-//! Rupture as a complementarity condition: against an independent program, against the penalty, and its own conditions.
+//! Complementarity: comparison with an independent program and with the penalty, and its own conditions.
 
 use crate::contacts::{at, line_of, solved};
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
@@ -19,7 +19,7 @@ fn laws() -> Lubricant {
     complementary(Lubricant::default())
 }
 
-/// The median of some counts.
+/// Returns the median of some counts.
 fn median(mut counts: Vec<usize>) -> usize {
     counts.sort_unstable();
     counts[counts.len() / 2]
@@ -54,8 +54,8 @@ fn full_solutions_agree_with_an_independent_program_on_the_same_grid() {
     }
 }
 
-/// P ≥ 0, λ ≥ 0, P λ = 0, and on the ruptured set λ = ∂(ρ̄H)/∂X but for its first node, whose neighbour presses liquid
-/// into it.
+/// P ≥ 0, λ ≥ 0, P λ = 0, and λ = ∂(ρ̄H)/∂X in the cavitated region. Its first node is excepted, since liquid flows in
+/// from the neighbour under pressure.
 #[test]
 fn pressure_and_multiplier_are_complementary_and_the_multiplier_is_the_growth_of_the_flow() {
     for (kind, spec, m, l) in [
@@ -73,7 +73,7 @@ fn pressure_and_multiplier_are_complementary_and_the_multiplier_is_the_growth_of
             let behind = (3..s.x.len() - 1).filter(|&i| held(i) && held(i - 1));
             let mut count = 0;
             for i in behind {
-                // The upwind quotient of the rows; at P = 0 the liquid has its ambient density.
+                // Upwind quotient of the equations. At P = 0 the liquid has its ambient density.
                 let [h_0, h_1] = [s.x[i - 1] - s.x[i - 2], s.x[i] - s.x[i - 1]];
                 let r = h_1 / h_0;
                 let weights = [r * r / (1.0 + r) / h_1, -(1.0 + r) / h_1, (1.0 + 2.0 * r) / (1.0 + r) / h_1];
@@ -106,7 +106,7 @@ fn the_penalty_tends_to_complementarity_as_its_factor_grows() {
     }
 }
 
-/// Cold solves over a range take three quarters of the penalty's steps at most, as many on half the spacing.
+/// Cold solves over a range take at most three quarters of the penalty's steps, and as many on half the spacing.
 #[test]
 fn cold_solves_take_few_steps_whatever_the_spacing() {
     let loads = [2.0, 10.0, 50.0, 200.0, 500.0];
@@ -156,8 +156,8 @@ fn sliding_shear_thinning_contacts_rupture_by_complementarity_in_fewer_steps_too
     }
 }
 
-/// The rows of a uniform grid add up: what leaves the last cell less what enters the first one, and what is stored
-/// between, is what the multiplier takes away.
+/// The equations of a uniform grid conserve mass: outflow of the last cell, less inflow of the first one and storage
+/// between them, equals what the multiplier removes.
 #[test]
 fn in_time_the_balance_closes_with_what_the_multiplier_takes() {
     let spec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
@@ -196,7 +196,7 @@ fn in_time_the_balance_closes_with_what_the_multiplier_takes() {
     assert!(worst < 1e-9);
 }
 
-/// Means and amplitudes under a small and a great fast load are the penalty's, in all three frames.
+/// Means and amplitudes under small and large fast load changes agree with the penalty in all three frames.
 #[test]
 fn in_time_complementarity_goes_with_the_penalty_in_few_steps() {
     let spec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };

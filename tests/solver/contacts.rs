@@ -1,15 +1,15 @@
-//! Contacts of the tests: by their Moes numbers, and as reference files name them.
+//! Contacts of the tests: from Moes numbers, and from reference files.
 
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
 use ehl_explorer::solver::physics::lubricant::{Lubricant, Sliding};
 
-/// In the default realisation.
+/// Returns the contact of Moes numbers in the default realisation.
 pub fn at(kind: ContactKind, m: f64, l: f64) -> OperatingPoint {
     si_from_moes(&MoesRequest::new(kind, m, l)).unwrap()
 }
 
-/// A line contact of a reference file, in SI units.
+/// Line contact of a reference file, in SI units.
 pub fn line_of(contact: &serde_json::Value) -> OperatingPoint {
     let of = |name: &str| contact[name].as_f64().unwrap();
     OperatingPoint {
@@ -25,7 +25,7 @@ pub fn line_of(contact: &serde_json::Value) -> OperatingPoint {
     }
 }
 
-/// Its cold solution, which must converge.
+/// Returns the cold solution, which must converge.
 pub fn solved(solver: &mut ContactSolver, point: &OperatingPoint, laws: Lubricant) -> Solution {
     let solution = solver.solve(point, laws, Start::Cold, &()).unwrap();
     assert!(solution.converged(), "{:?}: {:?}", point.moes(), solution.report);

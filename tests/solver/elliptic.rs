@@ -1,4 +1,4 @@
-//! Elliptical contacts: against an independent program, Hertz's gap, the circle, and a quarter turn.
+//! Elliptical contacts: comparison with an independent program, Hertz's gap, the circular contact, and a quarter turn.
 
 use crate::contacts::{at, solved};
 use ehl_explorer::solver::discrete::elasticity::PointScratch;
@@ -14,7 +14,7 @@ fn complementary() -> Lubricant {
     Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() }
 }
 
-/// Coarse and middle grids of eight contacts, R_y/R_x from 0.2 to 20, by an independent program.
+/// Eight contacts on coarse and medium grids, R_y/R_x from 0.2 to 20, by an independent program.
 #[test]
 fn shapes_and_films_agree_with_an_independent_program_on_the_same_grids() {
     let file: serde_json::Value = serde_json::from_str(include_str!("../data/elliptic.json")).unwrap();
@@ -77,7 +77,7 @@ fn hertz_pressure_flattens_every_ellipse_with_second_order() {
             let pressure: Vec<f64> = (0..grid.len()).map(hertz).collect();
             let mut deformation = vec![0.0; grid.len()];
             grid.deform(&pressure, &mut deformation, &mut PointScratch::default());
-            // Inside, the undeformed gap and the deformation add up to one constant.
+            // Inside, the undeformed gap and the deformation add up to a constant.
             let inside = (0..grid.len()).filter(|node| hertz(*node) > 0.6);
             let uneven = inside.map(|node| (deformation[node] + grid.parabola(node) - exact).abs()).fold(0.0, f64::max);
             (grid.on_axis(&deformation, 0.0), uneven)
@@ -100,12 +100,12 @@ fn equal_radii_are_the_circle_to_the_last_bit_and_near_ones_are_near() {
     assert_eq!((own.scalars, &own.film), (same.scalars, &same.film));
     let near = solved(&mut solver, &Quantity::RadiusRatio.at(&circle, 1.0 + 1e-6), Lubricant::default());
     assert!((near.scalars.h_c / own.scalars.h_c - 1.0).abs() < 2e-6, "{:?}", near.scalars);
-    // And back, on the circle's own kernel.
+    // Back again, with the kernel of the circular contact.
     let again = solved(&mut solver, &circle, Lubricant::default());
     assert_eq!(again.scalars, own.scalars);
 }
 
-/// Rolling along the short axis and along the long one are different films of the same dry ellipse.
+/// Rolling along the short and along the long axis gives different film thicknesses of the same dry ellipse.
 #[test]
 fn a_quarter_turn_keeps_the_dry_contact_and_moves_the_film() {
     let long = Quantity::RadiusRatio.at(&at(ContactKind::Point, 50.0, 8.0), 3.0);
@@ -116,11 +116,11 @@ fn a_quarter_turn_keeps_the_dry_contact_and_moves_the_film() {
     let mut solver = ContactSolver::on(&GridSpec::Plane(COARSE).build().unwrap());
     let [h_long, h_turned] =
         [long, turned].map(|point| solved(&mut solver, &point, complementary()).scalars.h_c * point.film_scale_m());
-    // Less oil flows out at the sides of the wide one.
+    // Less lubricant flows out at the sides of the wide contact.
     assert!(h_long > 1.1 * h_turned, "{h_long} {h_turned}");
 }
 
-/// Shear-thinning, a limiting stress and a starved inlet go with every shape.
+/// Shear-thinning, a limiting stress and a starved inlet are supported for every shape.
 #[test]
 fn laws_of_the_circle_hold_for_ellipses() {
     let mut solver = ContactSolver::on(&GridSpec::Plane(COARSE).build().unwrap());
@@ -133,7 +133,7 @@ fn laws_of_the_circle_hold_for_ellipses() {
         let drop = thin.scalars.h_c / newtonian.scalars.h_c;
         assert!((0.5..1.0).contains(&drop), "R_y/R_x {ratio}: {drop}");
         assert!(thin.traction_coefficient().abs() < newtonian.traction_coefficient().abs());
-        // An Eyring stress that nothing reaches changes nothing.
+        // An Eyring stress that is not reached has no effect.
         let stiff = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e10, npr: 0.0 }, ..Lubricant::default() };
         let same = solved(&mut solver, &point, stiff).scalars.h_c;
         assert!((same / newtonian.scalars.h_c - 1.0).abs() < 1e-5, "{same}");
@@ -166,7 +166,7 @@ fn what_is_no_ellipse_is_refused_with_a_sentence() {
     assert!(refused(line).contains("a line contact has no radius across"));
 }
 
-/// From one shape to the next a former solution is a good start.
+/// The previous solution is a good initial guess for the next shape.
 #[test]
 fn a_former_shape_is_a_start() {
     let mut solver = ContactSolver::on(&GridSpec::Plane(COARSE).build().unwrap());
@@ -182,8 +182,8 @@ fn a_former_shape_is_a_start() {
     }
 }
 
-/// In the middle of a long ellipse flows what flows in a line contact of its pressure, speed and radius. With the inlet
-/// at X = −8; both inlets cost below a hundredth there.
+/// The flow in the middle of a long ellipse is that of a line contact with the same pressure, speed and radius. The
+/// inlet is at X = −8, with domain-truncation errors below a hundredth for both.
 #[test]
 fn a_wide_ellipse_is_a_line_contact_in_its_middle() {
     let wide = Quantity::RadiusRatio.at(&at(ContactKind::Point, 1000.0, 8.0), 40.0);
@@ -191,7 +191,7 @@ fn a_wide_ellipse_is_a_line_contact_in_its_middle() {
         ContactSolver::on(&GridSpec::Plane(PointGridSpec::uniform(0.03, 0.1, (-8.0, 2.0, -2.0))).build().unwrap());
     let solution = solved(&mut solver, &wide, complementary());
     let (middle, p_h) = (solution.scalars.h_c * wide.film_scale_m(), wide.hertz().pressure_pa);
-    // p_H = √(wE′/(2πR)) of a line.
+    // p_H = √(wE′/(2πR)) of a line contact.
     let load = 2.0 * std::f64::consts::PI * wide.radius_m * p_h * p_h / wide.modulus_pa;
     let line = OperatingPoint { kind: ContactKind::Line, load, radius_y_m: None, ..wide };
     assert!((line.hertz().pressure_pa / p_h - 1.0).abs() < 1e-12);

@@ -15,7 +15,7 @@ fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
     random_points(&range, ContactKind::Point, count, seed)
 }
 
-/// One model for all of this: its operators take a second.
+/// Shared by the tests, since its operators take a second.
 #[test]
 fn random_ellipses_of_its_range_are_solved_near_full_solutions_and_pass_from_shape_to_shape() {
     let mut online = Online::new(embedded("ellipse").unwrap(), ReducedOptions::default());
@@ -38,7 +38,7 @@ fn random_ellipses_of_its_range_are_solved_near_full_solutions_and_pass_from_sha
         assert!((fields.scalars.h_c / solved.h_c - 1.0).abs() < 1e-6);
         assert!(fields.scalars.load_residual < 1e-9);
     }
-    // Along the slider, through both windows of shapes: the film grows as the contact widens.
+    // Over the radius ratio, through both local models: the film thickness increases with the width of the contact.
     let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, 60.0, 8.0)).unwrap();
     let films: Vec<f64> = (0..40)
         .map(|k| {

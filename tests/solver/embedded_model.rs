@@ -1,5 +1,5 @@
-//! The embedded reduced model against full solutions on its own grid, across window edges, and as a dragged slider
-//! meets it.
+//! The embedded reduced model compared with full solutions on its own grid, across the edges of local models, and along
+//! a dragged slider.
 
 use ehl_explorer::engine::embedded;
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
@@ -18,7 +18,7 @@ fn online() -> Online {
     Online::new(embedded("line").unwrap(), ReducedOptions::default())
 }
 
-/// Greatest difference of two pressures, the second interpolated linearly at the nodes of the first.
+/// Returns the largest difference of two pressures, the second interpolated linearly at the nodes of the first.
 fn pressure_difference(a: &Solution, b: &Solution) -> f64 {
     let other = |x: f64| {
         let k = b.x.partition_point(|&v| v < x);
@@ -81,7 +81,7 @@ fn corners_of_the_range_agree_with_full_solutions() {
         assert!(full.converged());
         let error = (picture.scalars.h_c / full.scalars.h_c - 1.0).abs();
         assert!(error < 5e-4, "H_c differs by {error:.1e} at M = {m}, L = {l}");
-        // The load is carried to rounding before what the modes leave below zero in the inlet is taken away.
+        // The load is carried to rounding before negative pressures of the modes in the inlet are removed.
         assert!(picture.scalars.load_residual < 1e-6);
         assert!(picture.pressure.iter().all(|p| *p >= 0.0));
         assert!((picture.scalars.h_0 - full.scalars.h_0).abs() < 1e-3);
@@ -115,7 +115,7 @@ fn what_a_window_beside_the_contacts_own_answers_says_so_and_promises_nothing() 
     let contact = at(40.0, 10.0);
     let mut model = ReducedModel::clone(&embedded("line").unwrap());
     let own = model.window_for(&contact);
-    // Equations that are all zero have no solution.
+    // A system of zero equations has no solution.
     model.windows[own].reconstruction.fill(0.0);
     let mut online = Online::new(Arc::new(model), ReducedOptions::default());
     let solved = online.solve(&contact, Lubricant::default()).unwrap();
@@ -199,6 +199,6 @@ fn fewer_modes_need_no_training_and_lose_accuracy_gradually() {
     assert!(error(Some(45), None) < 1e-3);
     assert!(error(Some(25), None) < 5e-2);
     assert!(error(Some(25), None) > error(Some(50), None));
-    // The dissertation's V_δ V_δᵀ K V_p is the same solution when V_δ keeps enough.
+    // The dissertation's V_δ V_δᵀ K V_p gives the same solution if V_δ has enough modes.
     assert!(error(None, Some(60)) < 1e-3);
 }

@@ -1,4 +1,4 @@
-//! The embedded reduced model of point contacts against full solutions on its own grid.
+//! The embedded reduced models of point contacts compared with full solutions on their own grids.
 
 use crate::common::cases::cases;
 use ehl_explorer::engine::embedded;
@@ -44,7 +44,7 @@ fn its_films_lie_near_full_solutions() {
         let solved = online.solve(&point, Lubricant::default()).unwrap();
         let fields = online.reconstruct(&solved).unwrap();
         assert!(fields.mesh == full.mesh && fields.x == full.x && fields.y == full.y);
-        // Before the boundary modes ripple a little below zero, and such pressures are left out.
+        // Near the boundary the modes are slightly negative; such pressures are omitted.
         assert!(fields.scalars.load_residual < 1e-4, "{:.1e}", fields.scalars.load_residual);
         h_c.push((fields.scalars.h_c / full.scalars.h_c - 1.0).abs());
         h_min.push((fields.scalars.h_min / full.scalars.h_min - 1.0).abs());
@@ -74,7 +74,7 @@ fn films_of_light_contacts_lie_near_full_solutions_and_meet_those_of_heavier_one
         let off = [fields.scalars.h_c / full.scalars.h_c - 1.0, fields.scalars.h_min / full.scalars.h_min - 1.0];
         assert!(off.iter().all(|off| off.abs() < 5e-3), "{off:?} at {:?}", point.moes());
     }
-    // At the load where one model ends and the other begins their films differ by what their grids cost.
+    // At the load between both models their film thicknesses differ by the discretisation errors of their grids.
     let mut heavy = online();
     for l in [2.0, 6.0, 12.0, 18.0] {
         let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 12.0, l)).unwrap();
@@ -101,7 +101,7 @@ fn dragging_gives_the_same_picture_as_jumping() {
         let b = fresh.solve(&point, Lubricant::default()).unwrap();
         iterations += a.iterations;
         let (a, b) = (dragged.scalars(&a).unwrap(), fresh.scalars(&b).unwrap());
-        // The iteration ends with steps below 1e-5 of p̃, while rows at the cavitation front may still change sides.
+        // The iteration ends with steps below 1e-5 of p̃; nodes at the cavitation boundary may still change sides.
         let difference = (a.h_c / b.h_c - 1.0).abs();
         assert!(difference < 1e-5, "H_c differs by {difference:.1e} at {:?}", point.moes());
     }

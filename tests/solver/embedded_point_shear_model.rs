@@ -1,5 +1,5 @@
-//! The embedded model of shear-thinning point contacts: it solves its range, agrees with full solutions, and says where it ends. And training
-//! one of the kind on a coarse grid.
+//! The embedded model of shear-thinning point contacts: it converges in its range, agrees with full solutions, and
+//! reports its limits. Also a training of such a model on a coarse grid.
 
 use crate::common::scene_files;
 use crate::shear_models;
@@ -30,7 +30,7 @@ fn points(range: &ParameterSpace, count: usize, seed: u64) -> Vec<OperatingPoint
     shear_models::points(POINT, range, count, seed)
 }
 
-/// Greatest errors of H_c, H_min and, under sliding, traction at the first of some points; all of them must converge.
+/// Returns the largest errors of H_c, H_min and, with sliding, traction at the first points. All solves must converge.
 fn greatest_errors(online: &mut Online, points: &[OperatingPoint], compared: usize) -> [f64; 3] {
     let mut full = ContactSolver::on(&online.model.windows[0].grid);
     let mut worst = [0.0f64; 3];
@@ -63,14 +63,14 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
 
 #[test]
 fn it_is_mirrored_by_the_sliding_and_newtonian_at_a_plateau_of_one() {
-    // Starts differ, and the iteration ends with steps below 1e-5.
+    // Initial guesses differ, and the iteration ends with steps below 1e-5.
     assert_mirrored(online(), points(&range(), 1, 3)[0], 1e-5);
 }
 
 #[test]
 fn what_it_was_not_trained_for_is_said() {
     let base = points(&range(), 1, 3)[0];
-    // M and L of its range, but more pressure than it was trained for.
+    // M and L of its range, but with a pressure above the trained range.
     let [m, l] = [Quantity::M, Quantity::L].map(|own| range().axis(own).unwrap().ends.1);
     let heaviest = narrowed(range(), [(Quantity::M, (0.9 * m, m)), (Quantity::L, (0.9 * l, l))]);
     let heavy = points(&ParameterSpace { limits: Vec::new(), ..heaviest }, 1, 3)[0];
@@ -80,7 +80,7 @@ fn what_it_was_not_trained_for_is_said() {
 
 #[test]
 fn another_lubricant_is_solved_with_its_own_equations_and_said_to_be_another() {
-    // Table 3.8, as Figs. 3.15 and 3.16 have it.
+    // Table 3.8, as used in Figs. 3.15 and 3.16.
     let pao = by_name("pao-650").unwrap();
     let point = OperatingPoint {
         kind: POINT,
@@ -106,7 +106,7 @@ fn another_lubricant_is_solved_with_its_own_equations_and_said_to_be_another() {
     let off = (reduced.scalars.h_c / full.scalars.h_c - 1.0).abs();
     let friction = (reduced.traction_coefficient() / full.traction_coefficient() - 1.0).abs();
     assert!(off < 5e-2 && friction < 5e-2, "H_c {off:.1e}, traction {friction:.1e}");
-    // Of its own lubricant it would be another film altogether.
+    // With the lubricant of the model the film thickness would be quite different.
     let own = online.solve(&point, SQUALANE_PIP).unwrap();
     assert!((online.scalars(&own).unwrap().h_c / full.scalars.h_c - 1.0).abs() > 2.0 * off);
 }
@@ -151,7 +151,7 @@ fn training_makes_such_a_model() {
 
 #[test]
 fn a_figure_stands_side_by_side_in_full_and_reduced() {
-    // Two of its contacts. The tests of scenes solve every contact of the figures that are marked `quick`.
+    // Two of its contacts. The tests of scenes solve every contact of the figures marked `quick`.
     let name = "fig_3_16";
     let mut scene = scene_files::read(name);
     scene.expect.retain(|expectation| !expectation.name.contains('['));

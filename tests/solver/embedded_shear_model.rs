@@ -1,4 +1,4 @@
-//! The embedded model of shear-thinning line contacts: it solves its range, agrees with full solutions, and says where it ends.
+//! The embedded model of shear-thinning line contacts: it converges in its range, agrees with full solutions, and
 
 use crate::shear_models;
 use crate::shear_models::{assert_file_keeps_everything, assert_limits_are_said, assert_mirrored, errors};
@@ -58,8 +58,8 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
     println!("greatest errors of H_c, H_min and traction: {worst:?}");
     assert!(worst.iter().all(|&error| error < 5e-3), "{worst:?}");
     assert!(kept * 50 >= 49 * promises, "{kept} of {promises} bounds hold");
-    // A bound many times too large says as little as none: the best there can be is 4 times the error in the median. Too few of these contacts
-    // have a traction to judge its bound by; the scene of random tests does.
+    // A bound that is many times too large is useless: the best possible one is 4 times the error in the median. Too
+    // few of these contacts have a traction to assess its bound; the scene of random validation does so.
     let median = |mut ratios: Vec<f64>| {
         ratios.sort_by(f64::total_cmp);
         ratios[ratios.len() / 2]
@@ -74,7 +74,7 @@ fn its_traction_without_fields_is_that_of_its_fields() {
     let mut online = online();
     let mut off = Vec::new();
     for (k, point) in points(300).into_iter().enumerate() {
-        // Every other one slides slowly.
+        // Every other contact slides slowly.
         let srr = point.sliding.slide_to_roll_ratio * if k % 2 == 0 { 1.0 } else { 0.01 };
         let sliding = Sliding { slide_to_roll_ratio: srr, ..point.sliding };
         let solved = online.solve(&OperatingPoint { sliding, ..point }, SQUALANE_PIP).unwrap();
@@ -125,7 +125,7 @@ fn a_curve_is_what_its_contacts_are_one_by_one_in_fewer_iterations() {
             let on_curve = place.solution.as_ref().unwrap();
             online.forget();
             let single = online.solve(&vary.at(&base, value), SQUALANE_PIP).unwrap();
-            // Either iteration ends with a step below this.
+            // Both iterations end with a step below this.
             let tolerance = ReducedOptions::default().tolerance;
             let off = (on_curve.h_c / single.h_c - 1.0).abs();
             assert!(off < tolerance, "{vary:?} {value}: H_c off by {off:e}");

@@ -1,14 +1,14 @@
-//! The embedded models of contacts of oils that thin by Eyring's law.
+//! The embedded models of sliding contacts with Eyring lubricants.
 
 use ehl_explorer::engine::embedded;
 use ehl_explorer::solver::full::{ContactSolver, Start};
 use ehl_explorer::solver::reduced::{Online, ReducedOptions, ReducedSolution, Trust};
 use ehl_explorer::solver::training::random_points;
 
-/// Tractions below this are those of contacts that hardly slide.
+/// Tractions below this belong to contacts that hardly slide.
 const SMALL: f64 = 1e-4;
 
-/// Asserts that films and tractions of some contacts of a model's whole range are those of full solutions on its grid.
+/// Asserts that film thicknesses and tractions over a model's whole range agree with full solutions on its grid.
 fn lie_near_full_solutions(name: &str, contacts: usize) {
     let model = embedded(name).unwrap();
     let (kind, laws) = (model.contact(), model.domain.lubricant);

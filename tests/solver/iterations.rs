@@ -1,4 +1,4 @@
-//! How much work full solves take: a change of rows, preconditioner or step control shows here before it shows in time.
+//! Iterations of full solves. They show a change of equations, preconditioner or step control before the time does.
 
 use ehl_explorer::scene::named_lubricant::SQUALANE_PIP;
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};

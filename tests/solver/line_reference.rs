@@ -1,4 +1,4 @@
-//! The full solver against independent solutions on the same grid, and against published mathematics.
+//! The full solver compared with independent solutions on the same grid, and with published analytic results.
 
 use crate::common::scene_files;
 use ehl_explorer::solver::discrete::grid::GridSpec;
@@ -6,7 +6,7 @@ use ehl_explorer::solver::full::{FullSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 
-/// A contact and its reference solution.
+/// Contact and its reference solution.
 struct Reference {
     name: String,
     point: OperatingPoint,
@@ -112,7 +112,7 @@ fn scenes_of_the_tables_hold_the_same_numbers() {
 
 #[test]
 fn a_step_that_damping_made_small_is_no_convergence() {
-    // Films below what these grids resolve: each once ended as "converged" with a residual above 1.
+    // Films that these grids do not resolve must not be reported as converged with a residual above 1.
     let mut uniform = FullSolver::new(GridSpec::DISSERTATION).unwrap();
     for (m, l) in [(5132.0, 2.5), (5751.0, 0.0222), (61.27, 0.4045), (11436.8, 0.0146), (42000.0, 0.6)] {
         let point = ehl_explorer::scene::At::moes(m, l).point(ContactKind::Line).unwrap();

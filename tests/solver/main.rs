@@ -1,4 +1,4 @@
-//! The solvers: full solutions against independent ones, the embedded models against full solutions, cancelling.
+//! The solvers: full solutions compared with independent ones, embedded models with full solutions, and cancellation.
 #![cfg(test)]
 #![allow(clippy::disallowed_methods, reason = "tests wait by the clock")]
 

@@ -1,5 +1,5 @@
-//! Rupture that conserves mass: against an independent program, against complementarity, its own conditions, starvation
-//! of lines and points, and in time.
+//! Mass-conserving cavitation: comparison with an independent program and with complementarity, its own conditions,
+//! starvation of line and point contacts, and transient contacts.
 
 use crate::contacts::{at, line_of, solved};
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
@@ -20,7 +20,7 @@ fn complementary() -> Lubricant {
     Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() }
 }
 
-/// The flow ρ̄θH at every node.
+/// Returns the flow ρ̄θH at every node.
 fn flow(s: &Solution) -> Vec<f64> {
     let of = |((p, h), fraction): ((&f64, &f64), &f64)| s.problem.fluid.at(*p).density * h * fraction;
     s.pressure.iter().zip(&s.film).zip(&s.fraction).map(of).collect()
@@ -50,7 +50,7 @@ fn flooded_and_starved_lines_agree_with_an_independent_program_on_the_same_grid(
             assert_eq!(s.meniscus().is_some(), meniscus.is_some(), "{name}: {:?}", s.meniscus());
             if let (Some(got), Some(wanted)) = (s.meniscus(), meniscus) {
                 assert!((got - wanted).abs() < 1e-9, "{name}: {got}");
-                // What flows in flows out.
+                // Inflow and outflow are equal.
                 let out = flow(&s)[s.x.len() - 2];
                 assert!((out / film_in - 1.0).abs() < 1e-11, "{name}: {out}");
             }
@@ -84,7 +84,7 @@ fn a_flooded_film_is_that_of_complementarity_and_pressure_and_fraction_exclude_e
     }
 }
 
-/// A stationary line lets through what it is given: H_c follows the supply up to what it draws when flooded.
+/// A steady line contact passes the inlet film: H_c follows the supply up to its flooded value.
 #[test]
 fn lines_carry_what_they_are_supplied_with_and_no_more_than_flooded_ones() {
     for spec in [GridSpec::DISSERTATION, GridSpec::EXPLORER] {
@@ -104,8 +104,8 @@ fn lines_carry_what_they_are_supplied_with_and_no_more_than_flooded_ones() {
     }
 }
 
-/// h_c/h_cff = r/(1 + r^γ)^(1/γ) with one γ per contact, between the published 3 and 15; and across each strip of a
-/// starved point contact what flows in flows out.
+/// h_c/h_cff = r/(1 + r^γ)^(1/γ) with one γ per contact, between the published 3 and 15. Across each strip of a
+/// starved point contact inflow and outflow are equal.
 #[test]
 fn starved_points_follow_the_published_law_and_keep_their_oil() {
     let mut solver = ContactSolver::on(&PLANE.build().unwrap());
@@ -128,7 +128,7 @@ fn starved_points_follow_the_published_law_and_keep_their_oil() {
     }
 }
 
-/// What flows in over the inlet and the side less what flows out over the outlet, over what flows in.
+/// Returns inflow over inlet and side less outflow over the outlet, relative to the inflow.
 fn defect(s: &Solution) -> f64 {
     let (ny, nx) = (s.y.len(), s.x.len());
     let (dx, dy) = (s.x[1] - s.x[0], s.y[1] - s.y[0]);
@@ -146,7 +146,7 @@ fn defect(s: &Solution) -> f64 {
         let supply = s.problem.supply.map_or(q[node(0)], |supply| supply.min(q[node(0)]));
         brought += width * supply;
         balance += width * (supply - face(node(0), node(1)) / dx);
-        // The rows of the first column are of first order, so that the flux changes its form behind it.
+        // The equations of the first column are of first order, so that the flux changes its form behind it.
         let upwind = |i: usize| if i == 1 { q[node(1)] } else { 1.5 * q[node(i)] - 0.5 * q[node(i - 1)] };
         balance += width * (1.5 * q[node(1)] - 0.5 * supply - q[node(1)]);
         balance -= width * (upwind(nx - 2) - face(node(nx - 2), node(nx - 1)) / dx);
@@ -178,7 +178,7 @@ fn thinning_contacts_starve_as_well() {
     assert!((flow(&starved)[starved.x.len() - 2] / half - 1.0).abs() < 1e-9);
 }
 
-/// A uniform grid keeps all liquid in time too: nothing is taken away behind the contact.
+/// A uniform grid conserves all liquid of transient contacts: nothing is removed behind the contact.
 #[test]
 fn in_time_what_is_stored_is_what_flows_in_less_what_flows_out() {
     let spec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };

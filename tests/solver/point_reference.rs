@@ -1,5 +1,5 @@
-//! Full solutions of point contacts against independent ones on the same grid, and the corners of the dissertation's
-//! box.
+//! Full solutions of point contacts compared with independent ones on the same grid, and the corners of the
+//! dissertation's box.
 
 use ehl_explorer::solver::discrete::grid::PointGridSpec;
 use ehl_explorer::solver::full::{PointSolver, Start};
@@ -35,7 +35,7 @@ fn full_solutions_agree_with_independent_ones_on_301_by_41_nodes() {
         assert!(s.load_residual < 1e-14, "M {m}: load {}", s.load_residual);
         let wanted = |name: &str| reference["301x41"][name].as_f64().unwrap();
         let pairs = [("H_c", s.h_c), ("P_c", s.p_c), ("H_0", s.h_0), ("H_min", s.h_min)];
-        // The smallest of all films feels where the front of the rupture ends.
+        // The minimum film thickness depends on where the cavitation boundary ends.
         let bounds = [1e-8, 1e-8, 1e-8, 5e-7];
         for (((name, got), bound), worst) in pairs.into_iter().zip(bounds).zip(&mut worst) {
             let error = (got / wanted(name) - 1.0).abs();

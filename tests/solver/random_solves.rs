@@ -1,6 +1,6 @@
-//! Full solutions of random contacts on random grids against references four times as good: none is off by more than
-//! 5 % without a word, and few that are right carry a warning. A share is solved in the ordinary run, 2,000 where the
-//! environment has `EHL_LONG`.
+//! Full solutions of random contacts on random grids compared with references on much finer grids. No error above
+//! 5 % is without a warning, and few accurate solutions carry one. The ordinary run solves a share of them, a run with
+//! `EHL_LONG` in the environment 2,000.
 
 use crate::common::cases::{cases, long};
 use ehl_explorer::engine::Workbench;
@@ -14,16 +14,16 @@ use fastrand::Rng;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Farther off than this an answer needs a warning.
+/// An answer with a larger error needs a warning.
 const WRONG: f64 = 0.05;
-/// Nearer than this it should have none.
+/// An answer with a smaller error should have no warning.
 const RIGHT: f64 = 0.01;
-/// A reference whose own grid costs more is none.
+/// Maximum discretisation error of a reference.
 const NO_REFERENCE: f64 = 0.02;
-/// Largest α p_H, twice that of the heaviest contacts there are.
+/// Largest α p_H, twice that of the most heavily loaded contacts in practice.
 const STIFFEST: f64 = 60.0;
 
-/// What became of all cases.
+/// Results of all cases.
 #[derive(Default)]
 struct Tally {
     counts: BTreeMap<&'static str, usize>,
@@ -40,7 +40,7 @@ impl Tally {
     }
 }
 
-/// Gives up after so many Newton steps: what takes longer mostly has no solution, and none is no wrong one.
+/// Maximum number of Newton steps. Longer solves mostly have no solution, which is not a wrong one.
 const PATIENCE: usize = 120;
 
 #[derive(Default)]
@@ -66,7 +66,7 @@ fn solved(spec: GridSpec, point: &OperatingPoint) -> Option<Solution> {
     Some(solver.judged(solution)).filter(Solution::converged)
 }
 
-/// The program's own grid or one as somebody might give it.
+/// Returns the program's own grid or a random one that a user might give.
 fn drawn(rng: &mut Rng, point: &OperatingPoint) -> Option<GridSpec> {
     let own = GridSpec::explorer_for(point).ok()?;
     let inlet = -between(rng, 1.6, 12.0);
@@ -87,8 +87,8 @@ fn drawn(rng: &mut Rng, point: &OperatingPoint) -> Option<GridSpec> {
     })
 }
 
-/// The program's own grid for a line contact with half the spacing in twice the domain; for a point contact, whose grids
-/// are equidistant, half the spacing, and at least as fine and as large as the program's own grid.
+/// Returns the program's own grid for a line contact with half the spacing in twice the domain. Point contacts have
+/// equidistant grids with half the spacing, at least as fine and as large as the program's own grid.
 fn reference(spec: GridSpec, point: &OperatingPoint) -> Option<GridSpec> {
     Some(match (GridSpec::explorer_for(point).ok()?, spec) {
         (GridSpec::Graded { nodes, domain, registered }, _) => GridSpec::Graded {
@@ -142,13 +142,13 @@ fn judged(kind: ContactKind, seed: u64, cases: usize, m: (f64, f64)) {
     }
     assert!(tally.silent.is_empty(), "{:#?}", tally.silent);
     let (alarms, right) = (tally.of("right with a warning"), tally.of("right"));
-    // Of a few none may be.
+    // With few cases none may be.
     assert!(alarms * 20 <= (right + alarms).max(20), "{alarms} of {} that are right carry a warning", right + alarms);
 }
 
 #[test]
 fn no_line_contact_is_wrong_in_silence() {
-    // The references of lighter and heavier ones take seconds.
+    // The references of more lightly and more heavily loaded contacts take seconds.
     let m = if long() { (0.05, 1e5) } else { (1.0, 300.0) };
     judged(ContactKind::Line, 11, cases(8, 1900), m);
 }
@@ -158,7 +158,7 @@ fn no_point_contact_is_wrong_in_silence() {
     judged(ContactKind::Point, 12, cases(1, 100), if long() { (3.0, 2e3) } else { (20.0, 200.0) });
 }
 
-/// Where nobody trained it a reduced model hands over or says so, and no film of its is below zero.
+/// Outside its trained range a reduced model falls back to the full solver or warns, and no film thickness is negative.
 fn reduced(kind: ContactKind, seed: u64, cases: usize, (m, l): ((f64, f64), (f64, f64))) {
     let mut rng = Rng::with_seed(seed);
     let mut bench = Workbench::new("");

@@ -1,4 +1,4 @@
-//! A model follows from its scene alone: the same bytes on any number of threads.
+//! A model depends on its scene only: the same bytes on any number of threads.
 
 use crate::common::scene_files;
 use ehl_explorer::engine::model_file::to_bytes;
@@ -8,7 +8,7 @@ use ehl_explorer::solver::parameters::Quantity;
 use ehl_explorer::solver::physics::contact::ContactKind;
 use ehl_explorer::solver::training::{Plan, TrainingSpec, Windows, train};
 
-/// The training of an embedded model with fewer full solutions, on a coarser grid.
+/// Returns the training of an embedded model with fewer full solutions, on a coarser grid.
 fn small(scene: &str) -> TrainingSpec {
     let Study::Training(mut spec) = scene_files::read(scene).study else { panic!("{scene} is no training") };
     let si_box = spec.range.is_si_box();

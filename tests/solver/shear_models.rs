@@ -1,4 +1,4 @@
-//! The embedded models of shear-thinning contacts: what the tests of both have in common.
+//! The embedded models of shear-thinning contacts: shared helpers of both tests.
 
 use crate::common::scene_files;
 
@@ -12,7 +12,7 @@ use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Slidin
 use ehl_explorer::solver::reduced::{Calibration, Online, ReducedError, ReducedOptions, Trust};
 use ehl_explorer::solver::training::{TrainingSpec, random_points};
 
-/// What the model of a kind of contact was trained for, as its scene says.
+/// Returns the trained range of the model for a contact kind, from its scene.
 pub fn range(kind: ContactKind) -> ParameterSpace {
     let name = if kind == ContactKind::Line { "embedded_shear_model" } else { "embedded_point_shear_model" };
     match scene_files::read(name).study {
@@ -21,12 +21,12 @@ pub fn range(kind: ContactKind) -> ParameterSpace {
     }
 }
 
-/// Random contacts of a range.
+/// Returns random contacts of a range.
 pub fn points(kind: ContactKind, range: &ParameterSpace, count: usize, seed: u64) -> Vec<OperatingPoint> {
     random_points(range, kind, count, seed)
 }
 
-/// A range with other intervals of some of its axes.
+/// Returns a range with other intervals of some of its axes.
 pub fn narrowed<const N: usize>(mut range: ParameterSpace, ends: [(Quantity, (f64, f64)); N]) -> ParameterSpace {
     ends.iter().for_each(|(quantity, ends)| range.axis_mut(*quantity).unwrap().ends = *ends);
     range
@@ -39,12 +39,12 @@ fn thinning(kind: ContactKind) -> &'static str {
     }
 }
 
-/// The embedded model.
+/// Returns the embedded model.
 pub fn online(kind: ContactKind) -> Online {
     Online::new(embedded(thinning(kind)).unwrap(), ReducedOptions::default())
 }
 
-/// Relative errors of H_c, H_min and a traction coefficient; that of the traction is zero where nothing slides.
+/// Returns relative errors of H_c, H_min and traction coefficient; that of the traction is zero without sliding.
 pub fn errors(reduced: &Solution, traction: f64, truth: &Solution) -> [f64; 3] {
     let off = |reduced: f64, full: f64| (reduced / full - 1.0).abs();
     let slides = truth.problem.point.sliding.slide_to_roll_ratio > 0.0;
@@ -52,8 +52,8 @@ pub fn errors(reduced: &Solution, traction: f64, truth: &Solution) -> [f64; 3] {
     [off(reduced.scalars.h_c, truth.scalars.h_c), off(reduced.scalars.h_min, truth.scalars.h_min), traction]
 }
 
-/// Asserts that sliding the other way gives the same film and the opposite traction, and that a plateau of one ignores
-/// sliding.
+/// Asserts that the opposite sliding gives the same film thickness and the opposite traction, and that sliding has no
+/// effect with a plateau ratio of 1.
 pub fn assert_mirrored(mut online: Online, point: OperatingPoint, tolerance: f64) {
     let mut film = |srr: f64, npr: f64| {
         online.forget();
@@ -69,8 +69,8 @@ pub fn assert_mirrored(mut online: Online, point: OperatingPoint, tolerance: f64
     assert!((film(0.0, 1.0).0 / film(0.9, 1.0).0 - 1.0).abs() < tolerance);
 }
 
-/// Asserts that each contact lies outside by what a word names, as SRR, NPR and the modulus do beside `base`, and that
-/// the model of Newtonian contacts refuses the lubricant.
+/// Asserts that each contact is outside the range by the named quantity, as SRR, NPR and the modulus are compared with
+/// `base`, and that the model of Newtonian contacts refuses the lubricant.
 pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[(OperatingPoint, &str)]) {
     let trust = |point: &OperatingPoint| online.model.trust(&Problem::new(point, SQUALANE_PIP).unwrap());
     let common = [
@@ -86,8 +86,8 @@ pub fn assert_limits_are_said(online: &Online, base: OperatingPoint, further: &[
     assert_eq!(refused.unwrap_err(), ReducedError::ShearThinning);
 }
 
-/// Asserts that the file of the model keeps what Newtonian contacts do not have. That files are written as they were read
-/// is a test of the library.
+/// Asserts that the file of the model stores what Newtonian models do not have. A test of the library checks that files
+/// are written as they were read.
 pub fn assert_file_keeps_everything(kind: ContactKind) {
     let model = embedded(thinning(kind)).unwrap();
     assert!(model.domain.space.varies(Quantity::NewtonianPlateauRatio));

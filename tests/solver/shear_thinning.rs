@@ -1,5 +1,5 @@
-//! Shear-thinning contacts of both kinds: against independent solutions on the same grids, over the whole range of
-//! Table 3.6, and their symmetries.
+//! Shear-thinning contacts of both kinds: comparison with independent solutions on the same grids, over the whole range
+//! of Table 3.6, and their symmetries.
 
 use ehl_explorer::scene::named_lubricant::by_name;
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
@@ -13,7 +13,7 @@ const GRID: GridSpec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
 const LINE: GridSpec = GRID;
 const POINT: GridSpec = GridSpec::Plane(PointGridSpec::uniform(0.04, 0.1, (-4.0, 2.0, -2.0)));
 
-/// The bodies of Tables 3.5 and 3.8 with one of their lubricants.
+/// Bodies of Tables 3.5 and 3.8 with one of their lubricants.
 fn contact(kind: ContactKind, fluid: &str, load: f64, speed_m_per_s: f64, srr: f64, npr: f64) -> Problem {
     let lubricant = by_name(fluid).unwrap();
     let point = OperatingPoint {
@@ -59,8 +59,8 @@ fn solve_from(solver: &mut ContactSolver, problem: Problem, start: Start<'_>) ->
     solution
 }
 
-/// Asserts that H_c, H_min and traction (against the larger of it and 0.005) are as in a reference, and tells by how
-/// much they differ.
+/// Asserts that H_c, H_min and traction (relative to the larger of it and 0.005) agree with a reference, and prints the
+/// differences.
 fn differences(solver: &mut ContactSolver, wanted: &Value, fluid: &str, load: f64, bounds: [f64; 3]) -> [f64; 3] {
     let number = |name: &str| wanted[name].as_f64().unwrap();
     let [speed, srr, npr] = ["speed_m_per_s", "slide_to_roll_ratio", "newtonian_plateau_ratio"].map(number);
@@ -165,8 +165,8 @@ fn sliding_and_plateaus_beyond_table_3_6_converge_and_a_neighbour_is_a_good_star
     }
 }
 
-/// `panels` equal ones, a multiple of two, with six Gauss points each: two production rules on half the film, and so
-/// on.
+/// Rule with `panels` equal panels, an even number, with six Gauss points each: 2 panels are two production rules on
+/// half the film each.
 fn finer_rule(panels: usize) -> &'static FilmRule {
     let width = 2.0 / panels as f64;
     let part = |k: usize| PRODUCTION_RULE.map(|(at, weight)| (-0.5 + (k as f64 + at + 0.5) * width, weight * width));

@@ -1,8 +1,8 @@
-//! The embedded models against 200 answers of each that were stored before their files got the present format.
+//! The embedded models compared with 200 stored answers of each, computed before their files got the present format.
 //!
-//! `tests/data/model_answers.bin` holds the answers: for each model of the catalogue its 200 contacts (nine numbers of
-//! four bytes each, [`Contact`]), then what the model computed for each of them ([`answer`], numbers of eight bytes), and
-//! at the end the values along a march of the transient model ([`marched`]). All numbers are little-endian.
+//! `tests/data/model_answers.bin` contains the answers: for each model of the catalogue its 200 contacts (nine numbers
+//! of four bytes each, [`Contact`]), then the model's results for each of them ([`answer`], numbers of eight bytes).
+//! The values along a march of the transient model follow ([`marched`]). All numbers are little-endian.
 //! `EHL_WRITE_ANSWERS=1 cargo test --release --test solver stored_answers` writes the file again, with the contacts of a
 //! fixed seed.
 
@@ -27,10 +27,10 @@ const VALUES: usize = 12;
 const BOUNDS: usize = 5;
 /// Allowed relative differences of both.
 const TOLERANCES: [f64; 2] = [1e-12, 1e-9];
-/// The same with heat. When these answers were stored, body 1 was the faster one. Temperatures of the mirrored contact are
-/// iterated in another order, and a few contacts end elsewhere within the tolerance of their iterations.
+/// The same for thermal contacts. When these answers were stored, body 1 was the faster one. Temperatures of the
+/// mirrored contact are iterated in another order, and a few end elsewhere within the tolerance of their iterations.
 const TOLERANCES_WITH_HEAT: [f64; 2] = [1e-4, 0.1];
-/// With heat nearly all contacts agree to this.
+/// Nearly all thermal contacts agree to this.
 const USUAL_WITH_HEAT: f64 = 1e-8;
 
 /// R, u_m, w, E′, η₀, α, SRR, NPR, R_y; the last two are NaN for a contact without one.
@@ -49,7 +49,7 @@ fn point_of(model: &ReducedModel, contact: &Contact) -> OperatingPoint {
     OperatingPoint { radius_y_m: Some(radius_y).filter(|radius| !radius.is_nan()), ..point }
 }
 
-/// A contact between two training contacts: ranges are boxes in the logarithms of the quantities.
+/// Returns a contact between two training contacts: ranges are boxes in the logarithms of the quantities.
 fn between(model: &ReducedModel, rng: &mut Rng) -> Contact {
     let mut drawn = || {
         let window = &model.windows[rng.usize(..model.windows.len())];
@@ -69,9 +69,9 @@ fn between(model: &ReducedModel, rng: &mut Rng) -> Contact {
     all.try_into().unwrap()
 }
 
-/// H_c, H_min, P_c, P_max, H₀, traction, rise at mid-film, P and H at a node, the root mean squares of both, p̃₁; then the
-/// bounds of H_c, H_min, the state, traction and rise. What the model does not compute is NaN. `None` if the contact lies
-/// outside the trained range, or the model finds no solution with known errors.
+/// H_c, H_min, P_c, P_max, H₀, traction, rise at mid-film, P and H at a node, the root mean squares of both, p̃₁. The
+/// bounds of H_c, H_min, the state, traction and rise follow. Results that the model does not compute are NaN. `None`
+/// if the contact is outside the trained range, or the model finds no solution with known errors.
 fn answer(online: &mut Online, contact: &Contact) -> Option<[f64; VALUES + BOUNDS]> {
     let model = Arc::clone(&online.model);
     let (point, lubricant) = (point_of(&model, contact), model.domain.lubricant);
@@ -107,7 +107,7 @@ fn answer(online: &mut Online, contact: &Contact) -> Option<[f64; VALUES + BOUND
     ])
 }
 
-/// H_c, H_min, P_c and P_max at fifty moments of a march that begins where the first training began.
+/// H_c, H_min, P_c and P_max at fifty times of a march that begins at the start of the first training.
 fn marched() -> Vec<f64> {
     let model = line_in_time().unwrap();
     let start = &model.starts[0];
@@ -120,7 +120,7 @@ fn marched() -> Vec<f64> {
     some.flat_map(|moment| [moment.h_c, moment.h_min, moment.p_c, moment.p_max]).collect()
 }
 
-/// A model with its contacts and their answers.
+/// Model with its contacts and their answers.
 fn of_model(name: &str, contacts: Option<&[Contact]>) -> Vec<(Contact, [f64; VALUES + BOUNDS])> {
     let model = embedded(name).unwrap();
     let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
@@ -148,8 +148,8 @@ fn write() {
     std::fs::write(path(), bytes).unwrap();
 }
 
-/// The largest difference of values and of bounds, over the stored ones. Fields are compared by their own values: they are
-/// solutions of the same equations from the same numbers.
+/// Returns the largest relative differences of values and of bounds from the stored ones. Fields are included, since
+/// they are solutions of the same equations from the same numbers.
 fn differences(stored: &[f64], found: &[f64; VALUES + BOUNDS]) -> [f64; 2] {
     let off = |(stored, found): (&f64, &f64)| match (stored.is_nan(), found.is_nan()) {
         (true, true) => 0.0,

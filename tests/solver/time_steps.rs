@@ -1,6 +1,6 @@
-//! The error that the lengths of the steps leave in a march: estimated against marches with steps eight times shorter,
-//! and controlled by a tolerance, in full and by the embedded reduced model. Six random marches are made in the
-//! ordinary run, 50 where the environment has `EHL_LONG`.
+//! Time-step error of a march: estimated compared with marches with steps eight times shorter, and controlled by a
+//! tolerance, with the full system and the embedded reduced model. The ordinary run has six random marches, a run with
+//! `EHL_LONG` in the environment 50.
 
 use crate::common::cases::cases;
 use ehl_explorer::engine::Workbench;
@@ -16,10 +16,10 @@ use fastrand::Rng;
 
 const GRID: GridSpec = GridSpec::Uniform { dx: 0.04, domain: (-4.0, 1.5) };
 const DURATION: f64 = 2.0;
-/// Beyond this share of H_c a warning is right.
+/// A larger error of H_c needs a warning.
 const NOTABLE: f64 = 0.03;
 
-/// A harmonic, a steep or a tabulated function of time.
+/// Returns a harmonic, a steep or a tabulated function of time.
 fn signal(kind: usize, rng: &mut Rng) -> Signal {
     let (amplitude, period) = (0.05 + 0.25 * rng.f64(), 0.2 * 20f64.powf(rng.f64()));
     match kind {
@@ -40,7 +40,7 @@ fn marched(transient: &Transient) -> (FullMarch, Trajectory) {
     (model, trajectory)
 }
 
-/// Greatest relative difference of H_c from a march with equal steps of a length.
+/// Returns the largest relative difference of H_c from a march with equal steps.
 fn true_error(trajectory: &Trajectory, model: &mut dyn Marching, step: f64) -> f64 {
     let fine = Transient { time_step: TimeStep::Fixed(step), ..trajectory.transient.clone() };
     let fine = march(model, &fine, &()).unwrap();
@@ -84,7 +84,7 @@ fn a_coarse_step_is_warned_of_and_a_contact_at_rest_has_no_error() {
         trajectory
     };
     let warning = of(swinging).step_warning().unwrap().to_string();
-    assert!(warning.contains("the time steps leave H_c off"), "{warning}");
+    assert!(warning.contains("the time-step error of H_c"), "{warning}");
     let rests = of(Inputs::default());
     assert!(rests.step_error.unwrap() < 1e-6 && rests.step_warning().is_none());
 }

@@ -1,5 +1,5 @@
-//! A contact in time against an independent solution on the same grid with the same steps, and a film against a
-//! published one.
+//! Transient contact compared with an independent solution on the same grid with the same steps, and a film thickness
+//! compared with a published one.
 
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::transient::{self, Inputs, Signal, Transient};
@@ -7,7 +7,7 @@ use ehl_explorer::solver::full::{PointSolver, Start};
 use ehl_explorer::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 
-/// The numbers of a table after its comment and its header.
+/// Returns the numbers of a table after its comment and its header.
 fn rows<const N: usize>(table: &str) -> Vec<[f64; N]> {
     let row = |line: &str| -> [f64; N] {
         let numbers: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
@@ -34,8 +34,8 @@ fn a_breathing_contact_agrees_with_an_independent_one_at_every_moment() {
         }
     }
     println!("greatest relative differences of P_c, H_c, H_min: {worst:?}");
-    // The independent solution keeps its factorisation while the front of the rupture moves: its smallest film has
-    // three digits.
+    // The independent solution keeps its factorisation while the cavitation boundary moves. Its minimum film thickness
+    // has three digits.
     assert!(worst[0] < 5e-6 && worst[1] < 5e-6 && worst[2] < 5e-4, "{worst:?}");
 }
 
@@ -58,7 +58,7 @@ fn the_film_of_a_ball_on_a_disc_is_the_published_one() {
     let (length, height) = (1e6 * point.hertz().half_width_m, 1e9 * point.film_scale_m());
     let computed: Vec<(f64, f64)> = solution.profile().map(|(x, _, h)| (length * x, height * h)).collect();
     let mut off = Vec::new();
-    // Read off a figure: the steep flanks say more about the reading than about the film.
+    // Read off a figure: at the steep flanks the reading error exceeds that of the film thickness.
     for [x, published] in rows::<2>(include_str!("../data/ball_on_disc_film.csv")) {
         if x.abs() < 130.0 {
             let k = computed.partition_point(|&(at, _)| at < x);

@@ -1,4 +1,4 @@
-//! What a screen reader is told, and where the Tab key leads.
+//! Names for screen readers, and the order of the Tab key.
 
 use crate::driver::{CONTROLS, TABS, Window, click, press, wait};
 use egui::accesskit::Role;
@@ -8,7 +8,7 @@ use egui::{Color32, Key, Modifiers, Pos2, Rect, Shape, Theme};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ehl_explorer::app::Explorer;
 
-/// Rows whose middles lie closer than this are one row to the eye.
+/// Largest distance between the middles of two controls in the same visual row.
 const ROW: f32 = 8.0;
 
 fn open(height: f32) -> Window {
@@ -18,7 +18,7 @@ fn open(height: f32) -> Window {
     harness
 }
 
-/// Controls without a name, or without the value that their kind has.
+/// Returns controls without a name, or without the value that their kind has.
 fn nameless(harness: &Window) -> Vec<String> {
     let mut faults = Vec::new();
     for role in CONTROLS {
@@ -55,7 +55,7 @@ fn every_control_of_every_tab_has_a_name_and_its_value() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Where the Tab key leads, once round.
+/// Returns the controls that the Tab key visits in one cycle.
 fn round(harness: &mut Window) -> Vec<(String, Rect)> {
     let mut places: Vec<(String, Rect)> = Vec::new();
     for _ in 0..120 {
@@ -63,7 +63,7 @@ fn round(harness: &mut Window) -> Vec<(String, Rect)> {
         let focused = CONTROLS.into_iter().flat_map(|role| harness.query_all_by_role(role));
         let Some(node) = focused.into_iter().find(|node| node.accesskit_node().is_focused()) else { continue };
         let place = (node.accesskit_node().label().unwrap_or_default(), node.rect());
-        // Focus may rest where it is for a press, as something comes or goes.
+        // The focus may stay for one press while a control appears or disappears.
         if places.len() > 1 && places.first() == Some(&place) {
             break;
         }
@@ -91,7 +91,7 @@ fn the_tab_key_follows_the_eye_down_the_panel_and_along_its_rows() {
     }
 }
 
-/// The contrast of two opaque colours, as WCAG 2.2 defines it.
+/// Returns the contrast of two opaque colours as defined by WCAG 2.2.
 fn contrast(a: Color32, b: Color32) -> f32 {
     let luminance = |color: Color32| {
         let [r, g, b, _] = Rgba::from(color).to_array();
@@ -101,10 +101,10 @@ fn contrast(a: Color32, b: Color32) -> f32 {
     a.max(b) / a.min(b)
 }
 
-/// A frame's fills, in their order; none for pictures, whose colours are not known.
+/// Fills of a frame in their order; `None` for pictures, whose colours are not available.
 type Fills = Vec<(Rect, Option<Color32>)>;
 
-/// Goes through shapes in the order in which they are painted, and calls `text` with what lies under each text.
+/// Visits shapes in the order in which they are painted, and calls `text` with the fills below each text.
 fn painted(clip: Rect, shape: &Shape, fills: &mut Fills, text: &mut dyn FnMut(&TextShape, Pos2, &Fills)) {
     match shape {
         Shape::Vec(shapes) => shapes.iter().for_each(|shape| painted(clip, shape, fills, text)),
@@ -120,7 +120,7 @@ fn painted(clip: Rect, shape: &Shape, fills: &mut Fills, text: &mut dyn FnMut(&T
     }
 }
 
-/// The colours of a text, letters without ink left out.
+/// Returns the colours of a text, without letters that draw nothing.
 fn inks(shape: &TextShape) -> Vec<Color32> {
     let of = |format: &egui::TextFormat| match (shape.override_text_color, format.color) {
         (Some(color), _) => color,
@@ -135,8 +135,8 @@ fn inks(shape: &TextShape) -> Vec<Color32> {
     sections.iter().filter(said).map(|section| of(&section.format).gamma_multiply(shape.opacity_factor)).collect()
 }
 
-/// Texts of a frame that cannot be read: their contrast to what they are painted on is too small. What is disabled is
-/// meant to stand back.
+/// Returns texts of a frame with too little contrast to their background. Disabled controls are excluded, since they
+/// are meant to be faint.
 fn faint(harness: &Window, ground: Color32, checked: &mut usize) -> Vec<String> {
     let roles = CONTROLS.into_iter().chain([Role::Label]);
     let disabled: Vec<Rect> = roles

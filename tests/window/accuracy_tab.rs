@@ -1,5 +1,5 @@
-//! The Accuracy tab without a display: its studies run, can be stopped, lead to the contacts they found, and know when
-//! they are old.
+//! The Accuracy tab without a display: its studies run, can be stopped, lead to the contacts they found, and are marked
+//! when they are outdated.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{Table, Window, choose, click, export, set, shows, undo, wait_until};
@@ -10,7 +10,7 @@ use ehl_explorer::engine::{SceneOutcome, Workbench, embedded, run_scene};
 use ehl_explorer::scene::{Grid, Scene, Study};
 use std::time::Duration;
 
-/// The Accuracy tab at one of its views, over a settled picture.
+/// Opens the Accuracy tab at one of its views, after the picture is complete.
 fn open(view: &str) -> Window {
     let explorer = Explorer::new(Some(embedded("line").unwrap())).without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
@@ -28,7 +28,7 @@ fn count(harness: &mut Window, name: &str, value: f64) {
     set(harness, Role::SpinButton, name, value);
 }
 
-/// Waits for the end of what has begun by itself.
+/// Waits for the end of studies that started automatically.
 fn rest(harness: &mut Window) {
     wait(harness, "what begins by itself", |h| !h.state().studying());
 }
@@ -41,15 +41,15 @@ fn run_tests(harness: &mut Window, tests: f64, compared: f64) {
     wait(harness, "the random tests", |h| !h.state().studying());
 }
 
-/// Writes the table of the view through the path field and reads it back.
+/// Writes the table of the view through the path field and reads it again.
 fn exported(harness: &mut Window, item: &str, name: &str) -> Vec<String> {
     let folder = Scratch::new("accuracy");
     let text = export(harness, "Accuracy", item, &folder.join(name));
     text.lines().map(str::to_owned).collect()
 }
 
-/// What a headless run answers to a question about the contact that the window begins with, of films that rupture as the
-/// model's do.
+/// Runs a study without the window at the contact that the window starts with, with the cavitation model of the
+/// reduced model.
 fn headless(study: &str) -> SceneOutcome {
     let of = "at: Moes(m: 40.0, l: 10.0), cavitation: Complementarity";
     let text = format!("Scene(version: 1, title: \"t\", {of}, study: {study})");
@@ -57,7 +57,7 @@ fn headless(study: &str) -> SceneOutcome {
     run_scene(&scene, &mut Workbench::new(""), &()).unwrap()
 }
 
-/// Asserts that columns of an exported table hold what columns of a headless study's table hold, to the last bit.
+/// Asserts that columns of an exported table are bitwise equal to those of a table computed without the window.
 fn assert_same(exported: &[String], outcome: &SceneOutcome, columns: &[(&str, &str)]) {
     let (own, headless) = (Table::of(&exported.join("\n")), Table::of(&outcome.tables[0].to_csv()));
     for (name, of) in columns {
@@ -72,7 +72,7 @@ fn truncate(harness: &mut Window) {
         view: (pressure_loss: 1e-5))";
     harness.state_mut().open_scene(&Scratch::new("truncated").write("scene.ron", text)).unwrap();
     harness.run_steps(2);
-    // The scene's own question is answered by the profiles.
+    // The scene's own study is shown in the profiles.
     click(harness, "Accuracy");
 }
 
@@ -98,7 +98,7 @@ fn the_parts_appear_when_the_sliders_rest_and_follow_them() {
     harness.run_steps(1);
     assert!(shows(&harness, "not to the sliders"));
     wait(&mut harness, "the new parts", |h| !shows(h, "not to the sliders"));
-    // Outside the trained range nothing is computed unasked.
+    // Outside the trained range nothing is computed automatically.
     harness.get_by_label("Load number M").set_value_accesskit(900.0);
     harness.run_steps(4);
     assert!(shows(&harness, "on request only") && !harness.state().studying());
@@ -145,7 +145,7 @@ fn a_click_on_the_map_goes_to_the_test_there() {
     run_tests(&mut harness, 400.0, 0.0);
     let before = harness.state().moes();
     let rect = harness.get_by_label("Map of the random validation").rect();
-    // The tests crowd at the corners of the range (3.17): the low left one is never cut by the pressure limit.
+    // The tests are dense at the corners of the range (3.17). The pressure limit never cuts the lower left one.
     for k in 0..60 {
         let corner = rect.left_bottom() + egui::vec2(0.3, -0.3) * f32::from(u8::try_from(k).unwrap()) * 4.0;
         harness.hover_at(corner);
@@ -202,7 +202,7 @@ fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
     let mut harness = open("Failure map");
     rest(&mut harness);
     count(&mut harness, "Random contacts", 10_000.0);
-    // How soon is judged without the window, where studies are cancelled.
+    // The duration of a stop is tested without the window, where studies are cancelled.
     for attempt in 0..3 {
         click(&mut harness, "Run validation");
         wait(&mut harness, "the first tests", |h| shows(h, " of 10000 tests") && !shows(h, "0 of 10000 tests, no"));

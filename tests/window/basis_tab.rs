@@ -1,4 +1,4 @@
-//! Error and time of the reduced model against its modes and rows, and what follows when both are dragged.
+//! Error and time of the reduced model over its modes and equations, and the result of dragging both.
 
 use crate::driver::{Window, click, drag_line, shows, wait, wait_until, window};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -49,7 +49,7 @@ fn error_and_time_against_modes_and_rows_come_by_themselves_and_are_dragged() {
     assert!(shows(&harness, "Pressure profile"));
 }
 
-/// Work on the machine, at least one for each of its processors.
+/// Load on the machine, at least one thread for each of its processors.
 fn load() -> f64 {
     let cores = std::thread::available_parallelism().map_or(1, usize::from) as f64;
     let waiting = std::fs::read_to_string("/proc/loadavg").ok();

@@ -1,4 +1,4 @@
-//! A campaign in the window: how far it is, what failed, and its map as it fills, while others work on it.
+//! A campaign in the window: its progress, its failures, and its map, while other processes compute it.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{Window, click, shows, wait_until, wait_within, window};
@@ -41,7 +41,7 @@ fn shows_part(harness: &Window, text: &str) -> bool {
 fn a_campaign_fills_while_it_is_watched_and_ends_as_one_run_does() {
     let scratch = Scratch::new("watched-campaign");
     let folder = planned(&scratch);
-    // The last one first: what is shown stands in the order of the study all the same.
+    // The last shard first: the display is in the order of the study all the same.
     shard(&folder, 2);
     std::fs::write(folder.path.join("shards/000001.failed"), "no room").unwrap();
     let mut harness = window(Explorer::with_embedded_models(), [1280.0, 800.0]);
@@ -105,7 +105,7 @@ fn watching_is_stopped_and_a_folder_without_a_campaign_is_refused() {
     click(&mut harness, "Stop watching");
     wait_within(PATIENCE, &mut harness, "the stop", |app| !app.running_study());
     assert!(harness.state().verdict().is_none(), "what was stopped is not judged");
-    // Damage ends it with a sentence; what was shown stays.
+    // A damaged file ends it with a sentence; the previous display stays.
     std::fs::write(folder.path.join("shards/000001.shard"), "nonsense").unwrap();
     harness.state_mut().open_scene(&folder.path).unwrap();
     wait_within(PATIENCE, &mut harness, "the refusal", |app| !app.running_study());

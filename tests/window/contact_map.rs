@@ -1,4 +1,4 @@
-//! The point contact in the window: the switch, the map, its cuts, the grids, the interferogram.
+//! Point contacts in the window: selection, map, cuts, grids, interferogram.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
@@ -15,7 +15,7 @@ fn open() -> Window {
     crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 1500.0])
 }
 
-/// Waits for a full solution on so many nodes.
+/// Waits for a full solution on this number of nodes.
 fn solved(harness: &mut Window, nodes: (usize, usize)) {
     wait(harness, "the chosen grid", |app| {
         app.nodes() == Some(nodes) && app.central_film().is_some() && !app.busy() && app.badge() != "Quick grid"
@@ -53,7 +53,7 @@ fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
     assert!(harness.state().is_point());
     let after = harness.state().moes();
     assert!((after.m / before.m - 1.0).abs() < 1e-9 && (after.l / before.l - 1.0).abs() < 1e-9);
-    // A quick grid answers first, the graded one when the sliders rest.
+    // The quick grid is used first, the graded one when the sliders are idle.
     wait(&mut harness, "the first picture", |app| app.central_film().is_some());
     assert_eq!(harness.state().nodes(), Some((151, 41)));
     assert_eq!(harness.state().badge(), "Quick grid");
@@ -142,7 +142,7 @@ fn grids_are_chosen_estimated_and_taken_back() {
     solved(&mut harness, (301, 41));
     assert!(harness.state().grid_errors().is_none(), "the estimate belonged to the other grid");
     let fine = harness.state().central_film().unwrap();
-    // Halving ΔX takes three quarters of the error in X away.
+    // Half the spacing ΔX removes three quarters of the error in X.
     assert!((fine / coarse - 1.0).abs() < 1.2 * h_c && fine > coarse, "{coarse} {fine} {h_c}");
     undo(&mut harness);
     solved(&mut harness, (151, 41));
@@ -160,12 +160,12 @@ fn a_heavy_load_on_a_coarse_grid_says_that_the_side_lobes_are_not_resolved() {
 
 #[test]
 fn a_light_ball_is_drawn_by_the_model_of_such_and_says_what_its_domain_leaves_out() {
-    // While the model is being read the full solver draws, on a grid of its own that is no measure of the model.
+    // While the model is being read, pictures are full solutions on another grid, which do not measure the model.
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 1500.0]);
     click(&mut harness, "Ball");
     for (name, value) in [("Lubricant number L", 5.0), ("Load number M", 7.8)] {
-        // It goes on to repaint as long as the model is being read.
+        // Repaints continue while the model is being read.
         harness.get_by_label(name).set_value_accesskit(value);
         harness.run_steps(2);
     }
@@ -235,7 +235,7 @@ fn a_frame_with_the_map_is_cheap() {
     let mut harness = quick_point();
     click(&mut harness, "Contact map");
     click(&mut harness, "Interferogram");
-    // A new phase every frame: the picture is made anew every time.
+    // A new phase in every frame, so that the picture is computed again every time.
     assert_cheap(&mut harness, 40, 8.0, |harness, k| {
         harness.get_by_label("Phase").set_value_accesskit(f64::from(9 * k));
     });

@@ -1,4 +1,4 @@
-//! What people expect of a desktop tool: everything by the command palette, and a picture for a lecture.
+//! Desktop features: all commands through the command palette, and a picture for a lecture.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{Window, click, press, set, shows, wait};
@@ -33,7 +33,7 @@ fn palette_is_open(harness: &Window) -> bool {
     harness.query_by_role_and_label(Role::TextInput, "Find a command").is_some()
 }
 
-/// The line of the palette that is chosen.
+/// Returns the selected line of the palette.
 fn chosen(harness: &Window) -> String {
     let lines = harness.query_all_by_role(Role::ListBoxOption);
     let chosen = lines.filter(|line| line.accesskit_node().is_selected() == Some(true));
@@ -81,7 +81,7 @@ fn a_short_list_of_matches_does_not_keep_a_longer_one_short() {
     harness.run_steps(3);
     press(&mut harness, Modifiers::COMMAND, Key::P);
     harness.run_steps(3);
-    // A press on a line that is cut off would fall beside the palette.
+    // A press on a line that is cut off would be outside the palette.
     harness.get_by_role_and_label(Role::ListBoxOption, "Go to Transient").click();
     harness.run_steps(3);
     assert!(!palette_is_open(&harness) && shows(&harness, "Run transient"));
@@ -100,7 +100,7 @@ fn arrows_choose_escape_leaves_everything_as_it_was_and_keys_belong_to_the_palet
     for _ in 0..3 {
         press(&mut harness, Modifiers::NONE, Key::ArrowUp);
     }
-    // Round the upper end to what cannot be done now.
+    // Around the upper end to commands that are disabled.
     let last = harness.get_all_by_role(Role::ListBoxOption).last().unwrap().accesskit_node();
     assert_eq!(Some(chosen(&harness)), last.label());
     assert!(last.is_disabled() && last.description().is_some_and(|why| !why.is_empty()));
@@ -169,7 +169,7 @@ fn a_presentation_shows_plots_and_the_sliders_in_use_large_and_ends_with_escape(
     crate::driver::write(&mut harness, "L value", "-3");
     press(&mut harness, Modifiers::NONE, Key::Enter);
     assert!(shows(&harness, "L is -3"), "a refused entry says why");
-    // The palette is there too, and its Escape is its own.
+    // The palette is available there too, and has its own Escape.
     ask(&mut harness, "squalane");
     press(&mut harness, Modifiers::NONE, Key::Escape);
     assert!(harness.query_by_label("File").is_none());

@@ -1,4 +1,4 @@
-//! Driving the window without a display: what the tests of its tabs have in common.
+//! Control of the window without a display: shared helpers of the tests of its tabs.
 
 use crate::common::processor_time::{fixed_work, of_this_thread};
 use egui::accesskit::Role;
@@ -9,7 +9,7 @@ use ehl_explorer::app::Explorer;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// The titles of all tabs.
+/// Titles of all tabs.
 pub const TABS: [&str; 10] = [
     "Profiles",
     "Contact map",
@@ -22,22 +22,22 @@ pub const TABS: [&str; 10] = [
     "TPWL",
     "Results",
 ];
-/// What a hand can be laid on.
+/// Roles of controls.
 pub const CONTROLS: [Role; 7] =
     [Role::Button, Role::Slider, Role::SpinButton, Role::CheckBox, Role::RadioButton, Role::ComboBox, Role::TextInput];
 
-/// Longer than any reduced solve takes on the busiest machine: what a frame of a test shows does not depend on it.
+/// Longer than any reduced solve on the busiest machine, so that the picture in a test's frame does not depend on it.
 pub const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The explorer in a window of its own.
+/// Opens the explorer in a window.
 pub type Window = Harness<'static, Explorer>;
 
-/// A window of a size in points.
+/// Opens a window of a size in points.
 pub fn window(explorer: Explorer, size: [f32; 2]) -> Window {
     impatient_window(explorer.waiting_for_answers(PATIENCE), size)
 }
 
-/// The same, which waits within a frame for as long as the explorer does.
+/// The same with the explorer's own waiting time within a frame.
 pub fn impatient_window(explorer: Explorer, size: [f32; 2]) -> Window {
     Harness::builder().with_size(size).build_ui_state(|ui, app: &mut Explorer| app.ui(ui), explorer)
 }
@@ -63,23 +63,23 @@ pub fn wait_until(patience: Duration, harness: &mut Window, what: &str, done: im
     }
 }
 
-/// The same for what the explorer says of itself.
+/// The same for a condition on the explorer's state.
 pub fn wait_within(patience: Duration, harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
     wait_until(patience, harness, what, |harness| done(harness.state()));
 }
 
-/// The same for at most five minutes: a busy machine may take long.
+/// The same for at most five minutes, since a busy machine may take long.
 pub fn wait(harness: &mut Window, what: &str, done: impl Fn(&Explorer) -> bool) {
     wait_within(Duration::from_secs(300), harness, what, done);
 }
 
-/// Clicks what bears a name.
+/// Clicks the control with this name.
 pub fn click(harness: &mut Window, name: &str) {
     harness.get_by_label(name).click();
     harness.run_steps(3);
 }
 
-/// Whether a text is on the screen, be it a part of a longer one.
+/// Returns true if a text is on the screen, possibly as part of a longer one.
 pub fn shows(harness: &Window, text: &str) -> bool {
     harness.query_all_by_label_contains(text).next().is_some()
 }
@@ -90,7 +90,7 @@ pub fn press(harness: &mut Window, modifiers: Modifiers, key: Key) {
     harness.run_steps(3);
 }
 
-/// Takes the last edit back.
+/// Undoes the last edit.
 pub fn undo(harness: &mut Window) {
     press(harness, Modifiers::COMMAND, Key::Z);
 }
@@ -101,14 +101,14 @@ pub fn set(harness: &mut Window, role: Role, name: &str, value: f64) {
     harness.run_steps(2);
 }
 
-/// Chooses an option of a box.
+/// Selects an option of a combo box.
 pub fn choose(harness: &mut Window, picker: &str, option: &str) {
     harness.get_by_role_and_label(Role::ComboBox, picker).click();
     harness.run_steps(3);
     click(harness, option);
 }
 
-/// Writes a text in place of what stands in a field.
+/// Replaces the text of a field.
 pub fn write(harness: &mut Window, field: &str, text: &str) {
     harness.get_by_role_and_label(Role::TextInput, field).focus();
     harness.run_steps(2);
@@ -117,13 +117,13 @@ pub fn write(harness: &mut Window, field: &str, text: &str) {
     harness.run_steps(2);
 }
 
-/// Gives a path to the field that asks for one, and does what the window asks it for.
+/// Enters a path into the path field, and confirms it.
 pub fn give_path(harness: &mut Window, path: &Path, action: &str) {
     write(harness, "Path of the file", &path.display().to_string());
     click(harness, action);
 }
 
-/// Writes what an item of the Export menu of a tab gives to a path, and reads it.
+/// Exports an item of a tab's Export menu to a path, and reads it.
 pub fn export(harness: &mut Window, tab: &str, item: &str, path: &Path) -> String {
     click(harness, &format!("Export from {tab}"));
     click(harness, item);
@@ -131,7 +131,7 @@ pub fn export(harness: &mut Window, tab: &str, item: &str, path: &Path) -> Strin
     std::fs::read_to_string(path).unwrap()
 }
 
-/// Draws a plot of a tab as SVG to a path, and reads it.
+/// Exports a plot of a tab as SVG to a path, and reads it.
 pub fn export_plot(harness: &mut Window, tab: &str, plot: &str, path: &Path) -> String {
     click(harness, &format!("Export from {tab}"));
     click(harness, "Figure…");
@@ -144,20 +144,20 @@ pub fn export_plot(harness: &mut Window, tab: &str, plot: &str, path: &Path) -> 
     std::fs::read_to_string(path).unwrap()
 }
 
-/// The caption of a drawing, without the ends of its lines.
+/// Returns the caption of a drawing without line ends.
 pub fn caption(drawing: &str) -> String {
     let lines = drawing.lines().filter(|line| line.contains("class=\"caption\""));
     let words = |line: &str| line.split_once('>').map(|(_, rest)| rest.trim_end_matches("</text>").to_owned());
     lines.filter_map(words).collect::<Vec<_>>().join(" ")
 }
 
-/// Solid curves of a drawing.
+/// Returns the number of solid curves of a drawing.
 pub fn solid_curves(drawing: &str) -> usize {
     let curve = |line: &&str| line.starts_with("<polyline") && line.matches(',').count() > 30;
     drawing.lines().filter(curve).filter(|line| !line.contains("stroke-dasharray")).count()
 }
 
-/// Takes the contact through time, to the end of all runs, unless that has happened by itself.
+/// Starts the transient runs, unless they have started automatically, and waits for their end.
 pub fn run_in_time(harness: &mut Window) {
     harness.run_steps(3);
     rest_in_time(harness);
@@ -168,24 +168,24 @@ pub fn run_in_time(harness: &mut Window) {
     }
 }
 
-/// Waits for the end of what runs in time.
+/// Waits for the end of transient runs.
 pub fn rest_in_time(harness: &mut Window) {
     wait_within(Duration::from_secs(900), harness, "the run", |app| !app.marching());
 }
 
-/// The moment that is looked at.
+/// Returns the displayed time.
 pub fn time(harness: &Window) -> f64 {
     harness.get_by_role_and_label(Role::Slider, "Time T").accesskit_node().numeric_value().unwrap()
 }
 
-/// What [`fixed_work`] costs on the machine that the limits of frames are stated for, in milliseconds.
+/// Time of [`fixed_work`] on the machine that the limits of frames are stated for, in milliseconds.
 const FIXED_WORK_MS: f64 = 0.33;
 
-/// Asserts what a frame may cost in the mean, in milliseconds of this thread's processor time on a machine that does
-/// [`fixed_work`] in [`FIXED_WORK_MS`]; before each something is done. Machines differ by more than a frame may, and
-/// one that others use too is slower still, so both are measured in turns and count by their ratio.
+/// Asserts the mean processor time of a frame in this thread, in milliseconds on a machine with [`FIXED_WORK_MS`] for
+/// [`fixed_work`]. `change` runs before each frame. The speed of machines and the load on them vary by more than the
+/// permitted range, so both are measured in turns and compared by their ratio.
 pub fn assert_cheap(harness: &mut Window, frames: u16, most_ms: f64, mut change: impl FnMut(&mut Window, u16)) {
-    // Turns far longer than the clock of processor time ticks.
+    // Turns much longer than a tick of the processor-time clock.
     let (frames_in_turn, works_in_turn) = (10, 50);
     let (mut drawn, mut beside) = (Duration::ZERO, Duration::ZERO);
     for turn in 0..frames / frames_in_turn {
@@ -208,9 +208,9 @@ pub fn assert_cheap(harness: &mut Window, frames: u16, most_ms: f64, mut change:
     assert!(stated_ms < slower * most_ms, "a frame takes {stated_ms} ms, here {frame_ms} ms");
 }
 
-/// Finds a line that can be moved sideways by walking along a row of the screen, and drags it to the right.
+/// Finds a line that can be moved sideways along a row of the screen, and drags it to the right.
 pub fn drag_line(harness: &mut Window, (from, to): (f32, f32), y: f32, by: f32) {
-    // In steps shorter than the reach of the line.
+    // In steps shorter than the range of the line.
     let movable = (0..((to - from) / 3.0) as usize).map(|k| from + 3.0 * k as f32).find(|&x| {
         harness.hover_at(egui::pos2(x, y));
         harness.step();
@@ -227,13 +227,13 @@ pub fn drag_line(harness: &mut Window, (from, to): (f32, f32), y: f32, by: f32) 
     harness.run();
 }
 
-/// How long nothing is drawn once everything has come to rest.
+/// Returns the time until the next repaint of the idle window.
 pub fn rest(harness: &mut Window) -> Duration {
     harness.run();
     harness.output().viewport_output.values().map(|viewport| viewport.repaint_delay).min().unwrap()
 }
 
-/// Rows of numbers under the names of their columns, without comments.
+/// Rows of numbers by the names of their columns, without comments.
 pub struct Table {
     pub header: Vec<String>,
     pub rows: Vec<Vec<f64>>,

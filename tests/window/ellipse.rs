@@ -1,5 +1,5 @@
-//! Ellipses in the window: the choice of the shape, the slider of the radii, the map with its true shape, bodies with a
-//! groove, formulas.
+//! Elliptical contacts in the window: selection of the shape, slider of the radii, map with its true shape, bodies with
+//! a groove, formulas.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{Window, choose, click, export, press, set, shows, undo, wait, write};
@@ -36,7 +36,7 @@ fn enter(harness: &mut Window, field: &str, text: &str) {
     press(harness, Modifiers::NONE, Key::Enter);
 }
 
-/// What is said of the map.
+/// Returns the text about the map.
 fn spoken(harness: &Window) -> String {
     harness.get_by_label("Map of the contact").accesskit_node().description().unwrap_or_default()
 }
@@ -53,7 +53,7 @@ fn the_slider_morphs_the_ellipse_while_m_and_l_stay_and_the_map_follows() {
         let after = harness.state().point();
         assert!((after.radius_ratio() / ratio - 1.0).abs() < 1e-9, "{}", after.radius_ratio());
         assert_eq!(OperatingPoint { radius_y_m: before.radius_y_m, ..after }, before, "all else stays");
-        // Until it is solved the former picture is grey and says so.
+        // Until it is solved, the previous picture is grey and marked.
         assert!(harness.state().central_film().is_none() && shows(&harness, "Grey: the picture belongs to"));
         solved(&mut harness);
         assert!(spoken(&harness).contains(&format!("R_y/R {ratio}")), "{}", spoken(&harness));
@@ -84,7 +84,7 @@ fn a_typed_radius_across_stays_and_comes_back_with_the_ellipse() {
     click(&mut harness, "Free Across R_y");
     set(&mut harness, Role::Slider, RATIO, 8.0);
     assert!((harness.state().point().radius_ratio() - 8.0).abs() < 1e-9);
-    // Of a ball another radius makes an ellipse, and nothing moves under the pointer.
+    // A second radius turns a circular contact into an elliptical one, and nothing moves under the pointer.
     click(&mut harness, "Ball");
     let there = harness.get_by_role_and_label(Role::TextInput, "Load w").rect();
     enter(&mut harness, "Across R_y", "4 mm");
@@ -156,7 +156,7 @@ fn the_reduced_model_of_ellipses_is_read_when_it_is_needed_and_the_slider_answer
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 1200.0]);
     click(&mut harness, "Ellipse");
-    // Full solutions stand in for it until it is there; no frame waits.
+    // Full solutions substitute until the model is available; no frame waits.
     wait(&mut harness, "the model of ellipses", |app| {
         let judged = ["Reduced model", "Verified", "Roughly right"].contains(&app.badge().as_str());
         judged && !app.badge_detail().contains("full solution on")
@@ -166,7 +166,7 @@ fn the_reduced_model_of_ellipses_is_read_when_it_is_needed_and_the_slider_answer
         assert!(harness.state().central_film().is_some(), "the picture follows in the frame");
     }
     set(&mut harness, Role::Slider, RATIO, 20.0);
-    // What follows the hand there is as coarse as elsewhere, and the badge says so.
+    // While a slider is dragged, the grid is as coarse as for other contacts, and the badge reports it.
     wait(&mut harness, "a full solution", |app| app.central_film().is_some());
     let told = |app: &Explorer| (app.badge(), app.badge_detail().contains("on a quick grid"));
     assert_eq!(told(harness.state()), ("Outside the trained range".to_owned(), true));

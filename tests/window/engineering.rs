@@ -1,4 +1,4 @@
-//! Inputs as engineers know them: what was typed stays, units are understood, oils and bodies give the contact.
+//! Engineering inputs: typed values stay, units are accepted, lubricants and bodies define the contact.
 
 use crate::driver::{Window, choose, click, press, set, shows, wait, write};
 use egui::accesskit::Role;
@@ -46,7 +46,7 @@ fn a_roller_with_an_oil_grade_is_entered_in_seven_steps_and_is_the_contact_of_th
         assert!((entered / value - 1.0).abs() < within, "{}: {entered}", quantity.name());
     }
     wait(&mut harness, "a verified picture", |app| app.central_film().is_some() && !app.busy());
-    // Headless: the same contact and oil on the grid that `solve` takes.
+    // Without the window: the same contact and lubricant on the grid of `solve`.
     let mut solver = ContactSolver::on(&GridSpec::EXPLORER.build().unwrap());
     let headless = solver.solve(&point, MINERAL_OIL, Start::Cold, &()).unwrap();
     let film = harness.state().central_film().unwrap();
@@ -77,7 +77,7 @@ fn what_was_typed_stays_while_the_sliders_move_and_the_screen_names_what_follows
     click(&mut harness, "Free Load w");
     set(&mut harness, Role::Slider, "Load number M", 80.0);
     assert!((harness.state().moes().m / 80.0 - 1.0).abs() < 1e-9);
-    // Neither the kind of contact nor a lubricant touches them.
+    // Neither the contact kind nor a lubricant changes them.
     let held = harness.state().point();
     click(&mut harness, "Ball");
     choose(&mut harness, "Fluid", "Barus oil");
@@ -143,7 +143,7 @@ fn a_glass_disc_that_is_entered_as_body_1_is_body_1_with_heat() {
     for (own, entered) in heat.speeds.into_iter().zip([0.5, 1.5]) {
         assert!((own * point.speed_m_per_s - entered).abs() < 1e-12, "{own}");
     }
-    // A material that is chosen beside Heat is the body's.
+    // A material selected at Heat is that of the body.
     choose(&mut harness, "Body 2", "Glass");
     let glass = reduced_modulus(81e9, 0.21, 81e9, 0.21).unwrap();
     assert!((harness.state().point().modulus_pa / glass - 1.0).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! The scenes of the program in their window, and tables of load cases.
+//! The embedded scenes in their window, and tables of load cases.
 
 use crate::driver::{Window, click, press, shows, wait, wait_within, window};
 use egui::accesskit::Role;
@@ -16,7 +16,7 @@ fn fresh() -> Window {
     harness
 }
 
-/// Opens the window of examples and chooses a scene there.
+/// Opens the window of examples and selects a scene.
 fn open_example(harness: &mut Window, search: &str, title: &str) {
     click(harness, "File");
     click(harness, "Examples…");
@@ -73,7 +73,7 @@ fn a_table_of_load_cases_is_read_as_it_is_typed_and_solved_as_headless() {
     harness.run_steps(3);
     assert!(shows(&harness, "10 contacts can be solved, 1 lines are refused"));
     assert!(shows(&harness, "(too thin): "));
-    // Two of the three balls, whose solutions take longest, are left to the test above.
+    // Two of the three balls, whose solutions take longest, are covered by the test above.
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/load_cases/rollers_and_balls.ron");
     let all = std::fs::read_to_string(path.with_extension("csv")).unwrap();
     let kept = all.lines().filter(|line| !line.starts_with("ball on ")).collect::<Vec<_>>().join("\n");
@@ -97,7 +97,7 @@ fn a_table_of_load_cases_is_read_as_it_is_typed_and_solved_as_headless() {
 
 #[test]
 fn load_cases_with_heat_are_a_table_of_all_of_them() {
-    // High enough that all of the panel can be reached.
+    // High enough for the complete panel.
     let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 1900.0]);
     harness.run_steps(3);
     click(&mut harness, "Heat");
@@ -123,7 +123,7 @@ fn load_cases_with_heat_are_a_table_of_all_of_them() {
     assert!(lines[3].contains("refused"), "{shown}");
 }
 
-/// Cells of a table without names and remarks, and without the seconds that solves took, which no two runs share.
+/// Returns the cells of a table without names and remarks, and without seconds, which differ between runs.
 fn timeless(csv: &str) -> Vec<Vec<String>> {
     let numbers = |line: &str| match line.strip_prefix('"').and_then(|quoted| quoted.split_once("\",")) {
         Some((_, rest)) => rest.to_owned(),

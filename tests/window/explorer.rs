@@ -1,4 +1,4 @@
-//! The window without a display: what people do first, and what they do wrong.
+//! The window without a display: first steps of a user, and errors.
 
 use crate::common::processor_time::{of_this_thread, on_one_thread};
 use crate::common::scratch::Scratch;
@@ -36,7 +36,7 @@ fn a_live_verified_picture_appears_by_itself() {
     assert!((0.03..0.2).contains(&film), "{film}");
 }
 
-/// Every tab, and what stands in it alone, whatever the model; the first one is open at the start.
+/// Every tab with the texts that only it shows, whatever the model. The first one is open at the start.
 const TABS: [(&str, &[&str]); 9] = [
     ("Profiles", &["Pin curve", "Pressure profile", "Film profile"]),
     ("Regimes", &["Chart of M and L"]),
@@ -49,7 +49,7 @@ const TABS: [(&str, &[&str]); 9] = [
     ("TPWL", &["Number of operating points"]),
 ];
 
-/// Opens all tabs one after the other; each shows what is its own, with `more` beside, and nothing of the others.
+/// Opens all tabs in turn. Each shows its own texts and `more`, and no texts of the others.
 fn assert_tabs_open(harness: &mut Window, more: &[(&str, &[&str])]) {
     let own = |tab: &str| -> Vec<&str> {
         let lists = TABS.iter().chain(more).filter(|(name, _)| *name == tab);
@@ -85,7 +85,7 @@ fn a_model_draws_the_picture_and_a_full_solve_checks_it() {
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
     harness.get_by_label("Load number M").set_value_accesskit(500.0 / 1.01);
     harness.step();
-    // A live solve that comes back after the sliders have returned to the model must not replace its picture.
+    // A live solve that ends after the sliders have returned to the model must not replace its picture.
     harness.get_by_label("Load number M").set_value_accesskit(50.0);
     wait(&mut harness, "the reduced model", |app| app.badge() == "Verified");
     settled(&mut harness);
@@ -176,7 +176,7 @@ fn a_dragged_frame_of_the_embedded_model_is_cheap() {
     settled(&mut harness);
     assert_cheap(&mut harness, 120, 3.0, |harness, k| {
         assert!(harness.state().central_film().is_some(), "the picture follows within the frame");
-        // Through the windows of the model, from nearly rigid to nearly Hertzian.
+        // Through the local models, from nearly rigid to nearly Hertzian.
         harness.get_by_label("Load number M").set_value_accesskit(5.0 * 1.027f64.powi(k.into()));
     });
     assert!(harness.state().central_film().is_some(), "the picture follows within the frame");
@@ -209,7 +209,7 @@ fn a_reduced_answer_that_is_late_is_drawn_when_it_comes_and_what_there_was_is_gr
 
 #[test]
 fn the_first_picture_is_there_within_a_second() {
-    // In processor time: what the machine does besides does not count.
+    // In processor time, independent of other load on the machine.
     let (model, read) = on_one_thread(|| {
         let begin = of_this_thread();
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/line.rom");
@@ -242,7 +242,7 @@ fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() 
     let mut model = ReducedModel::clone(&embedded("line").unwrap());
     let window = |m: f64| model.window_for(&si_from_moes(&MoesRequest::new(ContactKind::Line, m, 10.0)).unwrap());
     let (own, beyond) = (window(100.0), (1..40).map(|k| 100.0 / 1.05f64.powi(k)).find(|m| window(*m) != window(100.0)));
-    // Equations that are all zero have no solution: but one window has none.
+    // A system of zero equations has no solution: one local model has none.
     let others = model.windows.iter_mut().enumerate().filter(|(k, _)| *k != own);
     others.for_each(|(_, window)| window.reconstruction.fill(0.0));
     let (mut harness, folder) = (open_with(Some(Arc::new(model))), Scratch::new("stands-in"));
@@ -262,7 +262,7 @@ fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() 
     assert!(detail.starts_with("{H_c} within") && why.starts_with("99 % empirical error bounds"), "{detail}; {why}");
     let (detail, why) = promised(beyond.unwrap());
     assert!(detail.starts_with("no error bound: a neighbouring local model is used"), "{detail}");
-    assert!(why.starts_with("The local model that this contact belongs to"), "{why}");
+    assert!(why.starts_with("The local model of this contact found no solution"), "{why}");
     assert!(!why.contains(".."), "{why}");
     wait(&mut harness, "verification", |app| ["Verified", "Roughly right", "Far off"].contains(&app.badge().as_str()));
 }
@@ -279,7 +279,7 @@ fn far_outside_the_model_the_full_solver_takes_over_visibly() {
     assert_eq!(harness.state().badge(), "Outside the trained range");
     wait(&mut harness, "the full solver", |app| !app.busy());
     harness.run();
-    // Either a converged full solution, or a sentence and the former picture; never a reduced result.
+    // Either a converged full solution, or a sentence and the previous picture; never a reduced result.
     match harness.state().badge().as_str() {
         "Outside the trained range" => assert!(harness.state().central_film().is_some()),
         "No solution here" => assert!(harness.state().central_film().is_none()),
@@ -290,7 +290,7 @@ fn far_outside_the_model_the_full_solver_takes_over_visibly() {
 
 #[test]
 fn a_reduced_solve_that_fails_hands_over_to_the_full_solver() {
-    // One mode cannot carry the load: the reduced equations have no solution.
+    // One mode is not sufficient for the load: the reduced equations have no solution.
     let text = "Scene(version: 1, title: \"t\", at: Moes(m: 200.0, l: 3.0), study: Point(methods: [Full]), \
         view: (pressure_loss: 0.9))";
     let folder = Scratch::new("failing");
@@ -347,7 +347,7 @@ fn open_embedded() -> Window {
     open_with(Some(embedded("line").unwrap()))
 }
 
-/// A training of the middle of the sliders: enough for every view of a model.
+/// Training around the middle of the sliders, sufficient for every view of a model.
 const SMALL_MODEL: &str = "Scene(version: 1, title: \"Small model\", study: Training(
     title: \"Small model\",
     range: (axes: {M: (20.0, 100.0), L: (5.0, 14.0), Alpha: (8e-9, 20e-9)}, limits: {HertzPressure: (0.0, 3.2e9)},

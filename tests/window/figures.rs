@@ -1,5 +1,5 @@
-//! Figures and data leave from the same place of every tab: drawn for paper, with the numbers of the table, in the units
-//! that are wanted, on axes that may stand still.
+//! Export of figures and data, the same in every tab: drawn for paper, with the numbers of the table, in the requested
+//! units, on axes that may be fixed.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
@@ -21,7 +21,7 @@ fn open() -> Window {
     harness
 }
 
-/// Opens the window of figures on a plot of a tab.
+/// Opens the window of figures for a plot of a tab.
 fn figure(harness: &mut Window, tab: &str) {
     click(harness, &format!("Export from {tab}"));
     click(harness, "Figure…");
@@ -33,7 +33,7 @@ fn attribute<'a>(line: &'a str, name: &str) -> &'a str {
     rest.split_once('"').unwrap().0
 }
 
-/// Places of the numbers of an axis on paper and their values.
+/// Returns positions of the numbers of an axis on paper, and their values.
 fn ticks(svg: &str, class: &str) -> Vec<(f64, f64)> {
     let of_class = svg.lines().filter(|line| line.contains(&format!("class=\"{class}\"")));
     let words = |line: &str| line.split_once('>').unwrap().1.split_once('<').unwrap().0.replace('−', "-");
@@ -41,16 +41,16 @@ fn ticks(svg: &str, class: &str) -> Vec<(f64, f64)> {
     of_class.map(|line| (attribute(line, class).parse().unwrap(), value(line))).collect()
 }
 
-/// What a place on paper means by the outermost numbers of its axis.
+/// Returns the value at a position on paper, from the outermost numbers of its axis.
 fn value(ticks: &[(f64, f64)], at: f64) -> f64 {
     let (first, last) = (ticks[0], ticks[ticks.len() - 1]);
     first.1 + (at - first.0) / (last.0 - first.0) * (last.1 - first.1)
 }
 
-/// The curves of a drawing in the values of its axes; lines of the grid have two points.
+/// Returns the curves of a drawing in the values of its axes. Grid lines have two points.
 fn curves(svg: &str) -> Vec<Vec<[f64; 2]>> {
     let (x, y) = (ticks(svg, "x"), ticks(svg, "y"));
-    // Numbers of the upright axis stand a little below their marks.
+    // Numbers of the vertical axis are a little below their marks.
     let lowered = 0.35 * 8.0;
     let lines = svg.lines().filter(|line| line.starts_with("<polyline") && line.matches(',').count() > 2);
     let place = |pair: &str| pair.split_once(',').map(|(x, y)| (x.parse::<f64>().unwrap(), y.parse::<f64>().unwrap()));
@@ -58,7 +58,7 @@ fn curves(svg: &str) -> Vec<Vec<[f64; 2]>> {
     lines.map(|line| attribute(line, "points").split(' ').map(point).collect()).collect()
 }
 
-/// The pixels of a PNG to the right and down, and in a metre.
+/// Returns the size of a PNG in pixels, and its pixels per metre.
 fn size_of(file: &[u8]) -> (u32, u32, u32) {
     let word = |at: usize| u32::from_be_bytes(file[at..at + 4].try_into().unwrap());
     let physical = file.windows(4).position(|name| name == b"pHYs").unwrap();
@@ -150,7 +150,7 @@ fn units_are_switched_for_all_plots_and_figures() {
     assert!(si.contains(" / µm") && si.contains(" / mm"), "units of both axes");
     let profiles = Table::of(&export(&mut harness, "Profiles", "Profiles as CSV…", &folder.join("profiles.csv")));
     let (x, h) = (profiles.column("x_m"), profiles.column("h_m"));
-    // The middle of the contact in both.
+    // The centre of the contact in both.
     let k = (0..x.len()).min_by(|a, b| x[*a].abs().total_cmp(&x[*b].abs())).unwrap();
     let all = curves(&si).concat();
     let near = all.iter().min_by(|a, b| (a[0] - 1e3 * x[k]).abs().total_cmp(&(b[0] - 1e3 * x[k]).abs())).unwrap();
@@ -174,7 +174,7 @@ fn locked_axes_stand_still_while_the_load_runs_from_2_to_500() {
     for m in [2.0, 60.0, 500.0] {
         assert_eq!(axes(&mut harness, m), first, "M {m}");
     }
-    // In SI units they stand still as well, though their scales follow the load.
+    // Axes in SI units are fixed as well, though their scales depend on the load.
     press(&mut harness, Modifiers::NONE, Key::F7);
     let second = axes(&mut harness, 20.0);
     assert_eq!(axes(&mut harness, 500.0), second);
@@ -228,13 +228,12 @@ fn a_sheet_leaves_with_the_numbers_of_a_headless_solve() {
     let line = sheet.lines().find(|line| line.contains("Dimensionless H_c")).unwrap();
     let own: f64 = line.split(',').nth(2).unwrap().parse().unwrap();
     assert!((own / headless - 1.0).abs() < 1e-9, "{own} and {headless}");
-    for part in ["How it was solved: full", "How it was solved: reduced", "Published film formulas", "Methods compared"]
-    {
+    for part in ["Solution method: full", "Solution method: reduced", "Published film formulas", "Methods compared"] {
         assert!(sheet.contains(part), "{part}");
     }
     let page = std::fs::read_to_string(folder.join("sheet.html")).unwrap();
     assert_eq!(page.matches("<svg ").count(), 3, "pressure, film and the chart of regimes");
-    // As notes its figures lie beside it; none is replaced unasked.
+    // The figures of the notes are stored next to it; none is replaced without confirmation.
     std::fs::write(folder.join("notes_film.svg"), "mine").unwrap();
     click(&mut harness, "Export from Profiles");
     click(&mut harness, "Results sheet as Markdown…");

@@ -1,5 +1,5 @@
-//! Heat, switched on beside the lubricant: the program's model with heat draws the contact on the screen, where it knows it,
-//! and full solutions elsewhere.
+//! Thermal contacts in the window, switched on next to the lubricant. The embedded thermal model is used inside its
+//! range, and full solutions outside.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{Window, choose, click, export, press, set, shows, undo, wait, wait_until, write};
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// The window with the program's models, at rest on its first contact.
+/// Opens the window with the embedded models at its first contact.
 fn verified() -> Window {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 1900.0]);
@@ -24,7 +24,7 @@ fn a_contact_with_heat_is_drawn_at_once_and_its_temperatures_stand_in_results() 
     let mut harness = verified();
     let cold = harness.state().central_film().expect("a picture");
     click(&mut harness, "Heat");
-    // The model is read, draws, and is verified by a full solution with heat.
+    // The model is read, used, and checked against a thermal full solution.
     let warmer = |app: &Explorer| app.central_film().is_some_and(|film| film < cold);
     wait(&mut harness, "verification", |app| warmer(app) && app.badge() == "Verified" && !app.busy());
     assert!(harness.query_by_label_contains("reduced model").is_some(), "by the model");
@@ -40,7 +40,7 @@ fn a_contact_with_heat_is_drawn_at_once_and_its_temperatures_stand_in_results() 
     click(&mut harness, "Regimes");
     assert!(shows(&harness, "Murch–Wilson") && shows(&harness, "Gupta"));
     click(&mut harness, "Profiles");
-    // Silicon nitride keeps more of the heat, and the model knows it; glass it does not know.
+    // Silicon nitride conducts less heat and is inside the model's range; glass is outside.
     choose(&mut harness, "Body 2", "Silicon nitride");
     let other = |app: &Explorer| app.central_film().is_some_and(|film| film != warm);
     wait(&mut harness, "verification", |app| other(app) && app.badge() == "Verified" && !app.busy());
@@ -80,7 +80,7 @@ fn a_traction_curve_with_heat_lies_below_the_one_without() {
         let names: Vec<&str> = lines[0].split(',').collect();
         let column = |name: &str| -> Vec<f64> {
             let at = names.iter().position(|own| *own == name).unwrap_or_else(|| panic!("{name}: {names:?}"));
-            // Full solutions beside it are told apart by the first column.
+            // Full solutions are distinguished from it by the first column.
             let own = lines[1..].iter().filter(|line| line.starts_with("0,"));
             own.filter_map(|line| line.split(',').nth(at)?.parse().ok()).collect()
         };
@@ -103,7 +103,7 @@ fn a_ball_with_heat_has_a_map_of_its_temperatures() {
     let cold = harness.state().central_film().expect("a picture");
     set(&mut harness, Role::Slider, "Slide-to-roll ratio SRR", 0.3);
     click(&mut harness, "Heat");
-    // The model of balls with heat is read, draws, and is verified by a full solution.
+    // The thermal model of circular contacts is read, used, and checked against a full solution.
     let warm = |app: &Explorer| app.central_film().is_some_and(|film| film < 0.999 * cold);
     wait(&mut harness, "verification", |app| warm(app) && app.badge() == "Verified" && !app.busy());
     click(&mut harness, "Temperature map");

@@ -1,4 +1,4 @@
-//! The window against the engine: the same numbers, the same trust, the same warnings.
+//! The window compared with the engine: the same numbers, trust and warnings.
 
 use crate::common::scratch::Scratch;
 use crate::common::six_contacts::Stated;
@@ -19,7 +19,7 @@ fn six_contacts_are_answered_as_by_the_engine() {
         let reduced = bench.answer(&request, None, &()).unwrap();
         assert_eq!(reduced.result.untrained(), !contact.trained(), "{name}");
         let by_model = reduced.result.warnings.clone();
-        // Where no model was trained the window solves in full, on the model's grid.
+        // Without a trained model the window solves in full, on the model's grid.
         let wanted = match contact.trained() {
             true => reduced,
             false => {
@@ -39,7 +39,7 @@ fn six_contacts_are_answered_as_by_the_engine() {
         let traction = app.traction().unwrap_or(0.0);
         assert!((traction - wanted.result.traction.unwrap().abs()).abs() < 1e-7, "{name}: {traction}");
         let own = by_model.iter().take(usize::from(!trained)).chain(&wanted.result.warnings);
-        // Whether the boundary cycles depends on where a solve starts: in the window from the reduced solution.
+        // Oscillation of the boundary depends on the initial guess: in the window it is the reduced solution.
         let cycled = Warning::CavitationBoundaryOscillated.to_string();
         let [said, own] = [said, own.map(ToString::to_string).collect()]
             .map(|said: Vec<String>| said.into_iter().filter(|said| *said != cycled).collect::<Vec<_>>());

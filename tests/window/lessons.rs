@@ -1,4 +1,4 @@
-//! Lessons are walked through as their texts say.
+//! Lessons can be done as their texts say.
 
 use crate::driver::{Window, click, press, set, shows, wait, window};
 use egui::accesskit::Role;
@@ -6,7 +6,7 @@ use egui::{Key, Modifiers};
 use ehl_explorer::app::Explorer;
 use std::path::Path;
 
-/// The lessons of the program, as they are written, in their order.
+/// Returns the lessons of the program as text, in their order.
 fn texts() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -14,7 +14,7 @@ fn texts() -> Vec<String> {
     files.iter().map(|file| std::fs::read_to_string(file).unwrap()).collect()
 }
 
-/// Does what one goal of a step asks for, as a reader of the lesson would.
+/// Does what a goal of a step requires, as a reader of the lesson would.
 fn carry_out(harness: &mut Window, goal: &str) {
     let words: Vec<&str> = goal.split_whitespace().collect();
     match words[..] {
@@ -28,7 +28,7 @@ fn carry_out(harness: &mut Window, goal: &str) {
             let title = goal.trim_start_matches("tab ");
             click(harness, &format!("Open {title}"));
         }
-        // Whatever tab is in front.
+        // Whichever tab is in front.
         ["pin", _] => press(harness, Modifiers::COMMAND, Key::D),
         [quantity, "between", from, "and", to] => {
             let name = match quantity {

@@ -1,4 +1,4 @@
-//! Layouts on small and large screens in both themes: nothing overlaps, nothing is lost. The lecture that they are for.
+//! Layouts on small and large screens in both themes: nothing overlaps, nothing is cut off. Also the lecture mode.
 
 use crate::driver::{Window, click, press, set, shows, wait, wait_until, window};
 use egui::accesskit::Role;
@@ -9,12 +9,12 @@ use std::time::Duration;
 
 const CONTROLS: [Role; 7] =
     [Role::Button, Role::Slider, Role::CheckBox, Role::ComboBox, Role::TextInput, Role::SpinButton, Role::Label];
-/// A label of more than one line begins where the control before it ends, and its rectangle covers that one.
+/// A label of several lines begins where the control before it ends, and its rectangle covers that one.
 const LINE: f32 = 26.0;
-/// Rectangles may touch by so much.
+/// Permitted overlap of rectangles.
 const TOUCH: f32 = 1.5;
 
-/// What stands in a part of the window, by role and name.
+/// Returns the contents of a part of the window, by role and name.
 fn inside(harness: &Window, area: Rect) -> Vec<(Role, String, Rect)> {
     let nodes = CONTROLS.into_iter().flat_map(|role| harness.query_all_by_role(role).map(move |node| (role, node)));
     let named = nodes.map(|(role, node)| {
@@ -24,7 +24,7 @@ fn inside(harness: &Window, area: Rect) -> Vec<(Role, String, Rect)> {
     named.filter(|(_, _, rect)| rect.width() > 1.0 && rect.height() > 1.0 && area.contains_rect(*rect)).collect()
 }
 
-/// Controls and labels that cover each other.
+/// Returns controls and labels that cover each other.
 fn overlaps(harness: &Window, area: Rect) -> Vec<String> {
     let all = inside(harness, area);
     let wrapped = |(role, _, rect): &(Role, String, Rect)| *role == Role::Label && rect.height() > LINE;
@@ -33,7 +33,7 @@ fn overlaps(harness: &Window, area: Rect) -> Vec<String> {
         for b in &all[k + 1..] {
             let common = a.2.intersect(b.2);
             let apart = common.width() < TOUCH || common.height() < TOUCH;
-            // A box to choose from holds its text, a button its label.
+            // A combo box contains its text, a button its label.
             let holds = a.2.expand(TOUCH).contains_rect(b.2) || b.2.expand(TOUCH).contains_rect(a.2);
             if !apart && !holds && !wrapped(a) && !wrapped(b) {
                 found.push(format!("{a:?} and {b:?}"));
@@ -43,17 +43,17 @@ fn overlaps(harness: &Window, area: Rect) -> Vec<String> {
     found
 }
 
-/// Whether a switch is on.
+/// Returns true if a switch is on.
 fn pressed(harness: &Window, name: &str) -> bool {
     harness.get_by_label(name).accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
 }
 
-/// Whether the axes of the profiles stand still.
+/// Returns true if the axes of the profiles are fixed.
 fn locked(harness: &Window) -> bool {
     pressed(harness, "Lock the axes of Profiles")
 }
 
-/// Each layout with what is to be seen at once in it, on small screens and on wide ones beside that.
+/// Each layout with its visible contents on small screens, and its additional contents on wide ones.
 const LAYOUTS: [(&str, &[&str], &[&str]); 4] = [
     ("Layout: Explore", &["Pressure profile", "Film profile"], &["Chart of M and L"]),
     ("Layout: Teach", &["Pressure profile", "Film profile", "Chart of M and L"], &["Traction along the quantity"]),
@@ -75,7 +75,7 @@ fn preset(harness: &mut Window, size: [f32; 2], layout: &str, seen: &[&str], bes
         let is_plot = *name != "Run the study";
         assert!(!is_plot || place.width() > 120.0 && place.height() > 60.0, "{layout} at {size:?}: {name} {place:?}");
     }
-    // Panels scroll: what stands above and below of theirs is left out.
+    // Panels scroll: contents above and below the visible part are excluded.
     for name in seen.iter().filter_map(|plot| plot.split_once(" profile")).map(|_| "Lock the axes of Profiles") {
         let place = harness.get_by_label(name).rect();
         assert!(
@@ -190,7 +190,7 @@ fn the_lecture_from_m_2_to_500_names_the_regime_and_hides_nothing_that_is_needed
             for name in ["Roller", "Ball", "Ellipse"] {
                 assert!(harness.query_all_by_label(name).next().is_some(), "{name}");
             }
-            // Tabs that have no room scroll behind what stands at their end.
+            // Tabs without room scroll behind the controls at their end.
             let below_tabs = screen.with_min_y(44.0);
             assert!(overlaps(&harness, below_tabs).is_empty(), "{:?}", overlaps(&harness, below_tabs));
             let named = harness

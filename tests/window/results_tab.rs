@@ -1,5 +1,4 @@
-//! Every study runs in the window as it does headless: the same contacts, the same numbers to the last bit, with its
-//! verdicts beside.
+//! Every study runs in the window as on the command line: the same contacts, bitwise equal numbers, and its verdicts.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{Window, click, export, set, shows, wait_until, wait_within, window};
@@ -17,7 +16,7 @@ const BOX: &str = "(axes: {Radius: (2e-3, 3e-3, Linear), Speed: (3.0, 5.0, Linea
 const POINT_BOX: &str = "(axes: {Radius: (10e-3, 11e-3, Linear), Speed: (2.0, 3.0, Linear), Load: (30.0, 45.0, Linear), \
     Alpha: (8e-9, 11e-9, Linear)}, fixed: {Modulus: 231e9, Viscosity: 0.01})";
 
-/// Columns that hold seconds, or what follows from them: no two runs agree in these.
+/// Columns with seconds, or derived from them, which differ between runs.
 const CLOCK: [&str; 7] = ["wall_s", "ms per step", "s", "times faster", "solve_s", "median_s", "online_mean_s"];
 
 fn scene(title: &str, rest: &str, study: &str) -> String {
@@ -32,8 +31,8 @@ fn training(plan: &str) -> String {
     )
 }
 
-/// A scene of a study opened in the window and run headless: all tables agree, and the window shows how its
-/// expectations fared.
+/// Opens a scene with a study in the window and runs it without the window. All tables agree, and the window shows the
+/// results of its expectations.
 fn agrees(folder: &Path, name: &str, text: &str, runs_by_itself: bool) {
     let path = folder.join(format!("{name}.ron"));
     std::fs::write(&path, text).unwrap();
@@ -58,7 +57,7 @@ fn agrees(folder: &Path, name: &str, text: &str, runs_by_itself: bool) {
     }
 }
 
-/// A table without what the clock says.
+/// Returns a table without measured times.
 pub fn timeless(csv: &str) -> Vec<Vec<String>> {
     let mut lines = csv.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
     let header = lines.next().unwrap();

@@ -1,4 +1,4 @@
-//! How the film ruptures, chosen beside the lubricant; a supplied film starves the contact on the screen.
+//! Cavitation models, selected next to the lubricant. An inlet film thickness starves the contact on the screen.
 
 use crate::driver::{Window, choose, click, press, shows, undo, wait, write};
 use egui::{Key, Modifiers};

@@ -1,5 +1,5 @@
-//! Linearised models without a display: trained and run beside the full system, looked into, tried with other numbers
-//! of points, exported, stopped and saved; any plot as a picture.
+//! Linearised models without a display: trained and run together with the full system, inspected, tried with other
+//! numbers of points, exported, stopped and saved. Any plot as a picture.
 
 use crate::common::processor_time::of_this_thread;
 use crate::common::scratch::Scratch;
@@ -66,7 +66,7 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
     assert!(!shows(&harness, "too steep"), "it follows its own training");
     click(&mut harness, "Table");
 
-    // In the middle of the run: weights of both kinds add up to one, the nearest point carries most.
+    // In the middle of the run: weights of both kinds add up to one, and the nearest point has the largest.
     set(&mut harness, Role::Slider, "Time T", 0.2);
     let table = Table::of(&export(&mut harness, "TPWL", "Points as CSV…", &folder.join("points.csv")));
     assert_eq!(table.rows.len(), points);
@@ -78,7 +78,7 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
     let nearest = (0..points).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap();
     assert!((times[nearest] - 0.2).abs() < 0.05, "T {} at T 0.2", times[nearest]);
     assert!(table.column("weight_dissertation")[nearest] > 0.3);
-    // H_c of a point is that of the training at its moment: all lie in the range of a breathing film.
+    // H_c of a point is that of the training at its time: all are in the range of the oscillating film thickness.
     assert!(table.column("H_c").iter().all(|h| (0.08..0.12).contains(h)));
 
     let weights = Table::of(&export(&mut harness, "TPWL", "Weights as CSV…", &folder.join("weights.csv")));
@@ -93,7 +93,7 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
         assert!((at(1.0, time) - 1.0).abs() < 1e-9 && (at(2.0, time) - 1.0).abs() < 1e-9);
     }
 
-    // A row goes to its moment; the table sorts either way.
+    // A row selects its time; the table can be sorted in both directions.
     click(&mut harness, "Sort by T");
     click(&mut harness, "Go to operating point 3");
     assert!((time(&harness) - times[2]).abs() < 1e-12);
@@ -101,7 +101,7 @@ fn a_linearised_model_is_run_looked_into_and_exported() {
     assert!(shows(&harness, "replaced by their tangents"));
 }
 
-/// How many times as long as alone work takes now, since others want the processor too.
+/// Returns the slowdown of work due to other load on the processor.
 fn business() -> f64 {
     let (begin, own) = (Instant::now(), of_this_thread());
     while of_this_thread() - own < Duration::from_millis(100) {
@@ -136,7 +136,7 @@ fn a_fresh_window_shows_operating_points_within_two_clicks_and_two_seconds() {
 
 #[test]
 fn more_points_err_less_and_the_study_can_be_stopped() {
-    // The film answers in the second period: there the weightings differ.
+    // The film thickness responds in the second period, where the weightings differ.
     let twice = scene(SINE, BOTH).replace("duration: 0.5", "duration: 1.0");
     let (mut harness, folder) = open("number", &twice, [1280.0, 900.0]);
     run_in_time(&mut harness);
@@ -170,14 +170,14 @@ fn more_points_err_less_and_the_study_can_be_stopped() {
 
 #[test]
 fn inputs_that_are_too_steep_are_said_to_be_so_and_reversals_are_refused_with_what_there_is() {
-    // Trained on a gentle sine, tried on a steep wave of three times its amplitude.
+    // Trained on a gentle sine, run with a steep wave of three times its amplitude.
     let other = "trainings: [(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5)],
         linearised: (modes: 90, selection: Step(tolerance: 1e-3))";
     let steep = "TriangleToSquare(amplitude: 0.3, period: 0.2, s: 0.9)";
     let (mut harness, _folder) = open("steep", &scene(steep, other), [1024.0, 640.0]);
     run_in_time(&mut harness);
     assert!(shows(&harness, "The inputs are too steep for linearised models"));
-    // The reduced model was not run: nothing says that it errs less.
+    // The reduced model was not run: no advice to use it.
     assert!(shows(&harness, "× steeper than trained: train on inputs like these, or tick Reduced model"));
     assert!(!shows(&harness, "use the reduced model"));
     assert_eq!(harness.state().transient_moments(), 2 * 101);
@@ -283,7 +283,7 @@ fn any_plot_leaves_as_a_drawing_with_its_name_axes_and_contact() {
     let points = harness.state().operating_points().unwrap();
     assert!(drawing.matches("<circle ").count() >= points, "one dot for each operating point");
     assert_eq!(drawing.matches("<g").count(), drawing.matches("</g>").count());
-    // The same mechanism serves every tab: a film profile by the key.
+    // The same function serves every tab: a film-thickness profile by the key.
     click(&mut harness, "Profiles");
     press(&mut harness, Modifiers::COMMAND, Key::E);
     harness.run_steps(3);

@@ -1,4 +1,4 @@
-//! Shear-thinning in the window: four live sliders, the picker of lubricants, the Traction tab.
+//! Shear-thinning in the window: four live sliders, selection of lubricants, the Traction tab.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
@@ -18,7 +18,7 @@ fn window(explorer: Explorer) -> Window {
     crate::driver::window(explorer, [1280.0, 1000.0])
 }
 
-/// The window on Table 3.5's lubricant under sliding, with the embedded models.
+/// Opens the window on Table 3.5's lubricant with sliding, with the embedded models.
 fn squalane() -> Window {
     let mut explorer = Explorer::with_embedded_models();
     explorer.open_scene(Path::new("scenes/shear/fig_3_14_line.ron")).unwrap();
@@ -40,8 +40,8 @@ fn film(harness: &Window) -> f64 {
     harness.state().central_film().expect("a picture of the sliders")
 }
 
-/// Asserts that eleven full solutions lie on a reduced curve of 41 contacts: films to 1 %, tractions to what is given
-/// for each.
+/// Asserts that eleven full solutions agree with a reduced curve of 41 contacts: film thicknesses to 1 %, tractions to
+/// the given tolerance of each.
 fn assert_full_beside_reduced(rows: &[Vec<f64>], within: impl Fn(f64) -> f64) {
     let (full, reduced): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row[0] == 1.0);
     assert_eq!((full.len(), reduced.len()), (11, 41));
@@ -60,7 +60,7 @@ fn all_four_sliders_are_live_with_a_lubricant_that_thins_under_shear() {
     let at_rest = film(&harness);
     slide(&mut harness, "Slide-to-roll ratio SRR", 0.5);
     let slid = film(&harness);
-    // Fig. 3.14: µ 0.0321 at 0.74 m/s; the model has its own grid.
+    // Fig. 3.14: µ 0.0321 at 0.74 m/s; the model has another grid.
     let traction = harness.state().traction().unwrap();
     assert!((traction / 0.0320523 - 1.0).abs() < 0.02, "{traction}");
     assert!(slid < 0.995 * at_rest, "sliding thins the film: {slid} of {at_rest}");
@@ -71,7 +71,7 @@ fn all_four_sliders_are_live_with_a_lubricant_that_thins_under_shear() {
     assert!((film(&harness) / thick - 1.0).abs() > 0.05);
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     assert!(harness.state().badge_detail().contains("Δ{µ}"), "{}", harness.state().badge_detail());
-    // Beyond what the model was trained for the full solver takes over.
+    // Outside the trained range the full solver is used.
     slide(&mut harness, "Slide-to-roll ratio SRR", 1.5);
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
     assert!(harness.state().badge_detail().contains("SRR = 1.5"), "{}", harness.state().badge_detail());
@@ -91,11 +91,11 @@ fn a_newtonian_lubricant_keeps_npr_still_and_slides_without_another_film() {
     assert!(npr.accesskit_node().description().unwrap().contains("no shear constants"));
     let before = film(&harness);
     slide(&mut harness, "Slide-to-roll ratio SRR", 0.3);
-    // Neither the film nor what is known of it changes: no other solve is needed.
+    // Neither the film thickness nor its error changes: no other solve is needed.
     assert_eq!(film(&harness), before);
     assert_eq!(harness.state().badge(), "Verified");
     assert!(harness.state().traction().unwrap() > 0.0);
-    // α* p_H is 25 here: without a limiting stress the traction is no physics, and it is said.
+    // α* p_H is 25 here: without a limiting stress the traction is unphysical, which a warning reports.
     click(&mut harness, "Traction");
     assert!(harness.state().traction().unwrap() < 0.1, "the first look at friction is believable");
     click(&mut harness, "Limiting shear stress");
@@ -169,7 +169,7 @@ fn bad_constants_of_ones_own_lubricant_are_refused_with_the_reason() {
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
     assert!(film(&harness) > 1.05 * before, "a lubricant that thins later keeps a thicker film");
     undo(&mut harness);
-    // Newton starts elsewhere now: equal within its tolerance.
+    // Newton's method has another initial guess now: equal within its tolerance.
     assert!((film(&harness) / before - 1.0).abs() < 1e-6, "{} and {before}", film(&harness));
 }
 
@@ -187,14 +187,14 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     let folder = Scratch::new("traction");
     let table = export(&mut harness, "Traction", "Curve as CSV…", &folder.join("traction.csv"));
     let table = Table::of(&table);
-    // Half of the contacts lie where traction rises, and a Newtonian lubricant's would be ever larger.
+    // Half of the contacts are where traction increases; with a Newtonian lubricant it would increase without limit.
     assert_eq!(table.column("srr").iter().take(41).filter(|srr| **srr <= 0.05 + 1e-9).count(), 21);
     let newtonian = table.column("newtonian_traction").into_iter().zip(table.column("traction")).skip(1).take(40);
     assert!(newtonian.into_iter().all(|(newtonian, traction)| newtonian > traction));
     let rows = table.rows;
     click(&mut harness, "0–100 %");
     assert_full_beside_reduced(&rows, |_| 1e-4);
-    // The same sweep headless gives the same numbers.
+    // The same sweep without the window gives the same numbers.
     let mut scene = Scene::read(Path::new("scenes/shear/fig_3_14_line.ron")).unwrap();
     let axis = "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: Sweep(over: \
         [(vary: SlideToRollRatio, values: Graded(from: 0.0, half: 0.05, to: 1.0, n: 41))], methods: [Reduced()]))";
@@ -204,11 +204,11 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
     let curve: Vec<f64> = rows.iter().filter(|row| row[0] == 0.0).map(|row| row[6]).collect();
     assert!(curve.iter().zip(&headless).all(|(a, b)| a.to_bits() == b.abs().to_bits()), "{curve:?} and {headless:?}");
     let figure = export_plot(&mut harness, "Traction", "All plots of Traction", &folder.join("traction.svg"));
-    // Traction and central film are solid, and each full solution has a ring for its traction and both films, with one
-    // in the legend of each plot.
+    // Traction and central film thickness are solid. Each full solution has a ring for its traction and both film
+    // thicknesses, with one in the legend of each plot.
     assert_eq!((solid_curves(&figure), figure.matches("r=\"1.9\" fill=\"none\"").count()), (2, 33 + 2));
     assert!(caption(&figure).contains("first contact is described above"));
-    // A press in a plot goes there.
+    // A press in a plot selects that contact.
     let place = harness.get_by_label("Film along the quantity").rect().center();
     harness.hover_at(place);
     harness.run_steps(1);
@@ -254,7 +254,7 @@ fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_
     let mut harness = without;
     assert!(shows(&harness, "No curve by the reduced model"));
     wait(&mut harness, "full solutions that nobody asked for", |app| app.traction_contacts().1 > 0);
-    // They end with the contact that they were begun for.
+    // They end when the contact changes.
     slide(&mut harness, "Load number M", 30.0);
     wait(&mut harness, "those of the next contact", |app| app.busy() || app.traction_contacts().1 > 0);
 }
@@ -262,14 +262,14 @@ fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_
 #[test]
 fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
     let mut explorer = Explorer::with_embedded_models();
-    // PAO 650's point contact; the model knows squalane with polyisoprene.
+    // PAO 650's point contact; the model was trained with squalane with polyisoprene.
     explorer.open_scene(Path::new("scenes/shear/fig_3_16.ron")).unwrap();
     let mut harness = window(explorer);
     click(&mut harness, "Traction");
     wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
     let said = "it is outside the trained range: the model was trained with other lubricant laws";
     assert!(shows(&harness, said) && shows(&harness, "there is no error bound"));
-    // Full solutions check it without being asked to.
+    // Full solutions check it automatically.
     wait(&mut harness, "the full solutions", |app| app.traction_contacts().1 == 11 && !app.solving_along());
     assert!(shows(&harness, "full solutions differ by"));
     let folder = Scratch::new("traction");
@@ -280,9 +280,9 @@ fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
     let figure = export_plot(&mut harness, "Traction", "All plots of Traction", &folder.join("sketch.svg"));
     assert_eq!(solid_curves(&figure), 0, "no line is firm");
     assert!(caption(&figure).contains("outside the trained range of the reduced model"));
-    // Pictures are full solutions all the same.
+    // Pictures are full solutions nevertheless.
     wait(&mut harness, "the full solver", |app| app.badge() == "Outside the trained range" && !app.busy());
-    // Its own fluid brings firm lines back; its plateau ratio is one of the range.
+    // The model's lubricant brings solid lines back; its plateau ratio is one of the range.
     choose(&mut harness, "Fluid", "Squalane with PIP");
     click(&mut harness, "Use its published contact");
     wait(&mut harness, "the curve of its own fluid", |app| app.traction_contacts().0 == Some(41));
@@ -297,7 +297,7 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
     enter(&mut harness, "Critical stress", "0.02");
     wait(&mut harness, "the curve of one's own", |app| app.traction_contacts().0 == Some(41));
     assert!(shows(&harness, "curve is a sketch"));
-    // A plateau ratio below all that were trained belongs to the fluid: the sweep reaches down to it.
+    // A plateau ratio below all trained ones belongs to the lubricant: the sweep extends down to it.
     enter(&mut harness, "NPR value", "0.1");
     choose(&mut harness, "Against", "plateau ratio");
     wait(&mut harness, "the curve against NPR", |app| app.traction_contacts().0 == Some(41));
@@ -310,7 +310,7 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
     enter(&mut harness, "L value", "5");
     wait(&mut harness, "the curve of a Newtonian fluid", |app| app.traction_contacts().0 == Some(41));
     assert!(shows(&harness, "curve is a sketch"));
-    // Where the shapes of pressure and film are none that were trained there is no curve.
+    // There is no curve for shapes of pressure and film outside the trained ones.
     enter(&mut harness, "M value", "1");
     assert!(shows(&harness, "No curve by the reduced model: M = 1 lies outside"));
 }
@@ -320,7 +320,7 @@ fn contacts_that_a_sketch_cannot_give_are_left_out_with_the_reason() {
     let mut harness = window(Explorer::with_embedded_models());
     click(&mut harness, "Traction");
     wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
-    // Barus' viscosity under 25/α* of pressure is far from anything that was trained.
+    // Barus' viscosity at a pressure of 25/α* is far outside the trained range.
     choose(&mut harness, "Fluid", "Barus oil");
     slide(&mut harness, "Load number M", 20.0);
     slide(&mut harness, "Lubricant number L", 12.0);

@@ -1,4 +1,4 @@
-//! The Training tab without a display: a training is started, watched, stopped, resumed, used, saved and compared.
+//! The Training tab without a display: a training is started, observed, stopped, resumed, used, saved and compared.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{Table, Window, assert_cheap, click, give_path, undo, wait};
@@ -24,10 +24,10 @@ fn scene(title: &str, plan: &str) -> String {
 
 const TINY: &str = "Adaptive(start: 12, indicator: Correction, tolerances: [1e-7], successes: 16, local_sigma: 0.1, \
     local_successes: 8, vicinity: 4, limit: 15)";
-/// More than is waited for, on a grid on which a full solve takes some milliseconds.
+/// Longer than the test waits, on a grid on which a full solve takes some milliseconds.
 const LONG: &str = "FarthestPoint(snapshots: 1500)";
 
-/// The Training tab on a scene of its own.
+/// Opens the Training tab on a scene with a training.
 fn open(folder: &Path, title: &str, plan: &str) -> Window {
     let path = folder.join("scene.ron");
     let nodes = if plan == LONG { "nodes: 500" } else { "nodes: 200" };
@@ -68,7 +68,7 @@ fn a_small_training_is_watched_used_compared_and_saved() {
     assert_eq!(model_file::read(&path).unwrap().title, "Small box");
     assert!(!folder.join("unfinished.training").exists());
     assert!(!folder.join("trained.rom").exists(), "what is saved need not be kept");
-    // Beside the others in a comparison it does not come into use.
+    // In a comparison with other models it is not in use.
     click(&mut harness, "Add a model…");
     give_path(&mut harness, &path, "Add");
     assert!(harness.query_by_label("small").is_some() && harness.state().model_title() == Some(embedded.as_str()));
@@ -90,7 +90,7 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
     wait(&mut harness, "the first file", |_| kept.exists());
     assert!(harness.query_by_label("Progress of the training").is_some());
     assert!(harness.query_by_label("Start training").is_none());
-    // The picture is dragged meanwhile, and follows within the frame.
+    // Meanwhile the picture is dragged, and is updated within the frame.
     assert_cheap(&mut harness, 40, 12.0, |harness, k| {
         assert!(harness.state().training() && harness.state().central_film().is_some());
         harness.get_by_label("Load number M").set_value_accesskit(20.0 * 1.02f64.powi(k.into()));
@@ -104,7 +104,7 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
     let solutions = training_file::read(&kept).unwrap().solutions();
     assert!((16..1500).contains(&solutions));
     drop(harness);
-    // The window is gone; the next one offers to go on.
+    // The window is closed; the next one offers to continue.
     let mut harness = open(&folder, "Long box", LONG);
     assert!(harness.query_by_label_contains("was left unfinished").is_some());
     assert!(harness.get_by_label("Start training").accesskit_node().is_disabled());
@@ -132,7 +132,7 @@ fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothi
     // The next window has it, and offers to save it.
     let mut harness = open(&folder, "Small box", TINY);
     assert!(harness.query_by_label_contains("of a previous session is not saved").is_some());
-    // Models are compared over its range, whatever training the form shows now.
+    // Models are compared over its range, whatever training the form shows.
     click(&mut harness, "Whole slider range");
     click(&mut harness, "Compare models");
     wait(&mut harness, "the comparison", |app| !app.training());
@@ -146,7 +146,7 @@ fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothi
     undo(&mut harness);
     click(&mut harness, "Use this model");
     assert_eq!(harness.state().model_title(), Some("Small box"));
-    // Another training would replace it, so it asks; Cancel leaves everything as it is.
+    // Another training would replace it, so a confirmation is requested. Cancel changes nothing.
     click(&mut harness, "Start training");
     assert!(harness.query_by_label_contains("was trained and is not saved").is_some());
     click(&mut harness, "Cancel");
@@ -154,7 +154,7 @@ fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothi
     click(&mut harness, "Discard model…");
     click(&mut harness, "Discard it");
     assert!(!kept.exists() && harness.query_by_label("Save model…").is_none());
-    // Now nothing is lost, and nothing asks.
+    // Nothing would be lost now, and no confirmation is requested.
     click(&mut harness, "Start training");
     assert!(harness.state().training());
     click(&mut harness, "Stop");
@@ -187,7 +187,7 @@ fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
 #[test]
 fn a_range_where_full_solves_fail_is_named_and_what_there_is_stays() {
     let folder = Scratch::new("training-tab-failing");
-    // A grid far too coarse for the heavy end: somewhere there is no full solution.
+    // A grid that is too coarse at high loads: some contact there has no full solution.
     let text = scene("Failing box", "FarthestPoint(snapshots: 60)")
         .replace("Load: (1e5, 2e5, Linear)", "Load: (1e5, 4e6, Linear)")
         .replace("Alpha: (6e-9, 12e-9, Linear)", "Alpha: (6e-9, 40e-9, Linear)")

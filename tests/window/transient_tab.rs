@@ -1,5 +1,4 @@
-//! The Transient tab without a display: a contact is taken through time, watched, stopped, looked at, exported and
-//! saved.
+//! The Transient tab without a display: a transient run is computed, observed, stopped, inspected, exported and saved.
 
 use crate::common::scratch::Scratch;
 use crate::driver::{
@@ -24,7 +23,7 @@ fn scene(inputs: &str, duration: f64, frames: &str) -> String {
 
 const BREATHING: &str = "load: Harmonic(amplitude: 0.1, period: 2.0)";
 
-/// The Transient tab on a scene.
+/// Opens the Transient tab on a scene.
 fn open(name: &str, text: &str) -> (Window, Scratch) {
     let folder = Scratch::new(name);
     let path = folder.write("scene.ron", text);
@@ -67,7 +66,7 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
         assert_eq!(bits(series.column(name)), bits(headless), "{name} on the screen and headless");
     }
 
-    // A quarter of the period: the profiles are those of that moment.
+    // At a quarter of the period, the profiles are those of that time.
     set(&mut harness, Role::Slider, "Time T", 0.5);
     let profiles = Table::of(&export(&mut harness, "Transient", "Profiles as CSV…", &folder.join("profiles.csv")));
     let (x, h) = (profiles.at("full.ale.X"), profiles.at("full.ale.H"));
@@ -75,7 +74,7 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
     assert!((centre[h] / rows[10][moving] - 1.0).abs() < 1e-6, "in the scales of the reference contact");
 
     let figure = export_plot(&mut harness, "Transient", "All plots of Transient", &folder.join("figure.svg"));
-    // Of the solid run film and pressure against time, and both profiles.
+    // Film thickness and pressure of the solid run against time, and both profiles.
     assert_eq!(solid_curves(&figure), 4);
     assert!(figure.contains("Moving nodes (ALE)") && figure.ends_with("</svg>\n"));
     assert!(caption(&figure).contains(" harmonic, amplitude"), "what was run, not what the sliders say");
@@ -94,8 +93,8 @@ fn frames_are_run_compared_scrubbed_played_and_exported() {
 #[test]
 fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
     let (mut harness, _folder) = open("stopped", &scene(BREATHING, 4000.0, "Fixed"));
-    // Twice: a stopped run leaves room for the next. How soon it stops is judged without the window, where studies are
-    // cancelled.
+    // Twice, since a stopped run leaves room for the next. The duration of a stop is tested without the window, where
+    // studies are cancelled.
     for _ in 0..2 {
         click(&mut harness, "Run transient");
         wait(&mut harness, "some steps", |app| !app.marching() || app.transient_moments() > 20);
@@ -119,7 +118,7 @@ fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
     let (mut harness, folder) = open("refused", &scene(inputs, 2.0, "Fixed"));
     run_in_time(&mut harness);
     assert!(shows(&harness, "could not take the step") || shows(&harness, "stopped at T ="), "it is said");
-    assert!(shows(&harness, "what was computed before is kept"));
+    assert!(shows(&harness, "previous steps are kept"));
     assert!((10..=41).contains(&harness.state().transient_moments()));
     let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
     assert_eq!(series.rows.len(), harness.state().transient_moments());
@@ -144,7 +143,7 @@ fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
     assert!(shows(&harness, "At least one frame is needed"));
     click(&mut harness, "Remeshed, spline");
 
-    // A table with a gap changes nothing; a whole one takes the place of the load.
+    // A table with a gap changes nothing; a complete one replaces the load.
     let input = folder.join("load.csv");
     std::fs::write(&input, "T,load\n0,1\n1,\n").unwrap();
     click(&mut harness, "Inputs from CSV…");
@@ -178,7 +177,7 @@ fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
     assert!(shows(&harness, "Inputs against time"));
     click(&mut harness, "Set-up");
 
-    // Both models answer before the full system does, and then it checks them.
+    // Both models have results before the full system, which then checks them.
     set(&mut harness, Role::Slider, "Load amplitude", 0.2);
     let live = |app: &Explorer| app.in_time() == (true, 2, 2);
     wait(&mut harness, "the models", live);
@@ -189,7 +188,7 @@ fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
     let series = Table::of(&export(&mut harness, "Transient", "Series as CSV…", &folder.join("series.csv")));
     assert!((series.column("full.fixed.load")[20] - 1.2).abs() < 1e-9, "they are of the new amplitude");
 
-    // The moment stays where it was put, read-outs follow it, and the map goes to another.
+    // The selected time stays, the read-outs belong to it, and the map selects another.
     set(&mut harness, Role::Slider, "Time T", 3.0);
     set(&mut harness, Role::Slider, "Load period", 8.0);
     rest_in_time(&mut harness);
@@ -219,7 +218,7 @@ fn a_frame_of_a_dragged_amplitude_is_cheap() {
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "Transient");
     rest_in_time(&mut harness);
-    // Everything replays in other threads; this one draws what they have found.
+    // Everything is replayed in other threads; this one draws their results.
     assert_cheap(&mut harness, 40, 6.0, |harness, k| {
         let slider = harness.get_by_role_and_label(Role::Slider, "Load amplitude");
         slider.set_value_accesskit(0.1 + 0.002 * f64::from(k));
@@ -269,7 +268,7 @@ fn nothing_of_a_scene_stays_when_another_one_is_opened() {
     let (mut harness, folder) = open("another", &scene(BREATHING, 2.0, "Fixed"));
     run_in_time(&mut harness);
     assert!(harness.state().transient_moments() > 0 && shows(&harness, "Film, pressure and inputs against time"));
-    // It takes more than a moment, and does not run by itself.
+    // It takes longer than a moment, and does not run automatically.
     let long = scene("load: Harmonic(amplitude: 0.2, period: 1.0)", 40.0, "Fixed").replace("dx: 0.02", "dx: 0.004");
     let path = folder.write("long.ron", &long);
     harness.state_mut().open_scene(&path).unwrap();

@@ -1,5 +1,5 @@
-//! A hand that changes everything at random: what is drawn belongs to what is asked or is grey, what was typed stays,
-//! and nothing moves under the pointer while a field is edited or work runs.
+//! Random changes of everything: the picture belongs to the request or is grey, typed values stay, and nothing moves
+//! under the pointer while a field is edited or work runs.
 
 use crate::common::cases::cases;
 use crate::driver::{CONTROLS, TABS, Window, press, undo, write};
@@ -19,7 +19,7 @@ const SLIDERS: [(&str, f64, f64); 5] = [
     ("Slide-to-roll ratio SRR", 1e-3, 1.5),
     ("Newtonian plateau ratio NPR", 0.1, 1.0),
 ];
-/// What can be clicked in one tab or the other.
+/// Controls that can be clicked in any tab.
 const VIEWS: [&str; 15] = [
     "0–10 %",
     "0–100 %",
@@ -37,7 +37,7 @@ const VIEWS: [&str; 15] = [
     "Pressure over time",
     "Run the study",
 ];
-/// Sliders of contacts in time.
+/// Sliders of transient contacts.
 const IN_TIME: [(&str, f64, f64); 4] = [
     ("Load amplitude", 0.02, 0.3),
     ("Load period", 2.0, 8.0),
@@ -46,12 +46,12 @@ const IN_TIME: [(&str, f64, f64); 4] = [
 ];
 const FLUIDS: [&str; 4] = ["Mineral oil", "Roelands oil", "Squalane with PIP", "Barus oil, compressible"];
 const KINDS: [&str; 3] = ["Roller", "Ball", "Ellipse"];
-/// What a gesture may have changed of what is held.
+/// Values that a gesture may have changed.
 #[derive(PartialEq)]
 enum Touched {
     Nothing,
     Typed(Quantity),
-    /// Undo and redo bring former values back.
+    /// Undo and redo restore previous values.
     All,
 }
 
@@ -59,7 +59,7 @@ fn one<'a, T>(rng: &mut Rng, all: &'a [T]) -> &'a T {
     &all[rng.usize(..all.len())]
 }
 
-/// Clicks the first of what bears a name, if there is one that can be clicked.
+/// Clicks the first enabled control with this name, if there is one.
 fn click_if_there(window: &mut Window, role: Option<Role>, name: &str) {
     let there = match role {
         Some(role) => window.query_all_by_role_and_label(role, name).next(),
@@ -71,7 +71,7 @@ fn click_if_there(window: &mut Window, role: Option<Role>, name: &str) {
     }
 }
 
-/// Sets one of some sliders to a value between its ends, if it is there.
+/// Sets one of some sliders to a value between its ends, if it is visible.
 fn slide(rng: &mut Rng, window: &mut Window, sliders: &[(&str, f64, f64)]) {
     let (name, from, to) = *one(rng, sliders);
     let value = from * f64::powf(to / from, rng.f64());
@@ -82,26 +82,26 @@ fn slide(rng: &mut Rng, window: &mut Window, sliders: &[(&str, f64, f64)]) {
     }
 }
 
-/// Chooses one of some options of a box, if it is there.
+/// Selects one of some options of a combo box, if it is visible.
 fn choose(rng: &mut Rng, window: &mut Window, picker: &str, options: &[&str]) {
     let Some(node) = window.query_by_role_and_label(Role::ComboBox, picker) else { return };
     node.click();
     window.run_steps(2);
     let option = *one(rng, options);
-    // The list is open where the box is in sight.
+    // The list is open if the box is visible.
     if let Some(node) = window.query_all_by_label(option).last() {
         node.click();
         window.step();
     }
 }
 
-/// One gesture.
+/// Makes one random gesture.
 fn gesture(rng: &mut Rng, window: &mut Window, moved: &mut BTreeMap<String, String>) -> Touched {
     match rng.u8(..28) {
         0..=8 => slide(rng, window, &SLIDERS),
         24 | 25 => {
             slide(rng, window, &IN_TIME);
-            // What a tab changes shows in the next frame.
+            // The effect of a tab's change is visible in the next frame.
             window.step();
         }
         26 => choose(rng, window, "Deformation", &["exact", "through its basis"]),
@@ -155,7 +155,7 @@ fn gesture(rng: &mut Rng, window: &mut Window, moved: &mut BTreeMap<String, Stri
     Touched::Nothing
 }
 
-/// Where everything is that a hand can be laid on; what is there twice is left out.
+/// Returns the positions of all controls, without those that occur twice.
 fn layout(window: &Window) -> HashMap<(Role, String), Rect> {
     let mut all: HashMap<(Role, String), Option<Rect>> = HashMap::new();
     for node in window.query_all(By::new().predicate(|node| CONTROLS.contains(&node.role()))) {
@@ -166,7 +166,7 @@ fn layout(window: &Window) -> HashMap<(Role, String), Rect> {
     all.into_iter().filter_map(|(key, rect)| Some((key, rect?))).collect()
 }
 
-/// Notes what moved from where it was, and when.
+/// Records controls that moved, and when.
 fn note_moved(
     before: &HashMap<(Role, String), Rect>,
     window: &Window,
@@ -183,7 +183,7 @@ fn note_moved(
     }
 }
 
-/// Every curve belongs to what is asked on the screen, or it is grey.
+/// Asserts that every curve belongs to the request on the screen, or is grey.
 fn assert_nothing_stale(window: &Window, step: usize) {
     let app = window.state();
     for (name, present, grey) in app.drawn() {
@@ -197,7 +197,7 @@ fn held(window: &Window) -> Vec<(Quantity, f64)> {
     app.held().filter_map(|quantity| Some((quantity, quantity.of(&app.point())?))).collect()
 }
 
-/// What is held now and was before has the value that it had, unless it was typed itself.
+/// Asserts that held values are unchanged, unless they were typed.
 fn assert_held(before: &[(Quantity, f64)], window: &Window, touched: &Touched, step: usize) {
     let after = held(window);
     for (quantity, value) in before {
@@ -221,7 +221,7 @@ fn a_hand_that_changes_everything_sees_nothing_stale_loses_nothing_held_and_move
         let touched = gesture(&mut rng, &mut window, &mut moved);
         assert_nothing_stale(&window, step);
         assert_held(&before, &window, &touched, step);
-        // What the gesture brought has its place after a frame; work that runs and ends moves nothing.
+        // Changes of layout by the gesture are complete after a frame; work that runs and ends moves nothing.
         window.step();
         let layout = layout(&window);
         let frames = if rng.u8(..10) == 0 { 12 } else { 1 };
@@ -239,7 +239,7 @@ fn a_hand_that_changes_everything_sees_nothing_stale_loses_nothing_held_and_move
     println!("{steps} steps, {seen} curves, {greyed} of them grey, {locked} held values: {drawn:?}");
     assert!(moved.is_empty(), "{moved:#?}");
     assert!(seen > steps && greyed > 0 && locked > steps / 4);
-    // At rest everything is of what is asked now, but what was asked for by hand.
+    // When idle, everything belongs to the present request, except results that the user requested.
     let rests = |app: &Explorer| !(app.busy() || app.marching() || app.studying() || app.running_study());
     crate::driver::wait(&mut window, "rest", |app| rests(app) && app.central_film().is_some());
     let by_hand = ["full solutions", "full solution", "results of a study"];

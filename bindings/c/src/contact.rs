@@ -146,7 +146,7 @@ pub unsafe extern "C" fn ehl_contact_read(
 ) -> *mut EhlContact {
     let made = guarded(|| {
         // SAFETY: guaranteed by the caller.
-        let path = unsafe { text_of(path) }.ok_or("the path is no UTF-8 text")?;
+        let path = unsafe { text_of(path) }.ok_or("the path is not UTF-8 text")?;
         let model = Arc::new(model_file::read(Path::new(path))?);
         let pressed = if by_approach == 0 { Pressed::Load } else { Pressed::Approach };
         let contact = Coupled::new(Arc::clone(&model), pressed)?;

@@ -116,7 +116,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
         if kind != CO_SIMULATION {
             return Err("this unit is for co-simulation only".into());
         }
-        let folder = resources.and_then(folder_of).ok_or("the location of the resources is no URI of a file")?;
+        let folder = resources.and_then(folder_of).ok_or("the location of the resources is not a file URI")?;
         let path = folder.join(MODEL.trim_start_matches("resources/"));
         let bytes = std::fs::read(&path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         let pressed = guid.and_then(|guid| pressed_of(guid, &bytes)).ok_or_else(|| {
@@ -318,7 +318,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(component: *mut c_void, kept: *mut *mut
     unsafe {
         with(component, |instance| {
             // SAFETY: the location belongs to the simulation; a state in it was made here.
-            let place = kept.as_mut().ok_or("there is no place for the state")?;
+            let place = kept.as_mut().ok_or("the pointer for the state is null")?;
             match place.cast::<Kept>().as_mut() {
                 Some(kept) => *kept = instance.kept(),
                 None => *place = Box::into_raw(Box::new(instance.kept())).cast(),
@@ -383,7 +383,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
             // SAFETY: a state is null or was made by `fmi2GetFMUstate`; the bytes belong to the simulation.
             let written = kept.cast::<Kept>().as_ref().ok_or("there is no state")?.written(instance.in_time())?;
             let place = slice_mut(bytes, size).get_mut(..written.len());
-            place.ok_or("the place for the state is too small")?.copy_from_slice(&written);
+            place.ok_or("the buffer for the state is too small")?.copy_from_slice(&written);
             Ok(OK)
         })
     }
@@ -400,7 +400,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
         with(component, |instance| {
             let read = Kept::read(slice(bytes, size), instance.in_time())?;
             // SAFETY: the location belongs to the simulation.
-            *kept.as_mut().ok_or("there is no place for the state")? = Box::into_raw(Box::new(read)).cast();
+            *kept.as_mut().ok_or("the pointer for the state is null")? = Box::into_raw(Box::new(read)).cast();
             Ok(OK)
         })
     }

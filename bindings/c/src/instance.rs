@@ -178,7 +178,9 @@ impl Instance {
         };
         let (present, room) = (self.state.time, ROUNDING.0 * step + ROUNDING.1 * time.abs());
         if (time - present).abs() > room {
-            return Err(format!("a contact in time goes on from where it is, which is {present}, not {time}").into());
+            return Err(
+                format!("a transient contact continues from its present time {present}, not from {time}").into()
+            );
         }
         if !contact.has_begun() {
             contact.begin(&self.state.inputs)?;
@@ -207,7 +209,7 @@ impl Instance {
             (Contact::Stationary(_), None) => {}
             (Contact::InTime(contact), Some(state)) => contact.restore(state)?,
             (Contact::InTime(contact), None) => contact.reset(),
-            (Contact::Stationary(_), Some(_)) => return Err("this is no state of this unit".into()),
+            (Contact::Stationary(_), Some(_)) => return Err("this is not a state of this unit".into()),
         }
         self.state = kept.state.clone();
         Ok(())
@@ -281,7 +283,7 @@ impl Kept {
     }
 
     pub fn read(bytes: &[u8], in_time: bool) -> Result<Self, Refused> {
-        let none = "this is no state of this unit";
+        let none = "this is not a state of this unit";
         let (body, rest) = bytes
             .strip_prefix(FORMS[usize::from(in_time)])
             .and_then(|body| body.split_at_checked(8 * NUMBERS))

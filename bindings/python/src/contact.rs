@@ -52,7 +52,8 @@ fn state(spec: &mut ContactSpec, field: Field, value: &Bound<'_, PyAny>) -> PyRe
     } else if let Ok(path) = value.extract::<PathBuf>() {
         path.to_string_lossy().into_owned()
     } else {
-        let sentence = format!("{} must be a number, a text, a truth or some numbers", Words::Keywords.of(field));
+        let sentence =
+            format!("{} must be a number, a text, a Boolean or a sequence of numbers", Words::Keywords.of(field));
         return Err(PyTypeError::new_err(sentence));
     };
     spec.read(field, &text, "").map_err(|refusal| refused(stated(refusal)))

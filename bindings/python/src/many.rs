@@ -138,7 +138,7 @@ pub fn measure(
             std::thread::scope(|scope| {
                 let handles: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
                 let mut ends = handles.into_iter().map(ScopedJoinHandle::join);
-                ends.try_for_each(|end| end.unwrap_or_else(|_| Err("a solve broke".to_owned())))
+                ends.try_for_each(|end| end.unwrap_or_else(|_| Err("a solve failed unexpectedly".to_owned())))
             })
         };
         done.map(|()| clock.seconds())

@@ -132,7 +132,9 @@ impl Model {
             (ContactKind::Point, true, false) => "point_shear",
             (ContactKind::Line, false, true) => "line_heat",
             (ContactKind::Point, false, true) => "point_heat",
-            (_, true, true) => return Err(refused("heat is known to the models without thinning only".to_owned())),
+            (_, true, true) => {
+                return Err(refused("thermal models are available without shear-thinning only".to_owned()));
+            }
         };
         Self::of_program(py, name)
     }

@@ -257,5 +257,5 @@ fn outcome(
 }
 
 fn first_table(tables: Vec<Table>) -> PyResult<Table> {
-    tables.into_iter().next().ok_or_else(|| refused("the study gave no table"))
+    tables.into_iter().next().ok_or_else(|| refused("the study returned no table"))
 }

@@ -124,7 +124,7 @@ pub fn long<T: Send>(
         }
         Some(Ok(Err(error))) => Err(refused(error)),
         Some(Err(broken)) => Err(refused(broken)),
-        None => Err(refused("the work ended without an answer")),
+        None => Err(refused("the computation ended without a result")),
     }
 }
 

@@ -170,7 +170,7 @@ def test_a_state_is_kept_written_and_set_again(kind, words, units):
         slave.freeFMUState(held)
     with pytest.raises(FMICallException):
         other.slave.deserializeFMUState(written[:-1])
-    assert "no state of this unit" in other.said[-1]
+    assert "not a state of this unit" in other.said[-1]
     unit.end()
     other.end()
 

@@ -119,7 +119,7 @@ def test_outputs_stay_until_a_step_is_taken_and_a_reset_begins_anew(path, scales
     assert unit.get("approach")[0] > first[2] and unit.get(*FILMS) != first[:2]
     with pytest.raises(FMICallException):
         unit.slave.doStep(currentCommunicationPoint=99.0, communicationStepSize=STEP * scales[0])
-    assert "goes on from where it is" in unit.said[-1]
+    assert "continues from its present time" in unit.said[-1]
     unit.slave.reset()
     unit.slave.setupExperiment(startTime=0.0)
     unit.slave.enterInitializationMode()
@@ -169,7 +169,7 @@ def test_a_state_is_kept_written_and_set_again(path, scales):
     np.testing.assert_allclose(go_on(other), onwards, rtol=1e-12)
     with pytest.raises(FMICallException):
         other.slave.deserializeFMUState(written[:-1])
-    assert "no state of this unit" in other.said[-1]
+    assert "not a state of this unit" in other.said[-1]
     for slave, held in [(unit.slave, state), (other.slave, again)]:
         slave.freeFMUState(held)
     unit.end()
@@ -254,7 +254,7 @@ def test_what_makes_no_sense_is_refused_in_a_sentence_and_changes_nothing(path, 
 
 def test_models_of_both_kinds_are_told_apart(program, model):
     text = program("info", model)
-    assert "line contacts in time" in text and "load 0.9" in text and "sampled rows" in text
+    assert "transient line contacts" in text and "load 0.9" in text and "sampled equations" in text
     with pytest.raises(ehl.EhlError, match="transient reduced model"):
         ehl.Model.load(model)
     with pytest.raises(ehl.EhlError, match="steady contacts"):

@@ -83,7 +83,7 @@ def test_what_a_reader_must_know_is_a_warning(in_time_training, program, tmp_pat
 def test_a_coarse_step_is_warned_of_and_a_tolerance_chooses_the_steps():
     time = np.linspace(0, 2, 81)
     swing = (time, 1 + 0.15 * np.sin(2 * np.pi * time / 0.3))
-    with pytest.warns(UserWarning, match="the time steps leave H_c off by about"):
+    with pytest.warns(UserWarning, match="the time-step error of H_c is about"):
         coarse = ehl.transient(CONTACT, duration=2, step=0.05, load=swing)
     assert coarse["step_error"][0] > 0.03 and len(set(coarse["step_error"])) == 1
     with warnings.catch_warnings():

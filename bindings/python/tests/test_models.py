@@ -49,5 +49,5 @@ def test_the_model_with_heat_is_one_of_the_program():
     assert found.H_c == ehl.solve(contact, model=model).H_c
     assert abs(found.H_c / ehl.solve(contact).H_c - 1) < 3e-3
     assert ehl.Model.embedded("point", heat=True)
-    with pytest.raises(ValueError, match="without thinning"):
+    with pytest.raises(ValueError, match="without shear-thinning"):
         ehl.Model.embedded("point", thinning=True, heat=True)

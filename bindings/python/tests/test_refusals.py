@@ -45,12 +45,12 @@ def test_the_sentence_is_that_of_the_command_line_in_words_of_python(given, prog
 @pytest.mark.parametrize(
     "given, part",
     [
-        (dict(lubricant="butter"), "lubricant=: “butter” is none; there is no lubricant of that name; accepted are"),
+        (dict(lubricant="butter"), "lubricant=: “butter” is not valid; there is no lubricant of that name; accepted are"),
         (dict(colour="red"), "colour= is no keyword of a contact; accepted are contact, method, rom, radius, radius_y"),
         (dict(viscosity="many"), "viscosity=: “many” is no number; write it like 12.5 mPa·s"),
         (dict(radius="12 kg"), "radius=: “kg” is no unit of a length; accepted are mm"),
-        (dict(contact="cube"), "contact=: “cube” is none; accepted are line, point"),
-        (dict(body2="wood", heat=True), "body2=: “wood” is none; accepted are three numbers, as in 47,460,7850, or one of steel"),
+        (dict(contact="cube"), "contact=: “cube” is not valid; accepted are line, point"),
+        (dict(body2="wood", heat=True), "body2=: “wood” is not valid; accepted are three numbers, as in 47,460,7850, or one of steel"),
     ],
 )
 def test_a_value_that_is_none_is_refused_by_its_keyword(given, part):

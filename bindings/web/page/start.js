@@ -73,7 +73,7 @@ globalThis.ehl = {
     try {
       localStorage.setItem(name, text);
     } catch (refused) {
-      return `the browser keeps no more (${refused.name})`;
+      return `the storage of the browser is full or not available (${refused.name})`;
     }
   },
   kept: (name) => localStorage.getItem(name) ?? undefined,

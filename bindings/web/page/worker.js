@@ -36,7 +36,7 @@ globalThis.ehl = {
   fetch_model() {},
   download() {},
   pick() {},
-  keep: () => "a worker keeps nothing",
+  keep: () => "a worker has no storage",
   kept() {},
   link() {},
   news() {},

@@ -36,7 +36,7 @@ pub enum CampaignError {
         path: PathBuf,
     },
     /// The folder contains another campaign.
-    #[error("{} holds the campaign “{title}” already; go on with that one or choose another folder", path.display())]
+    #[error("{} already contains the campaign “{title}”; continue that one or choose another folder", path.display())]
     Taken {
         /// The folder.
         path: PathBuf,
@@ -45,7 +45,7 @@ pub enum CampaignError {
     },
     /// Another build of the program, whose results may differ.
     #[error(
-        "the campaign was planned by another build of the program (version {version}, {planned}; this is {own}); go on with that one or plan it anew"
+        "the campaign was planned by another build of the program (version {version}, {planned}; this is {own}); continue with that build or plan the campaign again"
     )]
     OtherProgram {
         /// Version of the other program.
@@ -56,7 +56,7 @@ pub enum CampaignError {
         own: String,
     },
     /// A file of the campaign has changed since planning.
-    #[error("{} is not what it was when the campaign was planned; put it back or plan the campaign anew", path.display())]
+    #[error("{} has changed since the campaign was planned; restore it or plan the campaign again", path.display())]
     Changed {
         /// The file.
         path: PathBuf,

@@ -83,7 +83,7 @@ impl Folder {
             }
         }
         let (own, scene_path) = (hash_of(&bytes), path.join(SCENE));
-        let text = String::from_utf8(read(&scene_path)?).map_err(|_| refused("its scene is no text".to_owned()))?;
+        let text = String::from_utf8(read(&scene_path)?).map_err(|_| refused("its scene is not text".to_owned()))?;
         let scene = Scene::from_ron(&text)
             .map_err(|reason| EngineError::from(SceneFileError::Scene { path: scene_path, reason }))?;
         let mut rounds: Vec<(Round, String)> = Vec::new();
@@ -103,7 +103,7 @@ impl Folder {
             rounds.push((round, hash));
         }
         if rounds.is_empty() {
-            return Err(refused("its first round is missing; plan it anew".to_owned()));
+            return Err(refused("its first round is missing; plan the campaign again".to_owned()));
         }
         Ok(Self { path: path.to_owned(), plan, scene, rounds })
     }

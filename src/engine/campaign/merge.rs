@@ -150,14 +150,14 @@ pub(super) fn first_contacts(folder: &Path, scene: &Scene, spec: TrainingSpec) -
     match train_resumable(&mut state, &watch) {
         Err(TrainingError::Awaited) => contacts(&folder.join(ROUNDS).join("000.training"), &state),
         Err(reason) => Err(EngineError::from(reason).into()),
-        Ok(_) => Err(EngineError::Study(format!("the training “{}” wants no full solution", scene.title)).into()),
+        Ok(_) => Err(EngineError::Study(format!("the training “{}” requires no full solutions", scene.title)).into()),
     }
 }
 
 /// Stores the state of a training that waits for full solutions, and returns their contacts.
 fn contacts(path: &Path, state: &TrainingState) -> Result<Pieces, CampaignError> {
     let Some((grid, points)) = state.awaited() else {
-        return Err(EngineError::Study("the training waits for nothing".to_owned()).into());
+        return Err(EngineError::Study("the training waits for no full solutions".to_owned()).into());
     };
     training_file::write(state, path).map_err(EngineError::from)?;
     Ok(Pieces::Contacts { grid, points: points.to_vec() })

@@ -109,8 +109,8 @@ fn self_contained(scene: &mut Scene, base: &Path) -> Result<Vec<(String, Vec<u8>
             }
             ModelSource::Trained(path) => {
                 return Err(EngineError::Study(format!(
-                    "`study.methods`: a campaign trains no model on the way; train {} first, by `train` or as a campaign \
-                     of its own, and write File(…)",
+                    "`study.methods`: a campaign does not train models for its methods; train {} first, by `train` or in \
+                     a separate campaign, and write File(…)",
                     path.display()
                 ))
                 .into());

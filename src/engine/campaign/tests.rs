@@ -229,9 +229,9 @@ fn campaigns_that_make_no_sense_are_refused_in_a_sentence() {
     let refused = plan(&document, &whole.0, &()).unwrap_err().to_string();
     assert!(refused.contains("a campaign is a sweep"), "{refused}");
     let refused = plan(&document, &folder.path, &()).unwrap_err().to_string();
-    assert!(refused.contains("holds the campaign “t” already"), "{refused}");
+    assert!(refused.contains("already contains the campaign “t”"), "{refused}");
     std::fs::write(folder.path.join("scene.ron"), "Scene()").unwrap();
     let refused = Folder::open(&folder.path).unwrap_err().to_string();
-    assert!(refused.contains("is not what it was"), "{refused}");
+    assert!(refused.contains("has changed since"), "{refused}");
     assert!(Folder::open(&scratch.0).unwrap_err().to_string().contains("holds no campaign"));
 }

@@ -12,19 +12,19 @@ use crate::solver::warning::Warning;
 #[derive(Debug, thiserror::Error)]
 pub enum CoupledError {
     /// The model contains no local model.
-    #[error("the reduced model `{0}` holds no window")]
+    #[error("the reduced model `{0}` contains no local model")]
     NoWindow(String),
     /// An approach was given for a line contact. It is not defined for half-planes.
     #[error("the approach of a line contact depends on the size of its bodies; give its load instead")]
     LineApproach,
     /// An approach was given for a transient model.
-    #[error("a model in time is driven by its load; leave out --approach")]
+    #[error("the input of a transient model is its load; leave out --approach")]
     ApproachInTime,
     /// The model solves none of its training points.
-    #[error("the reduced model `{0}` solves none of its own training points")]
+    #[error("the reduced model `{0}` does not converge at any of its training points")]
     NoStart(String),
     /// A transient model without reference contact.
-    #[error("the model `{0}` knows no contact")]
+    #[error("the transient model `{0}` contains no reference contact")]
     NoReference(String),
     /// An input is out of range.
     #[error("the {name} is {}{unit}, but must be a finite number{accepted}", Number(*value))]
@@ -53,7 +53,7 @@ pub enum CoupledError {
     #[error("no load was found that gives an approach of {} m", Number(*.0))]
     NoLoad(f64),
     /// Neither the model nor the full solver converged.
-    #[error("neither the reduced model nor the full solver has a solution here: {0}")]
+    #[error("neither the reduced model nor the full solver found a solution here: {0}")]
     NoSolution(String),
     /// The inputs do not define a valid contact.
     #[error("{0}")]
@@ -65,13 +65,13 @@ pub enum CoupledError {
     #[error(transparent)]
     Run(#[from] Box<RunError>),
     /// Outputs were requested before the start.
-    #[error("the contact in time has not begun")]
+    #[error("the transient contact has not been initialised")]
     NotBegun,
     /// A state cannot be encoded.
     #[error("the state cannot be written")]
     Unwritable,
     /// The bytes are not a valid state.
-    #[error("this is no state of this unit")]
+    #[error("this is not a state of this unit")]
     Foreign,
     /// The contact is refused.
     #[error(transparent)]

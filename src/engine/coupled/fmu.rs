@@ -83,7 +83,7 @@ pub const REALS: [Real; 19] = [
             "approach",
             ["m"; 2],
             |o| o.approach_m,
-            "approach of both bodies as rigid ones since they touched; of a line contact at the distance approach_reference",
+            "approach of the bodies, measured far from the contact; for a line contact at the distance approach_reference",
         )
     },
     given(Field::Modulus, Role::Parameter, |i| &mut i.modulus_pa),
@@ -91,33 +91,33 @@ pub const REALS: [Real; 19] = [
     given(Field::Alpha, Role::Parameter, |i| &mut i.alpha_per_pa),
     Real {
         field: None,
-        about: "radius across over radius; 1 of a circle or a line",
+        about: "ratio of radii R_y/R; 1 for a circular or line contact",
         ..given(Field::RadiusY, Role::Parameter, |i| &mut i.radius_ratio)
     },
     follows(names::H_C_M, ["m"; 2], |o| o.h_c_m, "central film thickness"),
     follows(names::H_MIN_M, ["m"; 2], |o| o.h_min_m, "minimum film thickness"),
     follows(names::TRACTION, [""; 2], |o| o.friction_coefficient, "traction coefficient: friction over load"),
-    follows("friction_force", ["N/m", "N"], |o| o.friction_force, "friction; of a line contact by its length"),
-    follows(names::HERTZ_PRESSURE, ["Pa"; 2], |o| o.hertz_pressure_pa, "largest pressure of the dry contact"),
+    follows("friction_force", ["N/m", "N"], |o| o.friction_force, "friction force; per length for a line contact"),
+    follows(names::HERTZ_PRESSURE, ["Pa"; 2], |o| o.hertz_pressure_pa, "maximum Hertzian pressure"),
     follows(
         names::H_C_BOUND,
         [""; 2],
         |o| o.error_bounds[0],
-        "relative error of h_c_m in 99 of 100 contacts at most; NaN where unknown",
+        "99 % empirical bound of the relative error of h_c_m; NaN if not available",
     ),
     follows(
         names::H_MIN_BOUND,
         [""; 2],
         |o| o.error_bounds[1],
-        "relative error of h_min_m in 99 of 100 contacts at most; NaN where unknown",
+        "99 % empirical bound of the relative error of h_min_m; NaN if not available",
     ),
     follows(
         names::TRACTION_BOUND,
         [""; 2],
         |o| o.error_bounds[2],
-        "relative error of traction in 99 of 100 contacts at most; NaN where unknown",
+        "99 % empirical bound of the relative error of traction; NaN if not available",
     ),
-    follows(names::HALF_WIDTH, ["m"; 2], |o| o.half_width_m, "half width of the dry contact"),
+    follows(names::HALF_WIDTH, ["m"; 2], |o| o.half_width_m, "half width of the Hertzian contact"),
     follows(
         APPROACH_REFERENCE,
         ["m"; 2],
@@ -131,8 +131,8 @@ pub type Truth = (&'static str, &'static str, fn(&Outputs) -> bool);
 
 /// All boolean outputs. The index is the value reference.
 pub const TRUTHS: [Truth; 2] = [
-    (names::TRAINED, "whether the model was trained for the contact", |outputs| outputs.trained),
-    ("full", "whether the full solver took over where the model has no solution", |outputs| outputs.full),
+    (names::TRAINED, "true if the contact is inside the trained range", |outputs| outputs.trained),
+    ("full", "true if the full solver replaced the model, which has no solution", |outputs| outputs.full),
 ];
 
 impl Real {
@@ -268,7 +268,7 @@ fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<S
             let seconds = model.starts.first().map_or(1.0, |start| InTime::seconds_per_time(&start.point));
             let step = model.domain.step * seconds;
             let about = format!(
-                "Lubricated line contact in time by a reduced model: its state advances with the communication step, \
+                "Transient lubricated line contact by a reduced model: its state advances with the communication step, \
                  which is divided evenly into steps of {step:.3e} s at most"
             );
             let duration = model.starts.first().map_or(1.0, |start| start.duration) * seconds;
@@ -297,8 +297,8 @@ fn description(model: &SavedModel, content: &[u8], pressed: Pressed) -> Result<S
         let _ = writeln!(text, "    <Unit name=\"{name}\"><BaseUnit {base}/></Unit>");
     }
     text.push_str("  </UnitDefinitions>\n  <LogCategories>\n");
-    text.push_str("    <Category name=\"logStatusWarning\" description=\"what a reader must know\"/>\n");
-    text.push_str("    <Category name=\"logStatusError\" description=\"what is refused\"/>\n");
+    text.push_str("    <Category name=\"logStatusWarning\" description=\"warnings\"/>\n");
+    text.push_str("    <Category name=\"logStatusError\" description=\"refused requests\"/>\n");
     let (stop, step) = experiment;
     let _ = writeln!(
         text,

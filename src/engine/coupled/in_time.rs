@@ -399,7 +399,7 @@ mod tests {
         let model = trained(Frame::Fixed);
         let (mut own, first) = (InTime::new(Arc::clone(&model)), InTime::first_inputs(&model).unwrap());
         let step = model.domain.step * InTime::seconds_per_time(&model.starts[0].point);
-        assert!(own.advance(step, &first).unwrap_err().to_string().contains("has not begun"));
+        assert!(own.advance(step, &first).unwrap_err().to_string().contains("has not been initialised"));
         own.begin(&first).unwrap();
         let kept = own.outputs(&first).unwrap();
         for wrong in [
@@ -414,7 +414,7 @@ mod tests {
         assert!(own.advance(1e9, &first).unwrap_err().to_string().contains("steps"));
         let (fast, far) = (Inputs { load: 1.05 * first.load, ..first }, Inputs { load: 3.0 * first.load, ..first });
         let quick = Inputs { speed_m_per_s: 1.1 * first.speed_m_per_s, ..first };
-        for (inputs, said) in [(fast, "faster"), (far, "outside the trained"), (quick, "rested")] {
+        for (inputs, said) in [(fast, "faster"), (far, "outside the trained"), (quick, "was constant")] {
             let refused = own.advance(step, &inputs).unwrap_err();
             assert!(matches!(refused, CoupledError::Untrained(_)) && refused.to_string().contains(said), "{refused}");
             assert_eq!(format!("{:?}", own.outputs(&first).unwrap()), format!("{kept:?}"));

@@ -9,10 +9,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 pub enum JobError {
     /// No thread could be started.
-    #[error("no thread could be had for this work")]
+    #[error("no thread could be started for this computation")]
     NoThread,
     /// Another instance of the program that did the work has ended.
-    #[error("what did this work has ended; try again")]
+    #[error("the worker of this computation has ended; try again")]
     Lost,
     /// The work panicked.
     #[error(transparent)]

@@ -30,14 +30,14 @@ pub enum ModelFileError {
     },
     /// Transient model where a steady one is required.
     #[error(
-        "this is a transient reduced model; a scene takes contacts through time with it (study: Transient(…, reduced: \
-         (model: File(\"FILE.rom\")))), and `ehl-explorer export fmu` makes a unit of it"
+        "this is a transient reduced model; use it in a scene with study: Transient(…, reduced: (model: File(\"FILE.rom\"))), \
+         or export it with `ehl-explorer export fmu`"
     )]
     InTime,
     /// Steady model where a transient one is required.
     #[error(
-        "this is a reduced model of steady contacts, but a transient one is wanted; `ehl-explorer train` makes one of a \
-         scene whose study is Transient(…, reduced: (…))"
+        "this is a reduced model of steady contacts, but a transient one is required; `ehl-explorer train` creates one \
+         from a scene whose study is Transient(…, reduced: (…))"
     )]
     Stationary,
     /// Truncated file.
@@ -61,13 +61,13 @@ pub enum ModelFileError {
         what: &'static str,
     },
     /// A local model does not reproduce solutions that it was trained with.
-    #[error("the window M {}…{} of the model does not solve its own training points; train it again", m.0, m.1)]
+    #[error("the local model M {}…{} does not reproduce its own training points; train the model again", m.0, m.1)]
     Unproven {
         /// Range of M of the local model.
         m: (f64, f64),
     },
     /// A transient model does not reproduce the steady contacts at the start of its trainings.
-    #[error("the transient model does not find the contacts that its trainings began with; train it again")]
+    #[error("the transient model does not reproduce the steady contacts at the start of its trainings; train it again")]
     UnprovenInTime,
     /// Reading was cancelled.
     #[error("cancelled")]

@@ -43,8 +43,8 @@ pub enum ValueError {
     Domain,
     /// Not a limiting stress.
     #[error(
-        "accepted are two numbers with a comma between them, as in 5e6,0.05, and after another comma the stress from which \
-         the traction of a Newtonian film thins, as in 5e6,0.05,5e6"
+        "accepted are two numbers with a comma between them, as in 5e6,0.05, and after another comma an Eyring \
+         stress that affects only the traction of a Newtonian lubricant, as in 5e6,0.05,5e6"
     )]
     LimitingStress,
     /// Not three numbers.

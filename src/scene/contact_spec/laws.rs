@@ -38,8 +38,8 @@ impl ContactSpec {
             (_, Some(_)) => {
                 return refuse(
                     Field::SupplyFilm,
-                    "<supply-film> needs <cavitation=mass-conserving>: no other cavitation model has a gap that is filled in \
-                     part",
+                    "<supply-film> needs <cavitation=mass-conserving>: only this cavitation model allows a partially filled \
+                     gap",
                 );
             }
         };

@@ -23,7 +23,7 @@ impl ContactSpec {
                 Err(error) => refuse(field, format!("<{}>: {error}", facts.name)),
             };
         }
-        let refused = |why| Refusal::new(field, format!("<{}>: “{}” is none; {why}", facts.name, text.trim()));
+        let refused = |why| Refusal::new(field, format!("<{}>: “{}” is not valid; {why}", facts.name, text.trim()));
         self.read_plain(field, text.trim()).map_err(refused)
     }
 

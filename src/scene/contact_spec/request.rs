@@ -97,7 +97,10 @@ impl ContactSpec {
     fn reduced_modulus(&self) -> Result<Option<f64>, Refusal> {
         let Some(stated) = BODIES.into_iter().find(|field| self.states(*field)) else { return Ok(self.modulus) };
         if self.modulus.is_some() {
-            return refuse(Field::Modulus, "<modulus> and <e1> <nu1> <e2> <nu2> say the same thing; give one of both");
+            return refuse(
+                Field::Modulus,
+                "<modulus> and <e1> <nu1> <e2> <nu2> give the same quantity; leave one of them out",
+            );
         }
         let (Some(e1), Some(nu1), Some(e2), Some(nu2)) = (self.e1, self.nu1, self.e2, self.nu2) else {
             let missing = BODIES.into_iter().find(|field| !self.states(*field)).unwrap_or(stated);
@@ -121,7 +124,10 @@ impl ContactSpec {
             (None, None) => return Ok(None),
         };
         if self.viscosity.is_some() || self.lubricant.is_some() {
-            return refuse(Field::Oil, "<oil> says what <viscosity> and <lubricant> say; give one of them");
+            return refuse(
+                Field::Oil,
+                "<oil> determines <viscosity> and <lubricant>; leave out <oil>, or both of them",
+            );
         }
         let family = OilFamily::Mineral;
         let oil = Oil { grade: Grade::IsoVg(grade), family, temperature_k, density_15: family.usual_density() };

@@ -118,7 +118,7 @@ fn each_interface_names_its_own_words_in_a_refusal() {
         }
     }
     let unread = ContactSpec::default().read(Field::Contact, "cube", "").unwrap_err();
-    assert_eq!(unread.in_words(Words::Keywords), "contact=: “cube” is none; accepted are line, point");
+    assert_eq!(unread.in_words(Words::Keywords), "contact=: “cube” is not valid; accepted are line, point");
     let srr = ContactSpec { srr: Some(11.0), ..moes(&[]) }.request().unwrap_err();
     assert_eq!(srr.in_words(Words::Variables), "`srr` is 11, but must be a finite number between -10 and 10");
     // Text that is not a field is unchanged.

@@ -39,7 +39,7 @@ pub enum CasesError {
         title: String,
     },
     /// Two columns have the same content.
-    #[error("line {line}: two columns say the same thing, “{title}” and one before it")]
+    #[error("line {line}: two columns give the same quantity, “{title}” and a previous one")]
     Twice {
         /// Line of the titles.
         line: usize,
@@ -62,7 +62,7 @@ pub enum CasesError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LineError {
     /// More cells than titles.
-    #[error("{cells} cells are there, but {titles} titles")]
+    #[error("there are {cells} cells, but {titles} titles")]
     Cells {
         /// Number of cells.
         cells: usize,

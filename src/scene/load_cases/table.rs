@@ -75,7 +75,7 @@ fn text_of(path: &Path) -> Result<String, CasesError> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(unreadable(format!("it is larger than {} MiB", MAX_BYTES >> 20)));
     }
-    String::from_utf8(bytes).map_err(|_| unreadable("it is no UTF-8 text; save it as CSV in UTF-8".to_owned()))
+    String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text; save it as CSV in UTF-8".to_owned()))
 }
 
 /// Returns the cell delimiter: tab for tables pasted from a spreadsheet, semicolon for tables with decimal commas, or
@@ -210,13 +210,13 @@ mod tests {
             ("0.012,3,,2e11,0.02,", "give load, alpha too"),
             (",,,,,,,,,40,,", "M and L belong together"),
             ("0.012,3,3e5,2e11,,,ISO VG 69,60", "69 is no ISO viscosity grade"),
-            ("0.012,3,3e5,2e11,,,thick,60", "oil: “thick” is none; write it like ISO VG 68"),
+            ("0.012,3,3e5,2e11,,,thick,60", "oil: “thick” is not valid; write it like ISO VG 68"),
             ("0.012,3,3e5,2e11,,,68", "needs a temperature"),
-            ("0.012,3,3e5,2e11,0.02,,68,60", "give one of them"),
-            ("0.012,3,3e5,2e11,0.02,2e-8,,,ellipsoid", "“ellipsoid” is none"),
+            ("0.012,3,3e5,2e11,0.02,,68,60", "or both of them"),
+            ("0.012,3,3e5,2e11,0.02,2e-8,,,ellipsoid", "“ellipsoid” is not valid"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,nan", "srr"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,11", "srr is 11, but must be a finite number between -10 and 10"),
-            ("1,2,3,4,5,6,7,8,9,10,11,12,13", "13 cells are there, but 12 titles"),
+            ("1,2,3,4,5,6,7,8,9,10,11,12,13", "there are 13 cells, but 12 titles"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,point,40,10", "M and L leave"),
         ] {
             let cases = read(&format!("{head}\n{line}\n0.012,3,3e5,2e11,0.02,2e-8\n")).unwrap();

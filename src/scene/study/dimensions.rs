@@ -117,7 +117,7 @@ impl Question for Dimensions {
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let x = ChartAxis::log("Loss of information");
-        let mut chart = Chart::new("Modes that the solutions need", x, ChartAxis::linear("Modes"));
+        let mut chart = Chart::new("Number of modes required", x, ChartAxis::linear("Modes"));
         let all = || rows.iter().flat_map(|row| &row.dimensions);
         chart.add("pressure", Marks::Line, all().map(|d| [d.loss, d.pressure as f64]));
         chart.add("deformation", Marks::Line, all().map(|d| [d.loss, d.deformation as f64]));

@@ -116,7 +116,7 @@ impl Question for ErrorSplitStudy {
             setting.step("error splits", i, points.len())?;
             let k = model.window_for(point);
             let (Some(place), Some(window)) = (splitters.get_mut(k), model.windows.get(k)) else {
-                return Err(RunError::Study("the reduced model holds no bases".to_owned()));
+                return Err(RunError::Study("the reduced model contains no local model".to_owned()));
             };
             let splitter =
                 place.get_or_insert_with(|| ErrorSplitter::new(Arc::clone(&model), self.method.options(window)));

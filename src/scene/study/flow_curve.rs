@@ -35,7 +35,7 @@ impl Question for FlowCurve {
 
     fn check(&self, experiment: &Experiment) -> Checked {
         if experiment.lubricant.shear == ShearLaw::Newtonian {
-            return Err(refuse("lubricant.shear", "is Newtonian, but a flow curve needs a law that thins under shear"));
+            return Err(refuse("lubricant.shear", "is Newtonian, but a flow curve needs a shear-thinning law"));
         }
         count("study.plateaus (how many)", self.plateaus.len(), 1, 20)?;
         self.plateaus.iter().try_for_each(|&plateau| number("study.plateaus", plateau, 0.0, 1.0))?;
@@ -78,8 +78,7 @@ impl Question for FlowCurve {
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
-        let mut ratios =
-            Chart::new("Viscosity over that at rest", ChartAxis::log("Shear stress [Pa]"), ChartAxis::log("η/μ"));
+        let mut ratios = Chart::new("Relative viscosity", ChartAxis::log("Shear stress [Pa]"), ChartAxis::log("η/μ"));
         let mut flow =
             Chart::new("Flow curve", ChartAxis::log("Shear rate × μ [Pa]"), ChartAxis::log("Shear stress [Pa]"));
         for row in rows {

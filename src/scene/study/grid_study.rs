@@ -125,7 +125,7 @@ impl Question for GridStudy {
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
-        let mut film = Chart::new("Central film", ChartAxis::log("Spacing ΔX"), ChartAxis::linear("H_c"));
+        let mut film = Chart::new("Central film thickness", ChartAxis::log("Spacing ΔX"), ChartAxis::linear("H_c"));
         film.add("full", Marks::Line, rows.iter().map(|row| [row.dx, row.h_c()]));
         let y = ChartAxis::log("|H_c/limit − 1|");
         let mut error = Chart::new("Error of H_c against the extrapolated limit", ChartAxis::log("Spacing ΔX"), y);

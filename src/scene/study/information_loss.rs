@@ -68,7 +68,8 @@ impl Question for InformationLoss {
         let Setting { experiment, observer, .. } = *setting;
         let request = experiment.request()?;
         let grid = setting.bench.grid(&request, observer)?;
-        let line = grid.line().ok_or_else(|| RunError::Study("in time only line contacts are solved".to_owned()))?;
+        let line =
+            grid.line().ok_or_else(|| RunError::Study("transient studies support line contacts only".to_owned()))?;
         for (i, &frame) in self.frames.iter().enumerate() {
             setting.step("frames", i, self.frames.len())?;
             let transient = Transient {

@@ -206,8 +206,8 @@ impl Question for LoadCases {
             chart
         };
         [
-            (names::H_C_M, "Central film h_c [µm]", 1e6),
-            (names::H_MIN_M, "Smallest film h_min [µm]", 1e6),
+            (names::H_C_M, "Central film thickness h_c [µm]", 1e6),
+            (names::H_MIN_M, "Minimum film thickness h_min [µm]", 1e6),
             (names::TRACTION, "Traction coefficient", 1.0),
         ]
         .map(chart)

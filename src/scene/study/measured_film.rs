@@ -133,8 +133,11 @@ impl Question for MeasuredFilm {
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
-        let mut chart =
-            Chart::new("Film along the entrainment axis", ChartAxis::linear("x [µm]"), ChartAxis::linear("h [nm]"));
+        let mut chart = Chart::new(
+            "Film thickness along the entrainment axis",
+            ChartAxis::linear("x [µm]"),
+            ChartAxis::linear("h [nm]"),
+        );
         let (from, to) = (1.3 * self.between.0 / PLACE_M, 1.3 * self.between.1 / PLACE_M);
         let shown = |[x, _]: &[f64; 2]| (from..=to).contains(x);
         for row in rows {

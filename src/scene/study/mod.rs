@@ -219,7 +219,7 @@ impl Study {
             Self::Transient(_) => Ok(()),
             _ => Err(refuse(
                 "heat",
-                "is computed by the studies Point, Sweep, RandomTest, LoadCases and Training only; leave it out, or ask \
+                "is computed by the studies Point, Sweep, RandomTest, LoadCases and Training only; leave it out, or use \
                  one of them",
             )),
         }

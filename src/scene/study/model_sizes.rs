@@ -163,7 +163,7 @@ fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunEr
                 ..TrainingSpec::new(range, window.m, window.grid.spec(), plan)
             })
         }
-        None => Err(RunError::Study("the reduced model does not say under what sliding it was trained".to_owned())),
+        None => Err(RunError::Study("the reduced model does not state the sliding that it was trained for".to_owned())),
     }
 }
 
@@ -199,10 +199,10 @@ impl Question for ModelSizes {
             let (failures, errors, seconds) = truth.measure(&model, Some(modes), observer)?;
             tell(Row { varied: Varied::Modes, modes, rows: own.1, failures, errors, seconds, model: None });
         }
-        setting.step("rows to sample", total - self.rows_per_mode.len(), total)?;
+        setting.step("sampling of equations", total - self.rows_per_mode.len(), total)?;
         let sampled = with_rows(&spec, &model, k, &self.rows_per_mode, observer)?;
         for (i, sampled) in sampled.into_iter().flatten().enumerate() {
-            setting.step("numbers of rows", total - self.rows_per_mode.len() + i, total)?;
+            setting.step("numbers of sampled equations", total - self.rows_per_mode.len() + i, total)?;
             let sampled = Arc::new(sampled);
             let rows = sampled.windows[k].sampled_rows.len();
             let (failures, errors, seconds) = truth.measure(&sampled, None, observer)?;
@@ -251,7 +251,7 @@ impl Question for ModelSizes {
             times.add("median", Marks::Line, of(varied).map(|row| [row.size() as f64, 1e3 * row.summary()[2]]));
             [errors, times]
         };
-        [(Varied::Modes, "Pressure modes"), (Varied::Rows, "Sampled rows")].into_iter().flat_map(chart).collect()
+        [(Varied::Modes, "Pressure modes"), (Varied::Rows, "Sampled equations")].into_iter().flat_map(chart).collect()
     }
 }
 

@@ -273,13 +273,13 @@ pub(super) fn charts(x: &ChartAxis, varied: &[String], methods: &[Method], rows:
     let results = rows.iter().flat_map(|row| row.results());
     let slides = results.into_iter().any(|result| result.point.sliding.slide_to_roll_ratio != 0.0);
     let quantities = [
-        (names::H_C, "Central film H_c"),
-        (names::H_MIN, "Smallest film H_min"),
-        (names::P_MAX, "Largest pressure P_max"),
+        (names::H_C, "Central film thickness H_c"),
+        (names::H_MIN, "Minimum film thickness H_min"),
+        (names::P_MAX, "Maximum pressure P_max"),
         (names::TRACTION, "Traction coefficient"),
-        (names::MID_FILM_RISE, "Rise of temperature at mid-film, X = 0 [K]"),
-        (names::SURFACE_1_RISE, "Rise of temperature of body 1, X = 0 [K]"),
-        (names::SURFACE_2_RISE, "Rise of temperature of body 2, X = 0 [K]"),
+        (names::MID_FILM_RISE, "Temperature rise at mid-film, X = 0 [K]"),
+        (names::SURFACE_1_RISE, "Temperature rise of body 1, X = 0 [K]"),
+        (names::SURFACE_2_RISE, "Temperature rise of body 2, X = 0 [K]"),
     ];
     let warm = has_heat(rows);
     let shown = |name: &str| match name {

@@ -46,8 +46,8 @@ impl StudyRow {
 
 /// Error for studies that cannot be divided.
 fn whole() -> RunError {
-    let sentence = "a campaign is a sweep, a random test, a table of load cases or a training; this scene asks something \
-                    else, which `run` answers on one machine";
+    let sentence = "a campaign is a sweep, a random test, a table of load cases or a training; run this scene with `run` \
+                    on one machine";
     RunError::Study(sentence.to_owned())
 }
 

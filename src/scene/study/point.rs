@@ -73,7 +73,7 @@ impl Question for Point {
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let x = ChartAxis::linear("X = x/a");
         let mut pressure = Chart::new("Pressure along Y = 0", x.clone(), ChartAxis::linear("P = p/p_H"));
-        let mut film = Chart::new("Film along Y = 0", x, ChartAxis::linear("H = h R/a²"));
+        let mut film = Chart::new("Film thickness along Y = 0", x, ChartAxis::linear("H = h R/a²"));
         for row in rows {
             let Some(solution) = row.fields() else { continue };
             pressure.add(row.request.method.name(), Marks::Line, solution.profile().map(|(x, p, _)| [x, p]));
@@ -94,7 +94,7 @@ fn sets(solution: &Solution) -> Option<Chart> {
     if solution.multiplier.is_empty() || y.len() < 2 {
         return None;
     }
-    let mut chart = Chart::new("Ruptured nodes", ChartAxis::linear("X = x/a"), ChartAxis::linear("Y = y/a"));
+    let mut chart = Chart::new("Cavitated nodes", ChartAxis::linear("X = x/a"), ChartAxis::linear("Y = y/a"));
     chart.equal = true;
     let (mut ruptured, mut front, mut before) = (Vec::new(), Vec::new(), Vec::new());
     for (j, &across) in y.iter().enumerate().skip(1) {
@@ -104,8 +104,8 @@ fn sets(solution: &Solution) -> Option<Chart> {
         ruptured.extend((first + 1..x.len() - 1).map(|i| [x[i], across]));
         before.extend((first.saturating_sub(WATCHED)..first).map(|i| [x[i], across]));
     }
-    chart.add("A: ruptured", Marks::Dots, ruptured);
-    chart.add("B: its first nodes", Marks::Dots, front);
-    chart.add("Q: the five before", Marks::Dots, before);
+    chart.add("A: cavitated", Marks::Dots, ruptured);
+    chart.add("B: first cavitated nodes", Marks::Dots, front);
+    chart.add("Q: five nodes before B", Marks::Dots, before);
     Some(chart)
 }

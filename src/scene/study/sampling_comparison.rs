@@ -213,7 +213,8 @@ impl Question for SamplingComparison {
             let points = errors.iter().enumerate().map(|(i, error)| [(i as f64 + 0.5) / count, *error]);
             chart.add(way.name.as_str(), Marks::Line, points);
         }
-        let mut failures = Chart::new("Failures", ChartAxis::linear("Sampled rows"), ChartAxis::linear("Failures"));
+        let mut failures =
+            Chart::new("Failures", ChartAxis::linear("Sampled equations"), ChartAxis::linear("Failures"));
         for way in only!(rows, Row::Way) {
             failures.add(way.name.as_str(), Marks::Dots, [[way.rows as f64, way.failures as f64]]);
         }

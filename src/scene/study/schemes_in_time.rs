@@ -160,7 +160,7 @@ impl Question for SchemesInTime {
             number("study.schemes.rows_per_mode", way.rows_per_mode, 1.0, 20.0)?;
             let law = way.cavitation.unwrap_or(experiment.lubricant.cavitation);
             if let Cavitation::MassConserving { .. } = law {
-                let limit = "is mass-conserving, but reduced models rupture by the penalty or by complementarity";
+                let limit = "is mass-conserving, but reduced models support the penalty or complementarity only";
                 return Err(refuse("study.schemes.cavitation", limit));
             }
         }
@@ -176,7 +176,8 @@ impl Question for SchemesInTime {
         let Setting { experiment, observer, .. } = *setting;
         let request = experiment.request()?;
         let grid = setting.bench.grid(&request, observer)?;
-        let line = grid.line().ok_or_else(|| RunError::Study("in time only line contacts are solved".to_owned()))?;
+        let line =
+            grid.line().ok_or_else(|| RunError::Study("transient studies support line contacts only".to_owned()))?;
         let mut known: Vec<Full> = Vec::new();
         for (number, way) in self.schemes.iter().enumerate() {
             setting.step("schemes", number, self.schemes.len())?;
@@ -228,7 +229,7 @@ impl Question for SchemesInTime {
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let y = ChartAxis::log("Relative L2 difference of H_c");
-        let mut chart = Chart::new("What a step costs, and what it gives", ChartAxis::log("Seconds per step"), y);
+        let mut chart = Chart::new("Time per step and difference of H_c", ChartAxis::log("Seconds per step"), y);
         for way in &self.schemes {
             let own = rows.iter().filter(|row| row.scheme == way.name && row.finished);
             chart.add(way.name.as_str(), Marks::Dots, own.map(|row| [row.step_s, row.differences[0]]));

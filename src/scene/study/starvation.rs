@@ -64,7 +64,7 @@ impl Question for Starvation {
 
     fn check(&self, experiment: &Experiment) -> Checked {
         if experiment.lubricant.cavitation.supply_film_m().is_some() {
-            return Err(refuse("cavitation", "brings a supply of its own, which this study varies; leave it out"));
+            return Err(refuse("cavitation", "sets an inlet film thickness, which this study varies; leave it out"));
         }
         count("study.ratios (how many)", self.ratios.len(), 1, 200)?;
         self.ratios.iter().try_for_each(|&ratio| number("study.ratios", ratio, 0.01, 100.0))
@@ -125,8 +125,8 @@ impl Question for Starvation {
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let mut chart = Chart::new(
-            "Film over that of the flooded contact",
-            ChartAxis::log("Supplied over drawn film r"),
+            "Film thickness relative to the flooded contact",
+            ChartAxis::log("Inlet film thickness ratio r"),
             ChartAxis::linear("h_c/h_c,flooded"),
         );
         let films = films(rows);
@@ -139,7 +139,7 @@ impl Question for Starvation {
         chart.add("full", Marks::Dots, films);
         let mut menisci = Chart::new(
             "Meniscus",
-            ChartAxis::log("Supplied over drawn film r"),
+            ChartAxis::log("Inlet film thickness ratio r"),
             ChartAxis::linear("X of the meniscus"),
         );
         menisci.add("full", Marks::Line, rows.iter().filter_map(|row| Some([row.ratio, row.meniscus?])));

@@ -137,7 +137,7 @@ pub(super) fn contacts_of(experiment: &Experiment, over: &[Axis]) -> Result<Vec<
                 quantity @ (Quantity::M | Quantity::L) if stated.moes_m.is_none() => {
                     let name = quantity.name();
                     return Err(RunError::Study(format!(
-                        "{name} can only be varied where `at` is Moes(…), which says what follows"
+                        "{name} can only be varied if `at` is Moes(…), which names the quantities that follow"
                     )));
                 }
                 Quantity::M => stated.moes_m = Some(value),

@@ -1,4 +1,4 @@
-//! Behaviour of full solves: derivatives, limits, symmetry of units, starts, cancellation, and how much work they take.
+//! Behaviour of full solves: derivatives, limits, independence of units, initial guesses, cancellation, step counts.
 
 use super::newton_space::NewtonSpace;
 use super::*;
@@ -202,8 +202,8 @@ fn what_does_not_converge_says_so() {
 
 #[test]
 fn a_step_that_changes_nothing_far_from_any_solution_ends_no_solve() {
-    // The first start falls among states whose rows differ by thirty orders of magnitude, where steps are of 1e-20. Of
-    // such contacts one in fifteen ended there, with films of 0.06 to 0.26.
+    // The first initial guess has equations that differ by thirty orders of magnitude, with steps of 1e-20. One in
+    // fifteen such contacts ended there, with film thicknesses of 0.06 to 0.26.
     let grid = GridSpec::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };
     let mut solver = FullSolver::new(grid).unwrap();
     let lubricant = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..Lubricant::default() };

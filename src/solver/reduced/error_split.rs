@@ -61,7 +61,7 @@ pub enum SplitError {
     #[error(transparent)]
     Reduced(#[from] ReducedError),
     /// The reduced model with all rows has no solution.
-    #[error("with all rows {0}")]
+    #[error("with all equations: {0}")]
     Galerkin(#[source] ReducedError),
     /// A full solve did not converge, or the second grid does not match the first. Contains a sentence.
     #[error("{0}")]
@@ -271,8 +271,8 @@ fn limits(window: &Window, full: &Solution, second: &Solution) -> Result<(f64, f
             let incomparable = || {
                 let (first, second) = (full.y.len(), second.y.len());
                 SplitError::Full(format!(
-                    "the grid's part cannot be extrapolated: {first} and {second} nodes across the contact do not belong \
-                     together"
+                    "the grid's part cannot be extrapolated: {first} and {second} nodes across the contact do not \
+                     match"
                 ))
             };
             let accuracy = Accuracy::of_either(full, second).ok_or_else(incomparable)?;

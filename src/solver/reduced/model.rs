@@ -92,7 +92,7 @@ pub struct ModelSize {
 impl std::fmt::Display for ModelSize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { pressure, deformation, rows } = self;
-        write!(f, "{pressure} pressure modes, {deformation} deformation modes, {rows} sampled rows")
+        write!(f, "{pressure} pressure modes, {deformation} deformation modes, {rows} sampled equations")
     }
 }
 

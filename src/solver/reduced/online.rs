@@ -161,7 +161,7 @@ impl Online {
             return Ok(Some(why));
         }
         let lowest = self.lowest_film(solved)?;
-        Ok((lowest.is_nan() || lowest <= 0.0).then(|| format!("its film falls to H = {lowest:.1e}")))
+        Ok((lowest.is_nan() || lowest <= 0.0).then(|| format!("its film thickness falls to H = {lowest:.1e}")))
     }
 
     /// Runs Newton's method from one initial guess after the other.

@@ -139,12 +139,12 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
             );
         }
         Cavitation::Complementarity if range.of_ellipses() => {
-            return refuse("cavitation", "must be the penalty for a reduced model of ellipses");
+            return refuse("cavitation", "must be the penalty for a reduced model of elliptical contacts");
         }
         Cavitation::Penalty | Cavitation::Complementarity => {}
     }
     if range.of_ellipses() && spec.contact() != ContactKind::Point {
-        return refuse("range", "is of ellipses, but the windows' grids are of line contacts");
+        return refuse("range", "is of elliptical contacts, but the windows' grids are of line contacts");
     }
     if range.of_ellipses() && thins && !heat {
         return refuse("range.axes.RadiusRatio", "must be left out for a shear-thinning lubricant");

@@ -194,7 +194,7 @@ fn what_leaves_the_training_is_told_by_quantity_and_time() {
     assert!(far.len() == 1 && far[0].contains("1.15 times its reference") && far[0].contains("(T = 0.1"), "{far:?}");
     let quicker = Signal::Sampled { times: vec![0.0, 0.1], values: vec![1.0, 1.02] };
     let speed = said(Inputs { speed: quicker, ..Inputs::default() });
-    assert!(speed.len() == 2 && speed.iter().all(|said| said.contains("rested")), "{speed:?}");
+    assert!(speed.len() == 2 && speed.iter().all(|said| said.contains("was constant")), "{speed:?}");
     let other = Transient { duration: 0.05, ..transient(Frame::Fixed, Signal::Constant) };
     let other =
         Transient { point: crate::solver::physics::contact::OperatingPoint { load: 2.5e5, ..other.point }, ..other };

@@ -110,7 +110,7 @@ fn ranges_and_windows_that_fit_no_ellipse_are_refused() {
     let none = WindowSpec { radius_ratio: None, ..second };
     assert!(refused(with(vec![first, none])).contains("radius_ratio"));
     let line = WindowSpec::new((1.0, 500.0), super::small::line_grid(240));
-    assert!(refused(with(vec![line])).contains("ellipses"));
+    assert!(refused(with(vec![line])).contains("elliptical contacts"));
     for radius_ratio in [(f64::NAN, 2.0), (0.01, 2.0), (2.0, 0.5)] {
         let range = with_ends(&good.range, Quantity::RadiusRatio, radius_ratio);
         assert!(refused(TrainingSpec { range, ..good.clone() }).contains("range.axes.RadiusRatio"));

@@ -335,7 +335,7 @@ fn what_a_model_does_not_know_is_told() {
     let laws = spec.lubricant;
     let with = |heat: Heat| Lubricant { heat: Some(heat), ..laws };
     assert_eq!(outside(point, laws), "");
-    assert!(outside(point, Lubricant { heat: None, ..laws }).contains("trained with heat"));
+    assert!(outside(point, Lubricant { heat: None, ..laws }).contains("trained for thermal contacts"));
     assert!(outside(point, Lubricant { limiting_stress: None, ..laws }).contains("limiting stress"));
     assert!(outside(point, with(Heat { inlet_temperature: 353.15, ..Heat::default() })).contains("thermal constants"));
     let wide = Sliding { slide_to_roll_ratio: 0.9, newtonian_plateau_ratio: None };
@@ -356,7 +356,7 @@ fn what_a_model_does_not_know_is_told() {
     // An isothermal model refuses.
     let cold = trained(&line(Sampling::QDeim, 50));
     let refused = online(&cold).solve(&point, laws).unwrap_err();
-    assert!(refused == ReducedError::Heat && refused.to_string().contains("knows no heat"));
+    assert!(refused == ReducedError::Heat && refused.to_string().contains("is isothermal"));
 }
 
 #[test]

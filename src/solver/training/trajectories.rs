@@ -46,16 +46,16 @@ impl Default for TrajectoryTraining {
 }
 
 /// Message: requirements on the trajectories.
-const NONE: &str = "a training needs trajectories of one frame on one unregistered grid that kept their fields, each \
+const NONE: &str = "a training needs trajectories of one frame on one unregistered grid that stored their fields, each \
                     with at least its start";
 /// Message: requirements on their cavitation models.
-const RUPTURE: &str = "a training in time needs trajectories whose films all rupture by the penalty or all by \
-                       complementarity; full solutions in time know mass-conserving rupture too";
+const RUPTURE: &str = "a transient training needs trajectories that all have cavitation by the penalty or all by \
+                       complementarity; only full transient solutions support mass-conserving cavitation";
 /// Message: requirements on their lubricants.
 const LUBRICANT: &str =
-    "a training in time needs trajectories of one lubricant, with one viscosity at ambient pressure";
+    "a transient training needs trajectories of one lubricant, with one viscosity at ambient pressure";
 /// Message: advice for trajectories that are not sufficient.
-const DEGENERATE: &str = "the trajectories could not be decomposed, or no rule of few rows carries their steps; try a \
+const DEGENERATE: &str = "the trajectories could not be decomposed, or their steps need too many sampled equations; try a \
                           larger loss of information or more rows per mode";
 /// Maximum number of states for the bases; of longer trajectories every n-th state is used.
 const MOST_SNAPSHOTS: usize = 900;

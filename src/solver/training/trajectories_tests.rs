@@ -163,12 +163,15 @@ fn films_that_rupture_otherwise_are_refused() {
     let settings = TrajectoryTraining::default();
     let message = |all: &[Trajectory]| train_trajectories(&grid(), all, &settings, &()).unwrap_err().to_string();
     let (penalty, held) = (short(Cavitation::Penalty), short(Cavitation::Complementarity));
-    assert!(message(&[penalty.clone(), held.clone()]).contains("all rupture by the penalty or all by complementarity"));
+    assert!(
+        message(&[penalty.clone(), held.clone()])
+            .contains("all have cavitation by the penalty or all by complementarity")
+    );
     let conserving = short(Cavitation::MassConserving { supply_film_m: None });
     assert!(message(&[conserving]).contains("mass-conserving"));
     let model = Arc::new(train_trajectories(&grid(), &[held], &settings, &()).unwrap());
     let refused = ReducedMarch::new(&model, &penalty.transient).err().unwrap().to_string();
-    assert!(refused.contains("rupture by complementarity, not by penalty"), "{refused}");
+    assert!(refused.contains("cavitation by complementarity, not by penalty"), "{refused}");
 }
 
 #[test]
@@ -202,6 +205,6 @@ fn trajectories_without_fields_teach_nothing() {
     });
     let settings = TrajectoryTraining::default();
     let message = |all: &[Trajectory]| train_trajectories(&grid(), all, &settings, &()).unwrap_err().to_string();
-    assert!(message(&[silent]).contains("kept their fields"));
+    assert!(message(&[silent]).contains("stored their fields"));
     assert!(message(&[]).contains("trajectories"));
 }

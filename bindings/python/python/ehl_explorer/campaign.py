@@ -40,7 +40,7 @@ def _call(program, *arguments):
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
-        raise CampaignError(f"cannot start {program}: {error.strerror}; name it by --program") from error
+        raise CampaignError(f"cannot start {program}: {error.strerror}; name it with --program") from error
     if done.returncode >= 2 or done.returncode < 0:
         said = done.stderr.strip() or f"it ended with {done.returncode}"
         raise CampaignError(said.removeprefix("ehl-explorer: "))
@@ -98,7 +98,7 @@ def _compute(folder, client, program, worker_program, progress):
                 waiting = []
         elif client.status == "closed" or time.monotonic() - last_heard > PATIENCE_S:
             raise CampaignError(
-                f"the scheduler went away; {there} of {total} shards are in {folder}: the same command goes on with them"
+                f"lost the scheduler; {there} of {total} shards are in {folder}: repeat the command to continue"
             )
         ended = [future for future in at_work if future.done()]
         for future in ended:
@@ -142,7 +142,7 @@ def _keep(folder, number, content):
     try:
         _replace(folder / "shards" / f"{number:06}.shard", content)
     except OSError as refused:
-        raise CampaignError(f"cannot keep shard {number} in {folder}: {refused.strerror}") from refused
+        raise CampaignError(f"cannot store shard {number} in {folder}: {refused.strerror}") from refused
 
 
 def run(folder, client, program=None, worker_program=None, progress=lambda done, total: None):
@@ -207,7 +207,7 @@ def main(arguments=None):
         logging.getLogger(name).setLevel(logging.CRITICAL)
 
     def progress(done, total):
-        print(f"{done} of {total} shards are there", file=sys.stderr)
+        print(f"{done} of {total} shards are done", file=sys.stderr)
 
     try:
         with Client(options.scheduler, timeout=PATIENCE_S) as client:

@@ -9,7 +9,7 @@ use crate::solver::full::transient::Unsupported;
 use crate::solver::limits::Refused;
 
 /// Reason why a full transient run refuses the grid of a steady model.
-const OF_A_MODEL: &str = "a full transient run has a grid of its own";
+const OF_A_MODEL: &str = "a full transient run does not use the grid of a model";
 
 /// Returns the refusal of a scene, with the unsupported field.
 fn refused(why: Unsupported) -> Refused {

@@ -198,7 +198,7 @@ impl ReducedTransient {
     fn check(&self, grid: &Grid) -> Checked {
         if self.model.is_some() {
             if *self != (Self { model: self.model.clone(), ..Self::default() }) {
-                let problem = "has nothing beside it: loss, rows_per_mode, seed and local belong to a training";
+                let problem = "must be the only field: loss, rows_per_mode, seed and local belong to a training";
                 return Err(refuse("study.reduced.model", problem));
             }
             return Ok(());
@@ -206,7 +206,7 @@ impl ReducedTransient {
         if !matches!(grid, Grid::Uniform { .. } | Grid::GradedNodes { registered: false, .. }) {
             return Err(refuse(
                 "grid",
-                "must be Uniform, or GradedNodes without registration, for a reduced model in time",
+                "must be Uniform, or GradedNodes without registration, for a transient reduced model",
             ));
         }
         number("study.reduced.loss", self.loss, 1e-12, 0.5)?;
@@ -337,7 +337,7 @@ impl TransientStudy {
             Some("training_loads")
         };
         if let Some(others) = others {
-            return Err(refuse(field(0), format!("is {first:?}, but must be left out beside {others}")));
+            return Err(refuse(field(0), format!("is {first:?}, but must be left out with {others}")));
         }
         let own = experiment.point().map_err(|problem| refuse("at", format!("is refused: {problem}")))?;
         self.training_contacts.iter().enumerate().try_for_each(|(i, contact)| {

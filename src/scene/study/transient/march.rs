@@ -208,12 +208,14 @@ impl March {
         let reduced = reduced.filter(same_inputs).filter_map(|march| Some((&march.name, error(march)?)));
         match (reduced.min_by(|a, b| a.1.total_cmp(&b.1)), error(self)) {
             (Some((name, reduced)), Some(own)) if reduced < own => {
-                format!("{name} errs less in H_c: {reduced:.1e} instead of {own:.1e}")
+                format!("{name} has a smaller error of H_c: {reduced:.1e} instead of {own:.1e}")
             }
             (Some((name, reduced)), Some(own)) => {
-                format!("train on inputs like these; {name} errs no less in H_c: {reduced:.1e} beside {own:.1e}")
+                format!(
+                    "train on inputs like these; {name} has no smaller error of H_c: {reduced:.1e} instead of {own:.1e}"
+                )
             }
-            _ => "train on inputs like these, or march by a reduced model as well to compare both".to_owned(),
+            _ => "train on inputs like these, or march with a reduced model as well to compare both".to_owned(),
         }
     }
 

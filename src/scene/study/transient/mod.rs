@@ -102,7 +102,7 @@ impl Question for TransientStudy {
         }
         let request = setting.experiment.request()?;
         let ContactGrid::Line(grid) = setting.bench.grid(&request, setting.observer)? else {
-            return Err(RunError::Study("a contact in time needs the grid of a line contact".to_owned()));
+            return Err(RunError::Study("a transient contact needs the grid of a line contact".to_owned()));
         };
         let saved = study.saved_model(setting)?;
         let runner = Runner { study: &study, grid, saved, setting, tell };
@@ -183,10 +183,10 @@ impl Question for TransientStudy {
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
         let quantities: [Column<Moment>; 4] = [
-            ("Central film H_c", |moment| moment.h_c),
-            ("Smallest film H_min", |moment| moment.h_min),
+            ("Central film thickness H_c", |moment| moment.h_c),
+            ("Minimum film thickness H_min", |moment| moment.h_min),
             ("Central pressure P_c", |moment| moment.p_c),
-            ("Largest pressure P_max", |moment| moment.p_max),
+            ("Maximum pressure P_max", |moment| moment.p_max),
         ];
         let moment = |row: &&Row| match *row {
             Row::Moment { march, moment, .. } => Some((Arc::clone(march), *moment)),

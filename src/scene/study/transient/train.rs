@@ -28,8 +28,8 @@ impl TransientStudy {
         let model = setting.bench.trajectory_model(source, setting.observer)?;
         if !self.frames.contains(&model.frame) {
             return Err(RunError::Study(format!(
-                "the reduced model lives in another frame than the study marches in: write `frames: [{:?}]`, or name it \
-                 besides",
+                "the reduced model has another frame than the study: write `frames: [{:?}]`, or add this frame to the \
+                 others",
                 model.frame
             )));
         }
@@ -54,7 +54,7 @@ impl Scene {
         observer: &dyn TrainingObserver,
     ) -> Result<(TrajectoryModel, Vec<Notice>), RunError> {
         self.check()?;
-        let none = || RunError::Study("the scene trains no reduced model in time".to_owned());
+        let none = || RunError::Study("the scene trains no transient reduced model".to_owned());
         let Study::Transient(study) = &self.study else { return Err(none()) };
         let (training, mut study) = (study.training().ok_or_else(none)?, study.clone());
         if let Some(path) = &study.sampled {
@@ -82,7 +82,7 @@ impl Scene {
         let told = |(k, trajectory): (usize, &Trajectory)| {
             let (steps, states) = (trajectory.moments.len().saturating_sub(1), trajectory.states.len());
             let ended = trajectory.ended.describe();
-            format!("training {}: {steps} steps, {states} states kept; the march {ended}", k + 1)
+            format!("training {}: {steps} steps, {states} states stored; the march {ended}", k + 1)
         };
         model.log = trainings.iter().enumerate().map(told).collect();
         model.title.clone_from(&self.title);

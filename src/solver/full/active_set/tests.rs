@@ -1,4 +1,4 @@
-//! How nodes leave the ruptured set, and what ends a cycle. Solutions are tested in `tests/solver`.
+//! Tests of nodes that leave the cavitated set, and of the end of a cycle. Solutions are tested in `tests/solver`.
 
 use super::{ActiveSet, CYCLE};
 
@@ -13,11 +13,11 @@ fn word(set: &ActiveSet) -> String {
 
 #[test]
 fn a_block_is_filled_from_either_end_as_far_as_the_inflow_reaches() {
-    // What flows into the first cell exceeds its demand by 3, and so fills the next two, but not the last one.
+    // The inflow of the first cell exceeds its demand by 3. It fills the next two cells, but not the last one.
     let mut flooded = set("PPAAAA", &[0.0, 0.0, -3.0, 1.0, 1.0, 2.0]);
     assert!(flooded.release(&[1.0; 6], 1));
     assert_eq!(word(&flooded), "PPPPPA");
-    // From the right the same, in cells of other widths.
+    // The same from the right, with cells of other widths.
     let mut flooded = set("AAAAPP", &[2.0, 1.0, 1.0, -3.0, 0.0, 0.0]);
     assert!(flooded.release(&[1.0, 1.0, 1.0, 0.5, 1.0, 1.0], 1));
     assert_eq!(word(&flooded), "AAPPPP");
@@ -31,7 +31,7 @@ fn a_block_is_filled_from_either_end_as_far_as_the_inflow_reaches() {
 
 #[test]
 fn lines_are_filled_each_for_itself() {
-    // Two lines side by side: the second one's inflow fills two cells, the first one's none.
+    // Two adjacent lines: the inflow of the second one fills two cells, that of the first one none.
     let mut plane = set("PPAAAAAA", &[0.0, 0.0, 0.5, -1.5, 1.0, 1.0, 1.0, 1.0]);
     assert!(plane.release(&[1.0; 4], 2));
     assert_eq!(word(&plane), "PPAPAPAA");

@@ -1,4 +1,4 @@
-//! Heat in point contacts: circles and ellipses.
+//! Tests of thermal point contacts, circular and elliptical.
 
 use super::tests::{EYRING, point, solved, warm};
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
@@ -27,7 +27,7 @@ fn where_nothing_hangs_on_temperature_the_film_is_the_one_without_heat() {
         let warm = solved(&mut solver, &ball(0.3), lubricant);
         let cold = solved(&mut solver, &ball(0.3), Lubricant { heat: None, ..lubricant });
         let off = (warm.scalars.h_c / cold.scalars.h_c - 1.0).abs();
-        // A step below 1e-6 ends both.
+        // Both iterations end with a step below 1e-6.
         assert!(off < 2e-6, "{shear:?} {cavitation:?}: {off:e}");
         assert!(warm.heat.unwrap().central.mid_film_k > 1.0);
     }
@@ -45,7 +45,7 @@ fn what_is_made_leaves_through_bodies_and_with_the_oil_in_a_plane_as_well() {
     }
 }
 
-/// Three grids, each with half the spacings of the one before: what is left shrinks by two and more.
+/// Solves on three grids, each with half the spacings of the previous one. Differences fall at least by half.
 #[test]
 fn film_traction_and_temperature_converge_with_the_grid() {
     let found = [1.0, 0.5, 0.25].map(|share| {
@@ -82,7 +82,7 @@ fn a_ball_is_the_same_from_wherever_it_is_begun_and_whichever_body_is_faster() {
     assert!(a.central.surfaces_k[0] > 2.0 * a.central.surfaces_k[1], "glass keeps the heat");
 }
 
-/// A limit is reached where an ellipse is so long that oil hardly flows aside: on its axis it is a line contact of the
+/// Limit of a long ellipse, in which hardly any lubricant flows sideways. On its axis it is a line contact of the
 /// same pressure.
 #[test]
 fn a_long_ellipse_is_a_line_contact_on_its_axis() {
@@ -116,7 +116,7 @@ fn a_long_ellipse_is_a_line_contact_on_its_axis() {
     assert!(rise > 10.0, "{rise}");
 }
 
-/// A supplied film starves the inlet whatever was solved before: without it, with another one, with heat or without.
+/// An inlet film thickness starves the inlet whatever was solved before: without it, with another one, thermal or not.
 #[test]
 fn a_starved_contact_has_the_film_of_a_cold_start_whatever_it_starts_from() {
     let mut solver = PointSolver::new(COARSE).unwrap();

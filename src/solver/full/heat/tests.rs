@@ -39,8 +39,8 @@ pub(super) fn solved<S: NewtonSpace>(solver: &mut Solver<S>, point: &OperatingPo
     solution
 }
 
-/// An independent solver's values, extrapolated to vanishing spacings along and across the film; its body 1 is the faster
-/// one, so ours is its body 2.
+/// Values of an independent solver, extrapolated to vanishing spacings along and across the film. Its body 1 is the
+/// faster one, which is body 2 here.
 #[test]
 fn independent_solutions_are_met() {
     let mut solver = FullSolver::new(GRID).unwrap();
@@ -84,7 +84,7 @@ fn where_nothing_hangs_on_temperature_the_film_is_the_one_without_heat() {
             assert!((warm.scalars.h_c / cold.scalars.h_c - 1.0).abs() < 1e-12, "{shear:?} {cavitation:?}");
             let difference = warm.pressure.iter().zip(&cold.pressure).fold(0.0f64, |d, (a, b)| d.max((a - b).abs()));
             assert!(difference < 1e-10, "{shear:?} {cavitation:?}: {difference}");
-            // Body 1 is below in both, and the shear has the same sign.
+            // Body 1 is below in both, and the shear stress has the same sign.
             let [own, wanted] = [&warm, &cold].map(|solution| solution.shear_field(&[0.0, 0.5, 1.0]));
             let largest = wanted.iter().fold(0.0f64, |largest, shear| largest.max(shear.stress_pa.abs()));
             for (own, wanted) in own.iter().zip(&wanted) {
@@ -112,7 +112,7 @@ fn a_contact_is_the_same_from_wherever_it_is_begun_and_whichever_body_is_faster(
     }
     assert!((a.central.mid_film_k - b.central.mid_film_k).abs() < 1e-3);
     assert!((cold.traction_coefficient() + other.traction_coefficient()).abs() < 1e-6);
-    // Glass keeps the heat.
+    // Glass conducts heat badly.
     assert!(a.central.surfaces_k[0] > 2.0 * a.central.surfaces_k[1]);
 }
 
@@ -131,7 +131,7 @@ fn a_limiting_stress_bounds_the_traction_and_the_heat_it_makes() {
     assert!(limited < 0.8 * free, "{limited} {free}");
 }
 
-/// Where oil flows back out of the inlet as well.
+/// The energy balance also holds if lubricant flows back out of the inlet.
 #[test]
 fn what_is_made_leaves_through_bodies_and_with_the_oil() {
     let mut solver = FullSolver::new(GRID).unwrap();
@@ -144,7 +144,7 @@ fn what_is_made_leaves_through_bodies_and_with_the_oil() {
     }
 }
 
-/// Where a limit cuts the stress the heat of shear has a kink, at which the steps of a station may turn back and forth until
+/// A limiting stress causes a kink in the heat of shear, at which the steps of a station may turn back and forth until
 /// they end where they began.
 #[test]
 fn temperatures_come_to_rest_where_a_limit_cuts_the_stress() {

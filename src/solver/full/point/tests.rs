@@ -1,4 +1,4 @@
-//! Behaviour of full point solves: derivatives, limits, starts, grids, cancellation, what the estimates say.
+//! Behaviour of full point solves: derivatives, limits, initial guesses, grids, cancellation, error estimates.
 
 use super::{Accuracy, resolution_warning};
 use crate::solver::discrete::grid::PointGridSpec;
@@ -23,8 +23,8 @@ fn solve(spec: PointGridSpec, point: &OperatingPoint) -> Solution {
     PointSolver::new(spec).unwrap().solve(point, Lubricant::default(), Start::Cold, &()).unwrap()
 }
 
-/// A state in which some pressures are negative, so that the penalty takes part, and a direction: ΔP, and ΔH with ΔH₀ =
-/// 0.3.
+/// Returns a state with some negative pressures, so that the penalty acts, and a direction: ΔP, and ΔH with
+/// ΔH₀ = 0.3.
 fn state(problem: &Problem) -> (System<PlaneSpace>, Vec<f64>, Vec<f64>) {
     let grid = PointGridSpec::uniform(0.1, 0.2, (-2.5, 1.5, -1.6)).build().unwrap();
     let mut system = System::new(PlaneSpace { grid: Arc::clone(&grid) });
@@ -68,7 +68,7 @@ fn without_thinning_the_generalized_rows_are_the_newtonian_ones_whatever_the_sli
     let scale = wanted.iter().fold(0.0f64, |largest, row| largest.max(row.value.abs()));
     for srr in [0.0, 0.5, -2.0] {
         let mut problem = thinning(srr);
-        // NPR = 1 is solved as the Newtonian problem that it is: here the generalized rows are asked.
+        // NPR = 1 is solved as a Newtonian problem. Here the generalised equations are tested.
         if let (Some(law), Some((fluidity, _))) = (&mut problem.shear, Fluidity::of(CARREAU, 1.0)) {
             law.fluidity = fluidity;
         }
@@ -81,7 +81,7 @@ fn without_thinning_the_generalized_rows_are_the_newtonian_ones_whatever_the_sli
     }
 }
 
-/// Value of a row at (x, y) for smooth fields, on a grid with the given spacings.
+/// Returns the value of an equation at (x, y) for smooth fields, on a grid with the given spacings.
 fn manufactured(fluid: &ScaledFluid, geometry: &RowGeometry, x: f64, y: f64, hx: f64, hy: f64) -> f64 {
     let node = |dx: f64, dy: f64| {
         let (x, y) = (x + dx * hx, y + dy * hy);
@@ -164,7 +164,7 @@ fn two_grids_estimate_the_error_and_a_coarse_one_warns() {
     let spec = |dx: f64| PointGridSpec { dx, dy: 0.1, ..COARSE };
     let [coarse, middle, fine] = [0.08, 0.04, 0.02].map(|dx| solve(spec(dx), &point));
     let (first, second) = (Accuracy::of(&coarse, &middle).unwrap(), Accuracy::of(&middle, &fine).unwrap());
-    // The limit must hardly move, and the error fall as the square of the spacing.
+    // The limit must hardly change, and the error must fall with the square of the spacing.
     assert!((first.h_c.limit / second.h_c.limit - 1.0).abs() < 0.3 * first.h_c.error, "{first:?} {second:?}");
     assert!((3.0..5.5).contains(&(first.h_c.error / second.h_c.error)), "{first:?} {second:?}");
     assert!(Accuracy::of(&fine, &coarse).is_none());

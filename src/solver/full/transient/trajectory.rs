@@ -149,8 +149,8 @@ impl Ended {
             Self::Cancelled { time } => format!("was cancelled at T = {time:.4}"),
             Self::StepRefused { time, step, termination } => {
                 let iteration = match termination {
-                    Termination::IterationLimit => "did not end",
-                    Termination::Effort => "would have been one of too many",
+                    Termination::IterationLimit => "did not converge",
+                    Termination::Effort => "exceeded the effort of the march",
                     _ => "diverged",
                 };
                 if *step == 0.0 {
@@ -159,12 +159,12 @@ impl Ended {
                     );
                 }
                 format!(
-                    "could not take the step of {step:.1e} to T = {time:.4}, whose iteration {iteration}; what was computed \
-                     before is kept"
+                    "could not take the step of {step:.1e} to T = {time:.4}, whose iteration {iteration}; previous steps \
+                     are kept"
                 )
             }
             Self::ContactRefused { time, reason } => {
-                format!("stopped at T = {time:.4}: {reason}; what was computed before is kept")
+                format!("stopped at T = {time:.4}: {reason}; previous steps are kept")
             }
         }
     }

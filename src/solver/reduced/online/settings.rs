@@ -13,11 +13,13 @@ pub enum ReducedError {
     Problem(#[from] SolveError),
     /// The lubricant is shear-thinning, and the model is Newtonian.
     #[error(
-        "the reduced model was trained for a lubricant that does not thin under shear; use the full solver, or a model of this lubricant"
+        "the reduced model was trained for a Newtonian lubricant; use the full solver, or a model of this lubricant"
     )]
     ShearThinning,
     /// The contact is thermal, and the model is isothermal.
-    #[error("the reduced model knows no heat; leave heat out, solve in full, or train a model with heat and name it")]
+    #[error(
+        "the reduced model is isothermal; leave heat out, use the full solver, or name a model trained for thermal contacts"
+    )]
     Heat,
     /// The model is of the other kind of contact.
     #[error("the reduced model is of {} contacts, but the operating point is that of a {} contact", model.name(), given.name())]
@@ -29,7 +31,7 @@ pub enum ReducedError {
     },
     /// The cavitation model of a transient model differs from the requested one.
     #[error(
-        "the reduced model in time was trained with films that rupture by {}, not by {}; train one with that law, or follow the full system",
+        "the transient reduced model was trained with cavitation by {}, not by {}; train one with that law, or use the full system",
         model.name(), given.name()
     )]
     OtherRupture {
@@ -39,7 +41,7 @@ pub enum ReducedError {
         given: Cavitation,
     },
     /// The model has no local model.
-    #[error("the reduced model holds no bases")]
+    #[error("the reduced model contains no local model")]
     Empty,
     /// Newton's method did not converge.
     #[error(
@@ -55,7 +57,7 @@ pub enum ReducedError {
     #[error("the reduced solve was stopped")]
     Cancelled,
     /// The contact is elliptical with a radius ratio outside the model's.
-    #[error("the reduced model knows {}; use the full solver for a ratio of radii of {given}", known_shapes(*known))]
+    #[error("the reduced model supports {}; use the full solver for a ratio of radii of {given}", known_shapes(*known))]
     Ellipse {
         /// R_y/R of the contact.
         given: f64,
@@ -63,7 +65,7 @@ pub enum ReducedError {
         known: (f64, f64),
     },
     /// Outside the trained range the iteration ended in a state that is not a solution of a contact.
-    #[error("the reduced solution is none, {0}; use the full solver here")]
+    #[error("the reduced solution is not valid, {0}; use the full solver here")]
     Implausible(String),
 }
 
@@ -71,7 +73,7 @@ fn known_shapes(known: (f64, f64)) -> String {
     if known == CIRCLES {
         return "circular contacts only".to_owned();
     }
-    format!("ellipses with a ratio of radii from {} to {} only", known.0, known.1)
+    format!("elliptical contacts with a ratio of radii from {} to {} only", known.0, known.1)
 }
 
 impl ReducedError {

@@ -114,8 +114,8 @@ pub struct TpwlModel {
 /// Maximum number of snapshots for the basis, from all trajectories together. More would not add information.
 const MOST_SNAPSHOTS: usize = 600;
 /// Message for mass-conserving cavitation, which is not linearised.
-const FILLED: &str = "a trajectory-piecewise-linear model knows no film that is filled in part: its training must \
-                      rupture by the penalty or by complementarity";
+const FILLED: &str = "a trajectory-piecewise-linear model does not support mass-conserving cavitation: its training \
+                      must use the penalty or complementarity";
 /// Relative change of the reference load in the difference quotient of the load slopes.
 const LOAD_DIFFERENCE: f64 = 1e-3;
 
@@ -344,7 +344,7 @@ fn check<'a>(trajectories: &[&'a Trajectory], training: TpwlTraining) -> Result<
         }
         if trajectory.states.len() < LEAST_STATES {
             return Err(TpwlError::Refused(format!(
-                "training trajectory {} keeps the fields of {} moments, but at least {LEAST_STATES} are needed",
+                "training trajectory {} stores the fields at {} times, but at least {LEAST_STATES} are needed",
                 k + 1,
                 trajectory.states.len()
             )));
@@ -369,7 +369,7 @@ pub fn check_frame(frame: Frame) -> Result<(), TpwlError> {
         return Ok(());
     }
     Err(TpwlError::Refused(format!(
-        "trajectory-piecewise-linear models live in the fixed frame, not in the {} one: inputs would move the whole grid",
+        "trajectory-piecewise-linear models use the fixed frame, not the {} one: inputs would move the whole grid",
         frame.name()
     )))
 }

@@ -215,7 +215,7 @@ fn a_training_that_ruptures_by_complementarity_does_as_well_as_one_by_the_penalt
     let filled = training(Transient { lubricant: Lubricant { cavitation: filled, ..short.lubricant }, ..short });
     let settings = TpwlTraining { modes: 10, selection: STEP_SELECTION };
     let refused = TpwlModel::train(&[&filled], settings).err().unwrap().to_string();
-    assert!(refused.contains("filled in part"), "{refused}");
+    assert!(refused.contains("mass-conserving cavitation"), "{refused}");
 }
 
 #[test]
@@ -305,5 +305,5 @@ fn what_a_model_cannot_do_is_refused() {
     assert!(refusal(&[], 10, 0.1).contains("at least one training trajectory"));
     assert!(refusal(&[&SINE], 0, 0.1).contains("number of modes"));
     assert!(refusal(&[&SINE], 10, f64::NAN).contains("tolerance"));
-    assert!(refusal(&[&full(&good)], 10, 0.1).contains("keeps the fields of 0 moments"));
+    assert!(refusal(&[&full(&good)], 10, 0.1).contains("stores the fields at 0 times"));
 }

@@ -61,7 +61,7 @@ pub enum CoupledError {
         most: f64,
     },
     /// The state does not belong to this model.
-    #[error("this is no state of this model")]
+    #[error("this is not a state of this model")]
     Foreign,
 }
 

@@ -84,7 +84,7 @@ impl Reach {
         }
         let (value, [least, most]) = (digits(value), [low, high].map(digits));
         let sentence = if least == most {
-            format!("the {name} is {value} times its reference, but rested at {least} in training")
+            format!("the {name} is {value} times its reference, but was constant at {least} in training")
         } else {
             format!("the {name} is {value} times its reference, outside the trained {least}…{most}")
         };
@@ -100,8 +100,8 @@ impl Reach {
         }
         let [value, learned] = [value, learned].map(digits);
         let sentence = format!(
-            "the {name} is {value} times its reference, where the only training had {learned}: of other courses the model \
-             knows nothing"
+            "the {name} is {value} times its reference, where the only training had {learned}: the errors of other courses \
+             are unknown"
         );
         Some(Excess { far, sentence })
     }
@@ -116,7 +116,7 @@ impl Reach {
             let trained = digits(self.rate);
             format!("the {name} changes by {own} times its reference per unit of T, faster than the trained {trained}")
         } else {
-            format!("the {name} changes, but rested in training")
+            format!("the {name} changes, but was constant in training")
         };
         Some(Excess { far: rate, sentence })
     }
@@ -235,7 +235,7 @@ impl TrajectoryDomain {
         }
         let (own, given) = (self.reference.lubricant.cavitation, problem.lubricant.cavitation);
         if own != given {
-            return Some(format!("its films rupture by {}, not by {}", own.name(), given.name()));
+            return Some(format!("the model was trained with cavitation by {}, not by {}", own.name(), given.name()));
         }
         let steps = (duration / self.step).ceil().clamp(1.0, MOST_LOOKED_AT);
         let (length, mut before) = (duration / steps, inputs.at(0.0));
