@@ -3,6 +3,8 @@
 //! There is one [`Observer`] for everything that takes long. What tells more than this has a trait of its own on top of
 //! it: a march its moments, a training its state, a study its rows.
 
+use crate::solver::limits::digits;
+use crate::solver::physics::contact::Moes;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -17,6 +19,9 @@ pub trait Observer: Sync {
     /// Called after every Krylov iteration of a point contact's linear solve, with their count within the present
     /// Newton step.
     fn krylov_iteration(&self, _count: usize) {}
+
+    /// Called before every step of a walk to a contact that no cold start reaches.
+    fn walk_step(&self, _step: &WalkStep) {}
 
     /// Called as long work of many parts proceeds.
     fn progress(&self, _progress: Progress) {}
@@ -36,6 +41,23 @@ pub struct NewtonStep {
     pub residual: f64,
     /// ‖Δz‖/‖z‖ of the step taken.
     pub step: f64,
+}
+
+/// Where a walk is: the solver's continuation from an easier contact to the wanted one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WalkStep {
+    /// The wanted contact.
+    pub wanted: Moes,
+    /// The last contact that converged.
+    pub reached: Moes,
+}
+
+impl std::fmt::Display for WalkStep {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { wanted, reached } = self;
+        let [m, l, at_m, at_l] = [wanted.m, wanted.l, reached.m, reached.l].map(digits);
+        write!(f, "walking to M {m}, L {l}: at M {at_m}, L {at_l}")
+    }
 }
 
 /// How far long work is.

@@ -17,6 +17,9 @@ pub const PLAUSIBLE_TRACTION: f64 = 0.15;
 pub(in crate::solver) const ENDURED_K: f64 = 573.0;
 /// Péclet number u_i a/(2κ_i) below which heat flows upstream within a body.
 const SMALLEST_PECLET: f64 = 5.0;
+/// p_H/E′ beyond which the theory of small strains in half-spaces is left: a/R is 4 p_H/E′ of a line contact and
+/// π p_H/E′ of a circle, and errors of a few percent begin at a/R = 0.3.
+const LARGEST_STRAIN: f64 = 0.08;
 /// Estimated errors of the steps in time beyond this are warned of.
 const NOTABLE_STEP_ERROR: f64 = 0.03;
 /// Estimated discretisation errors beyond this are likely to be too small.
@@ -160,6 +163,14 @@ pub enum Warning {
         /// p_H \[Pa\].
         pressure_pa: f64,
     },
+    /// The bodies deform more than the theory of the half-space holds for.
+    #[error(
+        "p_H/E' is {ratio:.3}: beyond {LARGEST_STRAIN} the strains are no longer small, and the bodies no half-spaces"
+    )]
+    LargeStrain {
+        /// p_H/E′.
+        ratio: f64,
+    },
     /// Every isothermal traction without a limiting stress is unphysical at this α* p_H.
     #[error(
         "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear stress is \
@@ -217,6 +228,12 @@ impl Warning {
     /// The warning of a Hertzian pressure \[Pa\], if it exceeds what bearing steel carries.
     pub fn of_hertz_pressure(pressure_pa: f64) -> Option<Self> {
         (pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA).then_some(Self::HertzPressure { pressure_pa })
+    }
+
+    /// The warning of strains that are no longer small, by the Hertzian pressure and E′ \[Pa\].
+    pub fn of_strain(pressure_pa: f64, modulus_pa: f64) -> Option<Self> {
+        let ratio = pressure_pa / modulus_pa;
+        (ratio > LARGEST_STRAIN).then_some(Self::LargeStrain { ratio })
     }
 
     /// The warning of the estimated error that steps in time leave in H_c, if it is more than three percent, or more

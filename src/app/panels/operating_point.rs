@@ -30,7 +30,7 @@ const SHAPES: [(Shape, &str); 3] = [
     (
         Shape::Ellipse,
         "A point contact with a radius across the rolling direction of its own: a ball in a groove, a crowned roller. \
-        R_y/R runs from 0.1 over 1, the circle, to 40, which is nearly a line",
+        R_y/R runs from 0.02 over 1, the circle, to 500, which is nearly a line",
     ),
 ];
 /// Under this name the choice between them is refused.
