@@ -85,15 +85,15 @@ impl ContactSpec {
             return refuse(field, "<u1> and <u2> say what <speed> and <srr> say; give two of them");
         }
         let (mean, sliding) = (0.5 * (u1 + u2), u2 - u1);
-        if mean.abs() <= 1e-4 * sliding.abs() || !mean.is_finite() {
-            let (u1, u2) = (Number(u1), Number(u2));
-            return refuse(
-                Field::U2,
-                format!(
-                    "<u1> is {u1} m/s and <u2> is {u2} m/s: their mean entrains no lubricant, and without heat there is no \
-                     film; a mean of more than a ten-thousandth of their difference is accepted"
-                ),
-            );
+        let (low, high) = Quantity::SlideToRollRatio.range();
+        if !(low..=high).contains(&(sliding / mean)) {
+            let (u1, u2, srr) = (Number(u1), Number(u2), Number(sliding / mean));
+            let sentence = if mean == 0.0 {
+                "their mean entrains no lubricant, and without heat there is no film".to_owned()
+            } else {
+                format!("SRR is {srr}, but must be a finite number between {low} and {high}")
+            };
+            return refuse(Field::U2, format!("<u1> is {u1} m/s and <u2> is {u2} m/s: {sentence}"));
         }
         Ok((Some(mean.abs()), sliding / mean))
     }

@@ -223,7 +223,11 @@ impl<S: NewtonSpace> Solver<S> {
             // Near a flooded film, for which complementarity is the surer way.
             Cavitation::MassConserving { .. } => !system.is_starved(),
             // The front of a wide ellipse takes three times as many steps to where it belongs.
-            Cavitation::Penalty => problem.point.is_elliptic() && matches!(beginning, Beginning::Cold(..)),
+            // So does that of a film much longer than the contact.
+            Cavitation::Penalty => {
+                let far = problem.point.is_elliptic() || system.space.grid().continues();
+                far && matches!(beginning, Beginning::Cold(..))
+            }
             Cavitation::Complementarity => false,
         };
         if by_complementarity {

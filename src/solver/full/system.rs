@@ -363,6 +363,7 @@ impl<S: NewtonSpace> System<S> {
     /// Gives the ruptured nodes of complementarity the pressure at which a penalty is its multiplier, −λ/γ̄.
     pub(super) fn penalise_rupture(&mut self, penalty: f64) {
         let multiplier = self.active.field(self.space.grid());
+        let penalty = penalty * far_field::stiffening(self.space.grid());
         for (p, multiplier) in self.pressure.iter_mut().zip(multiplier) {
             *p -= multiplier / penalty;
         }

@@ -126,7 +126,7 @@ impl Quantity {
             Self::Modulus => (limits::MODULUS.name, "Reduced modulus E’ [Pa]", "Modulus {E'}", ("E'", ""), "E'", limits::MODULUS.unit, ("GPa", 1e9), limits::MODULUS.range, Scale::Log),
             Self::Viscosity => (limits::VISCOSITY.name, "Viscosity η₀ [Pa s]", "Viscosity {η_0}", ("η", "0"), "η₀", limits::VISCOSITY.unit, ("mPa·s", 1e-3), limits::VISCOSITY.range, Scale::Log),
             Self::Alpha => (limits::ALPHA.name, "Pressure–viscosity coefficient α [1/Pa]", "Coefficient {α}", ("α", ""), "α", limits::ALPHA.unit, ("1/GPa", 1e-9), limits::ALPHA.range, Scale::Log),
-            Self::SlideToRollRatio => ("srr", "Slide-to-roll ratio SRR", "Slide-to-roll ratio", ("SRR", ""), "SRR", "", ("", 1.0), (-1e4, 1e4), Scale::Linear),
+            Self::SlideToRollRatio => ("srr", "Slide-to-roll ratio SRR", "Slide-to-roll ratio", ("SRR", ""), "SRR", "", ("", 1.0), (-10.0, 10.0), Scale::Linear),
             Self::NewtonianPlateauRatio => ("npr", "Newtonian plateau ratio NPR", "Plateau ratio", ("NPR", ""), "NPR", "", ("", 1.0), (0.0, 1.0), Scale::Linear),
             Self::HertzPressure => ("hertz-pressure", "Hertzian pressure p_H [Pa]", "Pressure {p_H}", ("p", "H"), "p_H", " Pa", ("GPa", 1e9), (0.0, 1e12), Scale::Log),
             Self::RoelandsExponent => ("roelands-exponent", "Roelands’ exponent z", "Exponent {z}", ("z", ""), "Roelands’ z", "", ("", 1.0), (0.05, 2.0), Scale::Linear),

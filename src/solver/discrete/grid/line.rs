@@ -275,8 +275,9 @@ const LONG: f64 = 1500.0;
 
 /// ∫ dξ/spacing over a whole domain in `samples` intervals.
 fn cells(from: f64, to: f64, samples: usize) -> f64 {
-    if to - from > LONG {
-        // The spacing grows with the distance, and so do the pieces.
+    let (near, far) = (from.abs().min(to.abs()), from.abs().max(to.abs()));
+    // The spacing grows with the distance, and so do the pieces.
+    if to - from > LONG && (from < 0.0 && to > 0.0 || far > 5.0 * near) {
         let middle = 0.5 * (from + to);
         let cut = if middle < 0.0 { (0.25 * from).min(-10.0) } else { (0.25 * to).max(10.0) };
         return cells(from, cut, samples) + cells(cut, to, samples);
@@ -392,6 +393,16 @@ pub fn spike_position(Moes { m, l }: Moes) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cells_of_a_long_domain_are_those_of_its_parts() {
+        let near = cells(-1000.0, 400.0, FINE_SAMPLES);
+        let far = |from: f64, to: f64| cells(from, to, 200_000);
+        let whole = near + far(-4e3, -1000.0) + far(-2e4, -4e3) + far(-1e5, -2e4) + far(400.0, 2e3) + far(2e3, 1e4);
+        assert!((cells(-1e5, 1e4, FINE_SAMPLES) / whole - 1.0).abs() < 1e-3, "{whole}");
+        let grid = GridSpec::Graded { nodes: 1200, domain: (-1e5, 1e4), registered: false }.line().unwrap();
+        assert!((grid.xi[INLET] / -1e5 - 1.0).abs() < 0.1, "{}", grid.xi[INLET]);
+    }
 
     #[test]
     fn the_dissertations_grid_has_1201_nodes_with_both_ends() {
