@@ -91,7 +91,7 @@ fn a_light_ball_has_the_film_of_rigid_spheres() {
         let film = solution.scalars.h_c * (1.5 * m).powf(2.0 / 3.0) * m * m;
         println!("M {m}: {film} against {known}");
         assert!((film / known - 1.0).abs() < 0.04, "M {m}: {film} instead of {known}");
-        assert!(solution.scalars.load_residual < 1e-6 && solution.grid_warning().is_none(), "{:?}", solution.grid_cost);
+        assert!(solution.scalars.load_residual < 1e-6, "{:?}", solution.scalars);
     }
 }
 
