@@ -9,7 +9,7 @@ use crate::host::clock::Stopwatch;
 use crate::scene::{Method, ResultJson, Sheet, answer_or_full, atomic_file};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::Rises;
-use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::observer::{NewtonStep, Observer, WalkStep};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::TrainingObserver;
 use clap::Args;
@@ -131,6 +131,10 @@ impl Observer for Progress {
             self.next.store((1.3 * seconds) as usize + 2, Ordering::Relaxed);
             output::complain(&format!("{seconds:.0} s: Newton step {iteration}, the last of size {step:.1e}"));
         }
+    }
+
+    fn walk_step(&self, step: &WalkStep) {
+        output::complain(&format!("{:.0} s: {step}", self.begin.seconds()));
     }
 }
 

@@ -41,7 +41,9 @@ pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) ->
         let heat = solution.heat.as_deref().filter(|_| reduced.is_none());
         warnings.extend(heat.and_then(Temperatures::heat_lost));
     }
-    warnings.extend(Warning::of_hertz_pressure(request.point.hertz().pressure_pa));
+    let hertz_pressure = request.point.hertz().pressure_pa;
+    warnings.extend(Warning::of_hertz_pressure(hertz_pressure));
+    warnings.extend(Warning::of_strain(hertz_pressure, request.point.modulus_pa));
     let doubt = traction.zip(*scalars).and_then(|(traction, scalars)| problem.doubts_traction(traction, &scalars));
     warnings.extend(doubt.map(Warning::from));
     Ok(answer)
@@ -69,7 +71,7 @@ fn in_full(
     let mut result = ContactResult::new(request, Some(&solution), None, effort);
     if !solution.converged() {
         result.warnings.push(Warning::NotConverged {
-            ending: report.termination.describe().to_owned(),
+            ending: report.describe(),
             newton_iterations,
             attempts: report.attempts,
             residual_norm: report.residual_norm,

@@ -81,6 +81,9 @@ fn grid_of(window: &Window) -> String {
             let registered = if registered { ", registered" } else { "" };
             format!("graded, {nodes} nodes, ξ {}…{}{registered}", domain.0, domain.1)
         }
+        GridSpec::Following { domain, .. } => {
+            format!("following the film, {} nodes, {}…{}", window.grid.nodes().0, domain.0, domain.1)
+        }
         GridSpec::Plane(spec) => {
             let ((nx, ny), (from, to, edge)) = (window.grid.nodes(), spec.domain);
             format!("{nx}×{ny} nodes, X {from}…{to}, Y {edge}…0")

@@ -159,6 +159,8 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::RADIUS, In::Contact, |r| number(r.point.radius_m)),
     (names::RADIUS_Y, In::Contact, |r| number(r.point.radius_y_m.unwrap_or(r.point.radius_m)).filter(|_| is_point(r))),
     (names::SPEED, In::Contact, |r| number(r.point.speed_m_per_s)),
+    (names::U1, In::None, |r| number(r.point.surface_speeds()[0])),
+    (names::U2, In::None, |r| number(r.point.surface_speeds()[1])),
     (names::LOAD, In::Contact, |r| number(r.point.load)),
     (names::MODULUS, In::Contact, |r| number(r.point.modulus_pa)),
     (names::VISCOSITY, In::Contact, |r| number(r.point.viscosity_pa_s)),

@@ -47,6 +47,8 @@ impl From<GridSpec> for Grid {
             GridSpec::Uniform { dx, domain } => Self::Uniform { dx, domain },
             GridSpec::Graded { nodes, domain, registered } => Self::GradedNodes { nodes, domain, registered },
             GridSpec::Plane(spec) => Self::Plane(spec),
+            // Which one that is, the contact decides.
+            GridSpec::Following { .. } => Self::Graded,
         }
     }
 }

@@ -23,6 +23,8 @@ names! {
     RADIUS "si.radius"
     RADIUS_Y "si.radius_y"
     SPEED "si.speed"
+    U1 "si.u1"
+    U2 "si.u2"
     LOAD "si.load"
     MODULUS "si.modulus"
     VISCOSITY "si.viscosity"

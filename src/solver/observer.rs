@@ -3,6 +3,8 @@
 //! All long computations use one trait, [`Observer`]. A computation that reports more has a trait that extends it: a
 //! transient march reports its time steps, a training its state, a study its rows.
 
+use crate::solver::limits::digits;
+use crate::solver::physics::contact::Moes;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -17,6 +19,9 @@ pub trait Observer: Sync {
     /// Called after every Krylov iteration of the linear solve of a point contact. `count` is the number of
     /// iterations within the current Newton step.
     fn krylov_iteration(&self, _count: usize) {}
+
+    /// Called before every step of a walk to a contact that no cold start reaches.
+    fn walk_step(&self, _step: &WalkStep) {}
 
     /// Called when a part of a long computation is done.
     fn progress(&self, _progress: Progress) {}
@@ -37,6 +42,23 @@ pub struct NewtonStep {
     pub residual: f64,
     /// Relative step length ‖Δz‖/‖z‖, with z the vector of unknowns.
     pub step: f64,
+}
+
+/// Where a walk is: the solver's continuation from an easier contact to the wanted one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WalkStep {
+    /// The wanted contact.
+    pub wanted: Moes,
+    /// The last contact that converged.
+    pub reached: Moes,
+}
+
+impl std::fmt::Display for WalkStep {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { wanted, reached } = self;
+        let [m, l, at_m, at_l] = [wanted.m, wanted.l, reached.m, reached.l].map(digits);
+        write!(f, "walking to M {m}, L {l}: at M {at_m}, L {at_l}")
+    }
 }
 
 /// Progress of a long computation.

@@ -19,6 +19,9 @@ pub(in crate::solver) const ENDURED_K: f64 = 573.0;
 /// Péclet number u_i a/(2κ_i) (surface speed u_i, half-width a, thermal diffusivity κ_i) below which heat flows
 /// upstream within a body.
 const SMALLEST_PECLET: f64 = 5.0;
+/// p_H/E′ beyond which the theory of small strains in half-spaces is left: a/R is 4 p_H/E′ of a line contact and
+/// π p_H/E′ of a circle, and errors of a few percent begin at a/R = 0.3.
+const LARGEST_STRAIN: f64 = 0.08;
 /// Estimated relative time-step error above which a warning is issued.
 const NOTABLE_STEP_ERROR: f64 = 0.03;
 /// Relative discretisation error above which the estimate is likely to be too small.
@@ -162,6 +165,14 @@ pub enum Warning {
         /// Hertzian pressure p_H \[Pa\].
         pressure_pa: f64,
     },
+    /// The bodies deform more than the theory of the half-space holds for.
+    #[error(
+        "p_H/E' is {ratio:.3}: beyond {LARGEST_STRAIN} the strains are no longer small, and the bodies no half-spaces"
+    )]
+    LargeStrain {
+        /// p_H/E′.
+        ratio: f64,
+    },
     /// Any isothermal traction without a limiting stress is unphysical at this α* p_H.
     #[error(
         "α* p_H is {exponent:.1}: beyond {PLAUSIBLE_EXPONENT} an isothermal traction without a limiting shear stress is \
@@ -219,6 +230,12 @@ impl Warning {
     /// Returns a warning if the Hertzian pressure \[Pa\] exceeds what bearing steel carries.
     pub fn of_hertz_pressure(pressure_pa: f64) -> Option<Self> {
         (pressure_pa > PLAUSIBLE_HERTZ_PRESSURE_PA).then_some(Self::HertzPressure { pressure_pa })
+    }
+
+    /// The warning of strains that are no longer small, by the Hertzian pressure and E′ \[Pa\].
+    pub fn of_strain(pressure_pa: f64, modulus_pa: f64) -> Option<Self> {
+        let ratio = pressure_pa / modulus_pa;
+        (ratio > LARGEST_STRAIN).then_some(Self::LargeStrain { ratio })
     }
 
     /// Returns a warning if the estimated relative time-step error of H_c exceeds three per cent or the requested

@@ -243,9 +243,23 @@ fn a_grid_that_does_not_do_is_said_and_the_default_one_does() {
     assert!(own["grid"]["truncation_error"].as_f64().unwrap() > 0.1);
     let sweep = program(&["sweep", "m=10:200:2", "--moes-l", "5", "--dx", "0.05"]);
     assert!(String::from_utf8_lossy(&sweep.stderr).contains("H_c is off by about"));
-    for contact in ["line", "point"] {
-        assert_refused(&["solve", "--contact", contact, "--moes-m", "9e4", "--moes-l", "0.1"], "too thin");
-    }
+    assert_refused(&["solve", "--contact", "point", "--moes-m", "9e4", "--moes-l", "0.1"], "too thin");
+}
+
+/// The speeds of both surfaces are u_m and SRR, and α = 0 is a contact.
+#[test]
+fn surfaces_that_run_against_each_other_and_oils_without_alpha_are_solved() {
+    let at = ["solve", "--json", "--radius", "0.01", "--load", "1e5", "--modulus", "2e11", "--viscosity", "0.02"];
+    let by = |more: &[&str]| json(&program(&[&at[..], &["--dx", "0.02"], more].concat()));
+    let reversing = by(&["--alpha", "0", "--u1", "-0.5", "--u2", "4.5"]);
+    let rolling = by(&["--alpha", "0", "--speed", "2", "--srr", "2.5"]);
+    assert_eq!((&reversing["H_c"], &reversing["srr"]), (&rolling["H_c"], &2.5.into()), "{reversing}");
+    assert_eq!((&reversing["si"]["u1"], &reversing["si"]["u2"]), (&(-0.5).into(), &4.5.into()), "{reversing}");
+    assert_eq!((&reversing["moes"]["L"], &reversing["converged"]), (&0.0.into(), &true.into()), "{reversing}");
+    // Thinner than Roelands' law holds for.
+    let thin = ["--radius", "0.01", "--load", "1e5", "--modulus", "2e11", "--viscosity", "4.7e-5", "--alpha", "1e-8"];
+    let thin = json(&program(&[&["solve", "--json", "--speed", "5", "--dx", "0.01"], &thin[..]].concat()));
+    assert_eq!(thin["converged"], true, "{thin}");
 }
 
 /// M = 0.06 is far outside the range of the embedded model.

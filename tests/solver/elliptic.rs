@@ -156,7 +156,7 @@ fn what_is_no_ellipse_is_refused_with_a_sentence() {
         (0.0, "convex together"),
         (f64::NAN, "radius-y is NaN"),
         (f64::INFINITY, "radius-y is"),
-        (100.0 * circle.radius_m, "radius ratio R_y/R_x is 100"),
+        (1000.0 * circle.radius_m, "radius ratio R_y/R_x is 1000"),
         (0.01 * circle.radius_m, "between"),
     ] {
         let message = refused(OperatingPoint { radius_y_m: Some(radius_y), ..circle });

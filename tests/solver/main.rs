@@ -20,6 +20,7 @@ mod line_reference;
 mod mass_conserving;
 mod point_reference;
 mod random_solves;
+mod reach;
 mod rebuilt;
 mod shear_models;
 mod shear_thinning;

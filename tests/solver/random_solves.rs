@@ -96,6 +96,9 @@ fn reference(spec: GridSpec, point: &OperatingPoint) -> Option<GridSpec> {
             domain: (2.0 * domain.0, 2.0 * domain.1),
             registered,
         },
+        (GridSpec::Following { zone, finer, domain }, _) => {
+            GridSpec::Following { zone, finer: 2.0 * finer, domain: (2.0 * domain.0, 2.0 * domain.1) }
+        }
         (GridSpec::Plane(own), GridSpec::Plane(PointGridSpec { dx, dy, domain: (from, to, edge), .. })) => {
             let domain = (own.domain.0.min(from), own.domain.1.max(to), own.domain.2.min(edge));
             GridSpec::Plane(PointGridSpec::uniform(own.dx.min(0.5 * dx), own.dy.min(0.5 * dy), domain))

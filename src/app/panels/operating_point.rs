@@ -31,7 +31,7 @@ const SHAPES: [(Shape, &str); 3] = [
     (
         Shape::Ellipse,
         "Elliptical contact with a different radius across the rolling direction: a ball in a groove, a crowned \
-         roller. R_y/R ranges from 0.1 over 1 (circular) to 40 (nearly a line contact)",
+         roller. R_y/R ranges from 0.02 over 1 (circular) to 500 (nearly a line contact)",
     ),
 ];
 /// Name under which refusals of the shape are stored.

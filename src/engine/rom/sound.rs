@@ -2,7 +2,7 @@
 
 use super::container::Contents;
 use super::error::{ModelFileError, damaged};
-use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec};
+use crate::solver::discrete::grid::{ContactGrid, GridError, GridSpec, MAX_GRADED_NODES};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::lubricant::LARGEST_HEATED_SRR;
 use crate::solver::reduced::Domain;
@@ -42,6 +42,7 @@ pub(super) fn entries(grid: &GridSpec) -> Result<usize, GridError> {
     Ok(match grid {
         GridSpec::Graded { nodes, .. } => nodes.saturating_add(1),
         GridSpec::Uniform { dx, domain: (from, to) } => (((to - from) / dx).round() as usize).saturating_add(2),
+        GridSpec::Following { .. } => grid.check().map(|()| MAX_GRADED_NODES)?,
         GridSpec::Plane(spec) => spec.check().map(|(nx, ny)| nx * ny)?,
     })
 }

@@ -139,7 +139,7 @@ pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFi
     // Sizes are checked against the file size before anything is built.
     let nodes = match grid {
         GridSpec::Graded { registered: true, .. } | GridSpec::Plane(_) => return Err(damaged("grid")),
-        GridSpec::Uniform { .. } | GridSpec::Graded { .. } => entries(&grid)?,
+        GridSpec::Uniform { .. } | GridSpec::Graded { .. } | GridSpec::Following { .. } => entries(&grid)?,
     };
     if nodes > contents.bytes {
         return Err(damaged("grid"));

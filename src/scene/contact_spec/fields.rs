@@ -120,7 +120,12 @@ contact_fields! {
         { measure: Measure::Of(Quantity::RadiusY), note: ", for a point contact (default: <radius>)", titles: &["r_y", "ry"],
           variable: "radius_ratio" };
     speed: f64, Speed, "speed", "Mean entrainment speed u_m",
-        { measure: Measure::Of(Quantity::Speed), titles: &["u_m", "um", "u"] };
+        { measure: Measure::Of(Quantity::Speed), note: ", or <u1> <u2>", titles: &["u_m", "um", "u"] };
+    u1: f64, U1, "u1", "Speed of the surface of body 1",
+        { measure: Measure::In(Dimension::Speed { radius_m: None }), note: "; with <u2> in place of <speed> and <srr>",
+          titles: &["u_1"] };
+    u2: f64, U2, "u2", "Speed of the surface of body 2",
+        { measure: Measure::In(Dimension::Speed { radius_m: None }), titles: &["u_2"] };
     load: f64, Load, "load", "Load w", { measure: Measure::Of(Quantity::Load), titles: &["w", "f"] };
     modulus: f64, Modulus, "modulus", "Reduced modulus E’",
         { measure: Measure::Of(Quantity::Modulus), note: ", or <e1> <nu1> <e2> <nu2>", titles: &["e'", "e’", "e\u{2032}"] };
@@ -148,7 +153,7 @@ contact_fields! {
     density: DensityLaw, Density, "density", "Density law: dowson-higginson or incompressible",
         { note: " (default: dowson-higginson)", placeholder: Some("LAW") };
     pressure_viscosity: ViscosityLaw, PressureViscosity, "pressure-viscosity", "Viscosity law: roelands or barus",
-        { note: " (default: roelands)", placeholder: Some("LAW") };
+        { note: " (default: roelands; barus below 6.7e-5 Pa·s, where Roelands' law is not defined)", placeholder: Some("LAW") };
     srr: f64, Srr, "srr", "Slide-to-roll ratio SRR = (u₂ − u₁)/u_m",
         { measure: Measure::Of(Quantity::SlideToRollRatio), note: "; for a Newtonian lubricant it affects only the traction",
           default: Some("0"), titles: &["slip"] };

@@ -4,7 +4,7 @@ use super::fields::{ContactSpec, Field};
 use super::given::ShearName;
 use super::refusal::{Refusal, refuse};
 use crate::solver::limits::Number;
-use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, OilHeat, ShearLaw};
+use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, OilHeat, ShearLaw, ViscosityLaw};
 
 /// Fields that have no effect without heat.
 const THERMAL: [Field; 6] = [
@@ -31,7 +31,7 @@ impl ContactSpec {
             return refuse(Field::Npr, format!("<npr> is {}, but {constants}", Number(npr)));
         }
         lubricant.density = self.density.unwrap_or(lubricant.density);
-        lubricant.viscosity = self.pressure_viscosity.unwrap_or(lubricant.viscosity);
+        lubricant.viscosity = self.pressure_viscosity.unwrap_or_else(|| self.usual_viscosity_law(lubricant.viscosity));
         lubricant.cavitation = match (self.cavitation.unwrap_or_default(), self.supply_film) {
             (Cavitation::MassConserving { .. }, Some(film)) => Cavitation::MassConserving { supply_film_m: Some(film) },
             (cavitation, None) => cavitation,
@@ -44,6 +44,13 @@ impl ContactSpec {
             }
         };
         Ok(lubricant)
+    }
+
+    /// The law of a viscosity whose law is not stated: Barus' where Roelands' is not defined.
+    fn usual_viscosity_law(&self, own: ViscosityLaw) -> ViscosityLaw {
+        let free = self.lubricant.is_none() && self.laws.is_none();
+        let thin = self.viscosity.is_some_and(|viscosity| viscosity <= ViscosityLaw::thinnest_of_roelands());
+        if free && thin { ViscosityLaw::Barus } else { own }
     }
 
     /// Applies the stated shear thinning and limiting stress.

@@ -39,6 +39,10 @@ impl ContactSpec {
             (states(&[Field::E1, Field::Nu1, Field::E2, Field::Nu2]), Field::Modulus),
             (oil || named, Field::Viscosity),
             (oil, Field::Alpha),
+            (states(&[Field::U1, Field::U2]), Field::Speed),
+            (states(&[Field::U1, Field::U2]), Field::Srr),
+            (states(&[Field::Speed, Field::Srr]), Field::U1),
+            (states(&[Field::Speed, Field::Srr]), Field::U2),
             (states(&[Field::Grid, Field::Dx, Field::Dy, Field::Domain]), Field::Grid),
         ] {
             if replaced {

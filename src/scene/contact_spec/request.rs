@@ -57,6 +57,7 @@ impl ContactSpec {
                 );
             }
         }
+        let (speed, slide_to_roll_ratio) = self.motion()?;
         let modulus = self.reduced_modulus()?;
         let oil = self.oil_state()?;
         let named = self.lubricant.and_then(|named| named.viscosity_pa_s);
@@ -67,10 +68,34 @@ impl ContactSpec {
             return refuse(Field::Alpha, sentence);
         }
         let alpha = own_alpha.or(self.alpha).or(oil.map(|oil| oil.alpha_per_pa));
-        let at = self.numbers([self.radius, self.speed, self.load, modulus, viscosity, alpha])?;
+        let at = self.numbers([self.radius, speed, self.load, modulus, viscosity, alpha])?;
         let point = at.point(self.kind()).map_err(|error| self.of_contact(&error))?;
-        let slide_to_roll_ratio = self.srr.unwrap_or(0.0);
         Ok(OperatingPoint { sliding: Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: self.npr }, ..point })
+    }
+
+    /// u_m and SRR, as they are stated or of both surfaces. X points where the lubricant is entrained.
+    fn motion(&self) -> Result<(Option<f64>, f64), Refusal> {
+        let (Some(u1), Some(u2)) = (self.u1, self.u2) else {
+            return match [(self.u1, Field::U2), (self.u2, Field::U1)].into_iter().find(|(given, _)| given.is_some()) {
+                Some((_, missing)) => refuse(missing, "<u1> and <u2> belong together; give both"),
+                None => Ok((self.speed, self.srr.unwrap_or(0.0))),
+            };
+        };
+        if let Some(field) = [Field::Speed, Field::Srr].into_iter().find(|field| self.states(*field)) {
+            return refuse(field, "<u1> and <u2> say what <speed> and <srr> say; give two of them");
+        }
+        let (mean, sliding) = (0.5 * (u1 + u2), u2 - u1);
+        let (low, high) = Quantity::SlideToRollRatio.range();
+        if !(low..=high).contains(&(sliding / mean)) {
+            let (u1, u2, srr) = (Number(u1), Number(u2), Number(sliding / mean));
+            let sentence = if mean == 0.0 {
+                "their mean entrains no lubricant, and without heat there is no film".to_owned()
+            } else {
+                format!("SRR is {srr}, but must be a finite number between {low} and {high}")
+            };
+            return refuse(Field::U2, format!("<u1> is {u1} m/s and <u2> is {u2} m/s: {sentence}"));
+        }
+        Ok((Some(mean.abs()), sliding / mean))
     }
 
     /// Returns the six SI quantities, or the Moes numbers with the SI quantities that are given.
@@ -141,6 +166,10 @@ impl ContactSpec {
             ContactError::OutOfRange { quantity, .. } => quantity,
             ContactError::LineAcross | ContactError::Concave { .. } => "radius-y",
             ContactError::Overdetermined { .. } => return Refusal::new(Field::MoesM, sentence),
+            ContactError::Isoviscous { .. } => {
+                let sentence = sentence.replacen("alpha", "<alpha>", 1);
+                return Refusal::new(if self.alpha.is_some() { Field::Alpha } else { Field::MoesL }, sentence);
+            }
         };
         match quantity {
             "Moes number M" if self.moes_m.is_some() => Refusal::new(Field::MoesM, format!("<moes-m>: {sentence}")),

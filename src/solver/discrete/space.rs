@@ -37,6 +37,11 @@ pub trait Grid {
     /// Computes the deformation Δ = K P at every node. Both slices are node arrays.
     fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Self::Scratch);
 
+    /// Whether the pressure goes on beyond its ends, where that of a lightly loaded contact is known.
+    fn continues(&self) -> bool {
+        false
+    }
+
     /// Returns the value of a node array at X = 0 (and Y = 0).
     fn central(&self, values: &[f64]) -> f64 {
         self.at_zero().iter().map(|(node, w)| w * values[*node]).sum()
@@ -132,6 +137,10 @@ impl Grid for PointGrid {
 
     fn unknowns(&self) -> usize {
         PointGrid::unknowns(self)
+    }
+
+    fn continues(&self) -> bool {
+        self.spec.continues()
     }
 
     fn column_unknowns(&self) -> usize {

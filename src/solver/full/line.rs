@@ -92,10 +92,15 @@ impl NewtonSpace for LineSpace {
     const COLD_FILMS: [f64; 3] = [2.0, 1.2, 4.0];
     const FIRST_COLUMN: usize = INLET;
     const EASY_M: (f64, f64) = (15.0, 60.0);
-    const EASY_L: (f64, f64) = (2.0, 8.0);
+    const EASY_L: f64 = 8.0;
+    const COLD_M: (f64, f64) = (f64::INFINITY, f64::INFINITY);
 
     fn build(spec: GridSpec) -> Result<Arc<ReferenceGrid>, SolveError> {
         Ok(spec.line()?)
+    }
+
+    fn unknowns(reference: &Arc<ReferenceGrid>) -> usize {
+        reference.xi.len() - 3
     }
 
     fn form_of(reference: &Arc<ReferenceGrid>, problem: &Problem) -> f64 {

@@ -5,6 +5,7 @@ mod active_set;
 mod band;
 mod cut;
 pub mod dense;
+mod far_field;
 mod film_fraction;
 mod gmres;
 mod grid_cost;
@@ -25,6 +26,7 @@ mod thinning;
 mod traction;
 pub mod transient;
 mod trust;
+mod walk;
 
 pub use crate::solver::warning::PLAUSIBLE_TRACTION;
 pub use grid_cost::{GridCost, grid_doubts};
@@ -40,3 +42,4 @@ pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start, most_new
 pub use system::{SolveOptions, System};
 pub(crate) use traction::mid_film_stresses;
 pub use traction::{Shear, TractionDoubt};
+pub use walk::most_walked;

@@ -93,14 +93,32 @@ pub trait NewtonSpace: Space + Sized {
     const FIRST_COLUMN: usize;
     /// Range of M in which cold starts converge.
     const EASY_M: (f64, f64);
-    /// Range of L in which they do.
-    const EASY_L: (f64, f64);
+    /// L up to which they do.
+    const EASY_L: f64;
+    /// M up to which several cold starts are tried, and up to which one is.
+    const COLD_M: (f64, f64);
 
     /// Builds the grid and its kernel.
     ///
     /// # Errors
     /// When the specification is refused.
     fn build(spec: Self::Spec) -> Result<Self::Reference, SolveError>;
+
+    /// Number of unknown pressures.
+    fn unknowns(reference: &Self::Reference) -> usize;
+
+    /// How often the spacing may be doubled as long as a contact of a walk is resolved well enough to start another one.
+    fn coarsening(_: &Self::Reference, _: &Problem) -> usize {
+        0
+    }
+
+    /// The grid with 2ⁿ times the spacing; none where it has no coarser ones.
+    ///
+    /// # Errors
+    /// When its kernel cannot be built.
+    fn coarser(_: &Self::Reference, _: i32) -> Result<Option<Self::Reference>, SolveError> {
+        Ok(None)
+    }
 
     /// What a problem makes of the grid.
     fn form_of(reference: &Self::Reference, problem: &Problem) -> Self::Form;

@@ -1,5 +1,7 @@
 //! How a solve ended.
 
+use crate::solver::limits::digits;
+use crate::solver::physics::contact::Moes;
 use serde::{Deserialize, Serialize};
 
 /// Why a solve stopped.
@@ -62,6 +64,9 @@ pub struct Report {
     /// Whether a rupture front was seen to cycle between two sets of nodes, and was moved node by node from then on.
     #[serde(default)]
     pub cautious_front: bool,
+    /// Where a walk from an easier contact ended before it reached the wanted one.
+    #[serde(default)]
+    pub reached: Option<Moes>,
 }
 
 impl Report {
@@ -76,6 +81,20 @@ impl Report {
             steps: Vec::new(),
             residual_norm: f64::NAN,
             cautious_front: false,
+            reached: None,
+        }
+    }
+
+    /// How it ended, as the end of a sentence.
+    pub fn describe(&self) -> String {
+        let ending = self.termination.describe();
+        match self.reached {
+            Some(Moes { m, l }) if self.termination != Termination::Cancelled => format!(
+                "walked from an easier contact as far as M {}, L {}, beyond which no film is resolved on this grid; it {ending}",
+                digits(m),
+                digits(l)
+            ),
+            _ => ending.to_owned(),
         }
     }
 
@@ -89,6 +108,7 @@ impl Report {
         self.steps.extend_from_slice(&other.steps);
         self.residual_norm = other.residual_norm;
         self.cautious_front |= other.cautious_front;
+        self.reached = other.reached;
     }
 
     /// Whether no further start needs to be tried.

@@ -1,5 +1,6 @@
 //! The solution of a problem: a value that holds what was solved and how.
 
+use super::far_field;
 use super::grid_cost::GridCost;
 use super::heat::Temperatures;
 use super::mesh::Mesh;
@@ -219,24 +220,28 @@ pub(crate) fn under_contact(x: f64) -> bool {
 
 /// Scalars of fields on a grid.
 pub fn scalars_of(grid: &impl Grid, problem: &Problem, pressure: &[f64], film: &[f64], h_0: f64) -> Scalars {
+    let beyond = if grid.continues() { far_field::load(grid, pressure) } else { 0.0 };
     let mut out = Scalars {
         h_c: grid.central(film),
         p_c: grid.central(pressure),
         h_min: f64::INFINITY,
         p_max: f64::NEG_INFINITY,
         h_0,
-        load_residual: (dot(grid.weights(), pressure) / problem.load - 1.0).abs(),
+        load_residual: ((dot(grid.weights(), pressure) + beyond) / problem.load - 1.0).abs(),
         ..Scalars::default()
     };
     let (abscissae, ordinates) = grid.abscissae();
+    // Nodes of a film much longer than the contact are far apart.
+    let length = if grid.continues() { 0.5 * (2.0 * out.h_c).sqrt() } else { 0.0 };
+    let under_film = |x: f64| under_contact(x) || x.abs() < length;
     // The unknowns are all nodes between two corners.
     let across = ordinates.len();
     let (first, last) = (grid.node(0), grid.node(grid.unknowns() - 1));
     for (i, &x) in abscissae.iter().enumerate().take(last / across + 1).skip(first / across) {
-        let under = under_contact(x);
+        let under = under_film(x);
         for (j, &y) in ordinates.iter().enumerate().skip(first % across) {
             let node = i * across + j;
-            if film[node] < out.h_min && under {
+            if under && film[node] < out.h_min {
                 (out.h_min, out.x_h_min, out.y_h_min) = (film[node], x, y);
             }
             if pressure[node] > out.p_max {

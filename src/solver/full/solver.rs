@@ -2,6 +2,7 @@
 //! other films, then continuation from an easier contact.
 
 use super::cut::cell;
+use super::far_field;
 use super::heat;
 use super::newton_space::NewtonSpace;
 use super::problem::{Problem, SolveError, expect_kind};
@@ -11,9 +12,7 @@ use super::system::{SolveOptions, System};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
 use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};
 use crate::solver::observer::Observer;
-use crate::solver::physics::contact::{
-    ContactKind, FilmFormula, Moes, MoesRequest, OperatingPoint, moes_film, si_from_moes,
-};
+use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -47,20 +46,19 @@ const MENISCI: [f64; 3] = [1.0, 0.7, 0.85];
 /// Newton steps of one such start: those that have not converged by then cycle.
 const STARVED_NEWTON: usize = 40;
 
-/// A supplied film, in units of the contact's film formula, that starves it plainly.
-const THIN: f64 = 0.3;
-
 /// What one attempt begins with.
 #[derive(Clone, Copy)]
-enum Beginning<'a> {
+pub(super) enum Beginning<'a> {
     /// Hertzian pressure, a film in units of the contact's film formula, and the rise of pressure to the meniscus in
     /// units of that by which it is guessed, where the inlet may starve.
     Cold(f64, f64),
     /// A solution of the same kind of contact.
     Warm(&'a Solution),
+    /// The same of a neighbour on a path, with the central film where that is extrapolated.
+    Along(&'a Solution, Option<f64>),
 }
 
-/// Newton steps that a whole solve takes at most, all its starts together, on a grid of so many unknowns: 3,000, on large
+/// Newton steps that all starts of a solve but its walk take at most together, on a grid of so many unknowns: 3,000, on large
 /// grids fewer, and never fewer than 100.
 pub fn most_newton(unknowns: usize) -> usize {
     (4_000_000 / unknowns.max(1)).clamp(100, 3000)
@@ -68,7 +66,7 @@ pub fn most_newton(unknowns: usize) -> usize {
 
 /// Solves contacts of one kind on one grid; keeps the grid and the work space between solves.
 pub struct Solver<S: NewtonSpace> {
-    reference: S::Reference,
+    pub(super) reference: S::Reference,
     pub(super) system: Option<System<S>>,
     /// Settings of every solve.
     pub options: SolveOptions<S::Control>,
@@ -135,14 +133,22 @@ impl<S: NewtonSpace> Solver<S> {
             None => S::COLD_FILMS.map(|film| Beginning::Cold(film, 1.0)),
             Some(_) => MENISCI.map(|rise| Beginning::Cold(S::COLD_FILMS[0], rise)),
         };
-        for beginning in former.into_iter().map(Beginning::Warm).chain(cold) {
+        // Far from the middle of the map a second cold start fails as the first one did, and farther out every one.
+        let load = problem.load_as_a_circle();
+        let cold_starts = match load {
+            _ if problem.supply.is_some() || load <= S::COLD_M.0 => cold.len(),
+            _ if load <= S::COLD_M.1 => 1,
+            _ => 0,
+        };
+        let most = most_newton(S::unknowns(&self.reference));
+        for beginning in former.into_iter().map(Beginning::Warm).chain(cold.into_iter().take(cold_starts)) {
             if report.ended() {
                 break;
             }
-            self.attempt(&problem, beginning, observer, &mut report)?;
+            self.attempt(&problem, beginning, most, observer, &mut report)?;
         }
-        if !report.ended() {
-            self.continuation(&problem, observer, &mut report)?;
+        if !report.ended() || report.termination == Termination::Effort {
+            self.walk(&problem, observer, &mut report)?;
         }
         let mut solution = self.solution(problem, report)?;
         let largest = problem.fluid.largest_pressure();
@@ -196,11 +202,12 @@ impl<S: NewtonSpace> Solver<S> {
         }
     }
 
-    /// One run of Newton's method, which counts in the report.
-    fn attempt(
+    /// One run of Newton's method, which counts in the report, up to `most` iterations of all runs together.
+    pub(super) fn attempt(
         &mut self,
         problem: &Problem,
         beginning: Beginning<'_>,
+        most: usize,
         observer: &dyn Observer,
         report: &mut Report,
     ) -> Result<(), SolveError> {
@@ -208,15 +215,19 @@ impl<S: NewtonSpace> Solver<S> {
         let mut system = self.system_for(problem)?;
         match beginning {
             Beginning::Cold(film, rise) => cold_state(&mut system, problem, film, rise),
-            Beginning::Warm(former) => warm_state(&mut system, problem, former),
+            Beginning::Warm(former) => warm_state(&mut system, problem, former, None),
+            Beginning::Along(former, film) => warm_state(&mut system, problem, former, film),
         }
-        let most = most_newton(system.rows.len());
         let left = |report: &Report| most.saturating_sub(report.newton_iterations).min(self.options.max_newton);
         let by_complementarity = match problem.lubricant.cavitation {
             // Near a flooded film, for which complementarity is the surer way.
             Cavitation::MassConserving { .. } => !system.is_starved(),
             // The front of a wide ellipse takes three times as many steps to where it belongs.
-            Cavitation::Penalty => problem.point.is_elliptic() && matches!(beginning, Beginning::Cold(..)),
+            // So does that of a film much longer than the contact.
+            Cavitation::Penalty => {
+                let far = problem.point.is_elliptic() || system.space.grid().continues();
+                far && matches!(beginning, Beginning::Cold(..))
+            }
             Cavitation::Complementarity => false,
         };
         if by_complementarity {
@@ -262,74 +273,23 @@ impl<S: NewtonSpace> Solver<S> {
             heat: None,
         })
     }
-
-    /// Walks from an easier contact to the wanted one in steps that shrink on failure; where the inlet may starve, from
-    /// the same one with a thin supply.
-    fn continuation(
-        &mut self,
-        problem: &Problem,
-        observer: &dyn Observer,
-        report: &mut Report,
-    ) -> Result<(), SolveError> {
-        let target = problem.moes;
-        let easy = Moes { m: target.m.clamp(S::EASY_M.0, S::EASY_M.1), l: target.l.clamp(S::EASY_L.0, S::EASY_L.1) };
-        let thin = problem.supply.map(|supply| supply.min(THIN * formula_film(problem)));
-        let problem_at = |t: f64| {
-            if let (Some(thin), Some(supply)) = (thin, problem.supply) {
-                return Some(Problem { supply: Some(thin * (supply / thin).powf(t)), ..*problem });
-            }
-            let m = (easy.m.ln() * (1.0 - t) + target.m.ln() * t).exp();
-            let l = easy.l * (1.0 - t) + target.l * t;
-            let request = MoesRequest {
-                radius_m: Some(problem.point.radius_m),
-                radius_y_m: problem.point.radius_y_m,
-                modulus_pa: Some(problem.point.modulus_pa),
-                viscosity_pa_s: Some(problem.point.viscosity_pa_s),
-                alpha_per_pa: Some(problem.point.alpha_per_pa),
-                ..MoesRequest::new(problem.point.kind, m, l)
-            };
-            let point = si_from_moes(&request).ok()?;
-            Problem::under_sliding(&point, problem.lubricant, problem.point.sliding).ok()
-        };
-        let Some(first) = problem_at(0.0) else { return Ok(()) };
-        self.attempt(&first, Beginning::Cold(S::COLD_FILMS[0], 1.0), observer, report)?;
-        if report.termination != Termination::Converged {
-            return Ok(());
-        }
-        let (mut t, mut stride) = (0.0, 0.25f64);
-        let mut last = self.solution(first, Report::empty())?;
-        while t < 1.0 && stride > 1e-3 {
-            let next = (t + stride).min(1.0);
-            let wanted = if next >= 1.0 { Some(*problem) } else { problem_at(next) };
-            let Some(wanted) = wanted else { return Ok(()) };
-            self.attempt(&wanted, Beginning::Warm(&last), observer, report)?;
-            match report.termination {
-                Termination::Cancelled | Termination::Effort => return Ok(()),
-                Termination::Converged => {
-                    t = next;
-                    last = self.solution(wanted, Report::empty())?;
-                    stride *= 1.5;
-                }
-                _ => stride *= 0.4,
-            }
-        }
-        if t < 1.0 && report.termination == Termination::Converged {
-            report.termination = Termination::IterationLimit;
-        }
-        Ok(())
-    }
 }
 
 /// Central film in the solver's scaling, H = (h/R) (R/a)²: Moes' formula for a line, Hamrock and Dowson's for a circle,
 /// Nijenbanning, Venner and Moes' for an ellipse, of which the former is far too thick where R_y < R_x.
-fn formula_film(problem: &Problem) -> f64 {
+pub(super) fn formula_film(problem: &Problem) -> f64 {
     match problem.point.kind {
         // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
         ContactKind::Line => moes_film(ContactKind::Line, problem.moes) * PI / (8.0 * problem.moes.m),
         ContactKind::Point => {
             let ellipse = problem.point.is_elliptic();
-            let formula = if ellipse { FilmFormula::NijenbanningVennerMoes } else { FilmFormula::HamrockDowsonCentral };
-            formula.predict(&problem.point).film_m / problem.point.film_scale_m()
+            let all_regimes = FilmFormula::NijenbanningVennerMoes.predict(&problem.point).film_m;
+            let film = match ellipse {
+                true => all_regimes,
+                // A power law in α, which knows no isoviscous film.
+                false => FilmFormula::HamrockDowsonCentral.predict(&problem.point).film_m.max(0.5 * all_regimes),
+            };
+            film / problem.point.film_scale_m()
         }
     }
 }
@@ -338,16 +298,29 @@ fn formula_film(problem: &Problem) -> f64 {
 fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f64, rise: f64) {
     let (x, y) = system.space.grid().abscissae();
     let hertz = x.iter().flat_map(|x| y.iter().map(move |y| (1.0 - (x * x + y * y)).max(0.0).sqrt()));
-    let hertz: Vec<f64> = hertz.collect();
-    system.set_pressure(problem, &hertz);
     let film = film * formula_film(problem);
+    let pressure: Vec<f64> = if system.space.grid().continues() {
+        // That of rigid bodies: the Hertzian zone may lie between two nodes.
+        let curvature = problem.point.ellipse().gap_curvature();
+        let gap = |x: f64, y: f64| film + 0.5 * (x * x + curvature * y * y);
+        let rigid = |x: f64, y: f64| far_field::pressure(problem, (x - 0.4 * film.sqrt(), y), gap(x, y));
+        x.iter().flat_map(|x| y.iter().map(move |y| rigid(*x, *y))).collect()
+    } else {
+        hertz.collect()
+    };
+    system.set_pressure(problem, &pressure);
     system.set_central_film(problem.supply.map_or(film, |supply| film.min(supply)));
     system.guess_meniscus(problem, rise);
 }
 
 /// A former solution on this grid: pressure as it is, whatever the scale of its registration, or interpolated; central
-/// film scaled by the formula.
-pub(super) fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, former: &Solution) {
+/// film as given, or scaled by the formula.
+pub(super) fn warm_state<S: NewtonSpace>(
+    system: &mut System<S>,
+    problem: &Problem,
+    former: &Solution,
+    film: Option<f64>,
+) {
     let same_grid = former.mesh.spec == system.space.mesh().spec;
     if same_grid {
         system.set_pressure(problem, &former.pressure);
@@ -357,10 +330,10 @@ pub(super) fn warm_state<S: NewtonSpace>(system: &mut System<S>, problem: &Probl
         system.set_pressure(problem, &pressure);
     }
     let ratio = formula_film(problem) / formula_film(&former.problem);
-    if same_grid && former.problem == *problem {
-        system.set_h_0(former.scalars.h_0);
-    } else {
-        system.set_central_film(former.scalars.h_c * ratio);
+    match film {
+        Some(film) => system.set_central_film(film),
+        None if same_grid && former.problem == *problem => system.set_h_0(former.scalars.h_0),
+        None => system.set_central_film(former.scalars.h_c * ratio),
     }
     // A film that touches anywhere would be no start.
     let floor = 0.2 * former.scalars.h_min * ratio;

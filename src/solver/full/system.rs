@@ -5,6 +5,7 @@
 //! [`NewtonSpace`].
 
 use super::active_set::ActiveSet;
+use super::far_field;
 use super::film_fraction;
 use super::gmres::{Gmres, LinearOutcome};
 use super::newton_space::{NewtonSpace, Preconditioner, ScaledRows, Taken};
@@ -137,6 +138,13 @@ impl<S: NewtonSpace> System<S> {
         self.deform();
     }
 
+    /// The load that the pressure carries, beyond the ends of the domain too.
+    fn carried_load(&self) -> f64 {
+        let grid = self.space.grid();
+        let beyond = if grid.continues() { far_field::load(grid, &self.pressure) } else { 0.0 };
+        dot(grid.weights(), &self.pressure) + beyond
+    }
+
     /// Recomputes the deformation by the present pressure.
     pub(super) fn deform(&mut self) {
         self.space.grid().deform(&self.pressure, &mut self.deformation, &mut self.scratch);
@@ -164,6 +172,9 @@ impl<S: NewtonSpace> System<S> {
 
     /// Evaluates all rows at the current state with their derivatives. Returns the residual norm.
     pub fn evaluate(&mut self, problem: &Problem, penalty: f64) -> f64 {
+        if self.space.grid().continues() {
+            far_field::write_ends(self.space.grid(), problem, &self.film, &mut self.pressure);
+        }
         let Self { space, nodes, pressure, film, .. } = self;
         let laws = problem.laws();
         let order = if S::PARALLEL { Order::Parallel } else { Order::Alone };
@@ -190,7 +201,7 @@ impl<S: NewtonSpace> System<S> {
     fn evaluate_rows(&mut self, penalty: f64) -> f64 {
         let Self { space, nodes, rows, active, thinning, .. } = self;
         let nodes = &*nodes;
-        let penalty = if active.holds() { 0.0 } else { penalty };
+        let penalty = if active.holds() { 0.0 } else { penalty * far_field::stiffening(space.grid()) };
         let fills = active.fills();
         space.each_row(rows, |k, _, row| {
             let (stencil, geometry) = space.row(k);
@@ -272,7 +283,7 @@ impl<S: NewtonSpace> System<S> {
             }
             report.residuals.push(residual);
             let forcing = S::forcing(&options.control, memory, residual);
-            let load = if exact_load { problem.load - dot(self.space.grid().weights(), &self.pressure) } else { 0.0 };
+            let load = if exact_load { problem.load - self.carried_load() } else { 0.0 };
             let linear = self.solve_linear(options, forcing, load, observer);
             report.linear_iterations += linear.iterations;
             if observer.cancelled() {
@@ -306,7 +317,9 @@ impl<S: NewtonSpace> System<S> {
     /// Guesses how far the supplied film fills the inlet, see [`film_fraction::guess`].
     pub(super) fn guess_meniscus(&mut self, problem: &Problem, share: f64) {
         let alpha = problem.point.alpha_per_pa * problem.point.hertz().pressure_pa;
-        let rise = share * (1.0 - (-alpha).exp()) / alpha * problem.inverse_lambda;
+        // ∫ dp/η: as far as pressure rises where viscosity does not follow it.
+        let reduced = if alpha > 0.0 { (1.0 - (-alpha).exp()) / alpha } else { 1.0 };
+        let rise = share * reduced * problem.inverse_lambda;
         let (grid, fields) = (self.space.grid(), (self.pressure.as_slice(), self.film.as_slice()));
         self.fraction = problem.supply.map_or_else(Vec::new, |supply| film_fraction::guess(grid, fields, supply, rise));
     }
@@ -350,6 +363,7 @@ impl<S: NewtonSpace> System<S> {
     /// Gives the ruptured nodes of complementarity the pressure at which a penalty is its multiplier, −λ/γ̄.
     pub(super) fn penalise_rupture(&mut self, penalty: f64) {
         let multiplier = self.active.field(self.space.grid());
+        let penalty = penalty * far_field::stiffening(self.space.grid());
         for (p, multiplier) in self.pressure.iter_mut().zip(multiplier) {
             *p -= multiplier / penalty;
         }

@@ -111,10 +111,11 @@ impl<S: NewtonSpace> System<S> {
             ContactKind::Line => 3.0,
             ContactKind::Point => 3.0 + 2.0 / problem.point.radius_ratio(),
         };
+        let continues = self.space.grid().continues();
         let at = |node: usize| {
             let (x, film) = (x[node / y.len()], self.film[node]);
             // Nor where the surfaces bring less than fills the gap.
-            if weights[node] > 0.0 || x >= 0.0 || problem.supply.is_some_and(|supply| supply < film) {
+            if weights[node] > 0.0 || x >= 0.0 || continues || problem.supply.is_some_and(|supply| supply < film) {
                 return 0.0;
             }
             -x / (share * problem.inverse_lambda * film * film)

@@ -116,6 +116,7 @@ fn described_windows(windows: &Windows) -> String {
     let ranges: Vec<String> = given.iter().map(|w| format!("{}…{}", short(w.m.0), short(w.m.1))).collect();
     let grid = given.first().map_or_else(String::new, |w| match w.grid {
         GridSpec::Graded { nodes, .. } => format!(", {nodes} graded nodes"),
+        GridSpec::Following { .. } => ", nodes that follow the film".to_owned(),
         GridSpec::Uniform { dx, .. } => format!(", uniform grid of {dx}"),
         GridSpec::Plane(spec) => match spec.nodes() {
             Ok((nx, ny)) => format!(", {nx}×{ny} nodes"),

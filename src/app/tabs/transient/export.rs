@@ -110,6 +110,7 @@ pub fn describe(setup: &Setup) -> Vec<String> {
         Some(GridSpec::Uniform { dx, domain }) => format!("uniform grid of {dx} over {domain:?}"),
         Some(GridSpec::Graded { nodes, domain, .. }) => format!("{nodes} graded nodes over {domain:?}"),
         Some(GridSpec::Plane(spec)) => format!("spacings of {} and {} over {:?}", spec.dx, spec.dy, spec.domain),
+        Some(GridSpec::Following { domain, .. }) => format!("nodes that follow the film over {domain:?}"),
         None => "the reduced model's grid".to_owned(),
     };
     let described = |signal: &Signal| match signal {

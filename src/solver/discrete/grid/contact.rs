@@ -40,13 +40,22 @@ pub enum GridSpec {
     },
     /// Of the half Y ≤ 0 of a point contact.
     Plane(PointGridSpec),
+    /// Of a line contact whose film is thin: as fine at X = ±1 as the film asks for; kernel of hat functions.
+    Following {
+        /// Length in which the film closes in front of the contact.
+        zone: f64,
+        /// Cells per cell of the usual spacing.
+        finer: f64,
+        /// Inlet and outlet.
+        domain: (f64, f64),
+    },
 }
 
 impl GridSpec {
     /// The kind of contact it is a grid of.
     pub fn kind(&self) -> ContactKind {
         match self {
-            Self::Uniform { .. } | Self::Graded { .. } => ContactKind::Line,
+            Self::Uniform { .. } | Self::Graded { .. } | Self::Following { .. } => ContactKind::Line,
             Self::Plane(_) => ContactKind::Point,
         }
     }
@@ -57,7 +66,7 @@ impl GridSpec {
     /// When the specification is refused.
     pub fn build(&self) -> Result<ContactGrid, GridError> {
         Ok(match self {
-            Self::Uniform { .. } | Self::Graded { .. } => ContactGrid::Line(self.line()?),
+            Self::Uniform { .. } | Self::Graded { .. } | Self::Following { .. } => ContactGrid::Line(self.line()?),
             Self::Plane(spec) => ContactGrid::Point(spec.build()?),
         })
     }

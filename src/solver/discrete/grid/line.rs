@@ -28,9 +28,9 @@ pub const MAX_GRADED_NODES: usize = 4001;
 pub const MAX_UNIFORM_NODES: usize = 200_001;
 
 /// Farthest inlet a domain may have, as −X.
-pub const LONGEST_INLET: f64 = 2000.0;
+pub const LONGEST_INLET: f64 = 1e7;
 /// Farthest outlet.
-pub const LONGEST_OUTLET: f64 = 1000.0;
+pub const LONGEST_OUTLET: f64 = 1e7;
 
 const EXPLORER_NODES: usize = 632;
 const EXPLORER_INLET: f64 = -20.0;
@@ -72,7 +72,7 @@ impl GridSpec {
     /// As [`GridSpec::build`].
     pub fn check(&self) -> Result<(), GridError> {
         match self {
-            Self::Uniform { .. } | Self::Graded { .. } => self.line_nodes().map(|_| ()),
+            Self::Uniform { .. } | Self::Graded { .. } | Self::Following { .. } => self.line_nodes().map(|_| ()),
             Self::Plane(spec) => spec.check().map(|_| ()),
         }
     }
@@ -107,6 +107,17 @@ impl GridSpec {
                     return Err(GridError::nodes(nodes as f64, MAX_GRADED_NODES));
                 }
                 graded_nodes(nodes, domain.0, domain.1)
+            }
+            Self::Following { zone, finer, domain } => {
+                holds_the_contact(domain)?;
+                if !((1e-7..=1.0).contains(&zone) && (0.1..=64.0).contains(&finer)) {
+                    return Err(GridError::Refused(format!(
+                        "the zone is {} and the refinement {}, but must lie between 1e-7 and 1, and between 0.1 and 64",
+                        Number(zone),
+                        Number(finer)
+                    )));
+                }
+                following_nodes(zone, 1.0 / finer, domain)?
             }
             Self::Plane(_) => {
                 let sentence = "a line contact has no Y; its grid is uniform or graded along X";
@@ -282,8 +293,32 @@ fn cells_between(a: f64, b: f64) -> f64 {
     (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
 }
 
-/// ∫ dξ/spacing over a whole domain in `samples` intervals.
+/// Domains longer than this are counted in pieces: equal samples would step over the contact.
+const LONG: f64 = 1500.0;
+
+/// ∫ dξ/spacing over a whole domain in `samples` intervals, or as many in each piece of a long one.
 fn cells(from: f64, to: f64, samples: usize) -> f64 {
+    if to - from <= LONG {
+        return cells_of_piece(from, to, samples);
+    }
+    // The spacing grows with the distance, and so do the pieces.
+    let (mut low, mut high) = (from.max(-20.0), to.min(20.0));
+    let mut sum = cells_of_piece(low, high, samples);
+    while low > from {
+        let next = (4.0 * low).max(from);
+        sum += cells_of_piece(next, low, samples);
+        low = next;
+    }
+    while high < to {
+        let next = (4.0 * high).min(to);
+        sum += cells_of_piece(high, next, samples);
+        high = next;
+    }
+    sum
+}
+
+/// The same in equal intervals.
+fn cells_of_piece(from: f64, to: f64, samples: usize) -> f64 {
     let step = (to - from) / samples as f64;
     let at = |i: usize| from + i as f64 * step;
     (0..samples).map(|i| cells_between(at(i), at(i + 1))).sum()
@@ -298,7 +333,9 @@ fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
     let step = (to - from) / samples as f64;
     let at = |i: usize| from + i as f64 * step;
     let total = cells(from, to, samples);
-    let before: f64 = {
+    let before: f64 = if to - from > LONG {
+        cells(from, 1.0, samples)
+    } else {
         let whole = ((1.0 - from) / step).floor() as usize;
         (0..whole).map(|i| cells_between(at(i), at(i + 1))).sum::<f64>() + cells_between(at(whole), 1.0)
     };
@@ -324,6 +361,53 @@ fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
     x
 }
 
+/// Spacing over distance from an end of the Hertzian zone, on a grid that follows a thin film.
+const GROWTH: f64 = 0.06;
+/// Distance from the end, in zones, at which the spacing stops to fall.
+const NEAREST: f64 = 1.5;
+
+/// Wanted spacing at ξ where a film closes in a zone of this length: [`wanted_spacing`], and towards ξ = ±1 in proportion
+/// to the distance.
+fn following_spacing(zone: f64, xi: f64) -> f64 {
+    let near = |end: f64| 1.0 / (GROWTH * (NEAREST * zone + (xi - end).abs()));
+    1.0 / (1.0 / wanted_spacing(xi) + near(-1.0) + near(1.0))
+}
+
+/// ∫ dξ/spacing over a short interval by Simpson's rule.
+fn following_cells(zone: f64, a: f64, b: f64) -> f64 {
+    let at = |xi: f64| 1.0 / following_spacing(zone, xi);
+    (b - a) / 6.0 * (at(a) + 4.0 * at(0.5 * (a + b)) + at(b))
+}
+
+/// Abscissae (and the outside one) that equidistribute 1/spacing, one of them at ξ = 1.
+///
+/// # Errors
+/// When there would be too many.
+fn following_nodes(zone: f64, cell: f64, (from, to): (f64, f64)) -> Result<Vec<f64>, GridError> {
+    let next = |x: f64, sign: f64| {
+        let mut y = x + sign * cell * following_spacing(zone, x);
+        for _ in 0..6 {
+            y -= (following_cells(zone, x, y) - sign * cell) * following_spacing(zone, y);
+        }
+        y
+    };
+    let march = |end: f64, sign: f64| {
+        let inside = move |x: &f64| sign * (x - end) < 0.0;
+        std::iter::successors(Some(1.0), move |x| Some(next(*x, sign))).take_while(inside).take(MAX_GRADED_NODES)
+    };
+    let mut xi: Vec<f64> = march(from, -1.0).collect();
+    // The inlet, and the node outside.
+    for _ in 0..2 {
+        xi.push(next(xi.last().copied().unwrap_or(1.0), -1.0));
+    }
+    xi.reverse();
+    xi.extend(march(to, 1.0).skip(1));
+    if xi.len() > MAX_GRADED_NODES {
+        return Err(GridError::nodes(xi.len() as f64, MAX_GRADED_NODES));
+    }
+    Ok(xi)
+}
+
 /// Scale s = (1 + X_s)/2 of the registration map, X_s the fitted position of the pressure spike.
 pub fn registration_scale(moes: Moes) -> f64 {
     0.5 * (1.0 + spike_position(moes))
@@ -346,6 +430,21 @@ pub fn spike_position(Moes { m, l }: Moes) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cells_of_a_long_domain_are_counted_to_its_ends() {
+        // By the trapezoidal rule in the logarithm of the distance.
+        let beyond = |end: f64| {
+            let (n, from) = (100_000, 20.0f64);
+            let step = (end.abs() / from).ln() / f64::from(n);
+            let at = |k: i32| from * (step * f64::from(k)).exp();
+            (0..n).map(|k| step * at(k) / wanted_spacing(end.signum() * at(k))).sum::<f64>()
+        };
+        let whole = cells_of_piece(-20.0, 20.0, 200_000) + beyond(-1e5) + beyond(1e4);
+        assert!((cells(-1e5, 1e4, FINE_SAMPLES) / whole - 1.0).abs() < 1e-3, "{whole}");
+        let grid = GridSpec::Graded { nodes: 1200, domain: (-1e5, 1e4), registered: false }.line().unwrap();
+        assert!((grid.xi[INLET] / -1e5 - 1.0).abs() < 0.1, "{}", grid.xi[INLET]);
+    }
 
     #[test]
     fn the_dissertations_grid_has_1201_nodes_with_both_ends() {

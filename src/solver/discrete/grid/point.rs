@@ -23,7 +23,9 @@ pub struct PointGridSpec {
     pub dy: f64,
     /// Inlet, outlet and outer edge (Y₀ < 0) of the half domain.
     pub domain: (f64, f64, f64),
-    /// How many times finer the spacing across is in the side lobes, in which H_min lies; 1 is equidistant.
+    /// How many times finer the spacing across is in the side lobes, in which H_min lies; 1 is equidistant. Below 1 the
+    /// spacing grows from the axis to so much of the inverse at the outer edge, and the pressure goes on beyond the ends
+    /// of the domain, as that of a lightly loaded contact does.
     #[serde(default = "equidistant")]
     pub refinement: f64,
 }
@@ -37,6 +39,8 @@ const WIDEST_DX: f64 = 0.1;
 const WIDEST_DY: f64 = 0.2;
 /// Cells along X and across that larger ones must have at least.
 const FEWEST: (f64, f64) = (60.0, 10.0);
+/// Smallest spacing across relative to that at the outer edge.
+const COARSEST: f64 = 0.02;
 /// Where the side lobes lie in heavily loaded contacts, and how wide the refined zone around them is.
 const SIDE_LOBE: f64 = -0.95;
 const SIDE_LOBE_WIDTH: f64 = 0.1;
@@ -88,10 +92,11 @@ impl PointGridSpec {
                 )));
             }
         }
-        if !(1.0..=8.0).contains(&self.refinement) {
+        if !(COARSEST..=8.0).contains(&self.refinement) {
             let refinement = Number(self.refinement);
             return Err(GridError::Refused(format!(
-                "the refinement of the side lobes is {refinement}, but must lie between 1 (equidistant) and 8"
+                "the refinement of the side lobes is {refinement}, but must lie between 1 (equidistant) and 8, or between \
+                 {COARSEST} and 1 (wider towards the outer edge)"
             )));
         }
         let cells = self.cells_beyond(edge).round();
@@ -101,8 +106,17 @@ impl PointGridSpec {
     /// Cells between an ordinate Y ≤ 0 and the axis: ∫ dY/spacing, the spacing being dy/(1 + (refinement − 1)/(1 + t²))
     /// with t the distance to the side lobe in units of its width.
     fn cells_beyond(&self, y: f64) -> f64 {
+        if self.continues() {
+            let growth = (1.0 / self.refinement - 1.0) / -self.domain.2;
+            return (-growth * y).ln_1p() / (growth * self.dy);
+        }
         let angle = |y: f64| ((y - SIDE_LOBE) / SIDE_LOBE_WIDTH).atan();
         (-y + (self.refinement - 1.0) * SIDE_LOBE_WIDTH * (angle(0.0) - angle(y))) / self.dy
+    }
+
+    /// Whether the pressure goes on beyond its ends.
+    pub fn continues(&self) -> bool {
+        self.refinement < 1.0
     }
 
     /// Ordinates from the outer edge to the axis, each a fixed share of the cells apart.
@@ -334,7 +348,7 @@ mod tests {
             (PointGridSpec { domain: (-4.0, 2.0, -0.9), ..good }, "cuts the contact"),
             (PointGridSpec { dx: 0.5, ..good }, "cannot hold the contact"),
             (PointGridSpec { dy: f64::NAN, ..good }, "ΔY"),
-            (PointGridSpec { refinement: 0.5, ..good }, "refinement"),
+            (PointGridSpec { refinement: 0.01, ..good }, "refinement"),
             (PointGridSpec { dx: 1e-3, dy: 1e-3, ..good }, "GB of memory"),
         ] {
             let message = spec.build().unwrap_err().to_string();

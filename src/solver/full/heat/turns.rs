@@ -67,7 +67,7 @@ fn from<S: NewtonSpace>(
     observer: &dyn Observer,
 ) -> Result<Solution, SolveError> {
     let mut system = solver.system_for(&problem)?;
-    warm_state(&mut system, &problem, former);
+    warm_state(&mut system, &problem, former, None);
     if problem.lubricant.cavitation == Cavitation::Penalty && former.multiplier.len() == system.pressure.len() {
         // The pressure at which a penalty is the multiplier.
         for (p, multiplier) in system.pressure.iter_mut().zip(&former.multiplier) {

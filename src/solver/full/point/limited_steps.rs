@@ -86,10 +86,24 @@ impl NewtonSpace for PlaneSpace {
     // In units of Hamrock and Dowson's formula.
     const COLD_FILMS: [f64; 3] = [1.2, 0.8, 2.0];
     const EASY_M: (f64, f64) = (60.0, 200.0);
-    const EASY_L: (f64, f64) = (3.0, 8.0);
+    const EASY_L: f64 = 8.0;
+    const COLD_M: (f64, f64) = (600.0, 2500.0);
 
     fn build(spec: PointGridSpec) -> Result<Arc<PointGrid>, SolveError> {
         Ok(spec.build()?)
+    }
+
+    fn unknowns(grid: &Arc<PointGrid>) -> usize {
+        grid.unknowns()
+    }
+
+    fn coarsening(grid: &Arc<PointGrid>, problem: &Problem) -> usize {
+        grid.spec.coarsening_for(&problem.point)
+    }
+
+    fn coarser(grid: &Arc<PointGrid>, times: i32) -> Result<Option<Arc<PointGrid>>, SolveError> {
+        let spec = PointGridSpec { dx: grid.spec.dx * f64::from(2i32.pow(times as u32)), ..grid.spec };
+        Ok(Some(spec.build()?))
     }
 
     fn form_of(_: &Arc<PointGrid>, problem: &Problem) -> Ellipse {

@@ -25,14 +25,15 @@ impl Ellipse {
     pub const CIRCLE: Self = Self { radius_ratio: 1.0, kappa: 1.0, integral: 0.5 * PI };
 
     /// R_y/R_x that are accepted: those beyond are line contacts in all but their ends.
-    pub const RADIUS_RATIOS: (f64, f64) = (0.1, 40.0);
+    pub const RADIUS_RATIOS: (f64, f64) = (0.02, 500.0);
 
     /// The ellipse of R_y/R_x; accurate to rounding.
     ///
     /// # Errors
     /// When the ratio lies outside [`Ellipse::RADIUS_RATIOS`].
     pub fn of_ratio(radius_ratio: f64) -> Result<Self, ContactError> {
-        Limit { name: "radius ratio R_y/R_x", unit: "", range: Self::RADIUS_RATIOS }.accept(radius_ratio)?;
+        Limit { name: "radius ratio R_y/R_x", unit: "", range: Self::RADIUS_RATIOS, or_zero: false }
+            .accept(radius_ratio)?;
         Ok(Self::near(radius_ratio))
     }
 
@@ -140,8 +141,23 @@ mod tests {
     }
 
     #[test]
+    fn long_ellipses_tend_to_the_limit_of_a_strip() {
+        // For large κ: J_x → 2/κ and J_y → 2(ln 4κ − 1)/κ³, so that R_y/R → κ²/(ln 4κ − 1), with errors of (ln κ)/κ².
+        for ratio in [40.0, 100.0, 206.0, 500.0] {
+            let long = Ellipse::of_ratio(ratio).unwrap();
+            let kappa = long.kappa;
+            let bar = 2.0 * kappa.ln() / (kappa * kappa);
+            assert!((long.integral * kappa / 2.0 - 1.0).abs() < bar, "J_x of {ratio}");
+            assert!((kappa * kappa / ((4.0 * kappa).ln() - 1.0) / ratio - 1.0).abs() < bar, "κ of {ratio}: {kappa}");
+            let short = Ellipse::of_ratio(1.0 / ratio.min(50.0)).unwrap();
+            let turned = Ellipse::of_ratio(ratio.min(50.0)).unwrap();
+            assert!((short.kappa * turned.kappa - 1.0).abs() < 1e-12, "{ratio}");
+        }
+    }
+
+    #[test]
     fn ratios_beyond_all_ellipses_are_refused() {
-        for bad in [f64::NAN, 0.0, -2.0, 0.05, 100.0, f64::INFINITY] {
+        for bad in [f64::NAN, 0.0, -2.0, 0.01, 600.0, f64::INFINITY] {
             let message = Ellipse::of_ratio(bad).unwrap_err().to_string();
             assert!(message.starts_with("radius ratio R_y/R_x is") && message.contains("between"), "{message}");
         }

@@ -6,7 +6,11 @@ use crate::solver::limits::Number;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ContactError {
     /// A quantity is NaN, infinite, or outside its valid range.
-    #[error("{quantity} is {}{unit}, but must be a finite number between {min:e} and {max:e}{unit}", Number(*value))]
+    #[error(
+        "{quantity} is {}{unit}, but must be a finite number between {min:e} and {max:e}{unit}{}",
+        Number(*value),
+        if *or_zero { ", or 0" } else { "" }
+    )]
     OutOfRange {
         /// Name of the quantity as the field calls it.
         quantity: &'static str,
@@ -18,6 +22,19 @@ pub enum ContactError {
         min: f64,
         /// Largest accepted value.
         max: f64,
+        /// Whether zero is accepted as well.
+        or_zero: bool,
+    },
+    /// A viscosity that does not change with pressure has no lubricant number, or the other way round.
+    #[error(
+        "alpha is {} 1/Pa, but L is {}: L is proportional to alpha, so that both are 0 or neither is", Number(*alpha),
+        Number(*l)
+    )]
+    Isoviscous {
+        /// The coefficient given \[1/Pa\].
+        alpha: f64,
+        /// The lubricant number given.
+        l: f64,
     },
     /// A radius across was given for a line contact.
     #[error("a line contact has no radius across (radius-y): leave it out, or take a point contact")]

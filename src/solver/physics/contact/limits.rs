@@ -12,26 +12,28 @@ pub struct Limit {
     pub unit: &'static str,
     /// Smallest and largest accepted value.
     pub range: (f64, f64),
+    /// Whether zero is accepted as well.
+    pub or_zero: bool,
 }
 
 /// Load number M.
-pub const M: Limit = Limit { name: "Moes number M", unit: "", range: (0.05, 1e5) };
-/// Lubricant number L.
-pub const L: Limit = Limit { name: "Moes number L", unit: "", range: (1e-3, 1e3) };
+pub const M: Limit = Limit { name: "Moes number M", unit: "", range: (1e-5, 1e6), or_zero: false };
+/// Lubricant number L; zero where viscosity does not change with pressure.
+pub const L: Limit = Limit { name: "Moes number L", unit: "", range: (1e-6, 1e3), or_zero: true };
 /// Reduced radius R.
-pub const RADIUS: Limit = Limit { name: "radius", unit: " m", range: (1e-6, 1e3) };
+pub const RADIUS: Limit = Limit { name: "radius", unit: " m", range: (1e-6, 1e3), or_zero: false };
 /// Reduced radius across R_y.
-pub const RADIUS_Y: Limit = Limit { name: "radius-y", unit: " m", range: (1e-7, 1e5) };
+pub const RADIUS_Y: Limit = Limit { name: "radius-y", unit: " m", range: (1e-7, 1e5), or_zero: false };
 /// Entrainment speed u_m.
-pub const SPEED: Limit = Limit { name: "speed", unit: " m/s", range: (1e-9, 1e4) };
+pub const SPEED: Limit = Limit { name: "speed", unit: " m/s", range: (1e-9, 1e4), or_zero: false };
 /// Load w.
-pub const LOAD: Limit = Limit { name: "load", unit: " N (or N/m)", range: (1e-6, 1e10) };
+pub const LOAD: Limit = Limit { name: "load", unit: " N (or N/m)", range: (1e-6, 1e10), or_zero: false };
 /// Reduced modulus E′.
-pub const MODULUS: Limit = Limit { name: "modulus", unit: " Pa", range: (1e5, 1e14) };
+pub const MODULUS: Limit = Limit { name: "modulus", unit: " Pa", range: (1e5, 1e14), or_zero: false };
 /// Viscosity η₀.
-pub const VISCOSITY: Limit = Limit { name: "viscosity", unit: " Pa·s", range: (1e-6, 1e4) };
-/// Pressure–viscosity coefficient α.
-pub const ALPHA: Limit = Limit { name: "alpha", unit: " 1/Pa", range: (1e-12, 1e-5) };
+pub const VISCOSITY: Limit = Limit { name: "viscosity", unit: " Pa·s", range: (1e-6, 1e4), or_zero: false };
+/// Pressure–viscosity coefficient α; zero where viscosity does not change with pressure.
+pub const ALPHA: Limit = Limit { name: "alpha", unit: " 1/Pa", range: (1e-12, 1e-5), or_zero: true };
 
 /// Limits of [`super::OperatingPoint::quantities`], in that order.
 pub const SI: [Limit; 6] = [RADIUS, SPEED, LOAD, MODULUS, VISCOSITY, ALPHA];
@@ -42,8 +44,8 @@ impl Limit {
     /// # Errors
     /// Naming the number, its value and what is accepted.
     pub fn accept(&self, value: f64) -> Result<(), ContactError> {
-        let Self { name: quantity, unit, range: (min, max) } = *self;
-        let inside = (min..=max).contains(&value);
-        if inside { Ok(()) } else { Err(ContactError::OutOfRange { quantity, value, unit, min, max }) }
+        let Self { name: quantity, unit, range: (min, max), or_zero } = *self;
+        let inside = (min..=max).contains(&value) || or_zero && value == 0.0;
+        if inside { Ok(()) } else { Err(ContactError::OutOfRange { quantity, value, unit, min, max, or_zero }) }
     }
 }

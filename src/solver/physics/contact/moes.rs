@@ -32,6 +32,8 @@ pub struct MoesRequest {
 
 /// η₀ of the default realisation \[Pa·s\].
 pub const DEFAULT_VISCOSITY_PA_S: f64 = 0.01;
+/// u_m of the default realisation at L = 0, where it follows from nothing \[m/s\].
+const DEFAULT_SPEED_M_PER_S: f64 = 1.0;
 
 impl MoesRequest {
     /// M and L of a contact, everything else left to the default realisation.
@@ -61,11 +63,34 @@ impl MoesRequest {
 /// Load fixed → radius from M. Load and speed fixed → radius from M, α from L. Load and radius fixed → speed from M, α
 /// from L.
 ///
+/// At L = 0 α is zero, and the speed is free as well: 1 m/s where neither it nor radius and load are fixed.
+///
 /// # Errors
 /// When more is fixed than M and L leave free, or the result is outside any sense.
 pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactError> {
-    let MoesRequest { kind, m, l, .. } = *request;
+    let MoesRequest { m, l, .. } = *request;
     Moes { m, l }.check()?;
+    let overdetermined = |given: &'static str| Err(ContactError::Overdetermined { given });
+    if let Some(alpha) = request.alpha_per_pa
+        && (alpha == 0.0) != (l == 0.0)
+    {
+        return Err(ContactError::Isoviscous { alpha, l });
+    }
+    if l == 0.0 {
+        let speed = match (request.radius_m, request.load, request.speed_m_per_s) {
+            (Some(_), Some(_), Some(_)) => return overdetermined("radius, speed and load"),
+            (Some(_), Some(_), None) => None,
+            (_, _, speed) => speed.or(Some(DEFAULT_SPEED_M_PER_S)),
+        };
+        // α follows from L below, as 0.
+        return si_from_moes_with(&MoesRequest { speed_m_per_s: speed, alpha_per_pa: None, ..*request });
+    }
+    si_from_moes_with(request)
+}
+
+/// The same where L and α agree.
+fn si_from_moes_with(request: &MoesRequest) -> Result<OperatingPoint, ContactError> {
+    let MoesRequest { kind, m, l, .. } = *request;
     let e = request.modulus_pa.unwrap_or(231e9);
     let eta = request.viscosity_pa_s.unwrap_or(DEFAULT_VISCOSITY_PA_S);
     let radius_default = request.default_radius();
@@ -167,6 +192,30 @@ mod tests {
         let point = si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap();
         assert_eq!((point.radius_m, point.modulus_pa, point.viscosity_pa_s), (3e-3, 231e9, 0.01));
         assert!((point.alpha_per_pa - 5e-9 * 10f64.powf(0.463)).abs() < 1e-20);
+    }
+
+    #[test]
+    fn isoviscous_contacts_have_no_alpha_and_a_free_speed() {
+        for kind in [ContactKind::Line, ContactKind::Point] {
+            let base = MoesRequest::new(kind, 30.0, 0.0);
+            for request in [
+                base,
+                MoesRequest { alpha_per_pa: Some(0.0), ..base },
+                MoesRequest { speed_m_per_s: Some(0.2), modulus_pa: Some(1e7), ..base },
+                MoesRequest { load: Some(5.0), ..base },
+                MoesRequest { load: Some(5.0), radius_m: Some(0.02), ..base },
+            ] {
+                let point = si_from_moes(&request).unwrap();
+                assert!((point.moes().m / 30.0 - 1.0).abs() < 1e-10, "{request:?}");
+                assert_eq!((point.alpha_per_pa, point.moes().l), (0.0, 0.0), "{request:?}");
+            }
+            for wrong in [
+                MoesRequest { alpha_per_pa: Some(1e-8), ..base },
+                MoesRequest { alpha_per_pa: Some(0.0), l: 5.0, ..base },
+            ] {
+                assert!(si_from_moes(&wrong).unwrap_err().to_string().contains("proportional"), "{wrong:?}");
+            }
+        }
     }
 
     #[test]

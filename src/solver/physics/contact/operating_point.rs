@@ -8,7 +8,7 @@ use super::sliding::Sliding;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Highest Hertzian pressure \[Pa\] that is still called a real contact; beyond it results carry a warning.
+/// Hertzian pressure \[Pa\] beyond which bearing steel yields below the surface; beyond it results carry a warning.
 pub const PLAUSIBLE_HERTZ_PRESSURE_PA: f64 = 3.2e9;
 
 /// One operating point in SI units. Valid when [`OperatingPoint::check`] accepts it.
@@ -123,6 +123,12 @@ impl OperatingPoint {
         Ellipse::near(self.radius_ratio())
     }
 
+    /// Speeds u₁ and u₂ of the surfaces \[m/s\], u_m(1 ∓ SRR/2).
+    pub fn surface_speeds(&self) -> [f64; 2] {
+        let half = 0.5 * self.sliding.slide_to_roll_ratio;
+        [1.0 - half, 1.0 + half].map(|share| share * self.speed_m_per_s)
+    }
+
     /// The six SI quantities in the order radius, speed, load, modulus, viscosity, alpha.
     pub fn quantities(&self) -> [f64; 6] {
         [self.radius_m, self.speed_m_per_s, self.load, self.modulus_pa, self.viscosity_pa_s, self.alpha_per_pa]
@@ -131,7 +137,11 @@ impl OperatingPoint {
     /// The contact at the share `t` (0…1) of the way to another one, along the logarithms of SI quantities and R_y/R.
     pub fn towards(&self, other: &Self, t: f64) -> Self {
         let (from, to) = (self.quantities(), other.quantities());
-        let q: [f64; 6] = std::array::from_fn(|i| from[i] * (to[i] / from[i]).powf(t));
+        let q: [f64; 6] = std::array::from_fn(|i| match (from[i], to[i]) {
+            // α may be zero, which no logarithm reaches.
+            (from, to) if from == 0.0 || to == 0.0 => from + (to - from) * t,
+            (from, to) => from * (to / from).powf(t),
+        });
         let mut point = Self::from_quantities(other.kind, q, self.sliding.towards(other.sliding, t));
         if self.radius_y_m.or(other.radius_y_m).is_some() {
             let [here, there] = [self, other].map(Self::radius_ratio);
@@ -233,7 +243,7 @@ impl OperatingPoint {
 /// Reduced modulus E′ \[Pa\] of two bodies, (2.5). Young's moduli in Pa, Poisson ratios in \[0, 0.5\].
 pub fn reduced_modulus(e1: f64, nu1: f64, e2: f64, nu2: f64) -> Result<f64, ContactError> {
     let young = |name| Limit { name, ..limits::MODULUS };
-    let poisson = |name| Limit { name, unit: "", range: (0.0, 0.5) };
+    let poisson = |name| Limit { name, unit: "", range: (0.0, 0.5), or_zero: false };
     young("Young's modulus e1").accept(e1)?;
     young("Young's modulus e2").accept(e2)?;
     poisson("Poisson ratio nu1").accept(nu1)?;

@@ -54,8 +54,9 @@ impl Lubricant {
     /// When a law is not defined for the point's constants.
     pub fn scaled(self, point: &OperatingPoint) -> Result<ScaledFluid, LubricantError> {
         let roelands_log = roelands_log(point.viscosity_pa_s);
-        if self.viscosity == ViscosityLaw::Roelands && roelands_log <= 0.05 {
-            let (viscosity, minimum) = (point.viscosity_pa_s, (0.05f64 - 9.67).exp());
+        let minimum = ViscosityLaw::thinnest_of_roelands();
+        if self.viscosity == ViscosityLaw::Roelands && point.viscosity_pa_s <= minimum {
+            let viscosity = point.viscosity_pa_s;
             return Err(LubricantError(format!(
                 "Roelands' law needs an ambient viscosity above {minimum:.3e} Pa·s, but it is {viscosity:.3e} Pa·s; use \
                  Barus' law or a larger viscosity"

@@ -36,3 +36,10 @@ pub enum ViscosityLaw {
     /// (3.39); its α is no free constant but follows from it.
     Doolittle(Doolittle),
 }
+
+impl ViscosityLaw {
+    /// Ambient viscosity \[Pa·s\] that Roelands' law must exceed.
+    pub fn thinnest_of_roelands() -> f64 {
+        (0.05f64 - 9.67).exp()
+    }
+}

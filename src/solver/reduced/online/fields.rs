@@ -49,6 +49,7 @@ impl Online {
                 steps: Vec::new(),
                 residual_norm: solution.residual_estimate,
                 cautious_front: false,
+                reached: None,
             },
             grid_cost: self.model.windows.get(solution.window).and_then(|window| window.grid_cost(&solution.point)),
             heat,

@@ -6,7 +6,8 @@
 //! up to half a cell.
 
 use super::{
-    GridError, GridSpec, INLET, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, cells_between, wanted_spacing,
+    GridError, GridSpec, INLET, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, cells_between, following_cells,
+    following_spacing, wanted_spacing,
 };
 use std::sync::Arc;
 
@@ -18,9 +19,16 @@ impl ReferenceGrid {
     /// When it would have too many nodes.
     pub fn refined(&self) -> Result<Arc<Self>, GridError> {
         let nodes = 2 * (self.xi.len() - 1) - 1;
-        let (max, halve): (usize, fn(f64, f64) -> f64) = match self.spec {
-            GridSpec::Uniform { .. } => (MAX_UNIFORM_NODES, |a, b| 0.5 * (a + b)),
-            _ => (MAX_GRADED_NODES, halfway),
+        let (max, spec) = match self.spec {
+            spec @ GridSpec::Uniform { .. } => (MAX_UNIFORM_NODES, spec),
+            spec => (MAX_GRADED_NODES, spec),
+        };
+        let halve = |a: f64, b: f64| match spec {
+            GridSpec::Uniform { .. } => 0.5 * (a + b),
+            GridSpec::Following { zone, .. } => {
+                halfway(a, b, |a, b| following_cells(zone, a, b), |xi| following_spacing(zone, xi))
+            }
+            _ => halfway(a, b, cells_between, wanted_spacing),
         };
         if nodes > max {
             return Err(GridError::nodes(nodes as f64, max));
@@ -33,6 +41,7 @@ impl ReferenceGrid {
         let spec = match self.spec {
             GridSpec::Uniform { dx, .. } => GridSpec::Uniform { dx: 0.5 * dx, domain },
             GridSpec::Graded { registered, .. } => GridSpec::Graded { nodes, domain, registered },
+            GridSpec::Following { zone, finer, .. } => GridSpec::Following { zone, finer: 2.0 * finer, domain },
             plane @ GridSpec::Plane(_) => plane,
         };
         Ok(Arc::new(Self::of_nodes(spec, xi)?))
@@ -40,10 +49,10 @@ impl ReferenceGrid {
 }
 
 /// The abscissa that halves the grading's coordinate between two nodes, by Newton's method.
-fn halfway(a: f64, b: f64) -> f64 {
+fn halfway(a: f64, b: f64, cells: impl Fn(f64, f64) -> f64, spacing: impl Fn(f64) -> f64) -> f64 {
     let mut middle = 0.5 * (a + b);
     for _ in 0..4 {
-        middle += 0.5 * (cells_between(middle, b) - cells_between(a, middle)) * wanted_spacing(middle);
+        middle += 0.5 * (cells(middle, b) - cells(a, middle)) * spacing(middle);
     }
     middle
 }

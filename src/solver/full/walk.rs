@@ -1,0 +1,231 @@
+//! Continuation: where a contact does not converge from a cold start, the solver walks to it from one that does.
+//!
+//! The path is straight in (ln M, ln L) and begins at the nearest contact of the same shape in the middle of the map, or,
+//! where the inlet may starve, at the same contact with a thin supply. It depends on the wanted contact alone. Each step
+//! starts from the last two contacts of the path, extrapolated. Steps grow and shrink with the Newton iterations that
+//! they take. Point contacts walk on grids that are coarser along X as long as these resolve the film.
+
+use super::newton_space::NewtonSpace;
+use super::problem::{Problem, SolveError};
+use super::report::{Report, Termination};
+use super::solution::Solution;
+use super::solver::{Beginning, Solver, formula_film};
+use crate::solver::discrete::space::Grid;
+use crate::solver::observer::{Observer, WalkStep};
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+
+/// A supplied film, in units of the contact's film formula, that starves it plainly.
+const THIN: f64 = 0.3;
+
+/// Length of the first step in ln M, or a third of it in ln L.
+const FIRST_STRIDE: f64 = 0.7;
+/// Shortest step of the same length, below which the walk ends.
+const SHORTEST_STRIDE: f64 = 2e-3;
+/// Newton iterations below which the next step is longer, and above which it is shorter.
+const QUICK: usize = 6;
+const SLOW: usize = 15;
+/// Newton iterations of one step of the walk.
+const MOST_PER_STEP: usize = 40;
+
+/// How many times wider the tolerance is than that of the wanted contact.
+const ALONG_THE_WAY: f64 = 1e3;
+
+/// Newton iterations that a whole walk takes at most on a grid of so many unknowns: 3,000, on large grids fewer, and
+/// never fewer than 250.
+pub fn most_walked(unknowns: usize) -> usize {
+    (12_000_000 / unknowns.max(1)).clamp(250, 3000)
+}
+
+/// The contacts between an easy one and the wanted one.
+enum Path {
+    /// The way in ln M and ln L, from the wanted contact to the easy one.
+    Loads {
+        /// ln(M/M wanted) of the easy contact.
+        m: f64,
+        /// ln(L/L wanted) of the easy contact.
+        l: f64,
+    },
+    /// The thin supply over the wanted one.
+    Supply(f64),
+}
+
+impl Path {
+    /// On a grid that `continues` beyond its ends the middle of the map would not be resolved: there only L changes.
+    fn to<S: NewtonSpace>(problem: &Problem, continues: bool) -> Self {
+        if let Some(supply) = problem.supply {
+            return Self::Supply((supply.min(THIN * formula_film(problem)) / supply).ln());
+        }
+        let (m, l) = (problem.load_as_a_circle(), problem.moes.l);
+        let easy_m = if continues { m } else { m.clamp(S::EASY_M.0, S::EASY_M.1) };
+        let easy_l = if continues { 0.25 * S::EASY_L } else { S::EASY_L };
+        Self::Loads { m: (easy_m / m).ln(), l: if l > easy_l { (easy_l / l).ln() } else { 0.0 } }
+    }
+
+    /// Its length in ln M.
+    fn length(&self) -> f64 {
+        match self {
+            Self::Loads { m, l } => m.abs() + 3.0 * l.abs(),
+            Self::Supply(thin) => thin.abs(),
+        }
+    }
+
+    /// The contact at the share t of the path: the easy one at 0, the wanted one at 1.
+    fn at(&self, problem: &Problem, t: f64) -> Option<Problem> {
+        if t >= 1.0 {
+            return Some(*problem);
+        }
+        match self {
+            Self::Supply(thin) => {
+                Some(Problem { supply: problem.supply.map(|supply| supply * ((1.0 - t) * thin).exp()), ..*problem })
+            }
+            Self::Loads { m, l } => {
+                // By speed and load at the same α: L grows with the fourth root of the speed.
+                let point = &problem.point;
+                let (speed, power) = (4.0 * (1.0 - t) * l, if point.kind == ContactKind::Line { 0.5 } else { 0.75 });
+                let easier = OperatingPoint {
+                    speed_m_per_s: point.speed_m_per_s * speed.exp(),
+                    load: point.load * ((1.0 - t) * m + power * speed).exp(),
+                    ..*point
+                };
+                Problem::under_sliding(&easier, problem.lubricant, point.sliding).ok()
+            }
+        }
+    }
+}
+
+/// A contact of the path that has been solved.
+struct Passed {
+    t: f64,
+    solution: Solution,
+}
+
+/// The start of a step of the walk: pressure and central film extrapolated along the path.
+fn extrapolated(last: &Passed, before: Option<&Passed>, next: f64) -> (Solution, Option<f64>) {
+    let mut start = last.solution.clone();
+    let before = before.filter(|before| {
+        let former = &before.solution;
+        former.mesh == last.solution.mesh && former.scalars.h_c > 0.0 && start.fraction.is_empty()
+    });
+    let Some(before) = before else { return (start, None) };
+    let share = (next - last.t) / (last.t - before.t);
+    for (p, former) in start.pressure.iter_mut().zip(&before.solution.pressure) {
+        if *p > 0.0 {
+            *p = (*p + share * (*p - former.max(0.0))).max(0.0);
+        }
+    }
+    let film = last.solution.scalars.h_c;
+    (start, Some(film * (film / before.solution.scalars.h_c).powf(share)))
+}
+
+impl<S: NewtonSpace> Solver<S> {
+    /// Walks from an easier contact to the wanted one.
+    pub(super) fn walk(
+        &mut self,
+        problem: &Problem,
+        observer: &dyn Observer,
+        report: &mut Report,
+    ) -> Result<(), SolveError> {
+        let system = self.system_for(problem)?;
+        let path = Path::to::<S>(problem, system.space.grid().continues());
+        self.system = Some(system);
+        let length = path.length();
+        let Some(first) = path.at(problem, 0.0) else { return Ok(()) };
+        let most = report.newton_iterations + most_walked(S::unknowns(&self.reference));
+        let mut levels: Vec<Self> = Vec::new();
+        let mut begun = None;
+        for film in S::COLD_FILMS {
+            let beginning = Beginning::Cold(film, 1.0);
+            begun = self.step((&mut levels, false), &first, beginning, most, observer, report)?;
+            if begun.is_some() || report.termination == Termination::Cancelled {
+                break;
+            }
+        }
+        let Some(solution) = begun else { return Ok(()) };
+        let mut last = Passed { t: 0.0, solution };
+        let mut before: Option<Passed> = None;
+        let mut stride = if length > 0.0 { (FIRST_STRIDE / length).min(1.0) } else { 1.0 };
+        let shortest = SHORTEST_STRIDE / length.max(SHORTEST_STRIDE);
+        while last.t < 1.0 {
+            let next = if last.t + 1.2 * stride >= 1.0 { 1.0 } else { last.t + stride };
+            let at = |passed: &Passed| passed.solution.problem.moes;
+            observer.walk_step(&WalkStep { wanted: problem.moes, reached: at(&last) });
+            let Some(wanted) = path.at(problem, next) else { break };
+            let (start, film) = extrapolated(&last, before.as_ref(), next);
+            let spent = report.newton_iterations;
+            match self.step(
+                (&mut levels, next >= 1.0),
+                &wanted,
+                Beginning::Along(&start, film),
+                most,
+                observer,
+                report,
+            )? {
+                Some(solution) => {
+                    before = Some(std::mem::replace(&mut last, Passed { t: next, solution }));
+                    stride *= match report.newton_iterations - spent {
+                        ..QUICK => 1.5,
+                        QUICK..=SLOW => 1.0,
+                        _ => 0.5,
+                    };
+                }
+                None if matches!(report.termination, Termination::Cancelled | Termination::Effort) => break,
+                None => stride = 0.5 * stride.min(next - last.t),
+            }
+            if stride < shortest {
+                break;
+            }
+        }
+        if last.t < 1.0 {
+            report.reached = Some(last.solution.problem.moes);
+            if report.termination == Termination::Converged {
+                report.termination = Termination::IterationLimit;
+            }
+        }
+        Ok(())
+    }
+
+    /// One contact of the walk on the coarsest grid that resolves it; the wanted one on the solver's `own`.
+    fn step(
+        &mut self,
+        (levels, own): (&mut Vec<Self>, bool),
+        problem: &Problem,
+        beginning: Beginning<'_>,
+        most: usize,
+        observer: &dyn Observer,
+        report: &mut Report,
+    ) -> Result<Option<Solution>, SolveError> {
+        let wanted = if own { 0 } else { S::coarsening(&self.reference, problem) };
+        // Level k has 2^(k + 1) times the spacing.
+        while levels.len() < wanted {
+            let Some(coarser) = S::coarser(&self.reference, levels.len() as i32 + 1)? else { break };
+            levels.push(Self { options: self.options, ..Self::on(coarser) });
+        }
+        let solver = match levels.len().min(wanted) {
+            0 => self,
+            level => &mut levels[level - 1],
+        };
+        let options = solver.options;
+        solver.options.max_newton = options.max_newton.min(MOST_PER_STEP);
+        if !own {
+            solver.options.tolerance *= ALONG_THE_WAY;
+        }
+        let ended = solver.attempt(problem, beginning, most, observer, report);
+        solver.options = options;
+        ended?;
+        if report.termination != Termination::Converged {
+            return Ok(None);
+        }
+        solver.solution(*problem, Report::empty()).map(Some)
+    }
+}
+
+impl Problem {
+    /// M of a line contact and of a circle; of an ellipse that of the circle of the same λ̄, (2.23).
+    pub(super) fn load_as_a_circle(&self) -> f64 {
+        if self.point.is_elliptic() {
+            // λ̄ of a circle is 4π/(M ∛(3M/2)).
+            return (4.0 * std::f64::consts::PI * self.inverse_lambda / 1.5f64.cbrt()).powf(0.75);
+        }
+        self.moes.m
+    }
+}

@@ -1,0 +1,215 @@
+//! Contacts at the edges of the map: slow, soft, light, long and reversing ones, against formulas that know nothing of the
+//! solver, and random ones, of which nearly all must converge. A share of the random ones is solved in the ordinary run,
+//! 1,000 lines, 150 circles and 60 ellipses where the environment has `EHL_LONG`.
+
+use crate::common::cases::{cases, long};
+use ehl_explorer::solver::discrete::grid::GridSpec;
+use ehl_explorer::solver::full::{ContactSolver, Problem, Solution, Start};
+use ehl_explorer::solver::observer::{Observer, WalkStep};
+use ehl_explorer::solver::physics::contact::{ContactKind, FilmShape, Moes, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::physics::lubricant::{DensityLaw, Lubricant, Sliding};
+use fastrand::Rng;
+use std::f64::consts::PI;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What bodies carry at most \[Pa\]: static ratings end there.
+const STRONGEST: f64 = 4.6e9;
+
+fn contact(kind: ContactKind, m: f64, l: f64) -> OperatingPoint {
+    si_from_moes(&MoesRequest::new(kind, m, l)).unwrap()
+}
+
+fn solved_by(point: &OperatingPoint, lubricant: Lubricant, observer: &dyn Observer) -> Result<Solution, String> {
+    let spec = GridSpec::explorer_for(point).map_err(|error| error.to_string())?;
+    let mut solver = ContactSolver::on(&spec.build().map_err(|error| error.to_string())?);
+    let solution = solver.solve(point, lubricant, Start::Cold, observer).map_err(|error| error.to_string())?;
+    if solution.converged() { Ok(solver.judged(solution)) } else { Err(solution.report.describe()) }
+}
+
+fn solved(point: &OperatingPoint, lubricant: Lubricant) -> Solution {
+    solved_by(point, lubricant, &()).unwrap_or_else(|ending| panic!("{:?}: {ending}", point.moes()))
+}
+
+const INCOMPRESSIBLE: Lubricant = Lubricant {
+    density: DensityLaw::Incompressible,
+    viscosity: ehl_explorer::solver::physics::lubricant::ViscosityLaw::Barus,
+    shear: ehl_explorer::solver::physics::lubricant::ShearLaw::Newtonian,
+    limiting_stress: None,
+    cavitation: ehl_explorer::solver::physics::lubricant::Cavitation::Penalty,
+    heat: None,
+};
+
+/// M h/R (2U)^(−½) of a rigid cylinder in an isoviscous film with Reynolds' condition, Martin 1916: with
+/// x = √(2Rh) tan γ the pressure is ∝ ∫(cos² γ − cos⁴ γ/cos² γ*), γ* such that it ends at zero.
+fn martin() -> f64 {
+    let n = 40_000;
+    let pressure_at = |end: f64, visit: &mut dyn FnMut(f64, f64, f64)| {
+        let step = (end + 0.5 * PI) / f64::from(n);
+        let slope = |g: f64| g.cos().powi(2) - g.cos().powi(4) / end.cos().powi(2);
+        let mut pressure = 0.0;
+        for k in 0..n {
+            let g = -0.5 * PI + step * f64::from(k);
+            let middle = pressure + 0.5 * step * slope(g + 0.25 * step);
+            visit(g + 0.5 * step, middle, step);
+            pressure += step * slope(g + 0.5 * step);
+        }
+        pressure
+    };
+    let (mut low, mut high) = (0.1, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if pressure_at(middle, &mut |_, _, _| {}) > 0.0 { low = middle } else { high = middle }
+    }
+    // dp/dγ = 12 η u_m √(2Rh)/h² (…), and dx = √(2Rh)/cos² γ dγ: w = 24 η u_m R/h ∫ … dγ.
+    let mut integral = 0.0;
+    pressure_at(low, &mut |g, p, step| integral += p * step / g.cos().powi(2));
+    12.0 * integral
+}
+
+#[test]
+fn a_light_line_contact_has_martins_film() {
+    let known = martin();
+    assert!((known - 2.4475).abs() < 1e-3, "{known}");
+    for m in [1e-4, 0.01, 0.1] {
+        let solution = solved(&contact(ContactKind::Line, m, 0.0), INCOMPRESSIBLE);
+        // H in a²/R = (8M/π) √(2U) R, and the smallest film counts.
+        let film = solution.scalars.h_min * 8.0 * m / PI * m;
+        // The ends of the domain may cost 1.2 %, the spacing a little more.
+        let bar = 0.018 + m;
+        assert!((film / known - 1.0).abs() < bar, "M {m}: {film} instead of {known}, {:?}", solution.grid_cost);
+    }
+}
+
+#[test]
+fn a_light_ball_has_the_film_of_rigid_spheres() {
+    // Brewe, Hamrock & Taylor 1979, minimum film: h/R = 32 φ² (0.131 atan ½ + 1.683)²/4 · (2U)²/W² …, as (h/R)(2U)^(−½) = c/M².
+    let side = (0.131 * 0.5f64.atan() + 1.683) / (1.0 + 2.0 / 3.0);
+    let known = 32.0 * side * side;
+    for m in [0.3, 0.5] {
+        let solution = solved(&contact(ContactKind::Point, m, 0.0), INCOMPRESSIBLE);
+        let film = solution.scalars.h_c * (1.5 * m).powf(2.0 / 3.0) * m * m;
+        println!("M {m}: {film} against {known}");
+        assert!((film / known - 1.0).abs() < 0.04, "M {m}: {film} instead of {known}");
+        assert!(solution.scalars.load_residual < 1e-6, "{:?}", solution.scalars);
+    }
+}
+
+#[test]
+fn soft_contacts_have_the_films_of_the_isoviscous_elastic_regime() {
+    // R, u_m, w, E′, η₀ of a silicone ball and of an artificial hip, whose thin film takes minutes.
+    let contacts = [
+        ([9.5e-3, 0.1, 1.3, 4.8e6 / 0.75, 0.1, 0.0], 5520e-9),
+        ([1.974, 0.014, 2500.0, 2.0e9 / 0.84, 0.0025, 0.0], 167e-9),
+    ];
+    for (quantities, formula) in contacts.into_iter().take(if long() { 2 } else { 1 }) {
+        let point = OperatingPoint::from_quantities(ContactKind::Point, quantities, Sliding::NONE);
+        let film = solved(&point, Lubricant::default()).scalars.h_c * point.film_scale_m();
+        assert!((film / formula - 1.0).abs() < 0.25, "{film:e} against {formula:e}");
+    }
+    for m in [1e3, 1e5, 1e6] {
+        let solution = solved(&contact(ContactKind::Line, m, 0.0), INCOMPRESSIBLE);
+        let formula = FilmShape::Line.film(Moes { m, l: 0.0 }) * PI / (8.0 * m);
+        println!("M {m}: {} against {formula}, {:?}", solution.scalars.h_c, solution.grid_cost);
+        assert!(
+            (solution.scalars.h_c / formula - 1.0).abs() < 0.1,
+            "M {m}: {} against {formula}",
+            solution.scalars.h_c
+        );
+        assert!(solution.grid_warning().is_none(), "M {m}: {:?}", solution.grid_cost);
+    }
+}
+
+/// Case E: no cold start reaches it.
+#[test]
+fn a_walk_reaches_what_no_cold_start_does_says_where_it_is_and_ends_when_it_is_told() {
+    struct Heard(Mutex<Vec<WalkStep>>, AtomicBool, usize);
+    impl Observer for Heard {
+        fn walk_step(&self, step: &WalkStep) {
+            let mut steps = self.0.lock().unwrap();
+            steps.push(*step);
+            if steps.len() >= self.2 {
+                self.1.store(true, Ordering::Relaxed);
+            }
+        }
+        fn cancelled(&self) -> bool {
+            self.1.load(Ordering::Relaxed)
+        }
+    }
+    let heard = |most| Heard(Mutex::default(), AtomicBool::new(false), most);
+    let at =
+        |m| OperatingPoint { load: contact(ContactKind::Point, m, 4.0).load, ..contact(ContactKind::Point, m, 4.0) };
+    let (point, all) = (at(3500.0), heard(usize::MAX));
+    let solution = solved_by(&point, Lubricant::default(), &all).unwrap();
+    let steps = all.0.into_inner().unwrap();
+    assert!(steps.len() > 1 && steps.windows(2).all(|pair| pair[0].reached.m <= pair[1].reached.m), "{steps:?}");
+    assert!(steps[0].to_string().starts_with("walking to M 3500, L 4: at M 200"), "{}", steps[0]);
+    let formula = FilmShape::CIRCLE.film(point.moes()) * (1.5 * point.moes().m).powf(-2.0 / 3.0);
+    assert!((solution.scalars.h_c / formula - 1.0).abs() < 0.2, "{} against {formula}", solution.scalars.h_c);
+    let cancelled = solved_by(&point, Lubricant::default(), &heard(1)).unwrap_err();
+    assert_eq!(cancelled, "was cancelled");
+}
+
+#[test]
+fn an_isothermal_film_does_not_feel_that_one_surface_runs_backwards() {
+    let rolling = contact(ContactKind::Line, 40.0, 8.0);
+    let sliding = Sliding { slide_to_roll_ratio: 8.0, ..Sliding::NONE };
+    let reversing = OperatingPoint { sliding, ..rolling };
+    let [u1, u2] = reversing.surface_speeds();
+    assert!(u1 < 0.0 && (0.5 * (u1 + u2) / rolling.speed_m_per_s - 1.0).abs() < 1e-12);
+    let films = [rolling, reversing].map(|point| solved(&point, Lubricant::default()).scalars.h_c);
+    assert_eq!(films[0], films[1]);
+}
+
+/// A contact that exists, drawn by M and L; none where bodies would not carry it.
+fn drawn(rng: &mut Rng, kind: ContactKind, (low, high): (f64, f64), most_l: f64) -> Option<OperatingPoint> {
+    let m = low * (high / low).powf(rng.f64());
+    let l = most_l * rng.f64();
+    let alpha = 5e-9 * 6f64.powf(rng.f64());
+    let request = MoesRequest { alpha_per_pa: Some(alpha), ..MoesRequest::new(kind, m, l) };
+    si_from_moes(&request).ok().filter(|point| kind == ContactKind::Point || point.hertz().pressure_pa <= STRONGEST)
+}
+
+/// How many of so many random contacts converge.
+fn converging(count: usize, most_failures: f64, mut draw: impl FnMut() -> Option<OperatingPoint>) {
+    let mut failures = Vec::new();
+    for _ in 0..count {
+        let point = std::iter::repeat_with(&mut draw).flatten().next().unwrap();
+        if let Err(ending) = solved_by(&point, Lubricant::default(), &()) {
+            let Moes { m, l } = Problem::new(&point, Lubricant::default()).unwrap().moes;
+            let failure = format!("M {m}, L {l}, R_y/R {}: {ending}", point.radius_ratio());
+            println!("{failure}");
+            failures.push(failure);
+        }
+    }
+    println!("{} of {count} converge", count - failures.len());
+    assert!(failures.len() as f64 <= most_failures * count as f64, "{failures:#?}");
+}
+
+#[test]
+fn random_line_contacts_that_exist_converge() {
+    let mut rng = Rng::with_seed(59);
+    converging(cases(10, 1000), 0.005, || {
+        // Heavily loaded ones exist for small L only.
+        let most = 40.0 * rng.f64();
+        drawn(&mut rng, ContactKind::Line, (0.1, 1e5), most)
+    });
+}
+
+#[test]
+fn random_circles_that_exist_converge() {
+    let mut rng = Rng::with_seed(60);
+    // Heavily loaded ones take minutes.
+    let m = (0.3, if long() { 1e4 } else { 300.0 });
+    converging(cases(1, 150), 0.01, || drawn(&mut rng, ContactKind::Point, m, 40.0));
+}
+
+#[test]
+fn random_ellipses_that_exist_converge() {
+    let mut rng = Rng::with_seed(61);
+    converging(cases(1, 60), 0.02, || {
+        let point = drawn(&mut rng, ContactKind::Point, (10.0, 1e3), 20.0)?;
+        let ratio = 0.05 * 4000f64.powf(rng.f64());
+        Some(OperatingPoint { radius_y_m: Some(ratio * point.radius_m), ..point })
+    });
+}
