@@ -4,6 +4,7 @@ use crate::scene::named_lubricant::NAMED;
 use crate::scene::{ContactSpec, Field, Words};
 use clap::builder::{PossibleValue, PossibleValuesParser, ValueParser};
 use clap::error::ErrorKind;
+use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 use std::path::PathBuf;
 
@@ -63,6 +64,8 @@ impl FromArgMatches for PointOptions {
             let name = field.facts().name;
             let text = match field.is_switch() {
                 true => matches.get_flag(name).then_some("yes"),
+                // A default is not a statement: it would contradict what is stated by other options.
+                false if matches.value_source(name) == Some(ValueSource::DefaultValue) => None,
                 false => matches.get_one::<String>(name).map(String::as_str),
             };
             let refused =

@@ -128,7 +128,7 @@ mod tests {
             ("T,load\n0,1\n1,\n", 3, "`load` is missing"),
             ("T,load\n0,1\n1,NaN\n", 3, "finite"),
             ("T,load\n0,1\nx,1\n", 3, "`T` is `x`"),
-            ("T,load\n0,1\n2,1\n2,1\n", 4, "must be greater than 2"),
+            ("T,load\n0,1\n2,1\n2,1\n", 4, "must be greater than the previous 2"),
             ("T,load\n0,1\n1,-0.5\n", 3, "above zero"),
         ] {
             let (seen, problem) = parse_into(&mut Inputs::default(), text).unwrap_err();

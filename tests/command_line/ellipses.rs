@@ -40,8 +40,8 @@ fn what_is_no_ellipse_is_refused_in_one_sentence() {
         ("-0.05", "convex together in both directions"),
         ("0", "convex together"),
         ("NaN", "radius-y is NaN"),
-        ("5", "radius ratio R_y/R_x is 500"),
-        ("1e-5", "must be a finite number between 1e-1 and 4e1"),
+        ("10", "radius ratio R_y/R_x is 1000"),
+        ("1e-5", "must be a finite number between 2e-2 and 5e2"),
     ] {
         assert_refused(&[&POINT[..], &["--radius-y", radius_y]].concat(), words);
     }

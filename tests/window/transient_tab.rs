@@ -113,8 +113,8 @@ fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
 
 #[test]
 fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
-    // A load that falls to a millionth within one step.
-    let inputs = "load: Sampled(times: [0.0, 1.0, 1.01, 2.0], values: [1.0, 1.0, 1e-6, 1e-6])";
+    // The load falls below all accepted contacts within one step.
+    let inputs = "load: Sampled(times: [0.0, 1.0, 1.01, 2.0], values: [1.0, 1.0, 1e-9, 1e-9])";
     let (mut harness, folder) = open("refused", &scene(inputs, 2.0, "Fixed"));
     run_in_time(&mut harness);
     assert!(shows(&harness, "could not take the step") || shows(&harness, "stopped at T ="), "it is said");

@@ -185,7 +185,7 @@ mod tests {
         assert!(document.bodies_in_force().is_some() && document.holds(Quantity::RadiusY));
         let said = document.set_bodies(pair(-4.5e-3)).unwrap_err();
         assert!(said.contains("across the rolling direction") && said.contains("beyond -0.0047625 m"), "{said}");
-        let said = document.set_bodies(pair(-4.8e-3)).unwrap_err();
+        let said = document.set_bodies(pair(-4.763e-3)).unwrap_err();
         assert!(said.contains("R_y/R_x"), "{said}");
         document.set_shape(Shape::Roller).unwrap();
         document.set_bodies(pair(-4.953e-3)).unwrap();

@@ -123,6 +123,6 @@ mod tests {
         let radius_y = document.point.radius_y_m;
         document.type_quantity(Quantity::Radius, 1.1 * document.point.radius_m).unwrap();
         assert_eq!(document.point.radius_y_m, radius_y);
-        assert!(document.set_quantity(Quantity::RadiusRatio, 100.0).unwrap_err().contains("between"));
+        assert!(document.set_quantity(Quantity::RadiusRatio, 1000.0).unwrap_err().contains("between"));
     }
 }

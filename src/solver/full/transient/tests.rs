@@ -157,7 +157,7 @@ fn what_was_computed_before_an_end_is_kept() {
     assert_eq!(trajectory.ended, Ended::Cancelled { time: trajectory.moments[5].time });
 
     // A load that leads to a contact outside the accepted range.
-    let jump = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-3] };
+    let jump = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-9] };
     let trajectory = solve(COARSE, &Transient { inputs: Inputs::load(jump), ..case_1(0.5, 0.01) }, &()).unwrap();
     let sentence = trajectory.ended.describe();
     assert!(sentence.contains("T = 0.11") && sentence.contains("kept"), "{sentence}");
@@ -195,7 +195,7 @@ fn a_step_that_no_part_of_can_be_taken_ends_the_march() {
 
 #[test]
 fn a_controlled_march_that_stops_early_has_the_error_of_the_part_that_it_reached() {
-    let fall = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-3] };
+    let fall = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-9] };
     let time_step = TimeStep::Controlled(0.02);
     let transient = Transient { inputs: Inputs::load(fall), time_step, ..case_1(0.5, 0.01) };
     let mut model = FullMarch::new(COARSE.line().unwrap(), &transient).unwrap();
