@@ -97,12 +97,11 @@ impl<S: NewtonSpace> Solver<S> {
         &self.reference
     }
 
-    /// Solves one contact. A failed start is followed by others and at last by continuation from an easier contact; the
-    /// solution's report says how it ended. A solution that has not converged holds the last state and must not be
-    /// shown as a result.
+    /// Solves one contact. After a failed start it tries further ones and finally continuation from an easier
+    /// contact. The solution's report contains the outcome. A solution that has not converged contains the last state
+    /// and must not be shown as a result.
     ///
-    /// # Errors
-    /// When the operating point or the lubricant is refused, or it is of the other kind.
+    /// # Errors If the operating point or the lubricant is refused, or if the contact is of the other kind.
     pub fn solve(
         &mut self,
         point: &OperatingPoint,
@@ -114,10 +113,9 @@ impl<S: NewtonSpace> Solver<S> {
         self.solve_problem(Problem::new(point, lubricant)?, start, observer)
     }
 
-    /// The same for a problem that exists already, under sliding for instance.
+    /// Solves an existing problem, for instance one with other sliding.
     ///
-    /// # Errors
-    /// When it is of the other kind.
+    /// # Errors If the problem is of the other kind.
     pub fn solve_problem(
         &mut self,
         problem: Problem,
@@ -134,7 +132,8 @@ impl<S: NewtonSpace> Solver<S> {
             None => S::COLD_FILMS.map(|film| Beginning::Cold(film, 1.0)),
             Some(_) => MENISCI.map(|rise| Beginning::Cold(S::COLD_FILMS[0], rise)),
         };
-        // Far from the middle of the map a second cold start fails as the first one did, and farther out every one.
+        // Far from the middle of the map, a second cold start fails like the first one. Farther out, every cold start
+        // fails.
         let load = problem.load_as_a_circle();
         let cold_starts = match load {
             _ if problem.supply.is_some() || load <= S::COLD_M.0 => cold.len(),
@@ -159,10 +158,9 @@ impl<S: NewtonSpace> Solver<S> {
         Ok(solution)
     }
 
-    /// Takes a few undamped Newton steps from fields on this grid, by which their error can be judged.
+    /// Takes a few Newton steps from fields on this grid, by which their error can be estimated.
     ///
-    /// # Errors
-    /// When the kernel of the contact's shape cannot be built.
+    /// # Errors If the kernel of the contact's shape cannot be built.
     pub fn corrected(&mut self, fields: &Solution, options: &SolveOptions<S::Control>) -> Result<Solution, SolveError> {
         let mut system = self.system_for(&fields.problem)?;
         system.set_pressure(&fields.problem, &fields.pressure);
@@ -174,10 +172,9 @@ impl<S: NewtonSpace> Solver<S> {
         self.solution(fields.problem, report)
     }
 
-    /// The system prepared at a cold start, for whoever iterates it in another way (the dense baseline).
+    /// Returns the system prepared for a cold start, for other iterations such as the dense baseline.
     ///
-    /// # Errors
-    /// When the operating point or the lubricant is refused.
+    /// # Errors If the operating point or the lubricant is refused.
     pub fn cold_system(
         &self,
         point: &OperatingPoint,
@@ -190,11 +187,10 @@ impl<S: NewtonSpace> Solver<S> {
         Ok((system, problem))
     }
 
-    /// The system on the grid in the form that a problem makes of it: the kept one where it has that form. Another one
-    /// has other coefficients.
+    /// Returns the system on the grid in the form that a problem requires. The stored system is reused if it has that
+    /// form; another form has other coefficients.
     ///
-    /// # Errors
-    /// When the kernel of that form cannot be built.
+    /// # Errors If the kernel of that form cannot be built.
     pub(super) fn system_for(&mut self, problem: &Problem) -> Result<System<S>, SolveError> {
         let form = S::form_of(&self.reference, problem);
         match self.system.take() {
@@ -203,7 +199,8 @@ impl<S: NewtonSpace> Solver<S> {
         }
     }
 
-    /// One run of Newton's method, which counts in the report, up to `most` iterations of all runs together.
+    /// Runs Newton's method once and adds its effort to the report. `most` limits the iterations of all runs
+    /// together.
     pub(super) fn attempt(
         &mut self,
         problem: &Problem,
@@ -221,10 +218,10 @@ impl<S: NewtonSpace> Solver<S> {
         }
         let left = |report: &Report| most.saturating_sub(report.newton_iterations).min(self.options.max_newton);
         let by_complementarity = match problem.lubricant.cavitation {
-            // Near a flooded film, for which complementarity is the surer way.
+            // Start near a flooded film, for which complementarity is more robust.
             Cavitation::MassConserving { .. } => !system.is_starved(),
-            // The front of a wide ellipse takes three times as many steps to where it belongs.
-            // So does that of a film much longer than the contact.
+            // For wide ellipses, and for films much longer than the contact, the penalty moves the cavitation
+            // boundary to its position in about three times as many steps.
             Cavitation::Penalty => {
                 let far = problem.point.is_elliptic() || system.space.grid().continues();
                 far && matches!(beginning, Beginning::Cold(..))
