@@ -19,7 +19,7 @@ pub enum TractionDoubt {
     /// α* p_H, which exceeds [`PLAUSIBLE_EXPONENT`] without a limiting stress. α* is the reciprocal asymptotic
     /// isoviscous pressure coefficient, p_H the Hertzian pressure.
     Exponent(f64),
-    /// The coefficient itself, beyond [`PLAUSIBLE_TRACTION`].
+    /// Traction coefficient, which exceeds [`PLAUSIBLE_TRACTION`].
     Coefficient(f64),
     /// Shear stress at the maximum pressure, which exceeds the stress that a lubricant can carry there.
     Stress {
@@ -59,7 +59,7 @@ impl Display for TractionDoubt {
 /// Shear along X at one point of the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shear {
-    /// τ_zx \[Pa\].
+    /// Shear stress τ_zx \[Pa\].
     pub stress_pa: f64,
     /// Shear rate ∂u/∂z \[1/s\].
     pub rate_per_s: f64,
