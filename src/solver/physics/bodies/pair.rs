@@ -8,13 +8,13 @@ use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint,
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Why two bodies make no contact.
+/// Reason why two bodies do not form a contact.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BodyError {
-    /// A radius is zero or no number.
+    /// A radius is zero or not a number.
     #[error("a radius is {0} m; it must be a finite number other than 0, negative for a concave surface")]
     Radius(f64),
-    /// The surfaces do not touch in one spot.
+    /// The surfaces do not touch in one point or line.
     #[error(
         "these radii touch in no one spot: a concave surface must be flatter than the convex one in it, and two planes are none"
     )]
@@ -25,18 +25,18 @@ pub enum BodyError {
         Across(*.0), Across(*.1), accepted_across(*.0, *.1)
     )]
     ConformingAcross(f64, f64),
-    /// Elastic constants that no solid has.
+    /// Elastic constants outside the accepted range.
     #[error(transparent)]
     Material(#[from] ContactError),
-    /// Neither surface carries oil into the contact.
+    /// Neither surface carries lubricant into the contact.
     #[error("surface speeds of {0} m/s and {1} m/s carry no oil into the contact: their mean must be above zero")]
     Entrainment(f64, f64),
-    /// A roughness below zero, or both zero.
+    /// A roughness is negative, or both are zero.
     #[error("a roughness of {0} m and {1} m gives no film ratio: both must be at least 0 and one above")]
     Roughness(f64, f64),
 }
 
-/// A radius across the rolling direction in a sentence.
+/// Radius across the rolling direction as part of a message.
 struct Across(f64);
 
 impl fmt::Display for Across {
@@ -45,7 +45,7 @@ impl fmt::Display for Across {
     }
 }
 
-/// What would part two surfaces that do not.
+/// Returns the accepted radii for two surfaces that do not separate across the rolling direction.
 fn accepted_across(first: f64, second: f64) -> String {
     let convex = first.max(second);
     if convex.is_finite() && convex > 0.0 {
@@ -60,7 +60,7 @@ fn accepted_across(first: f64, second: f64) -> String {
 #[serde(transparent)]
 pub struct Bodies(pub [Body; 2]);
 
-/// Sum of the curvatures of two surfaces by their radii \[m\] \[1/m\].
+/// Returns the sum of curvatures \[1/m\] of two surfaces with the given radii \[m\].
 fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
     let curvature = |radius: f64| {
         if radius.is_finite() && radius != 0.0 { Ok(1.0 / radius) } else { Err(BodyError::Radius(radius)) }
@@ -88,19 +88,17 @@ impl Bodies {
         Self([body(Some(radius_m), first), body(None, second)])
     }
 
-    /// Reduced radius R along the rolling direction \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
+    /// Returns the reduced radius R along the rolling direction \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
     ///
-    /// # Errors
-    /// A radius of zero, or a concave surface that is not flatter than the convex one in it.
+    /// # Errors If a radius is zero, or a concave surface is not flatter than the convex one.
     pub fn reduced_radius_m(&self) -> Result<f64, BodyError> {
         let radius = 1.0 / curvatures(self.0.map(|body| body.radius_m))?;
         if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
     }
 
-    /// Reduced radius R_y across the rolling direction \[m\], by the same rule.
+    /// Returns the reduced radius R_y across the rolling direction \[m\], by the same rule.
     ///
-    /// # Errors
-    /// A radius of zero, or a groove that is not flatter than what runs in it.
+    /// # Errors If a radius is zero, or a groove is not flatter than the body in it.
     pub fn reduced_transverse_radius_m(&self) -> Result<f64, BodyError> {
         let radii = self.0.map(|body| body.transverse_radius_m());
         let radius = 1.0 / curvatures(radii)?;

@@ -17,20 +17,20 @@ pub struct FilmAsymptotes {
     pub elastic_piezoviscous: f64,
 }
 
-/// The shape that a film formula is of.
+/// Shape of contact for a film-thickness formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FilmShape {
-    /// A line contact.
+    /// Line contact.
     Line,
-    /// An ellipse with radii R_y/R across and along the rolling direction, a circle where that is 1.
+    /// Elliptical contact with radii R_y/R across and along the rolling direction; circular if the ratio is 1.
     Ellipse(f64),
 }
 
 impl FilmShape {
-    /// A circle.
+    /// Circular contact.
     pub const CIRCLE: Self = Self::Ellipse(1.0);
 
-    /// That of a contact.
+    /// Returns the shape of a contact.
     pub fn of(point: &OperatingPoint) -> Self {
         match point.kind {
             ContactKind::Line => Self::Line,
@@ -101,7 +101,7 @@ pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
 pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
     let a = FilmAsymptotes::of_ellipse(radius_ratio, moes);
     let s = 1.5 * (1.0 + (-1.2 * a.elastic_isoviscous / a.elastic_piezoviscous).exp());
-    // The isoviscous elastic asymptote is cut off where the contact is rigid.
+    // The isoviscous-elastic asymptote is limited where the contact is rigid.
     let rigid = 1.8 * radius_ratio;
     let iso = a.rigid_isoviscous.powf(1.5) + (a.elastic_isoviscous.powi(-4) + rigid.powi(-4)).powf(-0.375);
     let piezo = a.rigid_piezoviscous.powi(-8) + a.elastic_piezoviscous.powi(-8);
@@ -112,7 +112,7 @@ pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
 pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {
     let film = moes_film(kind, moes);
     match kind {
-        // (a/R)² = (8/π) M √(2U) of a line, (3M/2)^⅔ √(2U) of a circle, and h/R = Ĥ √(2U).
+        // (a/R)² = (8/π) M √(2U) of a line contact, (3M/2)^⅔ √(2U) of a circular contact, and h/R = Ĥ √(2U).
         ContactKind::Line => film * std::f64::consts::PI / (8.0 * moes.m),
         ContactKind::Point => film * (1.5 * moes.m).powf(-2.0 / 3.0),
     }

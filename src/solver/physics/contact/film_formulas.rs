@@ -5,39 +5,40 @@ use super::film_asymptotes::{ellipse_film, moes_film};
 use super::{ContactKind, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
-/// A published formula, as the Regimes tab and the formula-comparison scene list them.
+/// Published formula, as listed in the Regimes tab and in the formula-comparison scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FilmFormula {
-    /// Moes' curve fit through the four asymptotes (central film).
+    /// Moes' curve fit through the four asymptotes (central film thickness).
     #[serde(rename = "Moes")]
     MoesLine,
-    /// Dowson & Higginson (minimum film).
+    /// Dowson & Higginson (minimum film thickness).
     DowsonHigginson,
-    /// Dowson & Toyoda (central film).
+    /// Dowson & Toyoda (central film thickness).
     DowsonToyoda,
-    /// Hamrock & Dowson, ellipses (central film).
+    /// Hamrock & Dowson, elliptical contacts (central film thickness).
     HamrockDowsonCentral,
-    /// Hamrock & Dowson, ellipses (minimum film).
+    /// Hamrock & Dowson, elliptical contacts (minimum film thickness).
     HamrockDowsonMinimum,
-    /// Nijenbanning, Venner & Moes' curve fit through the asymptotes of an ellipse (central film).
+    /// Nijenbanning, Venner & Moes' curve fit through the asymptotes of an elliptical contact (central film
+    /// thickness).
     NijenbanningVennerMoes,
-    /// Chittenden, Dowson, Dunn & Taylor, ellipses (central film).
+    /// Chittenden, Dowson, Dunn & Taylor, elliptical contacts (central film thickness).
     ChittendenCentral,
-    /// Chittenden, Dowson, Dunn & Taylor, ellipses (minimum film).
+    /// Chittenden, Dowson, Dunn & Taylor, elliptical contacts (minimum film thickness).
     ChittendenMinimum,
 }
 
-/// What a formula says of one contact.
+/// Prediction of a formula for one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmPrediction {
-    /// Film thickness h/R \[-\] times R \[m\].
+    /// Film thickness \[m\].
     pub film_m: f64,
-    /// Whether the contact lies in the range the formula was fitted to.
+    /// True if the contact lies in the range to which the formula was fitted.
     pub in_range: bool,
 }
 
 impl FilmFormula {
-    /// All formulas for a kind of contact.
+    /// Returns all formulas for a kind of contact.
     pub fn of(kind: ContactKind) -> &'static [Self] {
         match kind {
             ContactKind::Line => &Self::LINE,
@@ -45,10 +46,10 @@ impl FilmFormula {
         }
     }
 
-    /// All line-contact formulas.
+    /// All formulas for line contacts.
     pub const LINE: [Self; 3] = [Self::MoesLine, Self::DowsonHigginson, Self::DowsonToyoda];
 
-    /// All point-contact formulas.
+    /// All formulas for point contacts.
     pub const POINT: [Self; 5] = [
         Self::NijenbanningVennerMoes,
         Self::HamrockDowsonCentral,
@@ -57,12 +58,12 @@ impl FilmFormula {
         Self::ChittendenMinimum,
     ];
 
-    /// The kind of contact it was made for.
+    /// Returns the kind of contact to which it applies.
     pub fn contact(self) -> ContactKind {
         if Self::POINT.contains(&self) { ContactKind::Point } else { ContactKind::Line }
     }
 
-    /// Short name.
+    /// Returns its short name.
     pub fn name(self) -> &'static str {
         match self {
             Self::MoesLine => "Moes",
@@ -76,12 +77,12 @@ impl FilmFormula {
         }
     }
 
-    /// Whether it predicts the minimum film (else the central film).
+    /// True if it predicts the minimum film thickness; otherwise it predicts the central one.
     pub fn predicts_minimum(self) -> bool {
         matches!(self, Self::DowsonHigginson | Self::HamrockDowsonMinimum | Self::ChittendenMinimum)
     }
 
-    /// Source and range of validity in one sentence.
+    /// Returns source and range of validity in one sentence.
     pub fn source(self) -> &'static str {
         match self {
             Self::MoesLine => {
@@ -139,7 +140,7 @@ impl FilmFormula {
         }
     }
 
-    /// Whether it was made for an ellipse of these radii.
+    /// True if the formula covers elliptical contacts of these radii.
     fn holds_for(self, radius_ratio: f64) -> bool {
         match self {
             Self::HamrockDowsonCentral | Self::HamrockDowsonMinimum => (1.0..=8.0).contains(&ellipticity(radius_ratio)),
@@ -161,7 +162,7 @@ impl FilmFormula {
     }
 }
 
-/// Hamrock and Dowson's ellipticity parameter k of radii R_y/R, 1.03 of a circle.
+/// Returns Hamrock and Dowson's ellipticity parameter k of the radii R_y/R; 1.03 for a circular contact.
 fn ellipticity(radius_ratio: f64) -> f64 {
     1.03 * radius_ratio.powf(0.64)
 }

@@ -1,4 +1,4 @@
-//! A published formula for what rolling costs.
+//! Published formula for the rolling resistance.
 
 use super::{ContactKind, OperatingPoint};
 

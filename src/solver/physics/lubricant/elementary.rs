@@ -96,7 +96,7 @@ impl WithSimd for HyperbolicSines<'_> {
             (least, most) = (least.min(*t), most.max(*t));
         }
         let lanes = values.iter_mut().zip(slopes);
-        // Loops without a branch: most films lie on one side.
+        // Loops without a branch: in most films all values lie on one side.
         if most < 1.0 {
             for (value, slope) in lanes {
                 (*value, *slope) = near_sine(*value);
@@ -114,7 +114,7 @@ impl WithSimd for HyperbolicSines<'_> {
     }
 }
 
-/// By the series, which has no differences to lose, up to t = 1.
+/// Uses the series, which has no cancellation, up to t = 1.
 #[inline(always)]
 fn near_sine(t: f64) -> (f64, f64) {
     let square = t * t;
@@ -131,7 +131,7 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     sum
 }
 
-/// By the exponential, from there on.
+/// Uses the exponential for t ≥ 1.
 #[inline(always)]
 fn far_sine(t: f64) -> (f64, f64) {
     let growing = exp(t);
@@ -171,7 +171,7 @@ pub(super) fn ln(x: f64) -> f64 {
 /// exp x, held at exp(±700): nothing that is divided by it overflows.
 #[inline(always)]
 pub(super) fn exp(x: f64) -> f64 {
-    /// 1.5 · 2^52: what is added to it is rounded to a whole number, which its last bits hold.
+    /// 1.5 · 2^52: a sum with it is rounded to an integer, which its last bits contain.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     let x = if x > 700.0 { 700.0 } else { x };
     let x = if x < -700.0 { -700.0 } else { x };

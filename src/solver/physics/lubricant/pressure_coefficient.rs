@@ -34,7 +34,7 @@ pub(super) fn reciprocal_asymptotic(ambient: f64, log_viscosity: impl Fn(f64) ->
 }
 
 impl Doolittle {
-    /// α* \[1/Pa\] of this law.
+    /// Returns α* \[1/Pa\] of this law.
     pub fn reciprocal_asymptotic_coefficient(&self) -> f64 {
         reciprocal_asymptotic(self.log_viscosity(0.0).1, |p| self.log_viscosity(p).0)
     }
