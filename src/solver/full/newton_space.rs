@@ -101,7 +101,8 @@ pub trait NewtonSpace: Space + Sized {
 
     /// Builds the grid and its kernel.
     ///
-    /// # Errors If the specification is refused.
+    /// # Errors
+    /// If the specification is refused.
     fn build(spec: Self::Spec) -> Result<Self::Reference, SolveError>;
 
     /// Returns the number of unknown pressures.
@@ -115,7 +116,8 @@ pub trait NewtonSpace: Space + Sized {
 
     /// Returns the grid with 2ⁿ times the spacing, or `None` if there is no coarser grid.
     ///
-    /// # Errors If its kernel cannot be built.
+    /// # Errors
+    /// If its kernel cannot be built.
     fn coarser(_: &Self::Reference, _: i32) -> Result<Option<Self::Reference>, SolveError> {
         Ok(None)
     }
@@ -125,7 +127,8 @@ pub trait NewtonSpace: Space + Sized {
 
     /// Returns the space on a grid in the given form.
     ///
-    /// # Errors If the kernel of that form cannot be built.
+    /// # Errors
+    /// If the kernel of that form cannot be built.
     fn on(reference: &Self::Reference, form: Self::Form) -> Result<Self, SolveError>;
 
     /// Returns its form.

@@ -84,7 +84,8 @@ impl TryFrom<Stated> for Problem {
 impl Problem {
     /// Creates the problem of the same point with other sliding.
     ///
-    /// # Errors As [`Problem::new`].
+    /// # Errors
+    /// As [`Problem::new`].
     pub fn under_sliding(point: &OperatingPoint, lubricant: Lubricant, sliding: Sliding) -> Result<Self, SolveError> {
         Self::new(&OperatingPoint { sliding, ..*point }, lubricant)
     }
@@ -93,7 +94,8 @@ impl Problem {
     /// the viscosity law, the problem's point has that α instead of the given one. For a shear-thinning lubricant,
     /// its point has the plateau ratio of the law.
     ///
-    /// # Errors If the point, its sliding or the lubricant is outside its valid range.
+    /// # Errors
+    /// If the point, its sliding or the lubricant is outside its valid range.
     pub fn new(point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
         lubricant.check()?;
         // Checked before α is computed from the law, because α is meaningless beyond the law's range.

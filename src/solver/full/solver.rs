@@ -82,7 +82,8 @@ pub type PointSolver = Solver<PlaneSpace>;
 impl<S: NewtonSpace> Solver<S> {
     /// Creates a solver on the grid of a specification.
     ///
-    /// # Errors If the specification is refused.
+    /// # Errors
+    /// If the specification is refused.
     pub fn new(spec: S::Spec) -> Result<Self, SolveError> {
         Ok(Self::on(S::build(spec)?))
     }
@@ -101,7 +102,8 @@ impl<S: NewtonSpace> Solver<S> {
     /// contact. The solution's report contains the outcome. A solution that has not converged contains the last state
     /// and must not be shown as a result.
     ///
-    /// # Errors If the operating point or the lubricant is refused, or if the contact is of the other kind.
+    /// # Errors
+    /// If the operating point or the lubricant is refused, or if the contact is of the other kind.
     pub fn solve(
         &mut self,
         point: &OperatingPoint,
@@ -115,7 +117,8 @@ impl<S: NewtonSpace> Solver<S> {
 
     /// Solves an existing problem, for instance one with other sliding.
     ///
-    /// # Errors If the problem is of the other kind.
+    /// # Errors
+    /// If the problem is of the other kind.
     pub fn solve_problem(
         &mut self,
         problem: Problem,
@@ -160,7 +163,8 @@ impl<S: NewtonSpace> Solver<S> {
 
     /// Takes a few Newton steps from fields on this grid, by which their error can be estimated.
     ///
-    /// # Errors If the kernel of the contact's shape cannot be built.
+    /// # Errors
+    /// If the kernel of the contact's shape cannot be built.
     pub fn corrected(&mut self, fields: &Solution, options: &SolveOptions<S::Control>) -> Result<Solution, SolveError> {
         let mut system = self.system_for(&fields.problem)?;
         system.set_pressure(&fields.problem, &fields.pressure);
@@ -174,7 +178,8 @@ impl<S: NewtonSpace> Solver<S> {
 
     /// Returns the system prepared for a cold start, for other iterations such as the dense baseline.
     ///
-    /// # Errors If the operating point or the lubricant is refused.
+    /// # Errors
+    /// If the operating point or the lubricant is refused.
     pub fn cold_system(
         &self,
         point: &OperatingPoint,
@@ -190,7 +195,8 @@ impl<S: NewtonSpace> Solver<S> {
     /// Returns the system on the grid in the form that a problem requires. The stored system is reused if it has that
     /// form; another form has other coefficients.
     ///
-    /// # Errors If the kernel of that form cannot be built.
+    /// # Errors
+    /// If the kernel of that form cannot be built.
     pub(super) fn system_for(&mut self, problem: &Problem) -> Result<System<S>, SolveError> {
         let form = S::form_of(&self.reference, problem);
         match self.system.take() {
@@ -398,7 +404,8 @@ impl ContactSolver {
 
     /// Solves one contact, as [`Solver::solve`] does.
     ///
-    /// # Errors If the operating point or the lubricant is refused, or if the contact is of the other kind.
+    /// # Errors
+    /// If the operating point or the lubricant is refused, or if the contact is of the other kind.
     pub fn solve(
         &mut self,
         point: &OperatingPoint,
@@ -414,7 +421,8 @@ impl ContactSolver {
 
     /// Solves an existing problem.
     ///
-    /// # Errors If the problem is of the other kind.
+    /// # Errors
+    /// If the problem is of the other kind.
     pub fn solve_problem(
         &mut self,
         problem: Problem,
@@ -441,7 +449,8 @@ impl ContactSolver {
     /// the steps are not damped: near a solution the penalty makes the residual jump, and damping by the residual
     /// would hide the error.
     ///
-    /// # Errors If the kernel of the contact's shape cannot be built.
+    /// # Errors
+    /// If the kernel of the contact's shape cannot be built.
     pub fn corrected(&mut self, fields: &Solution, steps: usize) -> Result<Solution, SolveError> {
         match self {
             Self::Line(solver) => {

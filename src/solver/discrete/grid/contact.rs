@@ -63,7 +63,8 @@ impl GridSpec {
 
     /// Builds the grid and its kernel. This is expensive and done once per specification.
     ///
-    /// # Errors If the specification is refused.
+    /// # Errors
+    /// If the specification is refused.
     pub fn build(&self) -> Result<ContactGrid, GridError> {
         Ok(match self {
             Self::Uniform { .. } | Self::Graded { .. } | Self::Following { .. } => ContactGrid::Line(self.line()?),

@@ -209,7 +209,8 @@ impl GridSpec {
     /// Returns the explorer's grid for a line contact: [`GridSpec::EXPLORER`] if it is sufficient, otherwise one with
     /// a longer domain, by powers of two, or with more nodes.
     ///
-    /// # Errors If no such grid resolves the film.
+    /// # Errors
+    /// If no such grid resolves the film.
     fn line_for(moes: Moes) -> Result<Self, GridError> {
         let Self::Graded { nodes, domain, registered } = Self::EXPLORER else { return Ok(Self::EXPLORER) };
         let fit = Fit::line(moes);
@@ -236,7 +237,8 @@ impl PointGridSpec {
     /// along X. The grid of a circular contact keeps its number of nodes except for thick films. That of an
     /// elliptical contact keeps its spacing.
     ///
-    /// # Errors If no such grid resolves the film.
+    /// # Errors
+    /// If no such grid resolves the film.
     pub fn for_contact(self, point: &OperatingPoint) -> Result<Self, GridError> {
         let fit = Fit::of(point);
         let Some(Stretched { domain, times, cells }) = self.domain_for(&fit) else {
@@ -357,7 +359,8 @@ impl GridSpec {
 
     /// Returns the explorer's grid for a contact.
     ///
-    /// # Errors If no grid of its kind resolves the film.
+    /// # Errors
+    /// If no grid of its kind resolves the film.
     pub fn explorer_for(point: &OperatingPoint) -> Result<Self, GridError> {
         match point.kind {
             ContactKind::Line => Self::line_for(point.moes()),

@@ -61,8 +61,8 @@ impl GridSpec {
 
     /// Builds the reference grid of line contacts and its kernel. This is expensive and done once per specification.
     ///
-    /// # Errors If the domain cuts the contact, the number of nodes is out of range, or it is a grid of point
-    /// contacts.
+    /// # Errors
+    /// If the domain cuts the contact, the number of nodes is out of range, or it is a grid of point contacts.
     pub fn line(&self) -> Result<Arc<ReferenceGrid>, GridError> {
         let xi = self.line_nodes()?;
         Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)?))
@@ -70,7 +70,8 @@ impl GridSpec {
 
     /// Checks the specification without building the grid.
     ///
-    /// # Errors As [`GridSpec::build`].
+    /// # Errors
+    /// As [`GridSpec::build`].
     pub fn check(&self) -> Result<(), GridError> {
         match self {
             Self::Uniform { .. } | Self::Graded { .. } | Self::Following { .. } => self.line_nodes().map(|_| ()),
@@ -383,7 +384,8 @@ fn following_cells(zone: f64, a: f64, b: f64) -> f64 {
 
 /// Returns the abscissae, and the one outside, that equidistribute 1/spacing. One of them lies at ξ = 1.
 ///
-/// # Errors If there would be too many nodes.
+/// # Errors
+/// If there would be too many nodes.
 fn following_nodes(zone: f64, cell: f64, (from, to): (f64, f64)) -> Result<Vec<f64>, GridError> {
     let next = |x: f64, sign: f64| {
         let mut y = x + sign * cell * following_spacing(zone, x);

@@ -69,7 +69,8 @@ impl PointGridSpec {
 
     /// Returns the number of nodes along X and across, boundaries and axis included.
     ///
-    /// # Errors If the domain cuts the contact, or the spacing is too wide or too narrow.
+    /// # Errors
+    /// If the domain cuts the contact, or the spacing is too wide or too narrow.
     pub fn nodes(&self) -> Result<(usize, usize), GridError> {
         let (from, to, edge) = self.domain;
         let along = (-LONGEST_INLET..=-1.5).contains(&from) && (1.2..=LONGEST_OUTLET).contains(&to);
@@ -146,7 +147,8 @@ impl PointGridSpec {
     /// Checks the specification as [`PointGridSpec::build`] does, without building the grid. Returns the number of
     /// nodes.
     ///
-    /// # Errors If the domain cuts the contact, or the grid is too coarse for it or too fine for the memory.
+    /// # Errors
+    /// If the domain cuts the contact, or the grid is too coarse for it or too fine for the memory.
     pub fn check(&self) -> Result<(usize, usize), GridError> {
         let (nx, ny) = self.nodes()?;
         let bytes = Self::bytes(nx, ny);
@@ -170,7 +172,8 @@ impl PointGridSpec {
 
     /// Builds the grid and its kernel. This is expensive and done once per specification.
     ///
-    /// # Errors If the domain cuts the contact, or the grid is too coarse for it or too fine for the memory.
+    /// # Errors
+    /// If the domain cuts the contact, or the grid is too coarse for it or too fine for the memory.
     pub fn build(&self) -> Result<Arc<PointGrid>, GridError> {
         let (nx, ny) = self.check()?;
         let (from, to, _) = self.domain;
@@ -227,7 +230,8 @@ impl PointGrid {
 
     /// Returns the same nodes in the semi-axes of an ellipse, with its kernel, or this grid if it has that ellipse.
     ///
-    /// # Errors If the kernel cannot be transformed.
+    /// # Errors
+    /// If the kernel cannot be transformed.
     pub fn of_ellipse(self: &Arc<Self>, ellipse: Ellipse) -> Result<Arc<Self>, GridError> {
         if ellipse == self.ellipse {
             return Ok(Arc::clone(self));

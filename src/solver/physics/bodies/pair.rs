@@ -90,7 +90,8 @@ impl Bodies {
 
     /// Returns the reduced radius R along the rolling direction \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
     ///
-    /// # Errors If a radius is zero, or a concave surface is not flatter than the convex one.
+    /// # Errors
+    /// If a radius is zero, or a concave surface is not flatter than the convex one.
     pub fn reduced_radius_m(&self) -> Result<f64, BodyError> {
         let radius = 1.0 / curvatures(self.0.map(|body| body.radius_m))?;
         if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
@@ -98,7 +99,8 @@ impl Bodies {
 
     /// Returns the reduced radius R_y across the rolling direction \[m\], by the same rule.
     ///
-    /// # Errors If a radius is zero, or a groove is not flatter than the body in it.
+    /// # Errors
+    /// If a radius is zero, or a groove is not flatter than the body in it.
     pub fn reduced_transverse_radius_m(&self) -> Result<f64, BodyError> {
         let radii = self.0.map(|body| body.transverse_radius_m());
         let radius = 1.0 / curvatures(radii)?;

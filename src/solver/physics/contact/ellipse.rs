@@ -29,7 +29,8 @@ impl Ellipse {
 
     /// Returns the ellipse of R_y/R_x, accurate to rounding.
     ///
-    /// # Errors If the ratio lies outside [`Ellipse::RADIUS_RATIOS`].
+    /// # Errors
+    /// If the ratio lies outside [`Ellipse::RADIUS_RATIOS`].
     pub fn of_ratio(radius_ratio: f64) -> Result<Self, ContactError> {
         Limit { name: "radius ratio R_y/R_x", unit: "", range: Self::RADIUS_RATIOS, or_zero: false }
             .accept(radius_ratio)?;

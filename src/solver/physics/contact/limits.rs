@@ -41,7 +41,8 @@ pub const SI: [Limit; 6] = [RADIUS, SPEED, LOAD, MODULUS, VISCOSITY, ALPHA];
 impl Limit {
     /// Checks that a value lies in the range.
     ///
-    /// # Errors If it does not. The error names the quantity, its value and the accepted values.
+    /// # Errors
+    /// If it does not. The error names the quantity, its value and the accepted values.
     pub fn accept(&self, value: f64) -> Result<(), ContactError> {
         let Self { name: quantity, unit, range: (min, max), or_zero } = *self;
         let inside = (min..=max).contains(&value) || or_zero && value == 0.0;

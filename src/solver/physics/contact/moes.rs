@@ -70,7 +70,8 @@ impl MoesRequest {
 ///
 /// At L = 0, α is zero, and the speed is free as well: 1 m/s unless it, or radius and load, are fixed.
 ///
-/// # Errors If more quantities are fixed than M and L leave free, or if the result is outside the accepted range.
+/// # Errors
+/// If more quantities are fixed than M and L leave free, or if the result is outside the accepted range.
 pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactError> {
     let MoesRequest { m, l, .. } = *request;
     Moes { m, l }.check()?;

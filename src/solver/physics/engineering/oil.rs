@@ -87,7 +87,8 @@ pub struct OilState {
 impl Oil {
     /// Returns viscosity, density and α at its temperature.
     ///
-    /// # Errors If the grade, a viscosity, the temperature or the density is outside the accepted range.
+    /// # Errors
+    /// If the grade, a viscosity, the temperature or the density is outside the accepted range.
     pub fn state(&self) -> Result<OilState, OilError> {
         if !(500.0..=2000.0).contains(&self.density_15) {
             return Err(OilError::Density(self.density_15));
@@ -114,7 +115,8 @@ pub struct ViscosityTemperature {
 impl ViscosityTemperature {
     /// Creates the law through two points of temperature \[K\] and kinematic viscosity \[m²/s\].
     ///
-    /// # Errors If a point lies outside the chart, both have the same temperature, or the viscosity rises with the
+    /// # Errors
+    /// If a point lies outside the chart, both have the same temperature, or the viscosity rises with the
     /// temperature.
     pub fn through(first: (f64, f64), second: (f64, f64)) -> Result<Self, OilError> {
         let (cold, hot) = if first.0 <= second.0 { (first, second) } else { (second, first) };
@@ -135,7 +137,8 @@ impl ViscosityTemperature {
 
     /// Creates the law of a mineral oil of an ISO grade with a viscosity index of 95.
     ///
-    /// # Errors If the number is not an ISO grade.
+    /// # Errors
+    /// If the number is not an ISO grade.
     pub fn iso_vg(grade: f64) -> Result<Self, OilError> {
         let found = ISO_VG.into_iter().find(|(at_40, _)| *at_40 == grade);
         let (at_40, at_100) = found.ok_or(OilError::Grade(grade))?;
@@ -144,7 +147,8 @@ impl ViscosityTemperature {
 
     /// Returns the kinematic viscosity \[m²/s\] at a temperature \[K\].
     ///
-    /// # Errors If the temperature is outside the accepted range, or the viscosity at it is outside the chart.
+    /// # Errors
+    /// If the temperature is outside the accepted range, or the viscosity at it is outside the chart.
     pub fn at(&self, temperature_k: f64) -> Result<f64, OilError> {
         check_temperature(temperature_k)?;
         let z = 10f64.powf(10f64.powf(self.a - self.b * temperature_k.log10()));

@@ -84,7 +84,8 @@ pub const LARGEST_HEATED_SRR: f64 = 1.95;
 impl Heat {
     /// Refuses unphysical constants.
     ///
-    /// # Errors If a constant is out of range; the error names it.
+    /// # Errors
+    /// If a constant is out of range; the error names it.
     pub(super) fn check(&self, viscosity: ViscosityLaw, tait: bool) -> Result<(), LubricantError> {
         check_constant("the inlet temperature in kelvin", self.inlet_temperature, 230.0, 500.0)?;
         let oil = &self.oil;

@@ -15,7 +15,8 @@ impl ReferenceGrid {
     /// Returns the grid with every interval halved. Node k of this grid is node 2k − 1 of the finer one (k ≥ 1). The
     /// ends are unchanged.
     ///
-    /// # Errors If the refined grid would have too many nodes.
+    /// # Errors
+    /// If the refined grid would have too many nodes.
     pub fn refined(&self) -> Result<Arc<Self>, GridError> {
         let nodes = 2 * (self.xi.len() - 1) - 1;
         let (max, spec) = match self.spec {
