@@ -71,7 +71,7 @@ pub enum Quantity {
     LimitEyring,
 }
 
-/// What is said of a quantity.
+/// Definition of a quantity.
 struct Facts {
     /// Word in tables, options and messages.
     name: &'static str,
@@ -94,7 +94,8 @@ struct Facts {
 }
 
 impl Quantity {
-    /// What an operating point can be varied by; all others follow from these, or belong to lubricant and bodies.
+    /// Quantities by which an operating point can be varied. All others follow from these, or belong to lubricant and
+    /// bodies.
     pub const VARIED: [Self; 12] = [
         Self::M,
         Self::L,
@@ -110,7 +111,7 @@ impl Quantity {
         Self::NewtonianPlateauRatio,
     ];
 
-    /// The six in SI units, in the order of [`OperatingPoint::quantities`].
+    /// The six SI quantities, in the order of [`OperatingPoint::quantities`].
     pub const SI: [Self; 6] = [Self::Radius, Self::Speed, Self::Load, Self::Modulus, Self::Viscosity, Self::Alpha];
 
     #[rustfmt::skip]
@@ -349,7 +350,7 @@ impl Quantity {
     }
 }
 
-/// Steel with as much conductivity as the effusivity asks for.
+/// Returns steel with its conductivity adapted to the given effusivity.
 fn body_of_effusivity(wanted: f64) -> BodyHeat {
     let steel = BodyHeat::default();
     BodyHeat { conductivity: steel.conductivity * (wanted / steel.effusivity()).powi(2), ..steel }
