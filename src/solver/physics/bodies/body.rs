@@ -50,7 +50,8 @@ impl Body {
         Self { modulus_pa, poisson, heat, ..self }
     }
 
-    /// The same body with these thermal constants; those of a named material bring its elastic constants.
+    /// Returns the same body with these thermal constants. If they are those of a named material, the elastic
+    /// constants are set as well.
     pub fn conducting(self, heat: BodyHeat) -> Self {
         heat.material().map_or(Self { heat, ..self }, |material| self.of(material))
     }

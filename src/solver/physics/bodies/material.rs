@@ -1,4 +1,4 @@
-//! Elastic and thermal constants of materials. Each constant of a named material stands here and nowhere else.
+//! Elastic and thermal constants of materials. This is the only definition of each named material's constants.
 
 use serde::{Deserialize, Serialize};
 
@@ -82,7 +82,8 @@ impl Material {
 }
 
 impl BodyHeat {
-    /// √(kρc) \[J/(m² K √s)\]: how far a surface warms under a moving source depends on that alone.
+    /// Returns the effusivity √(kρc) \[J/(m² K √s)\]. The temperature rise of a surface under a moving source depends
+    /// on it only.
     pub fn effusivity(&self) -> f64 {
         (self.conductivity * self.density * self.heat_capacity).sqrt()
     }

@@ -19,7 +19,7 @@ pub enum BodyError {
         "these radii touch in no one spot: a concave surface must be flatter than the convex one in it, and two planes are none"
     )]
     Conforming,
-    /// The surfaces do not part across the rolling direction, where they have these radii \[m\], infinite for a plane.
+    /// The surfaces do not separate across the rolling direction. Contains their radii \[m\], infinite for a plane.
     #[error(
         "across the rolling direction the radii of {} and {} leave no positive sum of curvatures: {}",
         Across(*.0), Across(*.1), accepted_across(*.0, *.1)
@@ -70,8 +70,8 @@ fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
 }
 
 impl Bodies {
-    /// Two bodies of steel that amount to a contact: a roller or ball on a plane with the given reduced radius
-    /// \[m\], mean speed \[m/s\] and slide-to-roll ratio, both as smooth as good bearings.
+    /// Returns two steel bodies that form a contact: a roller or ball on a plane with the given reduced radius \[m\],
+    /// mean speed \[m/s\] and slide-to-roll ratio. Both are as smooth as good bearings.
     pub fn on_plane(radius_m: f64, mean_m_per_s: f64, slide_to_roll: f64) -> Self {
         let [first, second] = surface_speeds(mean_m_per_s, slide_to_roll);
         let Material { modulus_pa, poisson, heat, .. } = Material::STEEL;
@@ -111,24 +111,24 @@ impl Bodies {
         Err(BodyError::ConformingAcross(first, second))
     }
 
-    /// Reduced modulus E′ \[Pa\], 2/E′ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5).
+    /// Returns the reduced modulus E′ \[Pa\], 2/E′ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5).
     ///
     /// # Errors
-    /// Constants that no solid has.
+    /// If an elastic constant is outside the accepted range.
     pub fn reduced_modulus_pa(&self) -> Result<f64, BodyError> {
         let Self([first, second]) = self;
         Ok(reduced_modulus(first.modulus_pa, first.poisson, second.modulus_pa, second.poisson)?)
     }
 
-    /// Thermal constants of body 1 and of body 2.
+    /// Returns the thermal constants of body 1 and of body 2.
     pub fn heat(&self) -> [BodyHeat; 2] {
         self.0.map(|body| body.heat)
     }
 
-    /// Mean entrainment speed u_m \[m/s\] (2.1) and slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25).
+    /// Returns the mean entrainment speed u_m \[m/s\] (2.1) and the slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25).
     ///
     /// # Errors
-    /// Speeds whose mean is not above zero.
+    /// If the mean speed is not positive.
     pub fn entrainment(&self) -> Result<(f64, f64), BodyError> {
         let [first, second] = self.0.map(|body| body.speed_m_per_s);
         let mean = 0.5 * (first + second);
@@ -136,11 +136,12 @@ impl Bodies {
         if inside { Ok((mean, (second - first) / mean)) } else { Err(BodyError::Entrainment(first, second)) }
     }
 
-    /// The contact with these bodies' R, R_y, E′, u_m and SRR, and the rest of another one. A point contact between
-    /// bodies that are not as round across as along is elliptical; an ellipse stays one where its radii are equal.
+    /// Returns the contact with R, R_y, E′, u_m and SRR of these bodies, and all other quantities of another one. A
+    /// point contact is elliptical if the reduced radii differ. An elliptical contact remains one if they become
+    /// equal.
     ///
     /// # Errors
-    /// Bodies that make no contact.
+    /// If the bodies do not form a contact.
     pub fn contact(&self, point: OperatingPoint) -> Result<OperatingPoint, BodyError> {
         let (speed_m_per_s, slide_to_roll_ratio) = self.entrainment()?;
         let (radius_m, modulus_pa) = (self.reduced_radius_m()?, self.reduced_modulus_pa()?);
@@ -153,10 +154,10 @@ impl Bodies {
         Ok(OperatingPoint { radius_m, radius_y_m, modulus_pa, speed_m_per_s, sliding, ..point })
     }
 
-    /// Film ratio λ = h_min/√(Rq₁² + Rq₂²) of the smallest film \[m\].
+    /// Returns the film ratio λ = h_min/√(Rq₁² + Rq₂²) of the minimum film thickness h_min \[m\].
     ///
     /// # Errors
-    /// A roughness below zero, or none at all.
+    /// If a roughness is negative, or both are zero.
     pub fn film_ratio(&self, smallest_film_m: f64) -> Result<f64, BodyError> {
         let [first, second] = self.0.map(|body| body.roughness_m);
         let composite = first.hypot(second);
@@ -168,12 +169,12 @@ impl Bodies {
     }
 }
 
-/// Speeds of body 1 and of body 2 \[m/s\] at a mean speed \[m/s\] and a slide-to-roll ratio (3.25).
+/// Returns the speeds of body 1 and of body 2 \[m/s\] at a mean speed \[m/s\] and a slide-to-roll ratio (3.25).
 pub fn surface_speeds(mean_m_per_s: f64, slide_to_roll: f64) -> [f64; 2] {
     [mean_m_per_s * (1.0 - 0.5 * slide_to_roll), mean_m_per_s * (1.0 + 0.5 * slide_to_roll)]
 }
 
-/// What a film ratio means, in the limits that handbooks use.
+/// Returns the lubrication regime of a film ratio, by the limits of handbooks.
 pub fn film_regime(lambda: f64) -> &'static str {
     match lambda {
         l if l >= 3.0 => "full film: the surfaces are apart",

@@ -1,8 +1,8 @@
-//! The ellipse in which two smooth bodies touch, by Hertz's theory in Carlson's integrals.
+//! Contact ellipse of two smooth bodies by Hertz's theory, in Carlson's integrals.
 //!
-//! Lengths along X are measured in the semi-axis a, across in b = κa. The pressure √(1 − X² − Y²) flattens a gap
-//! ½X² + ½g_y Y² where a³ = 3 w R_x J_x/(π E′), κ solves J_x/J_y = R_y/R_x, and J_x = ⅔ R_D(0, κ², 1),
-//! J_y = ⅔ R_D(0, 1, κ²): Johnson, Contact Mechanics, section 4.2, in the integrals of DLMF 19.16.
+//! Lengths along X are in units of the semi-axis a, across in units of b = κa. The pressure √(1 − X² − Y²) flattens a
+//! gap ½X² + ½g_y Y² if a³ = 3 w R_x J_x/(π E′) and κ solves J_x/J_y = R_y/R_x. The integrals are J_x = ⅔ R_D(0, κ²,
+//! 1) and J_y = ⅔ R_D(0, 1, κ²). Sources: Johnson, Contact Mechanics, section 4.2; DLMF 19.16.
 
 use super::error::ContactError;
 use super::limits::Limit;

@@ -1,10 +1,10 @@
-//! The four asymptotes of a film, and Moes' fits through them: for lines, and for ellipses by Nijenbanning, Venner and
-//! Moes.
+//! The four asymptotes of the film thickness, and formulas that join them: Moes' for line contacts, and that of
+//! Nijenbanning, Venner and Moes for elliptical contacts.
 
 use super::{ContactKind, Moes, OperatingPoint};
 
-/// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as Moes' and Nijenbanning, Venner and Moes' formulas join
-/// them.
+/// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as joined by the formulas of Moes and of Nijenbanning,
+/// Venner and Moes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmAsymptotes {
     /// Rigid bodies, constant viscosity.
@@ -38,7 +38,8 @@ impl FilmShape {
         }
     }
 
-    /// Moes' film number H = (h/R)(2U)^(−1/2) of it, central film; see [`moes_film`] and [`ellipse_film`].
+    /// Returns Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness; see [`moes_film`] and
+    /// [`ellipse_film`].
     pub fn film(self, moes: Moes) -> f64 {
         match self {
             Self::Line => moes_film(ContactKind::Line, moes),
@@ -48,7 +49,8 @@ impl FilmShape {
 }
 
 impl FilmAsymptotes {
-    /// The asymptotes at M and L: of a line contact, Moes 1992; of an ellipse, Nijenbanning, Venner & Moes 1994.
+    /// Returns the asymptotes at M and L: for a line contact, Moes 1992; for an elliptical contact, Nijenbanning,
+    /// Venner & Moes 1994.
     pub fn of(shape: FilmShape, moes: Moes) -> Self {
         let Moes { m, l } = moes;
         match shape {
@@ -62,8 +64,8 @@ impl FilmAsymptotes {
         }
     }
 
-    /// The asymptotes of an ellipse with radii R_y/R = `radius_ratio` (above 0) across and along the rolling direction,
-    /// M and L with R along it: Nijenbanning, Venner & Moes 1994.
+    /// Returns the asymptotes of an elliptical contact with radii R_y/R = `radius_ratio` (above 0) across and along
+    /// the rolling direction, for M and L with R along it: Nijenbanning, Venner & Moes 1994.
     fn of_ellipse(radius_ratio: f64, Moes { m, l }: Moes) -> Self {
         let d = radius_ratio.recip();
         let g = 1.0 + 0.006 * d.ln() + 0.63 * d.powf(4.0 / 7.0);
@@ -76,11 +78,11 @@ impl FilmAsymptotes {
     }
 }
 
-/// Moes' film number H = (h/R)(2U)^(−1/2) of a kind of contact, central film.
+/// Returns Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness for a kind of contact.
 ///
-/// Line: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid. Circular point
-/// contact: [`ellipse_film`] at equal radii. Full solutions with Barus' law and no compressibility lie 8–15 % above it,
-/// with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
+/// Line contact: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid.
+/// Circular point contact: [`ellipse_film`] at equal radii. Full solutions with Barus' law and no compressibility lie
+/// 8–15 % above it, with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
 pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
     match kind {
         ContactKind::Line => {
@@ -94,10 +96,11 @@ pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
     }
 }
 
-/// Nijenbanning, Venner and Moes' film number H = (h/R)(2U)^(−1/2) of an ellipse with radii R_y/R = `radius_ratio`
-/// (above 0) across and along the rolling direction, central film.
+/// Returns Nijenbanning, Venner and Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness for an
+/// elliptical contact. `radius_ratio` (above 0) is R_y/R, the ratio of the radii across and along the rolling
+/// direction.
 ///
-/// Wear 176 (1994) 217–229: made for all conditions, its accuracy shown there for R_y/R from 1 on.
+/// Source: Wear 176 (1994) 217–229. The formula covers all regimes; its accuracy is shown there for R_y/R ≥ 1.
 pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
     let a = FilmAsymptotes::of_ellipse(radius_ratio, moes);
     let s = 1.5 * (1.0 + (-1.2 * a.elastic_isoviscous / a.elastic_piezoviscous).exp());

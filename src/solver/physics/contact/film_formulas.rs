@@ -1,5 +1,5 @@
-//! Published film-thickness formulas for line contacts and for ellipses, of which a circle is one, each with its source
-//! and range of validity.
+//! Published film-thickness formulas for line contacts and for elliptical contacts, which include circular ones, each
+//! with its source and range of validity.
 
 use super::film_asymptotes::{ellipse_film, moes_film};
 use super::{ContactKind, OperatingPoint};
@@ -112,11 +112,12 @@ impl FilmFormula {
         }
     }
 
-    /// The formula's film over the radius, h/R, in U = η₀u_m/(E′R), G = αE′ and W = w/(E′R) of a line, w/(E′R²) of a
-    /// point contact, with R along the rolling direction; meaningless for the other kind of contact.
+    /// Returns the formula's film thickness over the radius, h/R, from U = η₀u_m/(E′R), G = αE′ and the load group W.
+    /// W is w/(E′R) for a line contact and w/(E′R²) for a point contact, with R along the rolling direction. The
+    /// result is meaningless for the other kind of contact.
     ///
-    /// The constants of Chittenden and others are those that are quoted since, not read in the paper; central films of
-    /// full solutions for R_y/R 0.2…20 lie within 20 % of them.
+    /// The constants of Chittenden and others are quoted from later literature, not from the original paper. Central
+    /// film thicknesses of full solutions for R_y/R 0.2…20 lie within 20 % of them.
     pub fn relative_film(self, point: &OperatingPoint) -> f64 {
         let radius_ratio = point.radius_ratio();
         let area = match point.kind {
@@ -149,7 +150,8 @@ impl FilmFormula {
         }
     }
 
-    /// The formula's film and whether it was made for such a contact; meaningless for the other kind of contact.
+    /// Returns the formula's film thickness, and whether the contact is in its range. Meaningless for the other kind
+    /// of contact.
     pub fn predict(self, point: &OperatingPoint) -> FilmPrediction {
         let moes = point.moes();
         let regime = match self {

@@ -105,7 +105,7 @@ impl Oil {
     }
 }
 
-/// How a kinematic viscosity depends on the temperature, log₁₀ log₁₀ Z = A − B log₁₀ T (ASTM D341).
+/// Temperature dependence of the kinematic viscosity, log₁₀ log₁₀ Z = A − B log₁₀ T (ASTM D341).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViscosityTemperature {
     a: f64,
@@ -178,8 +178,8 @@ fn viscosity_of(z: f64) -> f64 {
     x - (-0.7487 - 3.295 * x + 0.6119 * x * x - 0.3193 * x * x * x).exp()
 }
 
-/// Density \[kg/m³\] at a temperature \[K\] of an oil whose density at 15 °C \[kg/m³\] is known: the thermal expansion
-/// of lubricating oils by ASTM D1250, coefficient 0.6278/ρ₁₅.
+/// Returns the density \[kg/m³\] at a temperature \[K\] of an oil with a given density at 15 °C \[kg/m³\]. Uses the
+/// thermal expansion of lubricating oils by ASTM D1250, coefficient 0.6278/ρ₁₅.
 pub fn density_at(density_15: f64, temperature_k: f64) -> f64 {
     let expansion = 0.6278 / density_15 * (temperature_k - KELVIN - 15.0);
     density_15 * (-expansion * (1.0 + 0.8 * expansion)).exp()
@@ -236,8 +236,9 @@ impl OilFamily {
         }
     }
 
-    /// Pressure–viscosity coefficient α \[1/Pa\] of an oil of a dynamic viscosity \[Pa·s\] and a kinematic one \[m²/s\]
-    /// at the temperature of the contact. Thinner than 0.5 mPa·s, Wooster's line is no longer followed downwards.
+    /// Returns the pressure–viscosity coefficient α \[1/Pa\] of an oil from its dynamic viscosity \[Pa·s\] and its
+    /// kinematic viscosity \[m²/s\] at the temperature of the contact. Below 0.5 mPa·s, Wooster's correlation is kept
+    /// constant.
     pub fn coefficient(self, viscosity_pa_s: f64, kinematic_m2_per_s: f64) -> f64 {
         let gold = |s: f64, t: f64| 1e-9 * s * (1e6 * kinematic_m2_per_s).powf(t);
         match self {

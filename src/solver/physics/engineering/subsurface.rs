@@ -15,8 +15,8 @@ pub struct LargestShear {
 /// Relative difference of the semi-axes below which the formula of elliptical contacts becomes 0/0.
 const NEARLY_ROUND: f64 = 1e-4;
 
-/// The largest shear stress on the axis below a frictionless Hertzian contact. Poisson's ratio counts for a point
-/// contact only; Johnson, Contact Mechanics, (4.45) and (3.45), for ellipses (3.69).
+/// Returns the maximum shear stress on the axis below a frictionless Hertzian contact. Poisson's ratio is used for a
+/// point contact only. Source: Johnson, Contact Mechanics, (4.45) and (3.45), for ellipses (3.69).
 pub fn largest_shear(point: &OperatingPoint, poisson: f64) -> LargestShear {
     let kappa = point.ellipse().kappa;
     // Stresses are independent of the rolling direction.
@@ -34,7 +34,7 @@ fn deepest(smaller: f64, shear: &dyn Fn(f64) -> f64) -> LargestShear {
     LargestShear { over_hertz_pressure: shear(depth), depth_over_half_width: smaller * depth }
 }
 
-/// ½|σ_x − σ_z| with σ_x = −p_H((1 + 2z²)/√(1 + z²) − 2z), σ_z = −p_H/√(1 + z²).
+/// Returns ½|σ_x − σ_z| with σ_x = −p_H((1 + 2z²)/√(1 + z²) − 2z), σ_z = −p_H/√(1 + z²).
 fn below_line(z: f64) -> f64 {
     z - z * z / (1.0 + z * z).sqrt()
 }
@@ -45,7 +45,8 @@ fn below_circle(z: f64, poisson: f64) -> f64 {
     0.5 * (axial - radial).abs()
 }
 
-/// Below an ellipse by the ratio of its smaller semi-axis to the larger one, in which the depth is measured.
+/// Returns the shear stress below an ellipse. `ratio` is the smaller over the larger semi-axis, and the depth is in
+/// units of the larger one.
 fn below_ellipse(ratio: f64, z: f64, poisson: f64) -> f64 {
     let (square, eccentricity) = (ratio * ratio, 1.0 - ratio * ratio);
     let t = ((square + z * z) / (1.0 + z * z)).sqrt();
@@ -56,7 +57,7 @@ fn below_ellipse(ratio: f64, z: f64, poisson: f64) -> f64 {
     let second = first - eccentricity / 3.0 * sin.powi(3) * elliprd(cos_squared, delta, 1.0).unwrap_or(f64::NAN);
     let (plain, stretched) = (z * (first - second), z * (second / square - first));
     let scale = 2.0 * ratio / eccentricity;
-    // The stresses on the axis, which are principal there, along the larger semi-axis, the smaller one, and downwards.
+    // Stresses on the axis, where they are principal: along the larger and the smaller semi-axis, and downwards.
     let larger = scale * (0.5 * (t - 1.0) + plain + poisson * (1.0 - t / square + stretched));
     let smaller = scale * (0.5 + 0.5 / t - t / square + stretched + poisson * (t - 1.0 + plain));
     let down = -0.5 * scale * (1.0 - t * t) / t;

@@ -1,12 +1,12 @@
-//! Numbers with units as people type them: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
+//! Numbers with units as entered by users: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
 
 use std::f64::consts::PI;
 
 /// 0 °C in K.
 pub const KELVIN: f64 = 273.15;
 
-/// What a typed number measures. Results are in SI units: m, m/s, N, N/m, Pa, Pa·s, m²/s, 1/Pa, K, 1/K, kg/m³, s, and
-/// plain ratios.
+/// Dimension of an entered number. Results are in SI units: m, m/s, N, N/m, Pa, Pa·s, m²/s, 1/Pa, K, 1/K, kg/m³, s,
+/// and dimensionless ratios.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dimension {
     /// Length in m.
@@ -156,11 +156,11 @@ impl Dimension {
     }
 }
 
-/// The value in SI units of a typed text. A number without a unit is in `field_unit`, the one that stands beside the
-/// field (empty for a plain number).
+/// Returns the value in SI units of an entered text. A number without a unit is in `field_unit`, the unit shown next
+/// to the field (empty for a dimensionless number).
 ///
 /// # Errors
-/// A sentence that says what was typed and what would be accepted.
+/// If the text is not a value of the dimension. The message names the text and what is accepted.
 pub fn parse(text: &str, dimension: Dimension, field_unit: &str) -> Result<f64, UnitError> {
     let plain: String = text.chars().filter(|c| !c.is_whitespace()).map(plain_character).collect();
     if plain.is_empty() {
@@ -210,8 +210,8 @@ fn in_si((number, value): (&str, f64), typed: &str, dimension: Dimension) -> Res
     Err(UnitError::Unit { unit: typed.to_owned(), of: dimension.name(), accepted: accepted.join(", ") })
 }
 
-/// A number as it is typed times the size of its unit: 12.7 mm are 0.0127 m to the last digit, as a shift of the decimal
-/// point.
+/// Returns an entered number times the size of its unit. The decimal point of the text is shifted, so that 12.7 mm
+/// are exactly 0.0127 m. `None` if the size is not a power of ten.
 fn shifted(number: &str, size: f64) -> Option<f64> {
     let places = size.log10().round();
     let decimal = (size / 10f64.powf(places) - 1.0).abs() < 1e-12 && !number.contains(['e', 'E']);
@@ -228,7 +228,8 @@ fn plain_character(c: char) -> char {
     }
 }
 
-/// The longest beginning that is a number and leaves no broken unit: of “201/GPa”, which was “20 1/GPa”, it is 20.
+/// Splits a text into the longest number at its beginning and a valid unit. “201/GPa”, entered as “20 1/GPa”, gives
+/// 20.
 fn split(plain: &str) -> (&str, &str) {
     let ends = plain.char_indices().map(|(at, c)| at + c.len_utf8());
     let parts = ends.filter_map(|end| plain.split_at_checked(end));

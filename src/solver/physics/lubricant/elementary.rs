@@ -1,9 +1,10 @@
-//! Powers and hyperbolic sines of several numbers at once, by a logarithm and an exponential without branches and tables:
-//! loops over them run in the widest vector registers that the machine has, and give the same numbers on any.
+//! Powers and hyperbolic sines of several numbers at once. They use a logarithm and an exponential without branches
+//! and tables. Loops over them run in the widest vector registers of the machine and give the same numbers on all
+//! machines.
 //!
-//! The laws of a shear-thinning film take one or two at every point of the rule across it. Reductions and
-//! coefficients are those of fdlibm (Sun Microsystems 1993, `e_log.c`, `e_exp.c`); both functions are within 1e-15
-//! relative of the C library's where these do not vanish.
+//! The laws of a shear-thinning film need one or two of them at every quadrature point across it. Reductions and
+//! coefficients are those of fdlibm (Sun Microsystems 1993, `e_log.c`, `e_exp.c`). Both functions differ by at most
+//! 1e-15 from those of the C library, relative to their values, away from zeros.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -31,7 +32,7 @@ impl WithSimd for Raise<'_> {
     }
 }
 
-/// Raises e to every x.
+/// Replaces every x by e^x.
 pub(super) fn exponentials(values: &mut [f64]) {
     Arch::new().dispatch(Exponentials(values));
 }
@@ -49,7 +50,8 @@ impl WithSimd for Exponentials<'_> {
     }
 }
 
-/// Coefficients 1/(2k + 1)! of (sinh t)/t in t², and those 2k/(2k + 1)! of cosh t − (sinh t)/t over t²: enough up to t = 1.
+/// Coefficients 1/(2k + 1)! of (sinh t)/t in t², and 2k/(2k + 1)! of cosh t − (sinh t)/t over t²; sufficient up to t
+/// = 1.
 const SINE: [f64; 10] = [
     1.0,
     1.0 / 6.0,
@@ -74,8 +76,8 @@ const RISE: [f64; 9] = [
     18.0 / 121_645_100_408_832_000.0,
 ];
 
-/// Makes every t in 0…700 t/sinh t, and its slopes t times the derivative of that by t, t/sinh t (1 − t coth t). Both are
-/// exact relative to themselves, near t = 0 too.
+/// Replaces every t in 0…700 by t/sinh t. The slopes are t times its derivative by t, t/sinh t (1 − t coth t). Both
+/// have full relative accuracy, also near t = 0.
 pub(super) fn hyperbolic_sines(values: &mut [f64], slopes: &mut [f64]) {
     Arch::new().dispatch(HyperbolicSines { values, slopes });
 }
@@ -144,15 +146,15 @@ fn far_sine(t: f64) -> (f64, f64) {
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
-/// ln x for normal x > 0. Zero and subnormal numbers count as the smallest normal one, infinity as 2^1024; other
-/// arguments have no meaning.
+/// Returns ln x for normal x > 0. Zero and subnormal numbers are treated as the smallest normal one, infinity as
+/// 2^1024. Results for other arguments are meaningless.
 #[inline(always)]
 pub(super) fn ln(x: f64) -> f64 {
     const ONE: u64 = 0x3ff0_0000_0000_0000;
     const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
-    /// √½: x is 2^k m with m between it and √2.
+    /// √½: x is 2^k m with m between √½ and √2.
     const LEAST: u64 = 0x3fe6_a09e_667f_3bcd;
-    /// 2^52: the bits below are whole numbers.
+    /// 2^52: the bits below are integers.
     const WHOLE: u64 = 0x4330_0000_0000_0000;
     let shifted = x.max(f64::MIN_POSITIVE).to_bits().wrapping_add(ONE - LEAST);
     let exponent = f64::from_bits(shifted >> 52 | WHOLE) - (f64::from_bits(WHOLE) + 1023.0);
@@ -168,7 +170,7 @@ pub(super) fn ln(x: f64) -> f64 {
     exponent * LN_2_HIGH - ((half_square - (s * (half_square + odd + even) + exponent * LN_2_LOW)) - f)
 }
 
-/// exp x, held at exp(±700): nothing that is divided by it overflows.
+/// Returns exp x, limited to exp(±700), so that divisions by it do not overflow.
 #[inline(always)]
 pub(super) fn exp(x: f64) -> f64 {
     /// 1.5 · 2^52: a sum with it is rounded to an integer, which its last bits contain.

@@ -1,4 +1,4 @@
-//! Heat: the thermal constants of a lubricant and of both bodies, their ranges, and what they amount to in one contact.
+//! Thermal constants of a lubricant and of both bodies, their ranges, and the thermal parameters of one contact.
 
 use super::error::{LubricantError, check_constant};
 use super::laws::ViscosityLaw;
@@ -20,7 +20,8 @@ pub struct OilHeat {
     pub conductivity: f64,
     /// Density ρ₀ at ambient pressure and the inlet's temperature \[kg/m³\].
     pub density: f64,
-    /// β = −d ln η/dT at ambient pressure \[1/K\], of Roelands' and Barus' law; Doolittle's has constants of its own.
+    /// β = −d ln η/dT at ambient pressure \[1/K\], for Roelands' and Barus' laws. Doolittle's law has separate
+    /// constants.
     pub viscosity_temperature: f64,
     /// β_ρ = −d ln ρ/dT at ambient pressure \[1/K\]. Tait's law has separate constants.
     pub density_temperature: f64,
@@ -40,7 +41,7 @@ pub struct FreeVolumeHeat {
     pub occupied_expansion: f64,
 }
 
-/// A film that warms itself: what it needs to be computed. η₀ and α are those at the inlet's temperature.
+/// Input data of a thermal film. η₀ and α are those at the inlet temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Heat {
@@ -77,8 +78,8 @@ impl Default for Heat {
     }
 }
 
-/// Largest |SRR| of a contact that is computed with heat: beyond it one surface stands all but still, and heat leaves
-/// the contact through it by ways that no moving source describes.
+/// Largest |SRR| of a thermal contact. Beyond it one surface is nearly stationary, and heat leaves the contact
+/// through it in ways that the theory of moving heat sources does not cover.
 pub const LARGEST_HEATED_SRR: f64 = 1.95;
 
 impl Heat {
@@ -136,7 +137,8 @@ impl FreeVolumeHeat {
     }
 }
 
-/// The numbers that heat adds to a scaled contact: θ = (T − T₀)/T₀, ζ = z/h, speeds over u_m, stresses over η₀u_mR/a².
+/// Thermal parameters of a scaled contact. The variables are θ = (T − T₀)/T₀, ζ = z/h, speeds over u_m and stresses
+/// over η₀u_mR/a².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaledHeat {
     /// Thermal constants from which it was made.
@@ -184,7 +186,8 @@ impl ScaledHeat {
         }
     }
 
-    /// The body with the smaller Péclet number, 1 or 2, and that number: heat that flows upstream within a body is left out.
+    /// Returns the body with the smaller Péclet number, 1 or 2, and that number. Heat conduction upstream within a
+    /// body is neglected.
     pub fn smallest_peclet(&self, point: &OperatingPoint) -> (usize, f64) {
         let half_width = point.hertz().half_width_m;
         let peclet = |body: &BodyHeat, speed: f64| {

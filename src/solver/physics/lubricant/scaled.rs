@@ -37,7 +37,8 @@ pub(super) fn roelands_log(viscosity_pa_s: f64) -> f64 {
     viscosity_pa_s.ln() + 9.67
 }
 
-/// Roelands' exponent z of (2.12), which makes α the slope of ln η at ambient pressure; of mineral oils 0.4…0.8.
+/// Returns Roelands' exponent z of (2.12), for which α is the slope of ln η at ambient pressure; 0.4…0.8 for mineral
+/// oils.
 pub fn roelands_exponent(point: &OperatingPoint) -> f64 {
     point.alpha_per_pa * ROELANDS_PRESSURE_PA / roelands_log(point.viscosity_pa_s)
 }

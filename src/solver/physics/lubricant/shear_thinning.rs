@@ -1,8 +1,8 @@
-//! Generalized-Newtonian laws: how viscosity falls with shear stress, and the conditions that decide by how much.
+//! Generalised Newtonian laws: the dependence of viscosity on shear stress, and the conditions that determine it.
 //!
-//! Every law is a factor F(τ/τ₀) ≤ 1 on the viscosity, explicit in the effective shear stress τ, and is blended with a
-//! second Newtonian plateau as (3.40) does: η = μ(p) \[NPR + (1 − NPR) F\]. The film integrals (3.24) ask for the
-//! fluidity μ/η.
+//! Every law is a factor F(τ/τ₀) ≤ 1 on the low-shear viscosity μ, explicit in the effective shear stress τ with the
+//! stress scale τ₀. It is combined with a second Newtonian plateau as in (3.40): η = μ(p) \[NPR + (1 − NPR) F\]. NPR
+//! is the Newtonian plateau ratio. The film integrals (3.24) use the fluidity μ/η.
 
 use super::elementary;
 use super::error::{LubricantError, check_constant};
@@ -49,10 +49,10 @@ pub enum ShearLaw {
     },
 }
 
-/// The stress that a film carries at most, τ_L = τ_L0 + Λ p: beyond it the lubricant slips or yields. It limits
-/// traction; pressure and film, which the inlet makes, are computed without it. Bair & Winer 1979. With an Eyring
-/// stress the traction of a film that is computed as Newtonian bends before it is cut: τ = τ_E asinh(τ_N/τ_E), Johnson
-/// & Tevaarwerk 1977.
+/// Limiting shear stress of a film, τ_L = τ_L0 + Λ p, beyond which the lubricant slips or yields; Bair & Winer 1979.
+/// It limits traction only. Pressure and film thickness, which the inlet determines, are computed without it. With an
+/// Eyring stress τ_E, the traction of a Newtonian film is first reduced to τ = τ_E asinh(τ_N/τ_E), Johnson &
+/// Tevaarwerk 1977.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitingStress {
@@ -135,12 +135,12 @@ enum Factor {
     HyperbolicSine,
 }
 
-/// Largest t of the hyperbolic sine: no state gets there, only passing iterates of Newton's method, and they must stay
-/// finite.
+/// Upper limit of t in the hyperbolic sine. Only intermediate Newton iterates reach it, and they must stay finite.
 const STEEPEST: f64 = 150.0;
 
 impl Fluidity {
-    /// The law's fluidity with a Newtonian plateau ratio, and its stress scale τ₀ \[Pa\]; `None` for a Newtonian fluid.
+    /// Returns the law's fluidity with a Newtonian plateau ratio, and its stress scale τ₀ \[Pa\]; `None` for a
+    /// Newtonian fluid.
     pub fn of(law: ShearLaw, plateau: f64) -> Option<(Self, f64)> {
         let power = |beta: f64, n: f64| Factor::Power { beta, q: (1.0 - 1.0 / n) / beta, n };
         let (factor, scale) = match law {
@@ -181,8 +181,8 @@ impl Fluidity {
         (fluidity, fluidity_slope)
     }
 
-    /// A stress t near the one at which t g(t) is `rate` ≥ 0: Newton's method in logarithms, in which the laws are
-    /// almost straight.
+    /// Returns an approximate stress t at which t g(t) is `rate` ≥ 0. Uses Newton's method in logarithms, in which
+    /// the laws are nearly linear.
     #[inline]
     pub fn stress_near(&self, rate: f64) -> f64 {
         if rate < 1e-9 {
@@ -231,27 +231,27 @@ fn hyperbolic_sine<const N: usize>(t: &[f64; N]) -> ([f64; N], [f64; N]) {
     (factors, slopes)
 }
 
-/// A shear-thinning law at one operating point: what turns P, P_X and H into the scalars of the film integrals.
+/// Shear-thinning law at one operating point. It converts P, P_X and H into the scalars of the film integrals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaledShear {
     /// Fluidity of the law.
     pub fluidity: Fluidity,
     /// Stress scale τ₀ \[Pa\] of the law.
     pub stress_scale_pa: f64,
-    /// κ₁/τ₀ with κ₁ = p_H a/R: the difference of stress between the surfaces is this times H P_X.
+    /// κ₁/τ₀ with κ₁ = p_H a/R. The difference of stress between the surfaces is this times H P_X.
     pub gradient: f64,
-    /// κ₂/τ₀ with κ₂ = η₀ (u₂ − u₁) R/a²: the Newtonian stress of sliding is this times μ̄/H.
+    /// κ₂/τ₀ with κ₂ = η₀ (u₂ − u₁) R/a². The Newtonian stress due to sliding is this times μ̄/H.
     pub sliding: f64,
     /// Slide-to-roll ratio SRR.
     pub slide_to_roll_ratio: f64,
 }
 
 impl ScaledShear {
-    /// The law of a lubricant under operating conditions; `None` where the fluid is Newtonian: without a law, or for
+    /// Creates the law of a lubricant under operating conditions. `None` for a Newtonian fluid: without a law, or for
     /// NPR = 1.
     ///
     /// # Errors
-    /// When NPR lies outside 0…1 or SRR is no sensible number.
+    /// If NPR lies outside 0…1 or SRR is out of range.
     pub fn new(law: ShearLaw, sliding: Sliding, point: &OperatingPoint) -> Result<Option<Self>, LubricantError> {
         let srr = sliding.slide_to_roll_ratio;
         check_constant("the slide-to-roll ratio", srr, -10.0, 10.0)?;

@@ -1,7 +1,7 @@
-//! Density and viscosity of a lubricant at one pressure and several temperatures across the film, with derivatives.
+//! Density and viscosity of a lubricant, with derivatives, at one pressure and several temperatures across the film.
 //!
-//! Sources: Roelands 1966 for the viscosity, with S₀ = β (T₀ − 138)/(ln η₀ + 9.67); Dowson & Higginson's density times
-//! 1 − β_ρ ΔT; Tait's and Doolittle's laws with volumes that change with temperature as in Bair 2007.
+//! Sources: Roelands 1966 for the viscosity, with S₀ = β (T₀ − 138)/(ln η₀ + 9.67); Dowson & Higginson's density
+//! times 1 − β_ρ ΔT; Tait's and Doolittle's laws with temperature-dependent volumes as in Bair 2007.
 
 use super::elementary;
 use super::free_volume::{Doolittle, Tait};
@@ -66,7 +66,7 @@ impl WarmFluid {
         Self { fluid: *fluid, heat, slope }
     }
 
-    /// Density and viscosity at P and θ = (T − T₀)/T₀. Where θ = 0 they are those of [`ScaledFluid::at`].
+    /// Returns density and viscosity at P and θ = (T − T₀)/T₀. For θ = 0 they equal those of [`ScaledFluid::at`].
     pub fn at<const N: usize>(&self, pressure: f64, theta: &[f64; N]) -> Across<N> {
         let fluid = &self.fluid;
         let ph = fluid.hertz_pressure_pa;
