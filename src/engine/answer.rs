@@ -198,7 +198,7 @@ mod tests {
             assert_eq!(again(&answer), answer);
             again(&Event::Message(StudyRow::Point(Arc::new(answer))));
         }
-        // What a march of temperatures keeps for the next one is made anew.
+        // The data that a thermal march keeps for the next one are not serialised but recomputed.
         let warm = in_full(Lubricant { heat: Some(Heat::default()), ..Lubricant::default() });
         let read = again(&warm);
         assert_eq!((&read.request, &read.result), (&warm.request, &warm.result));

@@ -18,8 +18,10 @@ const MOST_RETURNS: u8 = 2;
 const WIDE: f64 = 3.0;
 
 /// Estimates how far an inlet film thickness fills the inlet under (P, H), both node arrays. Returns θ, which is 1 in
-/// the full film. In a line contact, a flow equal to the supply raises the reduced pressure between the meniscus and
-/// the contact by the amount of Grubin's inlet analysis; this locates the meniscus. `rise` is that amount times 1/λ̄.
+/// the full film.
+///
+/// In a line contact, the meniscus follows from Grubin's analysis of the inlet. A flow equal to the supply raises the
+/// reduced pressure between the meniscus and the contact by a known amount. `rise` is that amount times 1/λ̄.
 pub fn guess(grid: &impl Grid, (pressure, film): (&[f64], &[f64]), supply: f64, rise: f64) -> Vec<f64> {
     let (x, y) = grid.abscissae();
     let mut fraction = vec![1.0; film.len()];
@@ -103,8 +105,8 @@ impl ActiveSet {
         }
     }
 
-    /// Replaces an equation's derivatives by the pressures of cavitated nodes by those with respect to their
-    /// fractions.
+    /// Replaces an equation's derivatives with respect to the pressures of cavitated nodes by those with respect to
+    /// their fractions.
     #[inline]
     pub(super) fn by_fraction(&self, row: &mut Row, geometry: &RowGeometry, nodes: &Nodes, stencil: [usize; STENCIL]) {
         for (e, &node) in stencil.iter().enumerate() {

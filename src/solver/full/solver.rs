@@ -60,8 +60,8 @@ pub(super) enum Beginning<'a> {
     Along(&'a Solution, Option<f64>),
 }
 
-/// Returns the maximum number of Newton steps of all starts of a solve together, except its continuation, on a grid
-/// with that many unknowns: 3,000, fewer on large grids, and at least 100.
+/// Returns the maximum number of Newton steps of all starts of a solve together, without its continuation. The
+/// argument is the number of unknowns of the grid. The result is 3,000, fewer on large grids, and at least 100.
 pub fn most_newton(unknowns: usize) -> usize {
     (4_000_000 / unknowns.max(1)).clamp(100, 3000)
 }
@@ -226,8 +226,8 @@ impl<S: NewtonSpace> Solver<S> {
         let by_complementarity = match problem.lubricant.cavitation {
             // Start near a flooded film, for which complementarity is more robust.
             Cavitation::MassConserving { .. } => !system.is_starved(),
-            // For wide ellipses, and for films much longer than the contact, the penalty moves the cavitation
-            // boundary to its position in about three times as many steps.
+            // For wide elliptical contacts, and for films much longer than the contact, the cavitation boundary of
+            // the penalty reaches its position in about three times as many steps.
             Cavitation::Penalty => {
                 let far = problem.point.is_elliptic() || system.space.grid().continues();
                 far && matches!(beginning, Beginning::Cold(..))

@@ -1,5 +1,5 @@
 //! Discretisation error of a full solution: the errors of its central film thickness due to the ends of the domain
-//! and to the finite spacing. Both cost one linear solve.
+//! and to the finite spacing. Each costs one linear solve.
 //!
 //! Both are linear responses of the converged system, −J⁻¹ times a defect of the discrete equations. J is the
 //! Jacobian.

@@ -31,8 +31,8 @@ const MOST_PER_STEP: usize = 40;
 /// Factor between the tolerance along the path and that of the requested contact.
 const ALONG_THE_WAY: f64 = 1e3;
 
-/// Returns the maximum number of Newton iterations of a whole continuation on a grid with that many unknowns: 3,000,
-/// fewer on large grids, and at least 250.
+/// Returns the maximum number of Newton iterations of a whole continuation on a grid with that many unknowns. The
+/// result is 3,000, fewer on large grids, and at least 250.
 pub fn most_walked(unknowns: usize) -> usize {
     (12_000_000 / unknowns.max(1)).clamp(250, 3000)
 }

@@ -44,8 +44,8 @@ pub enum Quantity {
     SlidingSpeed,
     /// κ₁ = p_H a/R \[Pa\], (3.27).
     StressUnit,
-    /// Difference of shear stress \[Pa\] that a gradient of p_H over the half-width makes across a film of the thickness
-    /// given by Moes' formula.
+    /// Difference of shear stress \[Pa\] across a film of the thickness given by Moes' formula, for a gradient of p_H
+    /// over the half-width.
     GradientStress,
     /// Eyring stress τ₀ \[Pa\].
     EyringStress,
@@ -206,7 +206,7 @@ impl Quantity {
         if (self, kind) == (Self::Load, ContactKind::Line) { ("kN/m", 1e3) } else { self.facts().shown }
     }
 
-    /// Returns what it measures.
+    /// Returns its dimension.
     pub fn dimension(self, kind: ContactKind) -> Dimension {
         match (self, kind) {
             (Self::Radius | Self::RadiusY, _) => Dimension::Length,
@@ -241,7 +241,7 @@ impl Quantity {
         }
     }
 
-    /// Returns its value for a contact with a lubricant; `None` where the contact or the lubricant does not have it.
+    /// Returns its value for a contact with a lubricant; `None` if the contact or the lubricant does not have it.
     pub fn of_contact(self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<f64> {
         let heat = || lubricant.heat;
         let limit = || lubricant.limiting_stress;
@@ -264,8 +264,8 @@ impl Quantity {
         }
     }
 
-    /// Returns its value for an operating point; `None` for the plateau ratio where it is the lubricant's own, for what a
-    /// line contact does not have, and for constants of lubricant and bodies.
+    /// Returns its value for an operating point. `None` for the plateau ratio if it is that of the lubricant, for
+    /// quantities that a line contact does not have, and for constants of lubricant and bodies.
     pub fn of(self, point: &OperatingPoint) -> Option<f64> {
         Some(match self {
             Self::M => point.moes().m,
@@ -302,8 +302,8 @@ impl Quantity {
         })
     }
 
-    /// Returns the same contact with another value of it. M moves by the load, L by α; a speed, radius, modulus or
-    /// viscosity changes M and L too. What follows from other quantities leaves the contact as it is.
+    /// Returns the same contact with another value of it. M changes by the load, L by α. A change of speed, radius,
+    /// modulus or viscosity also changes M and L. For dependent quantities the contact is returned unchanged.
     pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
         let mut point = *point;
         match self {
@@ -324,8 +324,8 @@ impl Quantity {
         point
     }
 
-    /// Returns a lubricant with another value of a constant of oil, bodies or limiting stress; unchanged for quantities of
-    /// the operating point, and where the lubricant does not have the constant.
+    /// Returns a lubricant with another value of a constant of oil, bodies or limiting stress. It is unchanged for
+    /// quantities of the operating point, and if the lubricant does not have the constant.
     pub fn with_constant(self, mut lubricant: Lubricant, value: f64) -> Lubricant {
         if let Some(heat) = &mut lubricant.heat {
             match self {

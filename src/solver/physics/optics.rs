@@ -1,9 +1,11 @@
-//! What a film-thickness rig sees of a point contact: two-beam interference between the coated glass disc and the ball.
+//! Interferograms of a point contact, as seen in a film-thickness rig: two-beam interference between the coated glass
+//! disc and the ball.
 //!
-//! I = ½ (1 + V cos(4π n h/λ + φ)): the beam through the film travels 2 n h further than the one reflected at the
-//! coating, and φ is what both reflections add. So equal colours are lines of equal film thickness, and one fringe to
-//! the next is λ/(2n). The refractive index is taken as that of the oil at ambient pressure; under 1 GPa it is some per
-//! cent higher, which real measurements correct for.
+//! The intensity is I = ½ (1 + V cos(4π n h/λ + φ)), with the film thickness h, the refractive index n, the
+//! wavelength λ and the visibility V. The beam through the film travels 2 n h further than the one reflected at the
+//! coating, and φ is the phase added by both reflections. Equal colours are therefore lines of equal film thickness,
+//! and adjacent fringes differ by λ/(2n). The refractive index is that of the oil at ambient pressure. Under 1 GPa it
+//! is some per cent higher; real measurements correct for this.
 //!
 //! Cameron & Gohar 1966, Theoretical and experimental studies of the oil film in lubricated point contact, Proc. R.
 //! Soc. A 291; Wedeven, Evans & Cameron 1971, Optical analysis of ball bearing starvation, ASME J. Lubr. Technol. 93.

@@ -1,9 +1,9 @@
 //! Grid of either kind of contact, as a reduced model uses it: node arrays with weights, Reynolds equations, and the
 //! deformation operator, independent of their layout.
 //!
-//! Along X all quantities refer to a reference coordinate ξ with X = −1 + (ξ + 1)s and H = H₀ − ½ ln s + (X² + Y²)/2
-//! + s K P. H is the film thickness, H₀ the rigid-body separation, P the pressure and K the elastic kernel. The scale
-//! s registers line contacts by their pressure spike. A point contact has s = 1.
+//! Along X all quantities refer to a reference coordinate ξ with X = −1 + (ξ + 1)s. The film thickness is H = H₀ − ½
+//! ln s + (X² + Y²)/2 + s K P, where H₀ is the rigid-body separation, P the pressure and K the elastic kernel. The
+//! scale s registers line contacts by their pressure spike. A point contact has s = 1.
 
 use super::GridError;
 use super::line::{FIRST_UNKNOWN, INLET, ReferenceGrid};

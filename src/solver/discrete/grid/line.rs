@@ -3,7 +3,7 @@
 //!
 //! A grid is a *reference* grid in ξ, built once with its elastic kernel, and an affine map X = −1 + (ξ + 1) s. For s
 //! = 1 both are the same. Registration chooses s so that the pressure spike always lies at ξ = 1. Then the contacts
-//! of a whole range of the Moes numbers M and L are similar in ξ, which suits a reduced basis, and one fine patch of
+//! of a whole range of the Moes numbers M and L are similar in ξ, which suits a reduced basis. One fine patch of
 //! nodes resolves all their spikes.
 //!
 //! Node arrays everywhere in the solver have one extra leading node. Index 0 lies outside the inlet and belongs to
@@ -436,7 +436,7 @@ mod tests {
 
     #[test]
     fn cells_of_a_long_domain_are_counted_to_its_ends() {
-        // By the trapezoidal rule in the logarithm of the distance.
+        // Trapezoidal rule in the logarithm of the distance.
         let beyond = |end: f64| {
             let (n, from) = (100_000, 20.0f64);
             let step = (end.abs() / from).ln() / f64::from(n);

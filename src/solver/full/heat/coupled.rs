@@ -204,9 +204,8 @@ impl Coupled {
     }
 }
 
-/// Returns the columns of nodes that are stations. Behind X = ½ every column is one. In front of it, nodes are dense
-/// because the viscosity rises steeply, and no pressure spike heats the film; there, stations have a minimum
-/// distance.
+/// Returns the columns of nodes that are stations. From X = ½ on every column is one. In front of it, stations have a
+/// minimum distance: the nodes are dense because the viscosity rises steeply, and no pressure spike heats the film.
 fn station_columns(x: &[f64], first: usize) -> Vec<usize> {
     let mut out = vec![first];
     let mut last = x[first];

@@ -4,9 +4,9 @@ use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::solution::Solution;
 use crate::solver::warning::Warning;
 
-/// Curvature of the film across the side lobes above which they count as unresolved. For Moes numbers M = 13…1000,
-/// the minimum film thickness H_min is 2 % too small at a curvature of 0.1, 8 % at 0.45, 20 to 25 % at 1.2, and too
-/// small by a factor of 3 at 6.
+/// Curvature of the film across the side lobes above which they count as unresolved. The minimum film thickness H_min
+/// is 2 % too small at a curvature of 0.1, 8 % at 0.45, 20 to 25 % at 1.2, and too small by a factor of 3 at 6. These
+/// values hold for Moes numbers M = 13…1000.
 const UNRESOLVED_CURVATURE: f64 = 0.5;
 /// Relative error of H_min at a curvature of one, from the same contacts.
 const ERROR_OF_CURVATURE: f64 = 0.2;

@@ -299,12 +299,12 @@ mod tests {
         for blocks in [1, 2, 3, 10, 11] {
             let entry = |i: usize, j: usize| {
                 let value = ((i * 31 + j * 17) as f64 * 1.37).sin();
-                // Large entries beside the diagonal, so that rows must be pivoted.
+                // Large entries next to the diagonal, so that rows must be pivoted.
                 let boost = if i / size == j / size && (i + 1) % size == j % size { 6.0 } else { 0.0 };
                 if (i / size).abs_diff(j / size) > 1 { 0.0 } else { value + boost }
             };
             let mut matrix = BlockTridiagonal::default();
-            // The second time in what the first one has left.
+            // The second run reuses the memory of the first one.
             for _ in 0..2 {
                 matrix.reset(size, blocks);
                 let filled = matrix.fill(|row| {

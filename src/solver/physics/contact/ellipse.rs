@@ -112,7 +112,7 @@ mod tests {
         for ratio in [0.1, 0.3, 0.99, 1.01, 3.0, 7.0, 10.0] {
             let (own, turned) = (Ellipse::of_ratio(ratio).unwrap(), Ellipse::of_ratio(1.0 / ratio).unwrap());
             assert!((own.kappa * turned.kappa - 1.0).abs() < 1e-13, "{ratio}");
-            // a³ ∝ R_x J_x: the turned ellipse has b for a.
+            // a³ ∝ R_x J_x: the semi-axis a of the turned ellipse is b.
             let turned_a = (turned.integral * ratio / own.integral).cbrt();
             assert!((turned_a / own.kappa - 1.0).abs() < 1e-12, "{ratio}");
         }

@@ -156,8 +156,8 @@ mod tests {
         let line = FilmAsymptotes::of(FilmShape::Line, Moes { m: 1.0, l: 8.0 }).rigid_piezoviscous;
         let wide = FilmAsymptotes::of_ellipse(1e4, Moes { m: 1.0, l: 8.0 }).rigid_piezoviscous;
         assert!((wide / line - 1.0).abs() < 5e-3, "{wide}");
-        // Rigid ellipsoids in an isoviscous film by another fit: Brewe, Hamrock & Taylor 1979, minimum film, which is the
-        // central one of rigid bodies.
+        // Rigid ellipsoids in an isoviscous film by another fit: Brewe, Hamrock & Taylor 1979, for the minimum film
+        // thickness. It equals the central one of rigid bodies.
         for ratio in [0.1f64, 0.5, 1.0, 5.0, 40.0] {
             let side = (1.0 + 2.0 / (3.0 * ratio)).recip() * (0.131 * (0.5 * ratio).atan() + 1.683);
             let other = 32.0 * ratio * side * side;

@@ -202,9 +202,9 @@ mod tests {
 
     type Known = (f64, f64, f64, [f64; 5], [f64; 2]);
 
-    /// R_y/R, M and L of contacts in the default realisation, their films H = hR/a² by the formulas of point contacts in
-    /// the order of their list as another program works them out, and H_c and H_min of its full solutions, extrapolated
-    /// from three grids.
+    /// Contacts in the default realisation: R_y/R, M and L; film thicknesses H = hR/a² by the formulas of point
+    /// contacts in the order of their list, from an independent program; and H_c and H_min of its full solutions,
+    /// extrapolated from three grids.
     const ELLIPSES: [Known; 7] = [
         (0.2, 30.0, 6.0, [0.07945534, 0.12698493, 0.08111803, 0.04441322, 0.04130451], [0.084959, 0.028458]),
         (0.5, 50.0, 10.0, [0.15224373, 0.16848459, 0.14291087, 0.08122927, 0.07791454], [0.146829, 0.067285]),
@@ -222,7 +222,7 @@ mod tests {
             let point = OperatingPoint { radius_y_m: Some(ratio * circle.radius_m), ..circle };
             for (formula, film) in FilmFormula::POINT.into_iter().zip(films) {
                 let own = formula.predict(&point).film_m / point.film_scale_m();
-                // It has k = 1.0339 (R_y/R)^0.636, which Hamrock and Dowson round.
+                // The independent program has k = 1.0339 (R_y/R)^0.636, which Hamrock and Dowson round.
                 let rounding = match formula {
                     FilmFormula::HamrockDowsonCentral => 3e-3,
                     FilmFormula::HamrockDowsonMinimum => 1e-2,
@@ -230,7 +230,8 @@ mod tests {
                 };
                 assert!((own / film - 1.0).abs() < rounding, "R_y/R {ratio}, {formula:?}: {own} against {film}");
                 let full = if formula.predicts_minimum() { minimum } else { central };
-                // The minimum is much thinner at the sides of ellipses that are long along the rolling direction.
+                // The minimum film thickness lies at the sides of ellipses that are long along the rolling direction
+                // and is much smaller.
                 let within = match formula {
                     _ if formula.predicts_minimum() => 0.6,
                     FilmFormula::HamrockDowsonCentral if ratio < 0.5 => 0.5,

@@ -201,7 +201,7 @@ mod tests {
             assert!((exp(x) / x.exp() - 1.0).abs() < 1e-15, "exp {x}");
             let t = x.exp();
             assert!((ln(t) - t.ln()).abs() <= 5e-16 * t.ln().abs(), "ln {t}");
-            // Where the logarithm vanishes.
+            // Near the zero of the logarithm.
             let t = 0.5 + f64::from(k) / 100_000.0;
             assert!((ln(t) - t.ln()).abs() <= 5e-16 * t.ln().abs(), "ln {t}");
         }
@@ -214,7 +214,7 @@ mod tests {
         hyperbolic_sines(&mut factors, &mut slopes);
         for ((t, factor), slope) in ts.iter().zip(&factors).zip(&slopes) {
             assert!((factor * t.sinh() / t - 1.0).abs() < 2e-15, "{t}");
-            // t coth t − 1 = t²/3 − t⁴/45 + 2 t⁶/945 − …, where the difference itself is lost.
+            // t coth t − 1 = t²/3 − t⁴/45 + 2 t⁶/945 − …, because the difference itself loses its accuracy.
             let wanted = if *t < 0.01 {
                 -t * t / 3.0 * (1.0 - t * t / 15.0 + 2.0 / 315.0 * t.powi(4))
             } else {

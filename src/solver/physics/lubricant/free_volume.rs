@@ -49,7 +49,7 @@ impl Tait {
         ((compressed * (1.0 - volume)).exp_m1()) * self.k_0 / compressed
     }
 
-    /// Returns ρ/ρ₀ at p \[Pa\], (3.38), and its derivative \[1/Pa\]. Beyond the range of the logarithm the density
+    /// Returns ρ/ρ₀ at p \[Pa\], (3.38), and its derivative \[1/Pa\]. Below V/V₀ = 0.1 the density
     /// is constant.
     #[inline]
     pub fn density(&self, p: f64) -> (f64, f64) {
