@@ -48,7 +48,7 @@ pub fn dense_newton(
     options.max_newton
 }
 
-/// The dense kernel of a grid over its node arrays.
+/// Returns the dense kernel of a grid over its node arrays.
 pub fn dense_kernel(grid: &LineGrid) -> Mat<f64> {
     Mat::from_fn(grid.len(), grid.len(), |i, j| grid.kernel_entry(i, j))
 }

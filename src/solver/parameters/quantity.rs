@@ -75,7 +75,7 @@ pub enum Quantity {
 struct Facts {
     /// Word in tables, options and messages.
     name: &'static str,
-    /// Name for people, with symbol and SI unit.
+    /// Display name, with symbol and SI unit.
     label: &'static str,
     /// Name of its field in a form, with the symbol in braces.
     field: &'static str,
@@ -155,7 +155,7 @@ impl Quantity {
         self.facts().name
     }
 
-    /// Returns its name for people, with symbol and SI unit.
+    /// Returns its display name, with symbol and SI unit.
     pub fn label(self) -> &'static str {
         self.facts().label
     }

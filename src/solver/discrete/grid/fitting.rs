@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 const TRUNCATION: f64 = 0.035;
 /// Accepted relative error of H_c due to the spacing.
 const RESOLUTION: f64 = 0.02;
-/// The same for a grid whose solution is only an initial guess for another one.
+/// Accepted error of a grid whose solution is only an initial guess for another one.
 const ROUGH: f64 = 0.08;
 /// Minimum number of nodes along X of such a grid.
 const FEWEST_ROUGH: usize = 150;
