@@ -211,7 +211,7 @@ fn in_si((number, value): (&str, f64), typed: &str, dimension: Dimension) -> Res
 }
 
 /// Returns an entered number times the size of its unit. The decimal point of the text is shifted, so that 12.7 mm
-/// are exactly 0.0127 m. `None` if the size is not a power of ten.
+/// are exactly 0.0127 m. `None` if the size is not a power of ten or the number has an exponent.
 fn shifted(number: &str, size: f64) -> Option<f64> {
     let places = size.log10().round();
     let decimal = (size / 10f64.powf(places) - 1.0).abs() < 1e-12 && !number.contains(['e', 'E']);
