@@ -1,5 +1,5 @@
-//! A request becomes an answer: one function for the window, the commands, studies, bindings and campaigns, so that all
-//! of them report the same numbers, the same trust and the same warnings.
+//! Answers to requests. The window, the commands, studies, bindings and campaigns all use one function, so that they
+//! report the same numbers, trust and warnings.
 
 use super::{Answer, ContactResult, EngineError, ReducedFacts, Request};
 use crate::host::clock::Stopwatch;
@@ -13,18 +13,19 @@ use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{Online, ReducedError, ReducedModel, Trust, Window};
 use crate::solver::warning::Warning;
 
-/// What solves a request, with the work space that its owner keeps.
+/// Solver for a request, with the work space of its owner.
 pub enum Solver<'a> {
-    /// The full system on the solver's grid, from a start.
+    /// Full system on the solver's grid, from an initial guess.
     Full(&'a mut ContactSolver, Start<'a>),
-    /// A reduced model with its operators and the solutions that it remembers.
+    /// Reduced model with its operators and stored solutions.
     Reduced(&'a mut Online),
 }
 
-/// Solves a request. Not converging is an answer, as is a full solve that the observer cancels.
+/// Solves a request. A solve that does not converge, or a full solve cancelled by the observer, also returns an
+/// answer.
 ///
 /// # Errors
-/// When the request is refused, or the observer cancels a reduced solve.
+/// If the request is refused, or the observer cancels a reduced solve.
 pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) -> Result<Answer, EngineError> {
     let problem = Problem::new(&request.point, request.lubricant)?;
     let mut answer = match solver {
@@ -62,7 +63,7 @@ fn in_full(
     let report = &solution.report;
     let (nx, ny) = (solution.x.len(), solution.y.len());
     let (nodes, dofs) = match request.point.kind {
-        // Its node arrays have one node outside the inlet.
+        // Node arrays of a line contact have one node outside the inlet.
         ContactKind::Line => ((nx - 1, 1), nx - 2),
         ContactKind::Point => ((nx, ny), (nx - 2) * (ny - 1) + 1),
     };
@@ -87,7 +88,7 @@ fn by_model(
     online: &mut Online,
     observer: &dyn Observer,
 ) -> Result<Answer, EngineError> {
-    // Operators belong to the model: the time is the solve's alone.
+    // Operators are part of the model, so the time is that of the solve only.
     online.prepare(&problem.point);
     let clock = Stopwatch::start();
     let solved = online.solve_watched(&problem.point, request.lubricant, observer);
@@ -97,8 +98,8 @@ fn by_model(
     let trust = solved.as_ref().map_or_else(|_| model.trust(problem), |solved| solved.trust.clone());
     let trained = trust == Trust::Trained;
     warnings.extend(outside(trust));
-    // Complementarity is the limit of both other laws for a large penalty and a flooded inlet: a model that was trained
-    // with it serves them.
+    // Complementarity is the limit of both other cavitation models for a large penalty and a flooded inlet. A model
+    // trained with it also covers them.
     let asked = request.lubricant.cavitation;
     if own == Cavitation::Penalty && asked != own && problem.supply.is_none() {
         warnings.push(Warning::CavitationOfTraining { asked: asked.name().to_owned() });
@@ -120,7 +121,7 @@ fn by_model(
             (effort.dofs, effort.newton_iterations) = (facts.size.pressure + 1, solved.iterations);
             warnings.extend(solved.stands_in.then_some(Warning::NeighbouringModel));
             traction = solved.traction;
-            // A Newtonian film does not feel the sliding, but its traction does.
+            // Sliding affects the traction of a Newtonian lubricant, but not its film.
             solution = Some(online.reconstruct(&solved)?.of_problem(*problem));
         }
         Err(ReducedError::Cancelled) => return Err(EngineError::Cancelled),
@@ -133,7 +134,7 @@ fn by_model(
     Ok(Answer { request: request.clone(), result: ContactResult { warnings, ..result }, solution })
 }
 
-/// The warning of a model that was not trained for a contact.
+/// Returns the warning of a model that was not trained for a contact.
 pub(super) fn outside(trust: Trust) -> Option<Warning> {
     match trust {
         Trust::Trained => None,
@@ -141,7 +142,7 @@ pub(super) fn outside(trust: Trust) -> Option<Warning> {
     }
 }
 
-/// The local model that serves a contact, with its place.
+/// Returns the local model for a contact, with its index.
 pub(super) fn window_of<'a>(
     model: &'a ReducedModel,
     point: &OperatingPoint,
@@ -197,7 +198,7 @@ mod tests {
             assert_eq!(again(&answer), answer);
             again(&Event::Message(StudyRow::Point(Arc::new(answer))));
         }
-        // What a march of temperatures keeps for the next one is made anew.
+        // The data that a thermal march keeps for the next one are not serialised but recomputed.
         let warm = in_full(Lubricant { heat: Some(Heat::default()), ..Lubricant::default() });
         let read = again(&warm);
         assert_eq!((&read.request, &read.result), (&warm.request, &warm.result));

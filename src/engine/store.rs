@@ -1,5 +1,4 @@
-//! What is expensive and shared, in one place: grids with their kernels, full solvers, reduced models, and their
-//! operators.
+//! Shared storage of expensive objects: grids with their kernels, full solvers, reduced models, and their operators.
 
 use super::job::{Job, Wake};
 use super::rom::{ModelFileError, SavedModel};
@@ -18,17 +17,19 @@ use crate::solver::training::{TrainingObserver, TrainingSpec, train};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Grids and idle full solvers of line contacts kept at a time; the least recently used goes first.
+/// Maximum number of stored grids and idle full solvers of line contacts. The least recently used one is freed first.
 const KEPT_LINES: usize = 6;
-/// The same of point contacts: a quick grid, the chosen one and a second one. Each solver may hold some hundred
-/// megabytes, and the memory of a web page never shrinks.
+/// Maximum number of stored grids and idle full solvers of point contacts: a quick grid, the chosen one and a second
+/// one. Each solver may use several hundred megabytes, and the memory of a web page never shrinks.
 const KEPT_POINTS: usize = if worker::THREADS { 3 } else { 1 };
-/// Reduced models kept in addition to those in the program: a model of some windows has some ten megabytes.
+/// Maximum number of stored reduced models in addition to those in the program. A model of several local models uses
+/// about ten megabytes.
 const KEPT_MODELS: usize = 12;
-/// Idle reduced solvers kept at a time.
+/// Maximum number of idle reduced solvers.
 const KEPT_ONLINE: usize = 8;
 
-/// Grids, solvers and models, made when first needed and kept. Clones share everything; any thread may use them.
+/// Grids, solvers and models, made at their first use and stored. Clones share everything, and any thread may use
+/// them.
 #[derive(Clone, Default)]
 pub struct Store(Arc<Shelves>);
 
@@ -41,7 +42,7 @@ struct Shelves {
     online: Mutex<Vec<Online>>,
 }
 
-/// Everything that is shared, held still.
+/// Locks on all shared objects.
 pub struct Held<'a> {
     _program: MutexGuard<'static, embedded::Read>,
     _grids: MutexGuard<'a, Vec<ContactGrid>>,
@@ -51,22 +52,22 @@ pub struct Held<'a> {
     _online: MutexGuard<'a, Vec<Online>>,
 }
 
-/// What a reduced model was made from, by which it is known again.
+/// Origin of a reduced model, by which it is found again.
 #[derive(Clone, PartialEq)]
 enum Origin {
-    /// A file as it was at a time, and its size.
+    /// File, with its modification time and its size.
     File(PathBuf, Option<FileTime>, u64),
-    /// Trained.
+    /// Training.
     Training(Box<TrainingSpec>),
-    /// Trained in time.
+    /// Transient training by a scene.
     Scene(Box<Scene>),
 }
 
 impl Store {
-    /// A grid with its kernel.
+    /// Returns a grid with its kernel.
     ///
     /// # Errors
-    /// When the specification is refused.
+    /// If the specification is refused.
     pub fn grid(&self, spec: GridSpec) -> Result<ContactGrid, GridError> {
         let grid = match take(&self.0.grids, |grid| grid.spec() == spec) {
             Some(grid) => grid,
@@ -79,7 +80,7 @@ impl Store {
         Ok(grid)
     }
 
-    /// Works with a full solver on a grid. What it solved before leaves no trace in what it solves next.
+    /// Runs `work` with a full solver on a grid. Its previous solves do not affect the result.
     pub fn with_full_solver<T>(&self, grid: &ContactGrid, work: impl FnOnce(&mut ContactSolver) -> T) -> T {
         let kind = grid.kind();
         let of_the_kind = |other: &ContactSolver| other.grid_spec().kind() == kind;
@@ -88,19 +89,19 @@ impl Store {
             make_room(&self.0.full, of_the_kind, kept_of(kind));
             ContactSolver::on(grid)
         });
-        // One that panics may hold half a state: it does not come back.
+        // If `work` panics, the solver may be in an invalid state and is not stored again.
         let done = work(&mut solver);
         keep(&self.0.full, solver, of_the_kind, kept_of(kind));
         done
     }
 
-    /// A reduced solver that remembers no solution; only its operators are those of an earlier one.
+    /// Returns a reduced solver without stored solutions. Its operators may be those of a previous one.
     pub fn online(&self, model: &Arc<ReducedModel>, options: ReducedOptions) -> Online {
         let idle = take(&self.0.online, |idle| Arc::ptr_eq(&idle.model, model) && *idle.options() == options);
         idle.unwrap_or_else(|| Online::new(Arc::clone(model), options))
     }
 
-    /// Keeps the operators of a reduced solver that is no longer needed.
+    /// Stores the operators of a reduced solver that is no longer needed.
     pub fn give_back(&self, mut online: Online) {
         online.forget();
         keep(&self.0.online, online, |_| true, KEPT_ONLINE);
@@ -109,18 +110,18 @@ impl Store {
     /// Returns a reduced model of the program by its name.
     ///
     /// # Errors
-    /// For an unknown name, and when the program was built with a damaged one.
+    /// If the name is unknown, or the model in the program is damaged.
     pub fn embedded(&self, name: &str) -> Result<Arc<ReducedModel>, ModelFileError> {
         self.embedded_watched(name, &())
     }
 
-    /// Frees the operators of idle reduced solvers, and the models of the program that nobody uses.
+    /// Frees the operators of idle reduced solvers, and the models of the program that are not in use.
     pub fn forget_unused_models(&self) {
         lock(&self.0.online).clear();
         embedded::forget_unused();
     }
 
-    /// Begins to read a reduced model of the program by its name, once its file is there.
+    /// Starts a job that reads a reduced model of the program by its name, once its file is available.
     pub fn read(&self, name: &'static str, wake: Wake) -> Job<Arc<ReducedModel>> {
         let store = self.clone();
         Job::once(
@@ -134,7 +135,8 @@ impl Store {
         )
     }
 
-    /// The same while an observer watches: reading takes a tenth of a second and more. All stores share these models.
+    /// As [`Self::embedded`], with an observer, because reading takes a tenth of a second or more. All stores share
+    /// these models.
     pub(super) fn embedded_watched(
         &self,
         name: &str,
@@ -143,15 +145,15 @@ impl Store {
         embedded::embedded_watched(name, observer)
     }
 
-    /// The reduced model of a file; read again where the file was changed.
+    /// Returns the reduced model of a file, which is read again after a change of the file.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If the file cannot be read.
     pub fn model_of_file(&self, path: &Path) -> Result<Arc<ReducedModel>, EngineError> {
         self.model_of_file_watched(path, &())
     }
 
-    /// The same while an observer watches.
+    /// As [`Self::model_of_file`], with an observer.
     pub(super) fn model_of_file_watched(
         &self,
         path: &Path,
@@ -161,19 +163,19 @@ impl Store {
         made_once(&self.0.models, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
     }
 
-    /// The reduced model in time of a file; read again where the file was changed.
+    /// Returns the transient reduced model of a file, which is read again after a change of the file.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If the file cannot be read.
     pub fn trajectory_model_of_file(&self, path: &Path) -> Result<Arc<TrajectoryModel>, EngineError> {
         let read = || SavedModel::read(path)?.in_time();
         made_once(&self.0.in_time, Origin::of_file(path), read).map_err(|reason| unreadable(path, reason))
     }
 
-    /// The reduced model in time that a scene gives; trained once.
+    /// Returns the transient reduced model of a scene, which is trained once.
     ///
     /// # Errors
-    /// When it gives none.
+    /// If the training fails.
     pub fn trained_in_time(
         &self,
         scene: &Scene,
@@ -182,10 +184,10 @@ impl Store {
         made_once(&self.0.in_time, Origin::Scene(Box::new(scene.clone())), || train().map(Arc::new))
     }
 
-    /// The reduced model that a training gives; trained once.
+    /// Returns the reduced model of a training, which is trained once.
     ///
     /// # Errors
-    /// When it gives none or the observer cancels.
+    /// If the training fails or the observer cancels it.
     pub fn trained(
         &self,
         spec: &TrainingSpec,
@@ -195,8 +197,8 @@ impl Store {
         Ok(made_once(&self.0.models, origin, || train(spec, observer).map(Arc::new))?)
     }
 
-    /// Locks everything that is shared. A process that is forked meanwhile finds it whole and, once the child drops what it
-    /// has of this, open: no thread that the child lacks was in the middle of a change.
+    /// Locks all shared objects. If the process is forked meanwhile, the child process finds them complete, because
+    /// no other thread is changing them. They are unlocked when the child drops its copy of the locks.
     pub fn hold(&self) -> Held<'_> {
         let Shelves { grids, full, models, in_time, online } = &*self.0;
         Held {
@@ -209,14 +211,14 @@ impl Store {
         }
     }
 
-    /// The same where it has been trained already and is still kept.
+    /// Returns the model of a training if it has been trained and is still stored.
     pub fn already_trained(&self, spec: &TrainingSpec) -> Option<Arc<ReducedModel>> {
         kept(&self.0.models, &Origin::Training(Box::new(spec.clone())))
     }
 }
 
 impl Origin {
-    /// A file as it is now.
+    /// Returns the origin for the current state of a file.
     fn of_file(path: &Path) -> Self {
         let (changed, size) =
             std::fs::metadata(path).map_or((None, 0), |metadata| (metadata.modified().ok(), metadata.len()));
@@ -231,12 +233,12 @@ fn unreadable(path: &Path, reason: ModelFileError) -> EngineError {
     }
 }
 
-/// The model of an origin, where it is on its shelf.
+/// Returns the stored model of an origin, or `None`.
 fn kept<M>(shelf: &Mutex<Vec<(Origin, Arc<M>)>>, origin: &Origin) -> Option<Arc<M>> {
     lock(shelf).iter().find(|(kept, _)| kept == origin).map(|(_, model)| Arc::clone(model))
 }
 
-/// The model of an origin from its shelf, made where it is not there.
+/// Returns the stored model of an origin; makes it if there is none.
 fn made_once<M, E>(
     shelf: &Mutex<Vec<(Origin, Arc<M>)>>,
     origin: Origin,
@@ -247,7 +249,7 @@ fn made_once<M, E>(
     }
     let made = make()?;
     if let Some(first) = kept(shelf, &origin) {
-        // Another thread has made it meanwhile: everybody gets the first.
+        // Another thread has made it meanwhile: all callers receive the first one.
         return Ok(first);
     }
     keep(shelf, (origin, Arc::clone(&made)), |_| true, KEPT_MODELS);
@@ -255,7 +257,7 @@ fn made_once<M, E>(
 }
 
 fn lock<T>(shelf: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Every change to a shelf is whole, even where a thread panicked.
+    // Every change is complete even after a panic of a thread.
     shelf.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -266,24 +268,25 @@ fn kept_of(kind: ContactKind) -> usize {
     }
 }
 
-/// Takes the thing used last that is wanted.
+/// Removes and returns the most recently used matching object.
 fn take<T>(shelf: &Mutex<Vec<T>>, wanted: impl Fn(&T) -> bool) -> Option<T> {
     let mut shelf = lock(shelf);
     shelf.iter().rposition(wanted).map(|place| shelf.remove(place))
 }
 
-/// Puts a thing on its shelf, where the oldest of the same sort gives way.
+/// Stores an object. If there are too many of its sort, the oldest one is freed.
 fn keep<T>(shelf: &Mutex<Vec<T>>, thing: T, same_sort: impl Fn(&T) -> bool, most: usize) {
     make_room(shelf, same_sort, most);
     lock(shelf).push(thing);
 }
 
-/// Frees the oldest thing of a sort if the shelf holds as many of them as it may.
+/// Frees the oldest object of a sort if the maximum number of them is stored.
 fn make_room<T>(shelf: &Mutex<Vec<T>>, same_sort: impl Fn(&T) -> bool, most: usize) {
     let mut shelf = lock(shelf);
     let full = shelf.iter().filter(|other| same_sort(other)).count() >= most;
     let oldest = shelf.iter().position(same_sort).filter(|_| full).map(|place| shelf.remove(place));
-    // To free it takes long: others may use the shelf meanwhile, and a forked process finds it open.
+    // Freeing takes long, so the lock is released first. Other threads can then use the storage, and a forked process
+    // finds it unlocked.
     drop((shelf, oldest));
 }
 

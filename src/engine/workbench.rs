@@ -1,4 +1,4 @@
-//! Solving single contacts by any method, with everything that can be kept between solves.
+//! Solution of single contacts by any method, with everything that can be kept between solves.
 
 use super::answer::{Solver, answer, window_of};
 use super::rom::ModelFileError;
@@ -15,37 +15,37 @@ use crate::solver::training::{TrainingObserver, TrainingSpec};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The store as one job uses it: with the folder that its paths refer to, and reduced solvers that remember only what
-/// this job has solved.
+/// Use of the store by one job: the folder to which its paths refer, and reduced solvers with the solutions of this
+/// job only.
 #[derive(Default)]
 pub struct Workbench {
     store: Store,
     base: PathBuf,
-    /// What stands in place of the embedded model of its kind of contact.
+    /// Model used instead of the embedded model of its kind of contact.
     in_use: Option<Arc<ReducedModel>>,
-    /// Whether it does so for every kind of contact.
+    /// True if that model replaces the embedded models of all kinds of contact.
     for_all: bool,
     online: Vec<Online>,
 }
 
 impl Workbench {
-    /// A workbench with a store of its own; relative paths refer to the folder `base`.
+    /// Creates a workbench with a new store. Relative paths refer to the folder `base`.
     pub fn new(base: impl Into<PathBuf>) -> Self {
         Self::on(&Store::default(), base)
     }
 
-    /// A workbench on what others keep as well.
+    /// Creates a workbench on a shared store.
     pub fn on(store: &Store, base: impl Into<PathBuf>) -> Self {
         Self { store: store.clone(), base: base.into(), in_use: None, for_all: false, online: Vec::new() }
     }
 
-    /// The same with a model in place of the embedded one of its kind of contact.
+    /// Replaces the embedded model of the same kind of contact by this model.
     pub fn using(mut self, model: &Arc<ReducedModel>) -> Self {
         self.in_use = Some(Arc::clone(model));
         self
     }
 
-    /// The same with a model in place of all embedded ones: what it is not of, it refuses.
+    /// Replaces all embedded models by this model. Contacts of the other kind are then refused.
     pub fn with_model(mut self, model: &Arc<ReducedModel>) -> Self {
         self.for_all = true;
         self.using(model)
@@ -53,12 +53,12 @@ impl Workbench {
 }
 
 impl Workbench {
-    /// The store it works with.
+    /// Returns its store.
     pub fn store(&self) -> &Store {
         &self.store
     }
 
-    /// The model in place of embedded ones, and whether it is in place of all of them.
+    /// Returns the model used instead of embedded ones, and whether it replaces all of them.
     pub fn in_use(&self) -> Option<(&Arc<ReducedModel>, bool)> {
         self.in_use.as_ref().map(|model| (model, self.for_all))
     }
@@ -185,10 +185,10 @@ impl Drop for Workbench {
 }
 
 impl Workbench {
-    /// Whether the models of a scene can be had.
+    /// Checks that the models of a scene are available.
     ///
     /// # Errors
-    /// When one cannot be read, or no training is where one should be.
+    /// If a model cannot be read, or a scene that should contain a training does not.
     pub fn check_models(&self, scene: &Scene) -> Result<(), EngineError> {
         if let Study::Transient(study) = &scene.study
             && let Some(ModelSource::File(path)) = study.reduced.as_ref().and_then(|reduced| reduced.model.as_ref())
@@ -203,7 +203,7 @@ impl Workbench {
     }
 }
 
-/// A model asked about the other kind of contact.
+/// Creates the error of a model that was requested for the other kind of contact.
 fn other_contact(model: &ReducedModel, given: ContactKind) -> EngineError {
     ReducedError::OtherContact { model: model.contact(), given }.into()
 }

@@ -292,7 +292,7 @@ impl<M: Send> Reporter<M> {
     }
 
     fn end(&self, ending: Ending) {
-        // Nobody receives the event if the job was dropped.
+        // The event is lost if the job was dropped.
         let _gone = self.line.send(Event::Ended(ending));
         (self.wake.0)();
     }

@@ -1,56 +1,59 @@
-//! Rupture as a complementarity condition: P ≥ 0, λ ≥ 0 and P λ = 0, with Reynolds' rows f + λ = 0 (appendix D).
+//! Cavitation as a complementarity condition: P ≥ 0, λ ≥ 0 and P λ = 0, with the Reynolds equations f + λ = 0
+//! (appendix D). P is the pressure, f the residual of a Reynolds equation and λ its multiplier.
 //!
-//! A primal–dual active set: on the ruptured set P = 0 is held and λ = −f read off; elsewhere λ = 0 and the rows are
-//! solved. After each Newton step nodes whose pressure fell below zero join the set, and nodes leave it by the union
-//! rule of [`ActiveSet::release`], by which the front comes to its place in few steps whatever the spacing.
+//! A primal–dual active set solves the condition. Inside the cavitated set, P = 0 is prescribed and λ = −f. Elsewhere
+//! λ = 0 and the equations are solved. After each Newton step, nodes with negative pressure join the set, and other
+//! nodes leave it by the union rule of [`ActiveSet::release`]. This rule moves the cavitation boundary to its
+//! position in few steps at any spacing.
 
 use super::thinning::Thinning;
 use crate::solver::discrete::reynolds::{CENTER, Row, STENCIL};
 use crate::solver::discrete::space::Grid;
 
-/// The ruptured set of a state, and the multiplier there; both empty where a penalty holds the pressures.
+/// Cavitated set of a state, and the multiplier there. Both are empty for cavitation by the penalty.
 #[derive(Clone, Debug, Default)]
 pub struct ActiveSet {
-    /// Whether the film is ruptured, per unknown.
+    /// True in the cavitated region, per unknown.
     pub ruptured: Vec<bool>,
-    /// λ, per unknown; zero where the film is whole.
+    /// λ, per unknown; zero in the full film.
     pub multiplier: Vec<f64>,
-    /// θ, per unknown, where the film ruptures so that mass is conserved, empty elsewhere; 1 where the film is whole.
+    /// Film fraction θ per unknown, for mass-conserving cavitation; empty otherwise. θ = 1 in the full film.
     pub fraction: Vec<f64>,
-    /// The flow ρ̄θH that the surfaces bring to the inlet; none where it is flooded.
+    /// Flow ρ̄θH that the surfaces carry to the inlet; `None` for a flooded inlet.
     pub supply: Option<f64>,
-    /// The set as a node array, where there are fractions.
+    /// The set as a node array, for mass-conserving cavitation.
     pub(super) at_node: Vec<bool>,
-    /// How many nodes at once left the set against the flow in the last step, per line.
+    /// Number of adjacent nodes that left the set against the flow in the last step, per line.
     pub(super) strides: Vec<usize>,
-    /// The sets before the last step, and before the one before.
+    /// The sets before the last step and before the second last step.
     former: [Vec<bool>; 2],
-    /// How often in a row the set was again what it was two steps before.
+    /// Number of consecutive steps after which the set was the same as two steps before.
     returns: usize,
-    /// Whether the set was seen to cycle: from then on one node leaves it at a time along each line, or, where it
-    /// carries fractions, each node a few times only.
+    /// True after the set was seen to cycle. From then on, one node at a time leaves it along each line; with film
+    /// fractions, each node leaves it a few times only.
     pub cautious: bool,
-    /// Newton steps since the set began.
+    /// Number of Newton steps since [`Self::begin`].
     steps: usize,
-    /// How often each node left the set since the front was seen to cycle.
+    /// Number of times that each node left the set since the cavitation boundary was seen to cycle.
     pub(super) returns_of: Vec<u8>,
-    /// Work space: who leaves.
+    /// Work space: nodes that leave the set.
     leaving: Vec<usize>,
 }
 
-/// So many returns in a row are a cycle: single ones end by themselves.
+/// Number of consecutive returns that counts as a cycle. Single returns end without intervention.
 const CYCLE: usize = 3;
 
-/// A set with fractions that still moves after so many steps cycles too, through more sets than two.
+/// Number of steps after which a set with film fractions that still changes counts as cycling. Such a cycle passes
+/// through more than two sets.
 const LATE: usize = 25;
 
 impl ActiveSet {
-    /// Whether pressures are held by a set at all.
+    /// True if a set, and not the penalty, keeps the pressures from falling below zero.
     pub fn holds(&self) -> bool {
         !self.ruptured.is_empty()
     }
 
-    /// Reads λ off the ruptured set's rows and holds P there: their rows ask for no change.
+    /// Sets λ from the equations of the cavitated set and replaces these equations by ΔP = 0.
     pub(super) fn hold(&mut self, rows: &mut [Row], thinning: Option<&mut Thinning>) {
         const HELD: Row = {
             let mut d_p = [0.0; STENCIL];
@@ -73,7 +76,7 @@ impl ActiveSet {
         }
     }
 
-    /// λ as a node array, empty where there is none.
+    /// Returns λ as a node array; empty without a multiplier.
     pub(super) fn field(&self, grid: &impl Grid) -> Vec<f64> {
         if !self.holds() || self.fills() {
             return Vec::new();
@@ -81,7 +84,7 @@ impl ActiveSet {
         node_array(grid, &self.multiplier, 0.0)
     }
 
-    /// The set as a node array.
+    /// Returns the set as a node array.
     pub(super) fn nodes(&self, grid: &impl Grid) -> Vec<bool> {
         let mut nodes = vec![false; grid.weights().len()];
         for (k, _) in self.ruptured.iter().enumerate().filter(|(_, ruptured)| **ruptured) {
@@ -90,7 +93,7 @@ impl ActiveSet {
         nodes
     }
 
-    /// Begins with a set; with none where a penalty holds the pressures.
+    /// Starts with the given set; with an empty one for the penalty.
     pub(super) fn begin(&mut self, ruptured: impl Iterator<Item = bool>) {
         self.ruptured.clear();
         self.ruptured.extend(ruptured);
@@ -104,14 +107,14 @@ impl ActiveSet {
         (self.returns, self.cautious, self.steps) = (0, false, 0);
     }
 
-    /// Keeps the set as it is before a step.
+    /// Stores the set before a step.
     pub(super) fn remember(&mut self) {
         self.steps += 1;
         self.former.swap(0, 1);
         self.former[0].clone_from(&self.ruptured);
     }
 
-    /// Whether the set is what it was before the step; counts how often it returns.
+    /// Returns true if the set is the same as before the step. Counts how often it returns to a previous one.
     pub(super) fn is_still(&mut self) -> bool {
         let still = self.ruptured == self.former[0];
         self.returns = if !still && self.ruptured == self.former[1] { self.returns + 1 } else { 0 };
@@ -119,10 +122,12 @@ impl ActiveSet {
         still
     }
 
-    /// Takes nodes out of the set by the union rule; whether there were any: all with λ < 0, and along each line in X the
-    /// outer nodes of a block, from either end, while the sum of λ over them is below zero. More flows in there than the
-    /// gap takes, so that the liquid fills them all. Unknowns lie in `lines` lines along X, in cells of these widths, the
-    /// lines' unknowns of one abscissa side by side.
+    /// Removes nodes from the set by the union rule and returns true if there were any. All nodes with λ < 0 leave.
+    /// Along each line in X, the outer nodes of a block also leave, from either end, as long as the sum of λ over
+    /// them is negative. Then more lubricant flows in than the gap can take, so the liquid fills all of them.
+    ///
+    /// Unknowns lie on `lines` lines along X, in cells of the given widths. Unknowns at the same abscissa are
+    /// adjacent in memory.
     pub(super) fn release(&mut self, widths: &[f64], lines: usize) -> bool {
         let Self { ruptured, multiplier, cautious, leaving, .. } = self;
         leaving.clear();
@@ -130,7 +135,7 @@ impl ActiveSet {
             let at = |column: usize| column * lines + line;
             let mut first = 0;
             while first < widths.len() {
-                // A block of ruptured nodes along the line.
+                // A block of cavitated nodes along the line.
                 let length = (first..widths.len()).take_while(|&column| ruptured[at(column)]).count();
                 let block = first..first + length;
                 let below = block.clone().map(at).filter(|&k| multiplier[k] < 0.0);
@@ -153,7 +158,7 @@ impl ActiveSet {
     }
 }
 
-/// Unknowns as a node array, with another value elsewhere.
+/// Expands an array of unknowns to a node array, with the value `elsewhere` at all other nodes.
 pub(super) fn node_array(grid: &impl Grid, unknowns: &[f64], elsewhere: f64) -> Vec<f64> {
     let mut array = vec![elsewhere; grid.weights().len()];
     for (k, value) in unknowns.iter().enumerate() {

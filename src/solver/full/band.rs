@@ -1,13 +1,12 @@
-//! LU factorisation of a band matrix with partial pivoting, bordered by one row and one column: the Krylov
-//! preconditioner.
+//! LU factorisation of a band matrix with partial pivoting, used as the Krylov preconditioner.
 
-/// A square band matrix and, after [`BandLu::factorise`], its LU factors (row storage with room for pivoting).
+/// Square band matrix and, after [`BandLu::factorise`], its LU factors. Rows are stored with room for pivoting.
 #[derive(Clone, Debug, Default)]
 pub struct BandLu {
     n: usize,
     lower: usize,
     upper: usize,
-    /// Row i holds columns i − lower … i + upper + lower.
+    /// Entries; row i holds columns i − lower … i + upper + lower.
     rows: Vec<f64>,
     pivots: Vec<usize>,
     multipliers: Vec<f64>,
@@ -29,7 +28,7 @@ impl BandLu {
         2 * self.lower + self.upper + 1
     }
 
-    /// The stored entries of row i, from column i − lower on.
+    /// Returns the stored entries of row i, from column i − lower on.
     #[inline]
     pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
         let stride = self.stride();
@@ -46,7 +45,7 @@ impl BandLu {
             row.copy_within(shift.., 0);
             row[stride - shift..].fill(0.0);
         }
-        // Row i now starts at column max(0, i − lower); during elimination of column k the rows k…k+lower start at
+        // Row i now starts at column max(0, i − lower). During the elimination of column k, rows k…k+lower start at
         // column k.
         for k in 0..n {
             let last = (k + lower).min(n - 1);

@@ -1,9 +1,9 @@
-//! Cuts through the fields of a solution: along X, across Y over both halves, and single places.
+//! Sections through the fields of a solution along X and, over both halves, across Y, and values at single positions.
 
 use super::solution::Solution;
 
-/// The cell of ascending nodes that holds a place: index of its upper end, and how far between both ends the place
-/// lies.
+/// Returns the cell of ascending nodes that contains a position: the index of its upper node, and the relative
+/// position between both nodes. `None` outside.
 pub(super) fn cell(nodes: &[f64], at: f64) -> Option<(usize, f64)> {
     let upper = nodes.partition_point(|&node| node < at).max(1);
     let (low, high) = (*nodes.get(upper - 1)?, *nodes.get(upper)?);
@@ -11,8 +11,8 @@ pub(super) fn cell(nodes: &[f64], at: f64) -> Option<(usize, f64)> {
 }
 
 impl Solution {
-    /// X, P, H along X at an ordinate Y of either half, linearly between the nodes across; of a line contact its
-    /// profile, whatever Y is. Empty outside the domain.
+    /// Returns X, P and H along X at an ordinate Y of either half, interpolated linearly between the nodes across. A
+    /// line contact returns its profile for any Y. Empty outside the domain.
     pub fn along(&self, y: f64) -> Vec<(f64, f64, f64)> {
         let ny = self.y.len();
         if ny == 1 {
@@ -23,25 +23,25 @@ impl Solution {
         (0..self.x.len()).map(|i| (self.x[i], between(&self.pressure, i), between(&self.film, i))).collect()
     }
 
-    /// Y, P, H across both halves at an abscissa X, linearly between the nodes along; empty for a line contact and
-    /// outside the domain.
+    /// Returns Y, P and H across both halves at an abscissa X, interpolated linearly between the nodes along X. Empty
+    /// for a line contact and outside the domain.
     pub fn across(&self, x: f64) -> Vec<(f64, f64, f64)> {
         let ny = self.y.len();
         let Some((i, t)) = cell(&self.x, x).filter(|_| ny > 1) else { return Vec::new() };
         let between = |values: &[f64], j: usize| (1.0 - t) * values[(i - 1) * ny + j] + t * values[i * ny + j];
         let half = (0..ny).map(|j| (self.y[j], between(&self.pressure, j), between(&self.film, j)));
-        // The node on the axis belongs to both halves, and is named once.
+        // The node on the axis belongs to both halves and is included once.
         half.clone().chain(half.rev().skip(1).map(|(y, p, h)| (-y, p, h))).collect()
     }
 
-    /// P and H at a place of a point contact, bilinearly between the nodes of either half; `None` outside and for a
-    /// line contact.
+    /// Returns P and H at a position of a point contact, interpolated bilinearly between the nodes of either half.
+    /// `None` outside the domain and for a line contact.
     pub fn at(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         let at = |values: &[f64]| self.value_at(|node| values.get(node).copied(), x, y);
         Some((at(&self.pressure)?, at(&self.film)?))
     }
 
-    /// The same of any value that nodes have and that is even in Y.
+    /// Interpolates any nodal value that is even in Y, as [`Self::at`] does.
     pub fn value_at(&self, value: impl Fn(usize) -> Option<f64>, x: f64, y: f64) -> Option<f64> {
         let ny = self.y.len();
         let ((i, s), (j, t)) = (cell(&self.x, x)?, cell(&self.y, -y.abs())?);

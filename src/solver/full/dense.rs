@@ -1,4 +1,5 @@
-//! The dissertation's way, kept as the baseline of `bench`: Newton with a dense LU of the whole Jacobian in every step.
+//! Method of the dissertation, the baseline of `bench`: Newton's method with a dense LU factorisation of the whole
+//! Jacobian in every step.
 
 use super::line::Backtracking;
 use super::problem::Problem;
@@ -8,8 +9,8 @@ use crate::solver::discrete::space::LineSpace;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, linalg::solvers::PartialPivLu};
 
-/// Dense Newton from the current state of `system` until ‖Δz‖/‖z‖ < 1e-10. `kernel` is K over the node arrays. Returns
-/// the number of steps.
+/// Runs dense Newton steps from the current state of `system` until ‖Δz‖/‖z‖ < 1e-10. `kernel` is K over the node
+/// arrays. Returns the number of steps.
 pub fn dense_newton(
     system: &mut System<LineSpace>,
     problem: &Problem,
@@ -47,7 +48,7 @@ pub fn dense_newton(
     options.max_newton
 }
 
-/// The dense kernel of a grid over its node arrays.
+/// Returns the dense kernel of a grid over its node arrays.
 pub fn dense_kernel(grid: &LineGrid) -> Mat<f64> {
     Mat::from_fn(grid.len(), grid.len(), |i, j| grid.kernel_entry(i, j))
 }

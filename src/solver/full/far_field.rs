@@ -1,23 +1,27 @@
-//! The pressure beyond the ends of a domain, where a lightly loaded point contact carries much of its load.
+//! Pressure beyond the ends of a domain, where a lightly loaded point contact carries much of its load.
 //!
-//! Far from the contact the bodies are rigid and the viscosity is that at ambient pressure. There P = −λ̄X/(3 + 2R_x/R_y)/H²
-//! solves the Reynolds equation exactly for H = H₀ + (X² + g_y Y²)/2 (Kapitza 1955, with half Sommerfeld's condition).
-//! Whatever happens in the contact adds to it no more than a field that falls with the sixth power of the distance. Behind a
-//! circle's cavitation boundary ∂P/∂n vanishes too: along rays from the contact that is P ∝ cos φ + B cosh 3φ with φ from
-//! the inlet, which solves the same equation, and B such that P and ∂P/∂φ vanish at the same angle.
+//! Far from the contact the bodies are rigid and the viscosity is the ambient one. There P = −λ̄X/(3 + 2R_x/R_y)/H²
+//! solves the Reynolds equation exactly for H = H₀ + (X² + g_y Y²)/2 (Kapitza 1955, with the half-Sommerfeld
+//! condition). P is the pressure, H the film thickness, H₀ the rigid-body separation, λ̄ the speed parameter of
+//! (2.23) and g_y the curvature of the gap across. Any disturbance from the contact adds a field that falls with the
+//! sixth power of the distance.
 //!
-//! A grid that [continues](Grid::continues) has this pressure at its ends, and its load counts.
+//! Behind the cavitation boundary of a circular contact, ∂P/∂n vanishes as well. Along rays from the contact, P ∝ cos
+//! φ + B cosh 3φ solves the same equation, where φ is the angle from the inlet. B is such that P and ∂P/∂φ vanish at
+//! the same angle.
+//!
+//! A grid that [continues](Grid::continues) has this pressure at its ends, and the load of this pressure is included.
 
 use super::problem::Problem;
 use crate::solver::discrete::space::Grid;
 use crate::solver::physics::contact::ContactKind;
 
-/// φ of the cavitation boundary far from a circle, where tan φ = −3 tanh 3φ.
+/// Angle φ of the cavitation boundary far from a circular contact, where tan φ = −3 tanh 3φ.
 const BOUNDARY: f64 = 1.892553905;
-/// B = −cos φ/cosh 3φ there.
+/// B = −cos φ/cosh 3φ at that angle.
 const SIDEWAYS: f64 = 2.163998272e-03;
 
-/// P at a place whose film is H.
+/// Returns P at a position where the film thickness is H.
 pub(super) fn pressure(problem: &Problem, (x, y): (f64, f64), film: f64) -> f64 {
     let share = match problem.point.kind {
         ContactKind::Line => 3.0,
@@ -32,7 +36,7 @@ pub(super) fn pressure(problem: &Problem, (x, y): (f64, f64), film: f64) -> f64 
     distance / (share * problem.inverse_lambda * film * film)
 }
 
-/// Writes the pressure at the ends of a domain; the other entries of the node array stay.
+/// Writes the pressure at the ends of a domain. The other entries of the node array are unchanged.
 pub(super) fn write_ends(grid: &impl Grid, problem: &Problem, film: &[f64], pressures: &mut [f64]) {
     let (x, y) = grid.abscissae();
     let mut write = |i: usize, j: usize| {
@@ -46,9 +50,9 @@ pub(super) fn write_ends(grid: &impl Grid, problem: &Problem, film: &[f64], pres
     (0..x.len()).for_each(|i| write(i, 0));
 }
 
-/// The load of a pressure beyond the domain, of both halves of a point contact, 2π/3 being the whole. It falls with the third
-/// power of the distance, so that its integral is that of P x·n over the ends; the outer halves of the cells at the
-/// ends, which no quadrature weight counts, are added.
+/// Returns the load of the pressure beyond the domain, for both halves of a point contact; the total load is 2π/3.
+/// The pressure falls with the third power of the distance, so its integral is that of P x·n over the ends. The outer
+/// halves of the cells at the ends have no quadrature weight and are added.
 pub(super) fn load(grid: &impl Grid, pressures: &[f64]) -> f64 {
     let (x, y) = grid.abscissae();
     let (columns, lines) = (x.len(), y.len());
@@ -61,11 +65,12 @@ pub(super) fn load(grid: &impl Grid, pressures: &[f64]) -> f64 {
     2.0 * (inlet + outlet + side)
 }
 
-/// Farthest outlet behind which the usual penalty does.
+/// Largest outlet distance for which the usual penalty is sufficient.
 const USUAL_OUTLET: f64 = 200.0;
 
-/// By how much the penalty of a film that ruptures far behind the contact is stiffer than the usual one. The pressure behind
-/// the boundary is about −X/γ: over a long outlet, and beside a circle, it would take away a share of the load.
+/// Returns the factor by which the penalty exceeds the usual one if the film cavitates far behind the contact. The
+/// pressure behind the boundary is about −X/γ with the penalty factor γ. Over a long outlet, and at the side of a
+/// circular contact, it would take away a part of the load.
 pub(super) fn stiffening(grid: &impl Grid) -> f64 {
     let (x, y) = grid.abscissae();
     let outlet = x.last().copied().unwrap_or(0.0);

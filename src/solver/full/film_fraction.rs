@@ -1,29 +1,33 @@
-//! Rupture that conserves mass (Elrod and Adams): P ≥ 0, 0 ≤ θ ≤ 1 and P (1 − θ) = 0 at every node.
+//! Mass-conserving cavitation (Elrod and Adams): P ≥ 0, 0 ≤ θ ≤ 1 and P (1 − θ) = 0 at every node. P is the pressure,
+//! and θ is the film fraction, the filled share of the gap.
 //!
-//! On the ruptured set the unknown is θ, the share of the gap that is filled, at P = 0; its rows are Reynolds' own, in
-//! which θ ρ̄H is carried along. A node joins the set when its pressure falls below zero, and leaves it when θ rises
-//! above one. At the inlet the surfaces bring a film of their own, where it is thinner than the gap.
+//! In the cavitated set P = 0 and the unknown is θ. Its equations are the Reynolds equations with the transported
+//! flow θ ρ̄H. A node joins the set when its pressure falls below zero, and leaves it when θ exceeds one. At the
+//! inlet the surfaces carry the inlet film thickness, if it is smaller than the gap.
 
 use super::active_set::{ActiveSet, node_array};
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::{CENTER, Row, RowGeometry, STENCIL};
 use crate::solver::discrete::space::Grid;
 
-/// So often a node may leave the set again once the front was seen to cycle.
+/// Number of times that a node may leave the set after the cavitation boundary was seen to cycle.
 const MOST_RETURNS: u8 = 2;
 
-/// On a plane the inlet is taken for filled in part where the gap is wider than so many supplied films.
+/// Ratio of the gap to the inlet film thickness above which the inlet of a point contact is initialised as partly
+/// filled.
 const WIDE: f64 = 3.0;
 
-/// Guesses how far a supplied film fills the inlet under (P, H), both node arrays: 1 where it fills it. On a line the
-/// meniscus lies where a flow that just carries the supply has raised the reduced pressure, from there to the contact,
-/// by what Grubin's analysis of the inlet asks for: `rise` is that, times 1/λ̄.
+/// Estimates how far an inlet film thickness fills the inlet under (P, H), both node arrays. Returns θ, which is 1 in
+/// the full film.
+///
+/// In a line contact, the meniscus follows from Grubin's analysis of the inlet. A flow equal to the supply raises the
+/// reduced pressure between the meniscus and the contact by a known amount. `rise` is that amount times 1/λ̄.
 pub fn guess(grid: &impl Grid, (pressure, film): (&[f64], &[f64]), supply: f64, rise: f64) -> Vec<f64> {
     let (x, y) = grid.abscissae();
     let mut fraction = vec![1.0; film.len()];
     for line in 0..y.len() {
         let at = |column: usize| column * y.len() + line;
-        // The contact begins where the pressure does.
+        // The contact begins at the first node with pressure.
         let edge = (0..x.len()).find(|&column| pressure[at(column)] > 0.0);
         let edge = edge.unwrap_or_else(|| x.partition_point(|x| *x < 0.0)).min(x.len() - 1);
         let mut risen = 0.0;
@@ -39,19 +43,19 @@ pub fn guess(grid: &impl Grid, (pressure, film): (&[f64], &[f64]), supply: f64, 
     fraction
 }
 
-/// The nodes at both ends of a line along X, where P vanishes.
+/// Nodes at both ends of a line along X, where P vanishes.
 struct Ends {
-    /// At the inlet.
+    /// Node at the inlet.
     inlet: usize,
-    /// Before it, where there is one.
+    /// Node before the inlet node, if there is one.
     ghost: Option<usize>,
-    /// At the outlet.
+    /// Node at the outlet.
     behind: usize,
-    /// The last unknown before that.
+    /// Last unknown before the outlet node.
     last: usize,
 }
 
-/// The ends of all lines along X that have unknowns.
+/// Returns the ends of all lines along X that have unknowns.
 fn ends(grid: &impl Grid) -> impl Iterator<Item = Ends> {
     let (column, lines) = (grid.abscissae().1.len(), grid.column_unknowns());
     (0..lines).map(move |line| {
@@ -61,25 +65,25 @@ fn ends(grid: &impl Grid) -> impl Iterator<Item = Ends> {
 }
 
 impl ActiveSet {
-    /// Whether the ruptured set carries fractions.
+    /// True if the cavitated set has film fractions.
     pub fn fills(&self) -> bool {
         !self.fraction.is_empty()
     }
 
-    /// The unknowns that are fractions; empty where none are.
+    /// Marks the unknowns that are fractions; empty without fractions.
     pub(super) fn fractions(&self) -> &[bool] {
         if self.fills() { &self.ruptured } else { &[] }
     }
 
-    /// Begins with a set of nodes filled to θ each; `supply` is the flow that the surfaces bring.
+    /// Starts with a set of nodes and the fraction θ of each. `supply` is the flow that the surfaces carry.
     pub(super) fn begin_filled(&mut self, supply: Option<f64>, filled: impl Iterator<Item = Option<f64>> + Clone) {
         self.begin(filled.clone().map(|fraction| fraction.is_some()));
         self.supply = supply;
         self.fraction.extend(filled.map(|fraction| fraction.unwrap_or(1.0)));
     }
 
-    /// Makes the nodes of the set those of a film that is filled to θ, and those of the inlet such that carry the supply
-    /// where it is thinner than the gap.
+    /// Applies the fractions to the nodes of the set, and the supply to the inlet nodes if it is smaller than their
+    /// flow.
     pub(super) fn fill(&mut self, grid: &impl Grid, nodes: &mut Nodes) {
         self.at_node.clear();
         self.at_node.resize(nodes.len(), false);
@@ -91,17 +95,18 @@ impl ActiveSet {
             }
         }
         for Ends { inlet, ghost, behind, last } in ends(grid) {
-            // What the gap behind the domain carries, for a flow that comes from there.
+            // Flow behind the domain, for a flow that enters from there.
             nodes.supply(behind, self.fraction[last] * nodes[behind].flow);
             if let Some(supply) = self.supply.filter(|supply| *supply < nodes[inlet].flow) {
                 nodes.supply(inlet, supply);
-                // Nothing is extrapolated to the node before it.
+                // No extrapolation to the node before the inlet.
                 ghost.into_iter().for_each(|ghost| nodes.supply(ghost, supply));
             }
         }
     }
 
-    /// Makes a row's derivatives by the pressures of ruptured nodes those by their fractions.
+    /// Replaces an equation's derivatives with respect to the pressures of cavitated nodes by those with respect to
+    /// their fractions.
     #[inline]
     pub(super) fn by_fraction(&self, row: &mut Row, geometry: &RowGeometry, nodes: &Nodes, stencil: [usize; STENCIL]) {
         for (e, &node) in stencil.iter().enumerate() {
@@ -111,7 +116,7 @@ impl ActiveSet {
         }
     }
 
-    /// Takes the fractions out of a node array of pressures and fractions.
+    /// Sets the entries of fractions in a node array of pressures and fractions to zero.
     pub(super) fn without_fractions(&self, values: &mut [f64]) {
         for (value, &ruptured) in values.iter_mut().zip(&self.at_node) {
             if ruptured {
@@ -120,7 +125,7 @@ impl ActiveSet {
         }
     }
 
-    /// Puts the fractions of an array of unknowns into a node array.
+    /// Copies the fractions of an array of unknowns into a node array.
     pub(super) fn with_fractions(&self, grid: &impl Grid, unknowns: &[f64], values: &mut [f64]) {
         for (k, (unknown, _)) in unknowns.iter().zip(&self.ruptured).enumerate().filter(|(_, (_, ruptured))| **ruptured)
         {
@@ -137,14 +142,14 @@ impl ActiveSet {
         }
     }
 
-    /// Square of the size of the fractions' step.
+    /// Returns the sum of squares of the fractions' step.
     pub(super) fn square_of_fractions(&self, step: &[f64]) -> f64 {
         let steps = self.fractions().iter().zip(step).filter(|(ruptured, _)| **ruptured);
         steps.map(|(_, step)| step * step).sum()
     }
 
-    /// Takes nodes out of the set that are more than filled; whether there were any. Unknowns lie in `lines` lines along
-    /// X, side by side.
+    /// Removes nodes with θ > 1 from the set and returns true if there were any. Unknowns lie on `lines` lines along
+    /// X, with those of one abscissa adjacent.
     pub(super) fn release_filled(&mut self, lines: usize) -> bool {
         let Self { ruptured, fraction, strides, cautious, returns_of, .. } = self;
         returns_of.resize(ruptured.len(), 0);
@@ -160,14 +165,15 @@ impl ActiveSet {
                     fraction[k] = 1.0;
                     continue;
                 }
-                // Where a front finds no node to rest at, it stays on the side that sucks nothing.
+                // If no node balances the cavitation boundary, the boundary stays on the side without negative
+                // pressure.
                 if fraction[k] <= 1.0 || returns_of[k] >= MOST_RETURNS {
                     continue;
                 }
                 returns_of[k] += u8::from(*cautious);
                 (ruptured[k], fraction[k], released) = (false, 1.0, true);
                 if column + 1 < columns && !ruptured[at(column + 1)] && !backwards && !*cautious {
-                    // Liquid that is pressed back out of the contact fills the nodes before it one by one.
+                    // Liquid pressed back out of the contact fills the preceding nodes one by one.
                     backwards = true;
                     *stride = (2 * *stride).max(1);
                     for before in (column.saturating_sub(*stride - 1)..column).rev().map(at) {
@@ -185,7 +191,8 @@ impl ActiveSet {
         released
     }
 
-    /// θ as a node array, empty where there is none: at the ends of the domain what is brought there, and what leaves.
+    /// Returns θ as a node array, including the ends of the domain: the supply at the inlet, and the last unknown's
+    /// value at the outlet. Empty without fractions.
     pub(super) fn fraction_field(&self, grid: &impl Grid, film: &[f64]) -> Vec<f64> {
         if !self.fills() {
             return Vec::new();

@@ -1,8 +1,8 @@
-//! GMRES with right preconditioning: the linear solver of the full system. No dense n × n matrix is ever formed.
+//! GMRES with right preconditioning, the linear solver of the full system. It never forms a dense n × n matrix.
 
 use crate::solver::discrete::grid::dot;
 
-/// Work space; allocated once, reused by every solve.
+/// Solver with its work space, which is allocated once and reused by every solve.
 #[derive(Clone, Debug, Default)]
 pub struct Gmres {
     basis: Vec<Vec<f64>>,
@@ -13,21 +13,22 @@ pub struct Gmres {
     product: Vec<f64>,
 }
 
-/// How a linear solve ended.
+/// Result of a linear solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearOutcome {
-    /// Products with the matrix.
+    /// Number of products with the matrix.
     pub iterations: usize,
-    /// Final residual over the initial one.
+    /// Final residual divided by the initial one.
     pub relative_residual: f64,
 }
 
 impl Gmres {
-    /// Solves A x = b to `tolerance` relative to ‖b‖, within `limit` iterations. `x` receives the solution (start:
-    /// zero).
+    /// Solves A x = b to `tolerance` relative to ‖b‖, within `limit` iterations. `x` receives the solution; the
+    /// initial guess is zero.
     ///
-    /// `apply(v, out)` sets out = A v; `precondition(v)` replaces v by M⁻¹ v. `go_on` is asked after each iteration
-    /// with their count, and ends the solve with what it has.
+    /// `apply(v, out)` sets out = A v, and `precondition(v)` replaces v by M⁻¹ v. `go_on` is called after each
+    /// iteration with the number of iterations. If it returns `false`, the solve ends and returns its current
+    /// iterate.
     pub fn solve(
         &mut self,
         b: &[f64],
@@ -89,7 +90,7 @@ impl Gmres {
                 *v = p / next;
             }
         }
-        // Back substitution, then x = M⁻¹ V y.
+        // Back substitution for y, then x = M⁻¹ V y.
         let m = iterations;
         for i in (0..m).rev() {
             let mut sum = self.rhs[i];
@@ -97,7 +98,7 @@ impl Gmres {
                 sum -= self.hessenberg[j][i] * self.product[j];
             }
             let pivot = self.hessenberg[i][i];
-            // `product` is free now: it holds y.
+            // `product` is no longer needed and holds y from here on.
             self.product[i] = if pivot == 0.0 { 0.0 } else { sum / pivot };
         }
         for (k, v) in self.basis[..m].iter().enumerate() {

@@ -1,29 +1,30 @@
-//! What a grid costs the central film, and when that is worth a warning.
+//! Discretisation error of the central film thickness, and the limit above which it causes a warning.
 
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
 
-/// What the grid costs H_c: relative errors to first order, positive where the true film is thicker. Far beyond a tenth
-/// they are too small: the film by which they are judged is too thin itself.
+/// Discretisation errors of the central film thickness H_c, relative and to first order; positive if the exact film
+/// is thicker. Errors far above 0.1 are underestimated, because they are computed from a film that is itself too
+/// thin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GridCost {
-    /// Since the inlet ends too early, or the sides too near.
+    /// Domain-truncation error: the inlet ends too early, or the sides are too near.
     pub truncation: f64,
-    /// Since the spacing is finite.
+    /// Error due to the finite spacing.
     pub resolution: f64,
 }
 
-/// An answer whose grid costs more than this share of H_c carries a warning.
+/// Relative discretisation error of H_c above which a result carries a warning.
 pub(super) const TOLERATED: f64 = 0.03;
 
 impl GridCost {
-    /// The relative error of H_c by both.
+    /// Returns the sum of the absolute errors of H_c.
     pub fn total(self) -> f64 {
         self.truncation.abs() + self.resolution.abs()
     }
 
-    /// A warning if that is more than a few percent, or unknown.
+    /// Returns a warning if the total error exceeds the limit or is unknown.
     pub fn warning(self) -> Option<Warning> {
         let relative = self.total();
         if relative.is_nan() {
@@ -32,14 +33,14 @@ impl GridCost {
         (relative > TOLERATED).then_some(Warning::DiscretisationError { relative, ends: None, spacing: None })
     }
 
-    /// The same of a moment of a march in time.
+    /// Returns the same warning for one time of a transient solution.
     pub fn warning_in_time(self, time: f64) -> Option<Warning> {
         self.warning().map(|warning| Warning::DiscretisationErrorInTime { time, warning: Box::new(warning) })
     }
 }
 
-/// What the grids cost those of some solutions that they do not do for: how many these are, of how many, and the
-/// worst of them with its contact.
+/// Summarises the solutions whose grids are inadequate: their number, the number of all solutions, and the contact
+/// with the largest error. `None` if all grids are adequate.
 pub fn grid_doubts(judged: impl IntoIterator<Item = (OperatingPoint, GridCost)>) -> Option<String> {
     let (mut all, mut doubtful) = (0, 0);
     let mut worst: Option<(OperatingPoint, GridCost)> = None;
@@ -47,7 +48,7 @@ pub fn grid_doubts(judged: impl IntoIterator<Item = (OperatingPoint, GridCost)>)
         all += 1;
         if cost.warning().is_some() {
             doubtful += 1;
-            // What cannot be told is the worst.
+            // An unknown error counts as the largest.
             worst = Some(
                 worst.filter(|(_, worst)| worst.total().total_cmp(&cost.total()).is_ge()).unwrap_or((point, cost)),
             );

@@ -1,5 +1,5 @@
-//! Newton's method on a line: steps are damped by backtracking on the residual, linear solves as accurate as the
-//! nonlinear problem can use.
+//! Newton's method for line contacts. Steps are damped by backtracking on the residual. Linear solves are as accurate
+//! as the nonlinear convergence requires.
 
 mod preconditioner;
 
@@ -15,24 +15,24 @@ use crate::solver::physics::contact::ContactKind;
 pub use preconditioner::BandMatrix;
 use std::sync::Arc;
 
-/// The step control of line contacts.
+/// Step control of line contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Backtracking {
-    /// Half-bandwidth of the kernel kept in the preconditioner.
+    /// Half-bandwidth of the kernel in the preconditioner.
     pub kernel_band: usize,
-    /// Whether that kernel is shifted so that it ends at zero. Where the film stores, five times fewer Krylov
-    /// iterations; the first Newton steps of a cold stationary solve do better without.
+    /// Shifts that kernel so that it ends at zero. This needs five times fewer Krylov iterations where the film
+    /// stores lubricant; the first Newton steps of a cold steady solve converge better without it.
     pub levelled_kernel: bool,
-    /// Backtracking on the residual ends at this fraction of the step; 1 takes Newton's own steps, which is right
-    /// beside a solution: there the penalty makes the residual jump though the step is good.
+    /// Shortest share of a step in backtracking on the residual; 1 takes undamped Newton steps. This is appropriate
+    /// near a solution, where the penalty makes the residual jump although the step is good.
     pub shortest_step: f64,
-    /// Whether the residual behind a step is asked for; where that changes nothing it can be left out.
+    /// Evaluates the residual after a step. It can be omitted if backtracking is off.
     pub looks_back: bool,
     /// Largest change of P in one step.
     pub largest_step: f64,
-    /// Largest share of the film that one step takes away.
+    /// Largest relative reduction of the film thickness in one step.
     pub film_loss: f64,
-    /// The finest and the coarsest accuracy of a linear solve, relative to its right-hand side.
+    /// Finest and coarsest accuracy of a linear solve, relative to its right-hand side.
     pub forcing: (f64, f64),
 }
 
@@ -63,10 +63,10 @@ impl StepControl for Backtracking {
     }
 }
 
-/// Largest change of P in one step where the ruptured set follows.
+/// Largest change of P in one step with a cavitated set.
 const LARGEST_STEP: f64 = 0.6;
 
-/// The residual before the former step.
+/// Residual before the previous step.
 pub struct Residuals {
     previous: f64,
 }
@@ -125,7 +125,7 @@ impl NewtonSpace for LineSpace {
         if !previous.is_finite() {
             return coarsest;
         }
-        // Eisenstat & Walker's second choice: no more linear accuracy than the nonlinear problem can use.
+        // Eisenstat and Walker's second choice: no more linear accuracy than the nonlinear convergence requires.
         (0.9 * (residual / previous).powi(2)).clamp(finest, coarsest)
     }
 
@@ -159,8 +159,9 @@ impl NewtonSpace for LineSpace {
 }
 
 impl System<LineSpace> {
-    /// Takes the Newton step with backtracking on the residual (to `shortest_step`, then accepts); the film
-    /// may lose a share of `film_loss` per step at most. Returns ‖Δz‖/‖z‖ of the undamped step and the new residual.
+    /// Takes the Newton step with backtracking on the residual; the shortest step is accepted in any case. The film
+    /// thickness may fall by the share `film_loss` at most. Returns ‖Δz‖/‖z‖ of the undamped step and the new
+    /// residual.
     fn backtrack(&mut self, problem: &Problem, options: &SolveOptions<Backtracking>, before: f64) -> (f64, f64) {
         let dh_0 = self.update[self.rows.len()];
         self.spread_update();
@@ -180,7 +181,7 @@ impl System<LineSpace> {
         let fractions = self.active.square_of_fractions(&self.update);
         let size = (dot(&self.step, &self.step) + fractions + dh_0 * dh_0).sqrt();
         let (start_h_0, mut factor, mut taken) = (self.h_0, longest, 0.0);
-        // The rows of fractions are all but linear: whatever they are off by, the next full step mends.
+        // The equations of fractions are nearly linear. The next full step removes their error.
         let of_film = self.of_film(before);
         let shortest = longest * options.control.shortest_step;
         loop {
@@ -200,20 +201,20 @@ impl System<LineSpace> {
             let share = 1.0 - 1e-4 * factor;
             let better = residual < before * share || self.of_film(residual) < of_film * share;
             if better || factor <= shortest || relative < 1e-7 {
-                // A full, fresh deformation now and then would change nothing: the increments are exact to rounding.
+                // A full recomputation of the deformation is not needed: the increments are exact to rounding.
                 return (size / norm, residual);
             }
             factor *= 0.5;
         }
     }
 
-    /// The part of a residual norm that is not of the rows of fractions.
+    /// Returns the residual norm without the equations of fractions.
     fn of_film(&self, residual: f64) -> f64 {
         (residual * residual - self.of_fractions * self.of_fractions).max(0.0).sqrt()
     }
 
-    /// Takes a step whose entry i (the last is ΔH₀) is `update(i)`, damped as Newton's; returns ‖Δz‖/‖z‖ (undamped) and
-    /// the new residual.
+    /// Takes a step with the entries `update(i)`, the last of which is ΔH₀, damped like a Newton step. Returns
+    /// ‖Δz‖/‖z‖ (undamped) and the new residual.
     pub fn take_step(
         &mut self,
         problem: &Problem,
@@ -227,7 +228,7 @@ impl System<LineSpace> {
         self.backtrack(problem, options, before)
     }
 
-    /// Sets 1/R̄ of (2.24); the film follows with the next [`System::set_h_0`].
+    /// Sets 1/R̄ of (2.24). The film thickness follows with the next [`System::set_h_0`].
     pub(super) fn set_curvature(&mut self, curvature: f64) {
         self.space.curvature = curvature;
         self.renew_gap();

@@ -1,19 +1,19 @@
-//! The grid of a solution, by what it is built from.
+//! Grid of a solution, described by its specification.
 
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use serde::{Deserialize, Serialize};
 
-/// The grid that a solution lives on. Node arrays of a line contact have one extra leading node outside the inlet.
+/// Grid on which a solution is given. Node arrays of a line contact have one extra leading node outside the inlet.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
-    /// What it was built from; of a line contact its reference grid.
+    /// Specification from which the grid was built. For a line contact it is that of the reference grid.
     pub spec: GridSpec,
-    /// Scale of the registration map; 1 where there is none.
+    /// Scale of the registration map; 1 without registration.
     pub scale: f64,
 }
 
 impl Mesh {
-    /// The specification of a point contact's grid; `None` of a line contact's.
+    /// Returns the grid specification of a point contact, or `None` for a line contact.
     pub fn plane(&self) -> Option<PointGridSpec> {
         match self.spec {
             GridSpec::Plane(spec) => Some(spec),

@@ -1,5 +1,5 @@
-//! The full-order system: unknowns (P, H₀), deformation condensed, solved by Newton's method with a preconditioned
-//! Krylov solver.
+//! Full-order system of a contact. Its unknowns are the pressure P and the rigid-body separation H₀; the deformation
+//! is eliminated. Newton's method with a preconditioned Krylov solver solves it.
 
 mod active_set;
 mod band;

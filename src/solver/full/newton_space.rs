@@ -1,5 +1,4 @@
-//! What a space brings to Newton's method: its step control and its preconditioner, because those really differ, and
-//! where it starts.
+//! Parts of Newton's method that depend on the space: step control, preconditioner and initial guesses.
 
 use super::mesh::Mesh;
 use super::problem::{Problem, SolveError};
@@ -10,9 +9,9 @@ use crate::solver::discrete::reynolds::Row;
 use crate::solver::discrete::space::{Grid, Space};
 use crate::solver::physics::contact::ContactKind;
 
-/// Settings of a step control, with the settings of all else that go with it.
+/// Settings of a step control, with the default settings of a solve.
 pub trait StepControl: Copy + PartialEq + std::fmt::Debug {
-    /// The settings of a solve.
+    /// Returns the default settings of a solve.
     fn options() -> SolveOptions<Self>;
 }
 
@@ -22,123 +21,126 @@ impl<C: StepControl> Default for SolveOptions<C> {
     }
 }
 
-/// What a step of pressure and film has to keep to between two marches.
+/// Limits of a step of pressure and film thickness between two marches of the temperatures.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn {
     /// Largest change of P.
     pub largest_step: f64,
-    /// Largest share of the film that it may take away.
+    /// Largest relative reduction of the film thickness.
     pub film_loss: f64,
-    /// Backtracking ends at this share of it.
+    /// Shortest share of the step in backtracking.
     pub shortest_step: f64,
-    /// Whether there is backtracking at all.
+    /// Enables backtracking.
     pub looks_back: bool,
-    /// Whether it is the last one, solved for all but to rounding.
+    /// True for the last step, which is solved nearly to rounding.
     pub last: bool,
 }
 
-/// What a Newton step did.
+/// Result of a Newton step.
 pub struct Taken {
-    /// Size of the undamped step, so that damping never looks like convergence.
+    /// Size of the undamped step, so that damping is never mistaken for convergence.
     pub size: f64,
-    /// ΔH₀ of the undamped step, where its size does not contain it.
+    /// ΔH₀ of the undamped step, unless its size includes it; zero otherwise.
     pub shift: f64,
     /// Residual norm after the step.
     pub residual: f64,
 }
 
-/// The rows that a matrix is assembled for.
+/// Equations for which a matrix is assembled.
 pub struct ScaledRows<'a> {
     /// Values and derivatives.
     pub rows: &'a [Row],
-    /// What shear-thinning adds to the derivatives.
+    /// Contribution of shear thinning to the derivatives.
     pub thinning: Option<&'a Thinning>,
-    /// What each row is multiplied with.
+    /// Factor of each equation.
     pub scaling: &'a [f64],
-    /// Which unknowns are fractions, which deform nothing and carry no load; empty where none are.
+    /// True for unknowns that are film fractions, which cause no deformation and carry no load. Empty without
+    /// fractions.
     pub fractions: &'a [bool],
 }
 
-/// A factorised matrix.
+/// Factorised matrix.
 pub trait Factors: Default {
-    /// b ← A⁻¹ b.
+    /// Replaces b by A⁻¹ b.
     fn solve(&mut self, b: &mut [f64]);
 }
 
-/// A space with what Newton's method needs on it.
+/// Space with the parts that Newton's method needs.
 pub trait NewtonSpace: Space + Sized {
-    /// The settings of its step control.
+    /// Settings of the step control.
     type Control: StepControl;
-    /// What that remembers from step to step.
+    /// Data that the step control keeps from step to step.
     type Memory: Default;
-    /// The matrix that preconditions the linear solves.
+    /// Matrix that preconditions the linear solves.
     type Matrix: Factors;
-    /// What its grid is built from, and what a solver keeps of it between contacts.
+    /// Specification from which the grid is built.
     type Spec;
-    /// What a solver keeps of its grid between contacts.
+    /// Grid data that a solver keeps between contacts.
     type Reference;
-    /// What a contact makes of that: the scale of a line's registration, the ellipse of a point contact.
+    /// Part of the grid that depends on the contact: the scale of a line contact's registration, or the ellipse of a
+    /// point contact.
     type Form: Copy + PartialEq;
 
-    /// The kind of contact it is a space of.
+    /// Kind of contact on this space.
     const KIND: ContactKind;
-    /// Residual beyond which the iteration is given up.
+    /// Residual beyond which the iteration is stopped as diverged.
     const WORST_RESIDUAL: f64;
-    /// Whether steps clip pressures, and so lose the load they carry. Where they do not, it holds exactly from the
-    /// start and every step keeps it, because the preconditioner's load row is exact.
+    /// True if steps clip pressures and thus change the load. Without clipping, the load holds exactly from the start
+    /// and after every step, because the preconditioner's load equation is exact.
     const CLIPS: bool;
-    /// Films tried by a cold start, in units of the contact's film formula.
+    /// Central film thicknesses of cold starts, in units of the contact's film formula.
     const COLD_FILMS: [f64; 3];
-    /// The first column of nodes along X that has a film.
+    /// First column of nodes along X with a film.
     const FIRST_COLUMN: usize;
     /// Range of M in which cold starts converge.
     const EASY_M: (f64, f64);
-    /// L up to which they do.
+    /// L up to which cold starts converge.
     const EASY_L: f64;
-    /// M up to which several cold starts are tried, and up to which one is.
+    /// M up to which several cold starts are tried, and M up to which one is tried.
     const COLD_M: (f64, f64);
 
     /// Builds the grid and its kernel.
     ///
     /// # Errors
-    /// When the specification is refused.
+    /// If the specification is refused.
     fn build(spec: Self::Spec) -> Result<Self::Reference, SolveError>;
 
-    /// Number of unknown pressures.
+    /// Returns the number of unknown pressures.
     fn unknowns(reference: &Self::Reference) -> usize;
 
-    /// How often the spacing may be doubled as long as a contact of a walk is resolved well enough to start another one.
+    /// Returns how often the spacing may be doubled such that a contact of a continuation is still resolved well
+    /// enough to start another one.
     fn coarsening(_: &Self::Reference, _: &Problem) -> usize {
         0
     }
 
-    /// The grid with 2ⁿ times the spacing; none where it has no coarser ones.
+    /// Returns the grid with 2ⁿ times the spacing, or `None` if there is no coarser grid.
     ///
     /// # Errors
-    /// When its kernel cannot be built.
+    /// If its kernel cannot be built.
     fn coarser(_: &Self::Reference, _: i32) -> Result<Option<Self::Reference>, SolveError> {
         Ok(None)
     }
 
-    /// What a problem makes of the grid.
+    /// Returns the form of the grid for a problem.
     fn form_of(reference: &Self::Reference, problem: &Problem) -> Self::Form;
 
-    /// The space on a grid in a form.
+    /// Returns the space on a grid in the given form.
     ///
     /// # Errors
-    /// When the kernel of that form cannot be built.
+    /// If the kernel of that form cannot be built.
     fn on(reference: &Self::Reference, form: Self::Form) -> Result<Self, SolveError>;
 
-    /// The form it has.
+    /// Returns its form.
     fn form(&self) -> Self::Form;
 
-    /// Its grid as solutions name it.
+    /// Returns its grid as stored in solutions.
     fn mesh(&self) -> Mesh;
 
-    /// Accuracy of the next linear solve, relative to its right-hand side.
+    /// Returns the accuracy of the next linear solve, relative to its right-hand side.
     fn forcing(control: &Self::Control, memory: &mut Self::Memory, residual: f64) -> f64;
 
-    /// Takes the step `system.update` as far as it helps; `before` is the residual norm.
+    /// Takes the step `system.update`, damped or limited by the step control. `before` is the residual norm.
     fn step(
         system: &mut System<Self>,
         problem: &Problem,
@@ -147,10 +149,11 @@ pub trait NewtonSpace: Space + Sized {
         before: f64,
     ) -> Taken;
 
-    /// The control of steps that take turns with the temperatures.
+    /// Returns the control of steps that alternate with marches of the temperatures.
     fn beside_heat(control: Self::Control, turn: Turn) -> Self::Control;
 
-    /// Assembles and factorises a matrix near the Jacobian of the scaled rows; `false` when `go_on` ended it half way.
+    /// Assembles and factorises an approximation of the Jacobian of the scaled equations. Returns `false` if `go_on`
+    /// stopped it.
     fn assemble(
         &self,
         matrix: &mut Self::Matrix,
@@ -160,21 +163,21 @@ pub trait NewtonSpace: Space + Sized {
     ) -> bool;
 }
 
-/// A factorised matrix, bordered by the H₀ column and the load row.
+/// Factorised matrix, bordered by the H₀ column and the load equation.
 #[derive(Default)]
 pub struct Preconditioner<M> {
-    /// The matrix of the rows.
+    /// Matrix of the equations.
     pub matrix: M,
     /// Its solution for the H₀ column.
     column: Vec<f64>,
     /// wᵀ column.
     schur: f64,
-    /// Quadrature weights of the unknowns.
+    /// Quadrature weights w of the unknowns.
     weights: Vec<f64>,
 }
 
 impl<M: Factors> Preconditioner<M> {
-    /// Borders the matrix, assembled for these rows, by the film's and the load's.
+    /// Borders the matrix assembled for these equations by the H₀ column and the load equation.
     pub fn border<S: Space>(&mut self, space: &S, &ScaledRows { rows, scaling, fractions, .. }: &ScaledRows<'_>) {
         let (grid, weights) = (space.grid(), space.grid().weights());
         self.weights.clear();
@@ -188,7 +191,7 @@ impl<M: Factors> Preconditioner<M> {
         self.schur = dot(&self.weights, &self.column);
     }
 
-    /// v ← M⁻¹ v; the last entry belongs to H₀.
+    /// Replaces v by M⁻¹ v; the last entry belongs to H₀.
     pub fn apply(&mut self, v: &mut [f64]) {
         let (head, last) = v.split_at_mut(self.weights.len());
         self.matrix.solve(head);

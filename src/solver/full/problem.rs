@@ -1,4 +1,4 @@
-//! The dimensionless problem of a contact, and why one is refused.
+//! Dimensionless problem of a contact, and the reasons for refusing one.
 
 use crate::solver::discrete::grid::GridError;
 use crate::solver::discrete::heat::{Course, StressLaw, WarmLaws};
@@ -11,7 +11,7 @@ use crate::solver::physics::lubricant::{
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Why a solve cannot be started.
+/// Reason why a solve cannot start.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SolveError {
     /// The operating point is refused.
@@ -26,39 +26,40 @@ pub enum SolveError {
     /// The problem is of the other kind.
     #[error("this solver is made for {} contacts, but the operating point is that of a {} contact", wanted.name(), given.name())]
     OtherContact {
-        /// What the solver is made for.
+        /// Kind of contact that the solver supports.
         wanted: ContactKind,
-        /// What it was given.
+        /// Kind of contact that was given.
         given: ContactKind,
     },
 }
 
-/// One dimensionless problem: what the solver needs of an operating point and a lubricant. Those two are what is
-/// serialised of a steady one; the rest follows.
+/// Dimensionless problem, made from an operating point and a lubricant. Only these two are serialised for a steady
+/// problem; the other fields follow from them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(into = "Stated", try_from = "Stated")]
 pub struct Problem {
-    /// The operating point it was made from.
+    /// Operating point from which it was made.
     pub point: OperatingPoint,
-    /// The laws it was made with.
+    /// Lubricant from which it was made.
     pub lubricant: Lubricant,
-    /// The laws with their constants.
+    /// Viscosity and density laws with their scaled constants.
     pub fluid: ScaledFluid,
-    /// The shear-thinning law with its constants; `None` where the fluid is Newtonian.
+    /// Shear-thinning law with its scaled constants; `None` for a Newtonian fluid.
     pub shear: Option<ScaledShear>,
-    /// What heat adds; `None` where everything has the inlet's temperature.
+    /// Scaled thermal properties; `None` for an isothermal problem at the inlet temperature.
     pub heat: Option<ScaledHeat>,
-    /// Moes numbers.
+    /// Moes numbers M and L.
     pub moes: Moes,
     /// 1/λ̄ of (2.23).
     pub inverse_lambda: f64,
-    /// ∫P: π/2 for a line, (2.28), 2π/3 for a point contact, (2.29).
+    /// Dimensionless load ∫P: π/2 for a line contact, (2.28), and 2π/3 for a point contact, (2.29).
     pub load: f64,
-    /// Flow that the surfaces bring to the inlet, the supplied film in units of a²/R; none where it is flooded.
+    /// Flow that the surfaces carry to the inlet: the inlet film thickness in units of a²/R. `None` for a flooded
+    /// inlet.
     pub supply: Option<f64>,
 }
 
-/// What a steady problem follows from.
+/// Data from which a steady problem follows.
 #[derive(Serialize, Deserialize)]
 struct Stated {
     point: OperatingPoint,
@@ -81,7 +82,7 @@ impl TryFrom<Stated> for Problem {
 }
 
 impl Problem {
-    /// The same point under other sliding.
+    /// Creates the problem of the same point with other sliding.
     ///
     /// # Errors
     /// As [`Problem::new`].
@@ -89,15 +90,15 @@ impl Problem {
         Self::new(&OperatingPoint { sliding, ..*point }, lubricant)
     }
 
-    /// Checks the point and the lubricant and makes them dimensionless. Where α follows from the viscosity law, the
-    /// problem's point has that α, whatever the given one has; where the lubricant thins under shear, its point has the
-    /// plateau ratio that counts.
+    /// Checks the point and the lubricant and makes them dimensionless. If the pressure coefficient α follows from
+    /// the viscosity law, the problem's point has that α instead of the given one. For a shear-thinning lubricant,
+    /// its point has the plateau ratio of the law.
     ///
     /// # Errors
-    /// When the point, its sliding or the lubricant is outside its valid range.
+    /// If the point, its sliding or the lubricant is outside its valid range.
     pub fn new(point: &OperatingPoint, lubricant: Lubricant) -> Result<Self, SolveError> {
         lubricant.check()?;
-        // Before the coefficient that follows: that of a law which has ended is beyond any sense as well.
+        // Checked before α is computed from the law, because α is meaningless beyond the law's range.
         lubricant.check_pressure(point.hertz().pressure_pa)?;
         let alpha_per_pa = lubricant.own_coefficient().unwrap_or(point.alpha_per_pa);
         let mut point = OperatingPoint { alpha_per_pa, ..*point };
@@ -123,24 +124,25 @@ impl Problem {
         })
     }
 
-    /// The same without heat.
+    /// Returns the same problem without heat.
     pub fn isothermal(self) -> Self {
         Self { lubricant: Lubricant { heat: None, ..self.lubricant }, heat: None, ..self }
     }
 
-    /// What makes films with temperatures into nodes; none without heat.
+    /// Returns the laws that turn film thickness and temperatures into nodes, or `None` for an isothermal problem.
     pub fn warm_laws(&self) -> Option<WarmLaws<'_>> {
         let heat = self.heat.as_ref()?;
         Some(WarmLaws { heat, shear: self.shear.as_ref().map(|shear| StressLaw::new(shear, heat)) })
     }
 
-    /// What a film with heat is marched through, given P, P_X and H at the stations; none without heat.
+    /// Returns the data for marching through a thermal film, given P, P_X and H at the stations, or `None` for an
+    /// isothermal problem.
     pub fn course<'a>(&'a self, states: &'a [NodeState]) -> Option<Course<'a>> {
         let limit = self.lubricant.limiting_stress.map(|limit| (limit, self.fluid.hertz_pressure_pa()));
         Some(Course { laws: self.warm_laws()?, limit, states })
     }
 
-    /// What makes pressure, gradient and film into nodes.
+    /// Returns the laws that turn pressure, gradient and film thickness into nodes.
     pub fn laws(&self) -> Laws<'_> {
         Laws { fluid: &self.fluid, shear: self.shear.as_ref(), inverse_lambda: self.inverse_lambda }
     }

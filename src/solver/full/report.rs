@@ -1,30 +1,30 @@
-//! How a solve ended.
+//! Result of a solve: the reason why it ended, and its effort.
 
 use crate::solver::limits::digits;
 use crate::solver::physics::contact::Moes;
 use serde::{Deserialize, Serialize};
 
-/// Why a solve stopped.
+/// Reason why a solve stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Termination {
     /// The step fell below the tolerance.
     Converged,
     /// The iteration limit was reached.
     IterationLimit,
-    /// The effort of a whole solve was spent, see [`most_newton`].
+    /// The total effort of a solve was spent, see [`most_newton`].
     ///
     /// [`most_newton`]: super::most_newton
     Effort,
-    /// The iterates left every sensible range.
+    /// The iterates left the reasonable range.
     Diverged,
     /// The pressures left the range of the viscosity law.
     OccupiedVolume,
-    /// The observer asked to stop.
+    /// The observer requested a stop.
     Cancelled,
 }
 
 impl Termination {
-    /// One sentence for people.
+    /// Returns a message that continues "the solve …".
     pub fn describe(self) -> &'static str {
         match self {
             Self::Converged => "converged",
@@ -43,34 +43,34 @@ impl Termination {
     }
 }
 
-/// How a solution was obtained.
+/// Account of how a solution was obtained.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
-    /// Why it stopped.
+    /// Reason why the solve stopped.
     pub termination: Termination,
-    /// Newton steps, all attempts together.
+    /// Newton steps of all attempts together.
     pub newton_iterations: usize,
-    /// Krylov iterations, all attempts together.
+    /// Krylov iterations of all attempts together.
     pub linear_iterations: usize,
-    /// Starts that were tried (1 when the first one converged).
+    /// Number of starts tried; 1 if the first one converged.
     pub attempts: usize,
-    /// Residual 2-norm before each Newton step: rows weighted by √w so that it approximates the L2 norm over the
-    /// domain.
+    /// 2-norm of the residual before each Newton step. Equations are weighted by √w, with the quadrature weights w,
+    /// so that the norm approximates the L2 norm over the domain.
     pub residuals: Vec<f64>,
-    /// Size of each Newton step: ‖Δz‖/‖z‖ for a line, max|ΔP| for a point contact.
+    /// Size of each Newton step: ‖Δz‖/‖z‖ with z = (P, H₀) for a line contact, max|ΔP| for a point contact.
     pub steps: Vec<f64>,
-    /// Residual 2-norm of the solution.
+    /// 2-norm of the residual of the solution.
     pub residual_norm: f64,
-    /// Whether a rupture front was seen to cycle between two sets of nodes, and was moved node by node from then on.
+    /// True if the cavitation boundary cycled between two sets of nodes and was moved node by node from then on.
     #[serde(default)]
     pub cautious_front: bool,
-    /// Where a walk from an easier contact ended before it reached the wanted one.
+    /// Last contact reached by a continuation that ended before the requested contact.
     #[serde(default)]
     pub reached: Option<Moes>,
 }
 
 impl Report {
-    /// Nothing tried yet.
+    /// Creates the report of a solve without attempts.
     pub(crate) fn empty() -> Self {
         Self {
             termination: Termination::IterationLimit,
@@ -85,7 +85,7 @@ impl Report {
         }
     }
 
-    /// How it ended, as the end of a sentence.
+    /// Returns the outcome as the end of a sentence.
     pub fn describe(&self) -> String {
         let ending = self.termination.describe();
         match self.reached {
@@ -98,7 +98,7 @@ impl Report {
         }
     }
 
-    /// Counts what another solve took; what came of it last counts.
+    /// Adds the effort of another solve and takes over its outcome.
     pub(super) fn add(&mut self, other: &Self) {
         self.termination = other.termination;
         self.newton_iterations += other.newton_iterations;
@@ -111,7 +111,7 @@ impl Report {
         self.reached = other.reached;
     }
 
-    /// Whether no further start needs to be tried.
+    /// True if no further start needs to be tried.
     pub(super) fn ended(&self) -> bool {
         use Termination::{Cancelled, Converged, Effort};
         self.attempts > 0 && matches!(self.termination, Converged | Cancelled | Effort)

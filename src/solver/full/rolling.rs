@@ -1,10 +1,11 @@
-//! What rolling costs: the pressure gradient shears the film even where nothing slides.
+//! Rolling resistance: the pressure gradient shears the film even without sliding.
 
 use super::solution::Solution;
 
 impl Solution {
-    /// Rolling resistance of each body, ½∫h dp: \[N/m\] of a line contact, \[N\] of a point contact. Above zero, since
-    /// pressure rises where the film is thicker than where it falls; the same on both bodies, whatever slides.
+    /// Returns the rolling resistance of each body, ½∫h dp: \[N/m\] for a line contact, \[N\] for a point contact. It
+    /// is positive, since the film is thicker where the pressure rises than where it falls. It is the same for both
+    /// bodies and independent of the sliding.
     pub fn rolling_resistance(&self) -> f64 {
         let point = &self.problem.point;
         let hertz = point.hertz();

@@ -1,4 +1,4 @@
-//! The solution of a problem: a value that holds what was solved and how.
+//! Solution of a problem, with the problem and an account of how it was solved.
 
 use super::far_field;
 use super::grid_cost::GridCost;
@@ -13,90 +13,91 @@ use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Scalars of a solution. Positions and values are dimensionless, (2.22).
+/// Scalar results of a solution. Positions and values are dimensionless, (2.22).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub struct Scalars {
-    /// Film at X = 0 (and Y = 0; interpolated where no node lies there).
+    /// H_c, central film thickness at X = 0 (and Y = 0), interpolated if there is no node.
     pub h_c: f64,
-    /// Smallest nodal film in −1.2 < X < 1.5.
+    /// H_min, minimum nodal film thickness in −1.2 < X < 1.5.
     pub h_min: f64,
-    /// Its position along X.
+    /// Position of H_min along X.
     pub x_h_min: f64,
-    /// Its position across, at most 0; zero for a line contact.
+    /// Position of H_min across, at most 0; zero for a line contact.
     pub y_h_min: f64,
     /// Pressure at X = 0 (and Y = 0).
     pub p_c: f64,
-    /// Largest nodal pressure.
+    /// Maximum nodal pressure.
     pub p_max: f64,
-    /// Its position along X.
+    /// Position of the maximum pressure along X.
     pub x_p_max: f64,
-    /// Rigid-body displacement H₀ with the kernel of (2.27) or (2.25).
+    /// H₀, rigid-body separation with the kernel of (2.27) or (2.25).
     pub h_0: f64,
-    /// |∫P/load − 1| with the load of (2.28) or (2.29).
+    /// Load-balance residual |∫P/load − 1| with the load of (2.28) or (2.29).
     pub load_residual: f64,
 }
 
-/// Traction of a Newtonian fluid per unit slide-to-roll ratio, (3.41): coefficient = `per_srr` · SRR.
+/// Traction coefficient of a Newtonian fluid per unit slide-to-roll ratio SRR, (3.41): coefficient = `per_srr` · SRR.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Traction {
     /// Coefficient at SRR = 1.
     pub per_srr: f64,
 }
 
-/// Fields and scalars of one contact, with what they were computed for and how.
+/// Fields and scalars of one contact, with its problem and an account of how it was solved.
 ///
-/// Node arrays run over X and, fastest, over Y: node (i, j) has the index i·n_y + j, and the last j lies on the axis Y
-/// = 0. A line contact is the case n_y = 1.
+/// Node arrays run over X and, fastest, over Y. Node (i, j) has the index i·n_y + j, and the last j lies on the axis
+/// Y = 0. A line contact has n_y = 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Solution {
-    /// What was solved.
+    /// Problem that was solved.
     pub problem: Problem,
-    /// Grid it was solved on.
+    /// Grid of the solution.
     pub mesh: Mesh,
     /// Abscissae X.
     pub x: Vec<f64>,
     /// Ordinates Y ≤ 0; only 0 for a line contact.
     pub y: Vec<f64>,
-    /// P at the nodes.
+    /// Pressure P at the nodes.
     pub pressure: Vec<f64>,
-    /// H at the nodes.
+    /// Film thickness H at the nodes.
     pub film: Vec<f64>,
-    /// λ at the nodes, zero where the film is whole; empty where a penalty ruptures it.
+    /// Multiplier λ at the nodes, zero in the full film; empty for cavitation by the penalty.
     pub multiplier: Vec<f64>,
-    /// θ at the nodes, the share of the gap that is filled; empty where rupture does not conserve mass.
+    /// Film fraction θ at the nodes, the filled share of the gap; empty unless the cavitation model conserves mass.
     pub fraction: Vec<f64>,
-    /// Scalars.
+    /// Scalar results.
     pub scalars: Scalars,
-    /// How it was obtained.
+    /// Account of how it was solved.
     pub report: Report,
-    /// What its grid costs the central film, where that was asked for ([`ContactSolver::judged`]).
+    /// Discretisation error of the central film thickness, if it was requested ([`ContactSolver::judged`]).
     ///
     /// [`ContactSolver::judged`]: super::ContactSolver::judged
     pub grid_cost: Option<GridCost>,
-    /// Its temperatures; none without heat.
+    /// Temperatures; `None` for an isothermal solution.
     pub heat: Option<Arc<Temperatures>>,
 }
 
 impl Solution {
-    /// The same film as the solution of another problem that has it too: sliding moves no film that does not thin under
-    /// shear, and a limiting stress none at all.
+    /// Returns these fields as the solution of another problem that has the same film. Sliding does not change the
+    /// film of a Newtonian lubricant, and a limiting stress changes no film.
     pub fn of_problem(self, problem: Problem) -> Self {
         Self { problem, ..self }
     }
 
-    /// Whether it may be shown as a result.
+    /// True if the solve converged, so that the solution may be shown as a result.
     pub fn converged(&self) -> bool {
         self.report.termination == Termination::Converged
     }
 
-    /// Nodal gradients of its node arrays by X and, in the same unit a, across.
+    /// Returns the operator of nodal gradients of its node arrays along X and across, both in units of 1/a.
     pub fn gradient(&self) -> PlaneGradient {
         let kappa = self.problem.point.ellipse().kappa;
         let across: Vec<f64> = self.y.iter().map(|y| kappa * y).collect();
         PlaneGradient::new(&self.x, &across)
     }
 
-    /// Deformation Δ = H − H₀ − (X² + g_y Y²)/2 at the nodes (a logarithmic kernel's own constant included).
+    /// Returns the deformation Δ = H − H₀ − (X² + g_y Y²)/2 at the nodes. It includes the constant of a logarithmic
+    /// kernel.
     pub fn deformation(&self) -> Vec<f64> {
         let curvature = self.problem.point.ellipse().gap_curvature();
         let gap = |x: &f64, y: &f64| 0.5 * (x * x + curvature * y * y);
@@ -104,7 +105,7 @@ impl Solution {
         self.film.iter().zip(parabola).map(|(h, gap)| h - self.scalars.h_0 - gap).collect()
     }
 
-    /// Index of the first abscissa that belongs to the domain.
+    /// Returns the index of the first abscissa inside the domain.
     pub(super) fn first(&self) -> usize {
         match self.mesh.spec.kind() {
             ContactKind::Line => 1,
@@ -112,34 +113,34 @@ impl Solution {
         }
     }
 
-    /// The profile along the axis Y = 0 from inlet to outlet: X, P, H.
+    /// Returns the profile along the axis Y = 0 from inlet to outlet: X, P, H.
     pub fn profile(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let ny = self.y.len();
         let axis = move |values: &'_ [f64], i: usize| values[i * ny + ny - 1];
         (self.first()..self.x.len()).map(move |i| (self.x[i], axis(&self.pressure, i), axis(&self.film, i)))
     }
 
-    /// All nodes of the domain, Y fastest: X, Y, P, H.
+    /// Returns all nodes of the domain, Y fastest: X, Y, P, H.
     pub fn nodes(&self) -> impl Iterator<Item = (f64, f64, f64, f64)> + '_ {
         let ny = self.y.len();
         (self.first() * ny..self.x.len() * ny)
             .map(move |k| (self.x[k / ny], self.y[k % ny], self.pressure[k], self.film[k]))
     }
 
-    /// λ at the nodes of [`nodes`](Self::nodes); none where a penalty ruptures the film.
+    /// Returns λ at the nodes of [`nodes`](Self::nodes); empty for cavitation by the penalty.
     pub fn multipliers(&self) -> impl Iterator<Item = f64> + '_ {
         self.multiplier.iter().skip(self.first() * self.y.len()).copied()
     }
 
-    /// X and λ along the axis where the film is ruptured; none where a penalty ruptures it.
+    /// Returns X and λ along the axis in the cavitated region; empty for cavitation by the penalty.
     pub fn axis_multiplier(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let ny = self.y.len();
         let axis = self.multiplier.iter().skip(ny - 1).step_by(ny);
         self.x.iter().zip(axis).filter(|(_, multiplier)| **multiplier > 0.0).map(|(x, multiplier)| (*x, *multiplier))
     }
 
-    /// Position and height of the pressure spike on the axis: the last local maximum in 0.2 < X < 1.2 that stands out,
-    /// if there is one.
+    /// Returns position and height of the pressure spike on the axis: the last distinct local maximum in 0.2 < X <
+    /// 1.2. `None` without a spike.
     pub fn spike(&self) -> Option<(f64, f64)> {
         let axis: Vec<(f64, f64)> = self.profile().map(|(x, p, _)| (x, p)).collect();
         let peak = axis.windows(3).rev().find(|w| {
@@ -149,15 +150,15 @@ impl Solution {
         Some(peak[1])
     }
 
-    /// Where the film ruptures on the axis: first node behind the contact with P ≤ 0.
+    /// Returns the position of the cavitation boundary on the axis: the first node behind the contact with P ≤ 0.
     pub fn rupture(&self) -> Option<f64> {
         let axis: Vec<(f64, f64)> = self.profile().map(|(x, p, _)| (x, p)).collect();
         let last = axis.iter().rposition(|&(_, p)| p > 0.0)?;
         axis.get(last + 1).map(|&(x, _)| x)
     }
 
-    /// Where a film that the surfaces bring fills the gap on the axis: first node in front of the contact that is full;
-    /// none where the film is full from the first node on.
+    /// Returns the position of the inlet meniscus on the axis: the first node in front of the contact with a full
+    /// gap. `None` if the film is full from the first node on.
     pub fn meniscus(&self) -> Option<f64> {
         let ny = self.y.len();
         let full = |i: &usize| self.fraction.get(i * ny + ny - 1).is_none_or(|fraction| *fraction >= 1.0);
@@ -165,22 +166,22 @@ impl Solution {
         (first > self.first() + 1).then(|| self.x[first])
     }
 
-    /// X and θ along the axis; none where rupture does not conserve mass.
+    /// Returns X and θ along the axis; empty unless the cavitation model conserves mass.
     pub fn axis_fraction(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let ny = self.y.len();
         let axis = self.fraction.iter().skip(ny - 1).step_by(ny).copied();
         self.x.iter().copied().zip(axis).skip(self.first())
     }
 
-    /// θ at the nodes of [`nodes`](Self::nodes); none where rupture does not conserve mass.
+    /// Returns θ at the nodes of [`nodes`](Self::nodes); empty unless the cavitation model conserves mass.
     pub fn fractions(&self) -> impl Iterator<Item = f64> + '_ {
         self.fraction.iter().skip(self.first() * self.y.len()).copied()
     }
 
-    /// Newtonian traction over the whole domain, (3.41), positive for SRR > 0, as the mean shear stress on the surfaces
-    /// over the load.
+    /// Returns the Newtonian traction over the whole domain, (3.41), positive for SRR > 0: the mean shear force of
+    /// both surfaces divided by the load.
     pub fn traction(&self) -> Traction {
-        // τ = η u_s / h with u_s = SRR u_m; friction = ∫τ dx / w, the Poiseuille part cancels in the mean of both
+        // τ = η u_s / h with u_s = SRR u_m, and friction = ∫τ dx / w. The Poiseuille part cancels in the mean of both
         // surfaces.
         let point = &self.problem.point;
         let stress_scale = point.viscosity_pa_s * point.speed_m_per_s / point.film_scale_m();
@@ -192,12 +193,12 @@ impl Solution {
         Traction { per_srr: self.force_per_load(stress) }
     }
 
-    /// ∫ of a stress \[Pa\] given at the nodes over the whole domain, as far as it is filled, both halves of a point contact's, by the
-    /// trapezoidal rule, over the load.
+    /// Returns the integral of a nodal stress \[Pa\] over the filled part of the domain, divided by the load. It uses
+    /// the trapezoidal rule and includes both halves of a point contact.
     pub(super) fn force_per_load(&self, stress: impl Fn(usize) -> f64) -> f64 {
         let ny = self.y.len();
         let stress = |k: usize| self.fraction.get(k).copied().unwrap_or(1.0) * stress(k);
-        // Across the contact: over both halves, where there is anything across.
+        // Integral across both halves; the value itself for a line contact.
         let at = |i: usize| {
             let across = |j: usize| (stress(i * ny + j - 1) + stress(i * ny + j)) * (self.y[j] - self.y[j - 1]);
             if ny == 1 { stress(i) } else { (1..ny).map(across).sum() }
@@ -213,12 +214,12 @@ impl Solution {
     }
 }
 
-/// Where the smallest film is looked for: −1.2 < X < 1.5.
+/// True in the range of the minimum film thickness: −1.2 < X < 1.5.
 pub(crate) fn under_contact(x: f64) -> bool {
     x > -1.2 && x < 1.5
 }
 
-/// Scalars of fields on a grid.
+/// Computes the scalar results of fields on a grid.
 pub fn scalars_of(grid: &impl Grid, problem: &Problem, pressure: &[f64], film: &[f64], h_0: f64) -> Scalars {
     let beyond = if grid.continues() { far_field::load(grid, pressure) } else { 0.0 };
     let mut out = Scalars {
@@ -231,7 +232,7 @@ pub fn scalars_of(grid: &impl Grid, problem: &Problem, pressure: &[f64], film: &
         ..Scalars::default()
     };
     let (abscissae, ordinates) = grid.abscissae();
-    // Nodes of a film much longer than the contact are far apart.
+    // In a film much longer than the contact, the nodes are far apart.
     let length = if grid.continues() { 0.5 * (2.0 * out.h_c).sqrt() } else { 0.0 };
     let under_film = |x: f64| under_contact(x) || x.abs() < length;
     // The unknowns are all nodes between two corners.

@@ -1,5 +1,6 @@
-//! Solving contacts: where Newton starts, and what is tried until it converges: a former solution, cold starts with
-//! other films, then continuation from an easier contact.
+//! Solution of contacts: initial guesses for Newton's method, and the attempts until one converges. The attempts
+//! start from a given solution, then from cold starts with several film thicknesses, then by continuation from an
+//! easier contact.
 
 use super::cut::cell;
 use super::far_field;
@@ -17,19 +18,20 @@ use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// The start of a full solve.
+/// Initial guess of a full solve.
 #[derive(Clone, Copy, Debug)]
 pub enum Start<'a> {
-    /// Hertzian pressure and a film from a formula.
+    /// Hertzian pressure, and a film thickness from a formula.
     Cold,
-    /// Any solution of the same kind of contact, also at another operating point or on another grid; one of the other
-    /// kind means cold. A contact with a supplied film always starts cold.
+    /// Any solution of the same kind of contact, also at another operating point or on another grid. A solution of
+    /// the other kind leads to a cold start. A contact with an inlet film thickness always starts cold.
     From(&'a Solution),
 }
 
 impl<'a> Start<'a> {
-    /// The solution that a problem starts from; `None` for a cold start. The discrete equations of a starved inlet have
-    /// solutions with several menisci, and an iteration ends at that of its start.
+    /// Returns the solution from which a problem starts, or `None` for a cold start. The discrete equations of a
+    /// starved inlet have several solutions, which differ in the meniscus. The iteration converges to the one next to
+    /// its initial guess, so a starved contact starts cold.
     pub(super) fn former(self, problem: &Problem) -> Option<&'a Solution> {
         match self {
             Self::From(former) if former.problem.point.kind == problem.point.kind && problem.supply.is_none() => {
@@ -40,31 +42,31 @@ impl<'a> Start<'a> {
     }
 }
 
-/// Rises of pressure by which the meniscus of a starved inlet is guessed, one start each.
+/// Pressure rises, in units of the estimated one, that locate the initial meniscus of a starved inlet; one per start.
 const MENISCI: [f64; 3] = [1.0, 0.7, 0.85];
 
-/// Newton steps of one such start: those that have not converged by then cycle.
+/// Maximum number of Newton steps of one such start. Starts that need more steps cycle.
 const STARVED_NEWTON: usize = 40;
 
-/// What one attempt begins with.
+/// Initial state of one attempt.
 #[derive(Clone, Copy)]
 pub(super) enum Beginning<'a> {
-    /// Hertzian pressure, a film in units of the contact's film formula, and the rise of pressure to the meniscus in
-    /// units of that by which it is guessed, where the inlet may starve.
+    /// Hertzian pressure; a central film thickness in units of the contact's film formula; and, for a starved inlet,
+    /// the pressure rise to the meniscus in units of the estimated one.
     Cold(f64, f64),
     /// A solution of the same kind of contact.
     Warm(&'a Solution),
-    /// The same of a neighbour on a path, with the central film where that is extrapolated.
+    /// A neighbouring solution on a continuation path, with the extrapolated central film thickness if there is one.
     Along(&'a Solution, Option<f64>),
 }
 
-/// Newton steps that all starts of a solve but its walk take at most together, on a grid of so many unknowns: 3,000, on large
-/// grids fewer, and never fewer than 100.
+/// Returns the maximum number of Newton steps of all starts of a solve together, without its continuation. The
+/// argument is the number of unknowns of the grid. The result is 3,000, fewer on large grids, and at least 100.
 pub fn most_newton(unknowns: usize) -> usize {
     (4_000_000 / unknowns.max(1)).clamp(100, 3000)
 }
 
-/// Solves contacts of one kind on one grid; keeps the grid and the work space between solves.
+/// Solver of one kind of contact on one grid. Keeps the grid and the work space between solves.
 pub struct Solver<S: NewtonSpace> {
     pub(super) reference: S::Reference,
     pub(super) system: Option<System<S>>,
@@ -72,36 +74,36 @@ pub struct Solver<S: NewtonSpace> {
     pub options: SolveOptions<S::Control>,
 }
 
-/// Solves line contacts.
+/// Solver of line contacts.
 pub type FullSolver = Solver<LineSpace>;
-/// Solves point contacts.
+/// Solver of point contacts.
 pub type PointSolver = Solver<PlaneSpace>;
 
 impl<S: NewtonSpace> Solver<S> {
-    /// A solver on the grid of a specification.
+    /// Creates a solver on the grid of a specification.
     ///
     /// # Errors
-    /// When the specification is refused.
+    /// If the specification is refused.
     pub fn new(spec: S::Spec) -> Result<Self, SolveError> {
         Ok(Self::on(S::build(spec)?))
     }
 
-    /// A solver on a grid that exists already.
+    /// Creates a solver on an existing grid.
     pub fn on(reference: S::Reference) -> Self {
         Self { reference, system: None, options: SolveOptions::default() }
     }
 
-    /// The grid.
+    /// Returns the grid.
     pub fn grid(&self) -> &S::Reference {
         &self.reference
     }
 
-    /// Solves one contact. A failed start is followed by others and at last by continuation from an easier contact; the
-    /// solution's report says how it ended. A solution that has not converged holds the last state and must not be
-    /// shown as a result.
+    /// Solves one contact. After a failed start it tries further ones and finally continuation from an easier
+    /// contact. The solution's report contains the outcome. A solution that has not converged contains the last state
+    /// and must not be shown as a result.
     ///
     /// # Errors
-    /// When the operating point or the lubricant is refused, or it is of the other kind.
+    /// If the operating point or the lubricant is refused, or if the contact is of the other kind.
     pub fn solve(
         &mut self,
         point: &OperatingPoint,
@@ -113,10 +115,10 @@ impl<S: NewtonSpace> Solver<S> {
         self.solve_problem(Problem::new(point, lubricant)?, start, observer)
     }
 
-    /// The same for a problem that exists already, under sliding for instance.
+    /// Solves an existing problem, for instance one with other sliding.
     ///
     /// # Errors
-    /// When it is of the other kind.
+    /// If the problem is of the other kind.
     pub fn solve_problem(
         &mut self,
         problem: Problem,
@@ -133,7 +135,8 @@ impl<S: NewtonSpace> Solver<S> {
             None => S::COLD_FILMS.map(|film| Beginning::Cold(film, 1.0)),
             Some(_) => MENISCI.map(|rise| Beginning::Cold(S::COLD_FILMS[0], rise)),
         };
-        // Far from the middle of the map a second cold start fails as the first one did, and farther out every one.
+        // Far from the middle of the map, a second cold start fails like the first one. Farther out, every cold start
+        // fails.
         let load = problem.load_as_a_circle();
         let cold_starts = match load {
             _ if problem.supply.is_some() || load <= S::COLD_M.0 => cold.len(),
@@ -158,10 +161,10 @@ impl<S: NewtonSpace> Solver<S> {
         Ok(solution)
     }
 
-    /// Takes a few undamped Newton steps from fields on this grid, by which their error can be judged.
+    /// Takes a few Newton steps from fields on this grid, by which their error can be estimated.
     ///
     /// # Errors
-    /// When the kernel of the contact's shape cannot be built.
+    /// If the kernel of the contact's shape cannot be built.
     pub fn corrected(&mut self, fields: &Solution, options: &SolveOptions<S::Control>) -> Result<Solution, SolveError> {
         let mut system = self.system_for(&fields.problem)?;
         system.set_pressure(&fields.problem, &fields.pressure);
@@ -173,10 +176,10 @@ impl<S: NewtonSpace> Solver<S> {
         self.solution(fields.problem, report)
     }
 
-    /// The system prepared at a cold start, for whoever iterates it in another way (the dense baseline).
+    /// Returns the system prepared for a cold start, for other iterations such as the dense baseline.
     ///
     /// # Errors
-    /// When the operating point or the lubricant is refused.
+    /// If the operating point or the lubricant is refused.
     pub fn cold_system(
         &self,
         point: &OperatingPoint,
@@ -189,11 +192,11 @@ impl<S: NewtonSpace> Solver<S> {
         Ok((system, problem))
     }
 
-    /// The system on the grid in the form that a problem makes of it: the kept one where it has that form. Another one
-    /// has other coefficients.
+    /// Returns the system on the grid in the form that a problem requires. The stored system is reused if it has that
+    /// form; another form has other coefficients.
     ///
     /// # Errors
-    /// When the kernel of that form cannot be built.
+    /// If the kernel of that form cannot be built.
     pub(super) fn system_for(&mut self, problem: &Problem) -> Result<System<S>, SolveError> {
         let form = S::form_of(&self.reference, problem);
         match self.system.take() {
@@ -202,7 +205,8 @@ impl<S: NewtonSpace> Solver<S> {
         }
     }
 
-    /// One run of Newton's method, which counts in the report, up to `most` iterations of all runs together.
+    /// Runs Newton's method once and adds its effort to the report. `most` limits the iterations of all runs
+    /// together.
     pub(super) fn attempt(
         &mut self,
         problem: &Problem,
@@ -220,10 +224,10 @@ impl<S: NewtonSpace> Solver<S> {
         }
         let left = |report: &Report| most.saturating_sub(report.newton_iterations).min(self.options.max_newton);
         let by_complementarity = match problem.lubricant.cavitation {
-            // Near a flooded film, for which complementarity is the surer way.
+            // Start near a flooded film, for which complementarity is more robust.
             Cavitation::MassConserving { .. } => !system.is_starved(),
-            // The front of a wide ellipse takes three times as many steps to where it belongs.
-            // So does that of a film much longer than the contact.
+            // For wide elliptical contacts, and for films much longer than the contact, the cavitation boundary of
+            // the penalty reaches its position in about three times as many steps.
             Cavitation::Penalty => {
                 let far = problem.point.is_elliptic() || system.space.grid().continues();
                 far && matches!(beginning, Beginning::Cold(..))
@@ -253,7 +257,7 @@ impl<S: NewtonSpace> Solver<S> {
         Ok(())
     }
 
-    /// The present state as a solution.
+    /// Returns the current state as a solution.
     pub(super) fn solution(&mut self, problem: Problem, report: Report) -> Result<Solution, SolveError> {
         let system = self.system_for(&problem)?;
         let System { space, pressure, film, h_0, active, fraction, .. } = self.system.insert(system);
@@ -275,8 +279,9 @@ impl<S: NewtonSpace> Solver<S> {
     }
 }
 
-/// Central film in the solver's scaling, H = (h/R) (R/a)²: Moes' formula for a line, Hamrock and Dowson's for a circle,
-/// Nijenbanning, Venner and Moes' for an ellipse, of which the former is far too thick where R_y < R_x.
+/// Returns the central film thickness of a formula in the solver's scaling, H = (h/R) (R/a)². The formulas are Moes'
+/// for a line contact, Hamrock and Dowson's for a circular contact, and that of Nijenbanning, Venner and Moes for an
+/// elliptical contact. Hamrock and Dowson's formula is far too thick for R_y < R_x.
 pub(super) fn formula_film(problem: &Problem) -> f64 {
     match problem.point.kind {
         // (h/R)(2U)^(−1/2) with a²/R² = 8 w/(π E′ R) = 8 M (2U)^(1/2)/π.
@@ -286,7 +291,7 @@ pub(super) fn formula_film(problem: &Problem) -> f64 {
             let all_regimes = FilmFormula::NijenbanningVennerMoes.predict(&problem.point).film_m;
             let film = match ellipse {
                 true => all_regimes,
-                // A power law in α, which knows no isoviscous film.
+                // A power law in α, which does not cover the isoviscous regimes.
                 false => FilmFormula::HamrockDowsonCentral.predict(&problem.point).film_m.max(0.5 * all_regimes),
             };
             film / problem.point.film_scale_m()
@@ -294,13 +299,13 @@ pub(super) fn formula_film(problem: &Problem) -> f64 {
     }
 }
 
-/// Hertzian pressure and a central film of `film` × the formula.
+/// Sets the Hertzian pressure and a central film thickness of `film` times the formula.
 fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f64, rise: f64) {
     let (x, y) = system.space.grid().abscissae();
     let hertz = x.iter().flat_map(|x| y.iter().map(move |y| (1.0 - (x * x + y * y)).max(0.0).sqrt()));
     let film = film * formula_film(problem);
     let pressure: Vec<f64> = if system.space.grid().continues() {
-        // That of rigid bodies: the Hertzian zone may lie between two nodes.
+        // Pressure of rigid bodies, because the Hertzian zone may lie between two nodes.
         let curvature = problem.point.ellipse().gap_curvature();
         let gap = |x: f64, y: f64| film + 0.5 * (x * x + curvature * y * y);
         let rigid = |x: f64, y: f64| far_field::pressure(problem, (x - 0.4 * film.sqrt(), y), gap(x, y));
@@ -313,8 +318,9 @@ fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f
     system.guess_meniscus(problem, rise);
 }
 
-/// A former solution on this grid: pressure as it is, whatever the scale of its registration, or interpolated; central
-/// film as given, or scaled by the formula.
+/// Transfers a previous solution to this grid. The pressure is copied on the same reference grid, whatever the scale
+/// of its registration, and interpolated on another one. The central film thickness is `film`, or that of the
+/// previous solution scaled by the formula.
 pub(super) fn warm_state<S: NewtonSpace>(
     system: &mut System<S>,
     problem: &Problem,
@@ -335,7 +341,7 @@ pub(super) fn warm_state<S: NewtonSpace>(
         None if same_grid && former.problem == *problem => system.set_h_0(former.scalars.h_0),
         None => system.set_central_film(former.scalars.h_c * ratio),
     }
-    // A film that touches anywhere would be no start.
+    // The initial film thickness must be positive everywhere.
     let floor = 0.2 * former.scalars.h_min * ratio;
     let lowest = system.film.iter().copied().fold(f64::INFINITY, f64::min);
     if lowest < floor {
@@ -348,7 +354,7 @@ pub(super) fn warm_state<S: NewtonSpace>(
     }
 }
 
-/// A node array of a solution at other abscissae and ordinates, (bi)linearly, zero outside.
+/// Interpolates a node array of a solution (bi)linearly to other abscissae and ordinates; zero outside.
 pub(super) fn interpolated(former: &Solution, values: &[f64], x: impl Iterator<Item = f64>, y: &[f64]) -> Vec<f64> {
     let ny = former.y.len();
     let across: Vec<Option<(usize, f64)>> = y.iter().map(|&y| cell(&former.y, y)).collect();
@@ -371,16 +377,16 @@ pub(super) fn interpolated(former: &Solution, values: &[f64], x: impl Iterator<I
     out
 }
 
-/// The full solver of whichever kind of contact a grid is of; keeps the work space between solves.
+/// Full solver of either kind of contact. Keeps the work space between solves.
 pub enum ContactSolver {
-    /// Of line contacts.
+    /// Solver of line contacts.
     Line(FullSolver),
-    /// Of point contacts.
+    /// Solver of point contacts.
     Point(PointSolver),
 }
 
 impl ContactSolver {
-    /// A solver on a grid that exists already.
+    /// Creates a solver on an existing grid.
     pub fn on(grid: &ContactGrid) -> Self {
         match grid {
             ContactGrid::Line(grid) => Self::Line(Solver::on(Arc::clone(grid))),
@@ -388,7 +394,7 @@ impl ContactSolver {
         }
     }
 
-    /// What its grid was built from.
+    /// Returns the specification of its grid.
     pub fn grid_spec(&self) -> GridSpec {
         match self {
             Self::Line(solver) => solver.grid().spec,
@@ -399,7 +405,7 @@ impl ContactSolver {
     /// Solves one contact, as [`Solver::solve`] does.
     ///
     /// # Errors
-    /// When the operating point or the lubricant is refused, or it is of the other kind.
+    /// If the operating point or the lubricant is refused, or if the contact is of the other kind.
     pub fn solve(
         &mut self,
         point: &OperatingPoint,
@@ -413,10 +419,10 @@ impl ContactSolver {
         }
     }
 
-    /// The same for a problem that exists already.
+    /// Solves an existing problem.
     ///
     /// # Errors
-    /// When it is of the other kind.
+    /// If the problem is of the other kind.
     pub fn solve_problem(
         &mut self,
         problem: Problem,
@@ -429,7 +435,8 @@ impl ContactSolver {
         }
     }
 
-    /// A solution on its grid with what that costs the central film; as it is where it has not converged.
+    /// Adds the discretisation error of the central film thickness to a solution on this grid. Returns a solution
+    /// that has not converged without it.
     pub fn judged(&mut self, solution: Solution) -> Solution {
         let grid_cost = solution.converged().then(|| match self {
             Self::Line(solver) => solver.grid_cost(&solution),
@@ -438,11 +445,12 @@ impl ContactSolver {
         Solution { grid_cost, ..solution }
     }
 
-    /// Takes a few Newton steps from fields on its grid, by which their error can be judged: undamped where there is a
-    /// line search, since by the residual it would hide the error: beside a solution the penalty makes it jump.
+    /// Takes a few Newton steps from fields on this grid, by which their error can be estimated. For a line contact
+    /// the steps are not damped: near a solution the penalty makes the residual jump, and damping by the residual
+    /// would hide the error.
     ///
     /// # Errors
-    /// When the kernel of the contact's shape cannot be built.
+    /// If the kernel of the contact's shape cannot be built.
     pub fn corrected(&mut self, fields: &Solution, steps: usize) -> Result<Solution, SolveError> {
         match self {
             Self::Line(solver) => {

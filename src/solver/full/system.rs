@@ -1,8 +1,8 @@
-//! The discrete system of one problem over a space, and Newton's method on it: rows, Jacobian products, stopping.
+//! Discrete system of one problem on a space, and Newton's method for it: equations, Jacobian products and stopping.
 //!
-//! Unknowns are (P, H₀), the deformation is condensed. The Jacobian A + B K is never assembled: A and B are stencils, K
-//! is applied. How far a step is taken, and what preconditions the linear solves, is the space's own, see
-//! [`NewtonSpace`].
+//! The unknowns are the pressure P and the rigid-body separation H₀; the deformation is eliminated. The Jacobian A +
+//! B K is never assembled: A and B are stencils, and the elastic kernel K is applied. The step control and the
+//! preconditioner are provided by the space, see [`NewtonSpace`].
 
 use super::active_set::ActiveSet;
 use super::far_field;
@@ -21,51 +21,51 @@ use crate::solver::discrete::space::Grid;
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::lubricant::Cavitation;
 
-/// Settings of a full solve; those of the step control beside those of every space.
+/// Settings of a full solve, including those of the space's step control.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolveOptions<C> {
-    /// Newton's method stops when the size of a step falls below this: ‖Δz‖/‖z‖ with z = (P, H₀) on a line; max|ΔP| on
-    /// a plane, where |ΔH₀| must fall below a tenth of it too.
+    /// Limit of the step size below which Newton's method stops: ‖Δz‖/‖z‖ with z = (P, H₀) for a line contact,
+    /// max|ΔP| for a point contact. For the latter |ΔH₀| must also fall below a tenth of it.
     pub tolerance: f64,
-    /// Newton steps per attempt.
+    /// Maximum number of Newton steps per attempt.
     pub max_newton: usize,
-    /// Krylov iterations per Newton step.
+    /// Maximum number of Krylov iterations per Newton step.
     pub max_krylov: usize,
     /// Penalty factor γ̄ of (2.36).
     pub penalty: f64,
-    /// How the film integrals of a shear-thinning lubricant are taken.
+    /// Method for the film integrals of a shear-thinning lubricant.
     pub film: FilmTreatment,
-    /// How far steps are taken, and how accurately they are solved for.
+    /// Settings of the step control and of the accuracy of the linear solves.
     pub control: C,
 }
 
-/// The discrete system of one problem, with its state and all work space.
+/// Discrete system of one problem, with its state and all work space.
 pub struct System<S: NewtonSpace> {
-    /// Grid and rows.
+    /// Grid and equations.
     pub space: S,
     /// P, node array.
     pub pressure: Vec<f64>,
-    /// H, node array.
+    /// Film thickness H, node array.
     pub film: Vec<f64>,
     /// H₀.
     pub h_0: f64,
     gap: Vec<f64>,
     pub(super) deformation: Vec<f64>,
     pub(super) nodes: Nodes,
-    /// What shear-thinning adds to the Jacobian; made when first needed.
+    /// Contribution of shear thinning to the Jacobian; created at its first use.
     pub(super) thinning: Option<Thinning>,
     treatment: FilmTreatment,
-    /// The temperatures of a film that warms itself.
+    /// Temperatures of a thermal film.
     pub(super) warm: Option<WarmFilm>,
-    /// The rows of the unknowns as they were evaluated last.
+    /// Equations of the unknowns at the last evaluation.
     pub rows: Vec<Row>,
-    /// Where the film has ruptured, where no penalty holds it.
+    /// Cavitated set; empty for cavitation by the penalty.
     pub active: ActiveSet,
-    /// θ to begin with, node array; empty where it is not known.
+    /// Initial film fraction θ, node array; empty if unknown.
     pub fraction: Vec<f64>,
     /// Widths along X of the unknowns' cells, one per abscissa that has unknowns.
     widths: Vec<f64>,
-    /// The part of the residual norm that the rows of fractions have.
+    /// Residual norm of the equations of film fractions, a part of the total norm.
     pub(super) of_fractions: f64,
     scaling: Vec<f64>,
     pub(super) step: Vec<f64>,
@@ -74,22 +74,24 @@ pub struct System<S: NewtonSpace> {
     krylov: Gmres,
     pub(super) scratch: <S::Grid as Grid>::Scratch,
     rhs: Vec<f64>,
-    /// (ΔP, ΔH₀).
+    /// Newton step (ΔP, ΔH₀).
     pub(super) update: Vec<f64>,
 }
 
-/// Residual norms of solutions are 1e-10 on lines and 1e-4 on planes at most, those of states that are none 1e3 and more.
+/// Limit of the residual norm of a solution. Residual norms of solutions are at most 1e-10 for line contacts and 1e-4
+/// for point contacts; those of other states are 1e3 and more.
 const AT_REST: f64 = 1.0;
 
-/// Whether a residual norm behind a step that changed nothing is a solution's. Where an oil thins by Eyring's law some rows of
-/// a state far from any solution outweigh all others by thirty orders of magnitude: a step that solves these to a hundredth
-/// of the right-hand side is then none, and the state stays as wrong as it is.
+/// Returns true if a residual norm is that of a solution. After a step that changed nothing, this must be checked for
+/// Eyring (shear-thinning) lubricants. Far from a solution some equations outweigh all others by thirty orders of
+/// magnitude. A step that solves these to a hundredth of the right-hand side is then zero, and the state remains
+/// wrong.
 pub(super) fn is_at_rest(residual_norm: f64) -> bool {
     residual_norm < AT_REST
 }
 
 impl<S: NewtonSpace> System<S> {
-    /// A system on a space, with all work space; the state is zero until it is set.
+    /// Creates a system on a space, with all work space. The state is zero until it is set.
     pub fn new(space: S) -> Self {
         let (n, u) = (space.grid().weights().len(), space.grid().unknowns());
         let mut gap = vec![0.0; n];
@@ -138,24 +140,24 @@ impl<S: NewtonSpace> System<S> {
         self.deform();
     }
 
-    /// The load that the pressure carries, beyond the ends of the domain too.
+    /// Returns the load of the pressure, including that beyond the ends of the domain.
     fn carried_load(&self) -> f64 {
         let grid = self.space.grid();
         let beyond = if grid.continues() { far_field::load(grid, &self.pressure) } else { 0.0 };
         dot(grid.weights(), &self.pressure) + beyond
     }
 
-    /// Recomputes the deformation by the present pressure.
+    /// Recomputes the deformation from the current pressure.
     pub(super) fn deform(&mut self) {
         self.space.grid().deform(&self.pressure, &mut self.deformation, &mut self.scratch);
     }
 
-    /// Recomputes the gap of a space that has changed.
+    /// Recomputes the gap after a change of the space.
     pub(super) fn renew_gap(&mut self) {
         self.space.write_gap(&mut self.gap);
     }
 
-    /// Sets H₀ and the film.
+    /// Sets H₀ and recomputes the film thickness.
     pub fn set_h_0(&mut self, h_0: f64) {
         self.h_0 = h_0;
         for ((h, gap), d) in self.film.iter_mut().zip(&self.gap).zip(&self.deformation) {
@@ -163,14 +165,14 @@ impl<S: NewtonSpace> System<S> {
         }
     }
 
-    /// Sets H₀ so that the film at X = 0 (and Y = 0) is `film`.
+    /// Sets H₀ so that the film thickness at X = 0 (and Y = 0) is `film`.
     pub fn set_central_film(&mut self, film: f64) {
         self.set_h_0(0.0);
         let at_zero = self.space.grid().central(&self.film);
         self.set_h_0(film - at_zero);
     }
 
-    /// Evaluates all rows at the current state with their derivatives. Returns the residual norm.
+    /// Evaluates all equations and their derivatives at the current state. Returns the residual norm.
     pub fn evaluate(&mut self, problem: &Problem, penalty: f64) -> f64 {
         if self.space.grid().continues() {
             far_field::write_ends(self.space.grid(), problem, &self.film, &mut self.pressure);
@@ -197,7 +199,7 @@ impl<S: NewtonSpace> System<S> {
         self.evaluate_rows(penalty)
     }
 
-    /// Evaluates all rows by the nodes of the last evaluation. Returns the residual norm.
+    /// Evaluates all equations from the nodes of the last evaluation. Returns the residual norm.
     fn evaluate_rows(&mut self, penalty: f64) -> f64 {
         let Self { space, nodes, rows, active, thinning, .. } = self;
         let nodes = &*nodes;
@@ -228,12 +230,12 @@ impl<S: NewtonSpace> System<S> {
         all
     }
 
-    /// ρ̄H of the state evaluated last, node array.
+    /// Returns ρ̄H of the last evaluation, node array.
     pub(super) fn flow(&self) -> impl Iterator<Item = f64> + '_ {
         self.nodes.iter().map(|node| node.flow)
     }
 
-    /// Newton's method from the current state.
+    /// Runs Newton's method from the current state.
     pub fn newton(
         &mut self,
         problem: &Problem,
@@ -255,7 +257,7 @@ impl<S: NewtonSpace> System<S> {
         self.begin_rupture(problem);
     }
 
-    /// Makes the pressures of a node array zero where the film is ruptured, and those below zero.
+    /// Sets the pressures of a node array to zero in the cavitated region and wherever they are negative.
     pub(super) fn keep_ruptured(&self, pressure: &mut [f64]) {
         let grid = self.space.grid();
         for (k, &ruptured) in self.active.ruptured.iter().enumerate() {
@@ -264,7 +266,7 @@ impl<S: NewtonSpace> System<S> {
         }
     }
 
-    /// Goes on with Newton's method from where it was left, with the ruptured set that it has.
+    /// Continues Newton's method from the current state with the current cavitated set.
     pub(super) fn go_on(
         &mut self,
         problem: &Problem,
@@ -314,25 +316,25 @@ impl<S: NewtonSpace> System<S> {
         self.fraction = self.active.fraction_field(self.space.grid(), &self.film);
     }
 
-    /// Guesses how far the supplied film fills the inlet, see [`film_fraction::guess`].
+    /// Estimates how far the inlet film thickness fills the inlet, see [`film_fraction::guess`].
     pub(super) fn guess_meniscus(&mut self, problem: &Problem, share: f64) {
         let alpha = problem.point.alpha_per_pa * problem.point.hertz().pressure_pa;
-        // ∫ dp/η: as far as pressure rises where viscosity does not follow it.
+        // ∫ dp/η up to the Hertzian pressure: the limit of the reduced pressure.
         let reduced = if alpha > 0.0 { (1.0 - (-alpha).exp()) / alpha } else { 1.0 };
         let rise = share * reduced * problem.inverse_lambda;
         let (grid, fields) = (self.space.grid(), (self.pressure.as_slice(), self.film.as_slice()));
         self.fraction = problem.supply.map_or_else(Vec::new, |supply| film_fraction::guess(grid, fields, supply, rise));
     }
 
-    /// Whether the inlet is known or guessed to be filled in part only.
+    /// Returns true if the inlet is computed or estimated to be partly filled.
     pub(super) fn is_starved(&self) -> bool {
         let (x, y) = self.space.grid().abscissae();
         let inlet = self.fraction.iter().take(x.partition_point(|x| *x < 0.0) * y.len());
         inlet.into_iter().any(|fraction| *fraction < 1.0)
     }
 
-    /// Begins with the set that the pressures show: all of the outlet's half that carries none. Pressures below zero
-    /// become zero.
+    /// Initialises the cavitated set from the pressures: nodes with negative pressure, and nodes without pressure in
+    /// the outlet half. Negative pressures become zero.
     pub(super) fn begin_rupture(&mut self, problem: &Problem) {
         let Self { space, pressure, active, fraction, rows, .. } = self;
         let grid = space.grid();
@@ -360,7 +362,8 @@ impl<S: NewtonSpace> System<S> {
         self.rise_to_zero();
     }
 
-    /// Gives the ruptured nodes of complementarity the pressure at which a penalty is its multiplier, −λ/γ̄.
+    /// Sets the pressure of nodes that cavitate by complementarity to −λ/γ̄, where the penalty equals the multiplier
+    /// λ.
     pub(super) fn penalise_rupture(&mut self, penalty: f64) {
         let multiplier = self.active.field(self.space.grid());
         let penalty = penalty * far_field::stiffening(self.space.grid());
@@ -369,7 +372,7 @@ impl<S: NewtonSpace> System<S> {
         }
     }
 
-    /// Lifts pressures below zero to zero; `false` where there are none.
+    /// Raises negative pressures to zero. Returns `false` if there were none.
     fn rise_to_zero(&mut self) -> bool {
         let mut cut = false;
         for p in &mut self.pressure {
@@ -385,8 +388,9 @@ impl<S: NewtonSpace> System<S> {
         cut
     }
 
-    /// Lets the ruptured set follow a Newton step: nodes whose pressure fell below zero join it, others leave by
-    /// [`ActiveSet::release`]. Returns whether the set is as before, and the residual norm, which was `residual`.
+    /// Updates the cavitated set after a Newton step. Nodes with negative pressure join it; others leave it by
+    /// [`ActiveSet::release`]. Returns whether the set is unchanged, and the new residual norm; `residual` is the
+    /// previous one.
     fn renew_rupture(&mut self, problem: &Problem, penalty: f64, residual: f64) -> (bool, f64) {
         if !self.active.holds() {
             return (true, residual);
@@ -413,7 +417,7 @@ impl<S: NewtonSpace> System<S> {
         (self.active.is_still(), residual)
     }
 
-    /// Spreads `update` into `step`, with its deformation; fractions are no part of it.
+    /// Expands `update` to the node array `step` without film fractions, and computes its deformation.
     pub(super) fn spread_update(&mut self) {
         let Self { space, update, step, step_deformation, scratch, active, .. } = self;
         space.spread(update, step);
@@ -423,7 +427,8 @@ impl<S: NewtonSpace> System<S> {
         space.grid().deform(step, step_deformation, scratch);
     }
 
-    /// Solves the linearised system for `update` = (ΔP, ΔH₀), ΔP to carry `load`. Returns how the linear solver ended.
+    /// Solves the linearised system for `update` = (ΔP, ΔH₀), where ΔP carries the load `load`. Returns the result of
+    /// the linear solver.
     pub(super) fn solve_linear(
         &mut self,
         options: &SolveOptions<S::Control>,

@@ -1,23 +1,25 @@
-//! What a shear-thinning lubricant adds to the Jacobian: the derivatives by nodal gradients, ∂f/∂P += (∂f/∂P_X) G_X +
-//! (∂f/∂P_Y) G_Y.
+//! Contribution of a shear-thinning lubricant to the Jacobian: derivatives through the nodal pressure gradients,
+//! ∂f/∂P += (∂f/∂P_X) G_X + (∂f/∂P_Y) G_Y. Here f is the residual of a Reynolds equation, and G_X and G_Y are the
+//! gradient operators.
 
 use crate::solver::discrete::nodes::Nodes;
 use crate::solver::discrete::reynolds::STENCIL;
 use crate::solver::discrete::reynolds::generalized::PlaneGradient;
 use crate::solver::discrete::space::{Grid, Space};
 
-/// The operators G and what they are multiplied with.
+/// Gradient operators G and the derivatives by which they are multiplied.
 pub struct Thinning {
-    /// G.
+    /// Gradient operators G_X and G_Y.
     pub gradient: PlaneGradient,
-    /// ∂f/∂P_X and ∂f/∂P_Y per row, at the row's nodes; the latter is empty on a line.
+    /// ∂f/∂P_X and ∂f/∂P_Y of each equation, at the nodes of its stencil. The second array is empty for a line
+    /// contact.
     pub slopes: [Vec<[f64; STENCIL]>; 2],
-    /// (P_X, P_Y) of the direction that the Jacobian is applied to.
+    /// (P_X, P_Y) of the direction to which the Jacobian is applied.
     direction: Vec<[f64; 2]>,
 }
 
 impl Thinning {
-    /// Of a space.
+    /// Creates the operators of a space, with zero derivatives.
     pub fn new<S: Space>(space: &S) -> Self {
         let grid = space.grid();
         let (x, y) = (grid.abscissae().0, grid.across());
@@ -28,7 +30,7 @@ impl Thinning {
         }
     }
 
-    /// The derivatives at the nodes evaluated last.
+    /// Sets the derivatives from the nodes evaluated last.
     pub fn differentiate<S: Space>(&mut self, space: &S, nodes: &Nodes) {
         for (axis, slopes) in self.slopes.iter_mut().enumerate().take(S::AXES) {
             space.each_row(slopes, |k, _, slopes| {
@@ -38,12 +40,12 @@ impl Thinning {
         }
     }
 
-    /// Turns to a node array v of pressures.
+    /// Computes the gradient field of the node array v, a direction of pressures, for [`Self::add_product`].
     pub fn turn<S: Space>(&mut self, v: &[f64]) {
         self.gradient.field(v, &mut self.direction, S::PARALLEL);
     }
 
-    /// Adds their product with the node array turned to, rows scaled.
+    /// Adds the product with the direction last given to [`Self::turn`]. Each equation is multiplied by its scaling.
     pub fn add_product<S: Space>(&self, space: &S, scaling: &[f64], out: &mut [f64]) {
         let (direction, [along, across]) = (&self.direction, &self.slopes);
         space.each_row(out, |k, stencil, out| {

@@ -1,4 +1,4 @@
-//! Shear across the film, and the traction (3.41) it adds up to.
+//! Shear stress in the film, and the traction (3.41) that results from it.
 
 use super::problem::Problem;
 use super::solution::{Scalars, Solution};
@@ -10,27 +10,28 @@ use crate::solver::physics::lubricant::{LimitingStress, ScaledShear};
 use crate::solver::warning::{PLAUSIBLE_EXPONENT, PLAUSIBLE_TRACTION, Warning};
 use std::fmt::{Display, Formatter};
 
-/// A shear stress \[Pa\] that every lubricant carries; under pressure it carries more.
+/// Shear stress \[Pa\] that every lubricant can carry. Under pressure it can carry more.
 const CARRIED_PA: f64 = 5e6;
 
-/// Why a traction is no physics.
+/// Reason why a traction is unphysical.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TractionDoubt {
-    /// α* p_H, beyond [`PLAUSIBLE_EXPONENT`] without a limiting stress.
+    /// α* p_H, which exceeds [`PLAUSIBLE_EXPONENT`] without a limiting stress. α* is the reciprocal asymptotic
+    /// isoviscous pressure coefficient, p_H the Hertzian pressure.
     Exponent(f64),
-    /// The coefficient itself, beyond [`PLAUSIBLE_TRACTION`].
+    /// Traction coefficient, which exceeds [`PLAUSIBLE_TRACTION`].
     Coefficient(f64),
-    /// The shear stress where the pressure is largest \[Pa\], beyond what is carried under it.
+    /// Shear stress at the maximum pressure, which exceeds the stress that a lubricant can carry there.
     Stress {
-        /// At mid-film.
+        /// Shear stress at mid-film \[Pa\].
         stress_pa: f64,
-        /// The largest pressure.
+        /// Maximum pressure \[Pa\].
         pressure_pa: f64,
     },
 }
 
 impl TractionDoubt {
-    /// A few words that a number is marked with.
+    /// Returns a short mark for the number.
     pub fn mark(self) -> &'static str {
         match self {
             Self::Exponent(_) | Self::Coefficient(_) => "unphysical",
@@ -55,30 +56,30 @@ impl Display for TractionDoubt {
     }
 }
 
-/// Shear along X at one place of the film.
+/// Shear along X at one point of the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shear {
-    /// τ_zx \[Pa\].
+    /// Shear stress τ_zx \[Pa\].
     pub stress_pa: f64,
     /// Shear rate ∂u/∂z \[1/s\].
     pub rate_per_s: f64,
 }
 
-/// The shear stress of a film: linear across it, from body 1 at Z = 0 to body 2 at Z = 1.
+/// Shear stress across a film. It varies linearly from body 1 at Z = 0 to body 2 at Z = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct FilmStress {
     /// (τ_zx, τ_zy) at mid-film \[Pa\].
     mid_pa: [f64; 2],
-    /// Their differences between the surfaces \[Pa\].
+    /// Differences of the stresses between the surfaces \[Pa\].
     across_pa: [f64; 2],
-    /// μ, the viscosity at rest \[Pa·s\].
+    /// μ, the viscosity at low shear stress \[Pa·s\].
     viscosity_pa_s: f64,
-    /// What bends and cuts it, and the pressure there \[Pa\].
+    /// Limiting stress and the pressure at the node \[Pa\].
     limit: Option<(LimitingStress, f64)>,
 }
 
 impl Solution {
-    /// [`Self::shear_field`] with heat.
+    /// Thermal version of [`Self::shear_field`]; `None` for an isothermal solution.
     fn warm_shear_field(&self, heights: &[f64]) -> Option<Vec<Shear>> {
         let (heat, laws) = (self.heat.as_ref()?, self.problem.warm_laws()?);
         let gradient = self.gradient();
@@ -102,9 +103,9 @@ impl Solution {
         Some(field)
     }
 
-    /// Shear along the axis Y = 0 at heights z = Z h above body 1, 0 ≤ Z ≤ 1, in the order of [`Solution::profile`], the
-    /// heights of a node one after the other; positive where body 2 is the faster one. A limiting stress, where the lubricant has one,
-    /// cuts the stress; the rate is the one of the film without it.
+    /// Returns the shear along the axis Y = 0 at heights z = Z h above body 1, 0 ≤ Z ≤ 1. The values are in the order
+    /// of [`Solution::profile`], all heights of a node one after the other. They are positive if body 2 is faster. A
+    /// limiting stress limits the stress; the rate is that without this limit.
     pub fn shear_field(&self, heights: &[f64]) -> Vec<Shear> {
         if let Some(field) = self.warm_shear_field(heights) {
             return field;
@@ -125,9 +126,9 @@ impl Solution {
         films.flat_map(|film| heights.iter().map(move |height| shear(&film, *height))).collect()
     }
 
-    /// Traction coefficient (3.41): the shear stress at mid-film over the whole domain, both halves of a point
-    /// contact's, by the trapezoidal rule, over the load. Positive for SRR > 0. Over the area with P > 0 alone it is
-    /// some 0.1 to 2 % smaller.
+    /// Returns the traction coefficient (3.41): the integral of the mid-film shear stress over the whole domain,
+    /// divided by the load. It uses the trapezoidal rule and includes both halves of a point contact. Positive for
+    /// SRR > 0. An integral over the area with P > 0 alone would be about 0.1 to 2 % smaller.
     pub fn traction_coefficient(&self) -> f64 {
         if self.problem.point.sliding.slide_to_roll_ratio == 0.0 {
             return 0.0;
@@ -136,8 +137,8 @@ impl Solution {
         self.force_per_load(|k| stress[k])
     }
 
-    /// τ_zx \[Pa\] at mid-film, cut to the limiting stress where the lubricant has one, at every node of the arrays; with
-    /// heat only under pressure.
+    /// Returns τ_zx \[Pa\] at mid-film at every node of the arrays, limited by the limiting stress if there is one.
+    /// In a thermal solution it is zero at nodes without pressure.
     pub fn mid_film_stress(&self) -> Vec<f64> {
         if let Some(heat) = &self.heat {
             return heat.mid_stress_pa.clone();
@@ -151,13 +152,14 @@ impl Solution {
         stress
     }
 
-    /// What the film at node (i, j) depends on.
+    /// Returns the pressure, its gradient and the film thickness at node (i, j).
     fn state(&self, gradient: &PlaneGradient, i: usize, j: usize) -> NodeState {
         let k = i * self.y.len() + j;
         NodeState { pressure: self.pressure[k], gradient: gradient.at(&self.pressure, i, j), film: self.film[k] }
     }
 
-    /// A sentence where its traction is no physics; none in pure rolling, where there is no traction.
+    /// Returns a message if every traction of its problem is unphysical. `None` in pure rolling, where there is no
+    /// traction.
     pub fn traction_warning(&self) -> Option<String> {
         let slides = self.problem.point.sliding.slide_to_roll_ratio != 0.0;
         slides.then(|| self.problem.traction_warning()).flatten()
@@ -165,27 +167,27 @@ impl Solution {
 }
 
 impl Problem {
-    /// Why the traction coefficient of a solution with these scalars is no physics: wherever every one is, where it is
-    /// larger than any that was measured, and where the shear stress is larger than any that is carried. None of no
-    /// traction at all.
+    /// Returns the reason why the traction coefficient of a solution with these scalars is unphysical. The reasons
+    /// are: every traction of this problem is unphysical; the coefficient is larger than any measured one; or the
+    /// shear stress is larger than a lubricant can carry. `None` without traction.
     pub fn doubts_traction(&self, traction: f64, scalars: &Scalars) -> Option<TractionDoubt> {
         if traction == 0.0 {
             return None;
         }
-        // With heat viscosity falls before a stress gets beyond any sense.
+        // In a thermal solution the viscosity falls before the stress becomes unphysical.
         let isothermal = self.heat.is_none();
         let too_large = || (traction.abs() > PLAUSIBLE_TRACTION).then_some(TractionDoubt::Coefficient(traction));
         self.doubts_every_traction().or_else(too_large).or_else(|| self.doubts_stress(scalars).filter(|_| isothermal))
     }
 
-    /// Why every traction is no physics: at great α* p_H without a limiting stress.
+    /// Returns the reason why every traction is unphysical: a large α* p_H without a limiting stress.
     pub fn doubts_every_traction(&self) -> Option<TractionDoubt> {
         let exponent = self.fluid.reciprocal_asymptotic_exponent();
         (self.is_unlimited() && self.heat.is_none() && exponent > PLAUSIBLE_EXPONENT)
             .then_some(TractionDoubt::Exponent(exponent))
     }
 
-    /// The same as a sentence.
+    /// Returns the same reason as a message.
     pub fn traction_warning(&self) -> Option<String> {
         self.doubts_every_traction().map(|doubt| doubt.to_string())
     }
@@ -194,7 +196,7 @@ impl Problem {
         self.lubricant.limiting_stress.is_none()
     }
 
-    /// The film is as good as parallel where the pressure is largest.
+    /// Checks the shear stress at the maximum pressure, where the film is nearly parallel.
     fn doubts_stress(&self, scalars: &Scalars) -> Option<TractionDoubt> {
         let state = NodeState { pressure: scalars.p_max, gradient: [0.0; 2], film: scalars.h_c };
         let pressure_pa = scalars.p_max * self.point.hertz().pressure_pa;
@@ -204,19 +206,19 @@ impl Problem {
     }
 }
 
-/// τ_zx \[Pa\] at mid-film of one node, cut to the limiting stress where the lubricant has one.
+/// Returns τ_zx \[Pa\] at mid-film of one node, limited by the limiting stress if there is one.
 fn mid_film_stress(problem: &Problem, state: NodeState) -> f64 {
     mid_film_stresses(problem, state).0
 }
 
-/// [`mid_film_stress`], and what it were without a limit.
+/// Returns [`mid_film_stress`] and its value without a limit.
 pub(crate) fn mid_film_stresses(problem: &Problem, state: NodeState) -> (f64, f64) {
     let film = FilmStress::new(problem, state);
     (film.limited(film.mid_pa)[0], film.mid_pa[0])
 }
 
 impl FilmStress {
-    /// The shear stress of a node's film.
+    /// Computes the shear stress of a node's film.
     fn new(problem: &Problem, NodeState { pressure, gradient, film }: NodeState) -> Self {
         let (point, hertz) = (&problem.point, problem.point.hertz());
         let viscosity = problem.fluid.at(pressure.max(0.0)).viscosity;
@@ -243,12 +245,12 @@ impl FilmStress {
         }
     }
 
-    /// (τ_zx, τ_zy) at height Z.
+    /// Returns (τ_zx, τ_zy) at height Z.
     fn at(&self, height: f64) -> [f64; 2] {
         [0, 1].map(|axis| self.mid_pa[axis] + (height - 0.5) * self.across_pa[axis])
     }
 
-    /// A stress bent and cut to what the lubricant carries, in its own direction.
+    /// Limits a stress to the one that the lubricant can carry and keeps its direction.
     fn limited(&self, stress: [f64; 2]) -> [f64; 2] {
         let Some((limit, pressure_pa)) = self.limit else { return stress };
         let size = stress[0].hypot(stress[1]);

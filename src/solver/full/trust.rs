@@ -1,13 +1,15 @@
-//! How far the grid lets a full answer be trusted: what its central film is off by because the domain ends and because
-//! its spacing is finite, for the price of two linear solves.
+//! Discretisation error of a full solution: the errors of its central film thickness due to the ends of the domain
+//! and to the finite spacing. Each costs one linear solve.
 //!
-//! Both are linear responses of the converged system, −J⁻¹ times what the discrete equations lack:
+//! Both are linear responses of the converged system, −J⁻¹ times a defect of the discrete equations. J is the
+//! Jacobian.
 //!
-//! - The domain sets P = 0 where an endless inlet has a pressure. Beyond the ends of the domain the gap grows like R²/2
-//!   with the distance R, the oil is as thin as at ambient pressure, and the pressure of the full film there, that of
-//!   half Sommerfeld's tail, is λ̄|X|/(3H²) in a line and λ̄|X|/((3 + 2R_x/R_y)H²) in a point contact. It enters the rows beside the ends, and the load that the missing part would carry the load's equation.
-//! - The rows of a scheme of second order, evaluated on every other node of the solution, miss three times what the
-//!   solution itself misses of the differential equation.
+//! - The domain prescribes P = 0 where an endless inlet has a pressure. Beyond the ends of the domain the gap grows
+//!   like R²/2 with the distance R, and the viscosity is the ambient one. The pressure of the full film there, with
+//!   the half-Sommerfeld condition, is λ̄|X|/(3H²) in a line contact and λ̄|X|/((3 + 2R_x/R_y)H²) in a point contact.
+//!   It enters the equations next to the ends. The load of the missing pressure enters the load equation.
+//! - A scheme of second order, evaluated on every other node of the solution, has a defect three times that of the
+//!   solution itself.
 
 use super::grid_cost::{GridCost, TOLERATED};
 use super::newton_space::NewtonSpace;
@@ -21,11 +23,11 @@ use crate::solver::discrete::space::Grid;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::warning::{NearEnds, Warning, WideSpacing};
 
-/// Accuracy of the linear solves, and their iterations at most.
+/// Accuracy of the linear solves, and their maximum number of iterations.
 const LINEAR: (f64, usize) = (1e-4, 60);
 
 impl Solution {
-    /// A warning if the grid moves the central film by more than a few percent, with a grid that would do.
+    /// Returns a warning if the error of the central film thickness exceeds the limit, with a sufficient grid.
     pub fn grid_warning(&self) -> Option<Warning> {
         let cost = self.grid_cost?;
         let mut warning = cost.warning()?;
@@ -46,7 +48,7 @@ impl Solution {
 }
 
 impl<S: NewtonSpace> Solver<S> {
-    /// What the grid costs the central film of a converged solution on it.
+    /// Returns the discretisation error of the central film thickness of a converged solution on this grid.
     pub fn grid_cost(&mut self, solution: &Solution) -> GridCost {
         let Ok(mut system) = self.system_for(&solution.problem) else {
             return GridCost { truncation: f64::NAN, resolution: f64::NAN };
@@ -63,7 +65,7 @@ impl<S: NewtonSpace> Solver<S> {
 }
 
 impl<S: NewtonSpace> System<S> {
-    /// What the grid costs the central film of the stationary state that the system is in.
+    /// Returns the discretisation error of the central film thickness of the current steady state.
     pub(in crate::solver::full) fn grid_cost(
         &mut self,
         problem: &Problem,
@@ -83,7 +85,7 @@ impl<S: NewtonSpace> System<S> {
         let ruptured = self.active.nodes(self.space.grid());
         for k in 0..self.rows.len() {
             let coarse = self.space.wide_row(k).filter(|(stencil, _)| {
-                // The film ruptures where it likes: there a row is no difference quotient.
+                // The equations are not differentiable in the cavitated region, so these are excluded.
                 stencil.iter().all(|&node| self.nodes[node].pressure >= 0.0 && !ruptured[node])
             });
             self.rows[k].value = coarse
@@ -93,7 +95,7 @@ impl<S: NewtonSpace> System<S> {
         GridCost { truncation, resolution }
     }
 
-    /// The response of H_c to the values of the rows and to a load that the nodes carry in addition, over H_c.
+    /// Returns the relative response of H_c to the values of the equations and to an additional load on the nodes.
     fn central_response(&mut self, options: &super::SolveOptions<S::Control>, load: f64) -> f64 {
         let options = super::SolveOptions { max_krylov: LINEAR.1, ..*options };
         self.solve_linear(&options, LINEAR.0, load, &());
@@ -103,7 +105,8 @@ impl<S: NewtonSpace> System<S> {
         (grid.central(&self.step_deformation) + shift) / grid.central(&self.film)
     }
 
-    /// The pressure of an endless film at the ends of the domain, node array; zero inside and behind the contact.
+    /// Returns the pressure of an endless film at the ends of the domain, node array. It is zero inside the domain
+    /// and behind the contact.
     fn missing_pressure(&self, problem: &Problem) -> Vec<f64> {
         let (x, y) = self.space.grid().abscissae();
         let weights = self.space.grid().weights();
@@ -114,7 +117,7 @@ impl<S: NewtonSpace> System<S> {
         let continues = self.space.grid().continues();
         let at = |node: usize| {
             let (x, film) = (x[node / y.len()], self.film[node]);
-            // Nor where the surfaces bring less than fills the gap.
+            // It is also zero where the surfaces carry less than fills the gap.
             if weights[node] > 0.0 || x >= 0.0 || continues || problem.supply.is_some_and(|supply| supply < film) {
                 return 0.0;
             }
@@ -123,8 +126,9 @@ impl<S: NewtonSpace> System<S> {
         (0..weights.len()).map(at).collect()
     }
 
-    /// The load of such a pressure beyond the domain, of both halves of a point contact: it falls with the third power
-    /// of the distance, so that its integral is that of P x·n over the ends, a half of it in one dimension.
+    /// Returns the load of such a pressure beyond the domain, for both halves of a point contact. The pressure falls
+    /// with the third power of the distance, so its integral is that of P x·n over the ends; in one dimension half of
+    /// that.
     fn missing_load(&self, missing: &[f64]) -> f64 {
         let (x, y) = self.space.grid().abscissae();
         if S::KIND == ContactKind::Line {

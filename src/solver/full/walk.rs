@@ -1,9 +1,10 @@
-//! Continuation: where a contact does not converge from a cold start, the solver walks to it from one that does.
+//! Continuation: if a contact does not converge from a cold start, the solver approaches it from a contact that does.
 //!
-//! The path is straight in (ln M, ln L) and begins at the nearest contact of the same shape in the middle of the map, or,
-//! where the inlet may starve, at the same contact with a thin supply. It depends on the wanted contact alone. Each step
-//! starts from the last two contacts of the path, extrapolated. Steps grow and shrink with the Newton iterations that
-//! they take. Point contacts walk on grids that are coarser along X as long as these resolve the film.
+//! The path is straight in (ln M, ln L) with the Moes numbers M and L. It begins at the nearest contact of the same
+//! shape in the middle of the map. For a starved inlet it begins at the same contact with a small inlet film
+//! thickness. It depends on the requested contact only. Each step starts from an extrapolation of the last two
+//! contacts of the path. The step length is adapted to the number of Newton iterations. Point contacts use coarser
+//! grids along X as long as these resolve the film.
 
 use super::newton_space::NewtonSpace;
 use super::problem::{Problem, SolveError};
@@ -14,43 +15,44 @@ use crate::solver::discrete::space::Grid;
 use crate::solver::observer::{Observer, WalkStep};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 
-/// A supplied film, in units of the contact's film formula, that starves it plainly.
+/// Inlet film thickness, in units of the contact's film formula, that clearly starves the contact.
 const THIN: f64 = 0.3;
 
-/// Length of the first step in ln M, or a third of it in ln L.
+/// Length of the first step in ln M; a third of it in ln L.
 const FIRST_STRIDE: f64 = 0.7;
-/// Shortest step of the same length, below which the walk ends.
+/// Shortest step in the same measure, below which the continuation ends.
 const SHORTEST_STRIDE: f64 = 2e-3;
 /// Newton iterations below which the next step is longer, and above which it is shorter.
 const QUICK: usize = 6;
 const SLOW: usize = 15;
-/// Newton iterations of one step of the walk.
+/// Maximum number of Newton iterations of one step.
 const MOST_PER_STEP: usize = 40;
 
-/// How many times wider the tolerance is than that of the wanted contact.
+/// Factor between the tolerance along the path and that of the requested contact.
 const ALONG_THE_WAY: f64 = 1e3;
 
-/// Newton iterations that a whole walk takes at most on a grid of so many unknowns: 3,000, on large grids fewer, and
-/// never fewer than 250.
+/// Returns the maximum number of Newton iterations of a whole continuation on a grid with that many unknowns. The
+/// result is 3,000, fewer on large grids, and at least 250.
 pub fn most_walked(unknowns: usize) -> usize {
     (12_000_000 / unknowns.max(1)).clamp(250, 3000)
 }
 
-/// The contacts between an easy one and the wanted one.
+/// Contacts between an easy one and the requested one.
 enum Path {
-    /// The way in ln M and ln L, from the wanted contact to the easy one.
+    /// Distances in ln M and ln L from the requested contact to the easy one.
     Loads {
-        /// ln(M/M wanted) of the easy contact.
+        /// ln(M/M requested) of the easy contact.
         m: f64,
-        /// ln(L/L wanted) of the easy contact.
+        /// ln(L/L requested) of the easy contact.
         l: f64,
     },
-    /// The thin supply over the wanted one.
+    /// ln of the small inlet film thickness over the requested one.
     Supply(f64),
 }
 
 impl Path {
-    /// On a grid that `continues` beyond its ends the middle of the map would not be resolved: there only L changes.
+    /// Returns the path to a problem. A grid that `continues` beyond its ends would not resolve the middle of the
+    /// map, so only L changes there.
     fn to<S: NewtonSpace>(problem: &Problem, continues: bool) -> Self {
         if let Some(supply) = problem.supply {
             return Self::Supply((supply.min(THIN * formula_film(problem)) / supply).ln());
@@ -61,7 +63,7 @@ impl Path {
         Self::Loads { m: (easy_m / m).ln(), l: if l > easy_l { (easy_l / l).ln() } else { 0.0 } }
     }
 
-    /// Its length in ln M.
+    /// Returns its length in ln M.
     fn length(&self) -> f64 {
         match self {
             Self::Loads { m, l } => m.abs() + 3.0 * l.abs(),
@@ -69,7 +71,7 @@ impl Path {
         }
     }
 
-    /// The contact at the share t of the path: the easy one at 0, the wanted one at 1.
+    /// Returns the contact at the share t of the path: the easy one at 0, the requested one at 1.
     fn at(&self, problem: &Problem, t: f64) -> Option<Problem> {
         if t >= 1.0 {
             return Some(*problem);
@@ -79,7 +81,7 @@ impl Path {
                 Some(Problem { supply: problem.supply.map(|supply| supply * ((1.0 - t) * thin).exp()), ..*problem })
             }
             Self::Loads { m, l } => {
-                // By speed and load at the same α: L grows with the fourth root of the speed.
+                // Speed and load change at the same α: L grows with the fourth root of the speed.
                 let point = &problem.point;
                 let (speed, power) = (4.0 * (1.0 - t) * l, if point.kind == ContactKind::Line { 0.5 } else { 0.75 });
                 let easier = OperatingPoint {
@@ -93,13 +95,13 @@ impl Path {
     }
 }
 
-/// A contact of the path that has been solved.
+/// Solved contact of the path.
 struct Passed {
     t: f64,
     solution: Solution,
 }
 
-/// The start of a step of the walk: pressure and central film extrapolated along the path.
+/// Returns the initial guess of a step: pressure and central film thickness extrapolated along the path.
 fn extrapolated(last: &Passed, before: Option<&Passed>, next: f64) -> (Solution, Option<f64>) {
     let mut start = last.solution.clone();
     let before = before.filter(|before| {
@@ -118,7 +120,7 @@ fn extrapolated(last: &Passed, before: Option<&Passed>, next: f64) -> (Solution,
 }
 
 impl<S: NewtonSpace> Solver<S> {
-    /// Walks from an easier contact to the wanted one.
+    /// Follows the path from an easier contact to the requested one.
     pub(super) fn walk(
         &mut self,
         problem: &Problem,
@@ -184,7 +186,7 @@ impl<S: NewtonSpace> Solver<S> {
         Ok(())
     }
 
-    /// One contact of the walk on the coarsest grid that resolves it; the wanted one on the solver's `own`.
+    /// Solves one contact of the path on the coarsest grid that resolves it, or on the solver's grid if `own` is set.
     fn step(
         &mut self,
         (levels, own): (&mut Vec<Self>, bool),
@@ -220,10 +222,11 @@ impl<S: NewtonSpace> Solver<S> {
 }
 
 impl Problem {
-    /// M of a line contact and of a circle; of an ellipse that of the circle of the same λ̄, (2.23).
+    /// Returns M of a line contact or a circular contact. For an elliptical contact it is that of the circular
+    /// contact with the same λ̄, (2.23).
     pub(super) fn load_as_a_circle(&self) -> f64 {
         if self.point.is_elliptic() {
-            // λ̄ of a circle is 4π/(M ∛(3M/2)).
+            // λ̄ of a circular contact is 4π/(M ∛(3M/2)).
             return (4.0 * std::f64::consts::PI * self.inverse_lambda / 1.5f64.cbrt()).powf(0.75);
         }
         self.moes.m

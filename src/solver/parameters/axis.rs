@@ -19,22 +19,22 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis with the usual scale of its quantity.
+    /// Creates an axis with the usual scale of its quantity.
     pub fn new(quantity: Quantity, ends: (f64, f64)) -> Self {
         Self { quantity, ends, scale: quantity.scale() }
     }
 
-    /// An axis with equal differences.
+    /// Creates an axis with equal differences.
     pub fn linear(quantity: Quantity, ends: (f64, f64)) -> Self {
         Self { quantity, ends, scale: Scale::Linear }
     }
 
-    /// An axis with equal ratios.
+    /// Creates an axis with equal ratios.
     pub fn logarithmic(quantity: Quantity, ends: (f64, f64)) -> Self {
         Self { quantity, ends, scale: Scale::Log }
     }
 
-    /// The value at a fraction 0…1 of the interval.
+    /// Returns the value at a fraction 0…1 of the interval.
     pub fn value(&self, t: f64) -> f64 {
         let (low, high) = self.ends;
         match self.scale {
@@ -44,8 +44,8 @@ impl Axis {
     }
 }
 
-/// Interval and scale of an axis as a file has them: `(low, high)`, or `(low, high, Linear)` where the scale is not the
-/// usual one of the quantity.
+/// Interval and scale of an axis in files: `(low, high)`, or `(low, high, Linear)` if the scale is not the usual one
+/// of the quantity.
 #[derive(Clone, Copy)]
 pub(super) struct Spread {
     pub ends: (f64, f64),
@@ -54,7 +54,7 @@ pub(super) struct Spread {
 
 impl Serialize for Spread {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        // Formats that do not describe themselves need the same number of elements every time.
+        // Formats that are not self-describing need a fixed number of elements.
         let always = !serializer.is_human_readable();
         let mut tuple = serializer.serialize_tuple(if always || self.scale.is_some() { 3 } else { 2 })?;
         tuple.serialize_element(&self.ends.0)?;

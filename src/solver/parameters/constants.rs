@@ -5,12 +5,12 @@ use super::space::ParameterSpace;
 use crate::solver::physics::lubricant::Lubricant;
 use fastrand::Rng;
 
-/// Share of contacts whose bodies are of one material.
+/// Share of contacts whose bodies have the same material.
 const ALIKE: f64 = 0.5;
 
 impl ParameterSpace {
-    /// Returns a lubricant with random values of the constants that vary; the lubricant itself where none does. In half of all
-    /// cases both bodies are of one material.
+    /// Returns a lubricant with random values of the varied constants, or the lubricant itself if none varies. In
+    /// half of all cases both bodies have the same material.
     pub fn with_random_constants(&self, mut lubricant: Lubricant, rng: &mut Rng) -> Lubricant {
         let (mut alike, mut first) = (false, 0.0);
         for axis in &self.constants {
@@ -28,7 +28,8 @@ impl ParameterSpace {
         lubricant
     }
 
-    /// The same for a thermal lubricant, whose film depends on the constants; any other one is returned as it is.
+    /// Returns a thermal lubricant with random constants, on which its film depends. Any other lubricant is returned
+    /// unchanged.
     pub fn with_random_heat(&self, lubricant: Lubricant, rng: &mut Rng) -> Lubricant {
         if lubricant.heat.is_some() { self.with_random_constants(lubricant, rng) } else { lubricant }
     }

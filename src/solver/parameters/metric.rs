@@ -1,22 +1,23 @@
-//! How different the solutions of two contacts are, by their quantities alone.
+//! Distances between the solutions of contacts, computed from their quantities.
 //!
-//! [`distance`] is the dissertation's measure. [`Metric`] measures spaces whose lubricant varies: under the laws of Roelands
-//! and of Dowson and Higginson a contact is four numbers, M, L, p_H and Roelands' exponent z, and further axes add theirs.
-//! Lengths are such that squares add up to the distance of registered pressures.
+//! [`distance`] is the measure of the dissertation. [`Metric`] is for spaces whose lubricant varies. Under the laws
+//! of Roelands and of Dowson and Higginson, a contact has four parameters: the Moes numbers M and L, the Hertzian
+//! pressure p_H and Roelands' exponent z. Further axes add theirs. The scale of each number is such that the sum of
+//! squares approximates the distance of registered pressures.
 
 use super::quantity::Quantity;
 use super::space::ParameterSpace;
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 
-/// Weight of (ln of the ratio of two R_y/R)² beside (3.20).
+/// Weight of (ln of the ratio of two R_y/R)² in addition to (3.20).
 pub const SHAPE_WEIGHT: f64 = 0.15;
 
-/// The dissertation's distance of two contacts, (3.20).
+/// Returns the distance (3.20) between two contacts, as in the dissertation.
 pub fn distance(a: Moes, b: Moes) -> f64 {
     (a.m - b.m).powi(2) / (a.m * a.m + b.m * b.m) + 0.001 * (a.l - b.l).powi(2)
 }
 
-/// (3.20) with what SRR and NPR add to it, and the shape.
+/// Returns (3.20) with the contributions of SRR, NPR and the shape.
 pub fn separation(a: &OperatingPoint, b: &OperatingPoint) -> f64 {
     let shape = if a.radius_y_m == b.radius_y_m && a.radius_m == b.radius_m {
         0.0
@@ -26,46 +27,46 @@ pub fn separation(a: &OperatingPoint, b: &OperatingPoint) -> f64 {
     distance(a.moes(), b.moes()) + a.sliding.distance(b.sliding) + shape
 }
 
-/// Most numbers of a [`Metric`].
+/// Maximum number of coordinates of a [`Metric`].
 pub const MOST_NUMBERS: usize = 8;
 
-/// Coordinates of a contact; those that a metric does not have are zero.
+/// Coordinates of a contact. Unused ones are zero.
 pub type Place = [f64; MOST_NUMBERS];
 
-/// How a number of a contact is counted.
+/// Transformation of a number of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
     Log,
     Linear,
-    /// Solutions are even in it.
+    /// Absolute value, for numbers in which solutions are even.
     Absolute,
 }
 
-/// Numbers that distinguish contacts, with their lengths.
+/// Numbers that distinguish contacts, with their scales.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Metric {
     numbers: Vec<(Quantity, Form, f64)>,
 }
 
-/// M, L, p_H and z.
+/// Numbers M, L, p_H and z.
 const LUBRICANTS: [(Quantity, Form, f64); 4] = [
     (Quantity::M, Form::Log, 0.27),
     (Quantity::L, Form::Log, 0.29),
     (Quantity::HertzPressure, Form::Log, 0.18),
     (Quantity::RoelandsExponent, Form::Linear, 0.34),
 ];
-/// Stress and sliding of shear-thinning lubricants: where films are thick they change pressures by up to 0.06 and 0.2,
-/// where these are thin hardly at all.
+/// Stress and sliding of shear-thinning lubricants. In thick films they change pressures by up to 0.06 and 0.2; in
+/// thin films they have hardly any effect.
 const STRESSES: [(Quantity, Form, f64); 2] =
     [(Quantity::StressUnit, Form::Log, 0.05), (Quantity::SlideToRollRatio, Form::Absolute, 0.15)];
-/// Speed and sliding of thermal contacts: how much heat changes registered pressures.
+/// Speed and sliding of thermal contacts, by the effect of heat on registered pressures.
 const HEAT: [(Quantity, Form, f64); 2] =
     [(Quantity::Speed, Form::Log, 0.1), (Quantity::SlideToRollRatio, Form::Linear, 0.4)];
-/// The shape: beside ln M it counts as much as by [`separation`].
+/// Shape; its weight relative to ln M is the same as in [`separation`].
 const SHAPE: (Quantity, Form, f64) = (Quantity::RadiusRatio, Form::Log, 0.15);
-/// Length of an axis that has no place above.
+/// Scale of any other axis.
 const OTHER: f64 = 0.15;
-/// Quantities that the numbers above contain.
+/// Quantities included in the numbers above.
 const COUNTED: [Quantity; 9] = [
     Quantity::M,
     Quantity::L,
@@ -79,17 +80,18 @@ const COUNTED: [Quantity; 9] = [
 ];
 
 impl Metric {
-    /// For distances between stored solutions: isothermal numbers, since temperatures change pressures little.
+    /// Creates the metric for distances between stored solutions. It has isothermal numbers only, since temperatures
+    /// change pressures little.
     pub fn of_solutions(space: &ParameterSpace) -> Self {
         Self::with(if space.knows(Quantity::GradientStress) { &STRESSES } else { &[] }, space)
     }
 
-    /// For the interpolation of starting values.
+    /// Creates the metric for the interpolation of starting values.
     pub fn of_starts(space: &ParameterSpace) -> Self {
         Self::with(if space.slides() { &STRESSES } else { &[] }, space)
     }
 
-    /// For spreading the contacts of a training, with heat or without.
+    /// Creates the metric for distributing the contacts of a thermal or isothermal training.
     pub fn of_plan(space: &ParameterSpace, heat: bool) -> Self {
         if heat { Self::with(&HEAT, space) } else { Self::of_solutions(space) }
     }
@@ -133,7 +135,7 @@ impl Metric {
     }
 }
 
-/// Returns the squared distance of two places.
+/// Returns the squared distance of two points.
 pub fn apart<const N: usize>(a: [f64; N], b: [f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }

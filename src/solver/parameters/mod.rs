@@ -1,4 +1,4 @@
-//! What a reduced model can vary: quantities, each defined once, and the spaces that they span.
+//! Parameters of reduced models: quantities, each defined once, and the spaces that they span.
 
 mod axis;
 mod constants;

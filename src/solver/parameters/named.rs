@@ -7,9 +7,9 @@ use serde::ser::{Serialize, Serializer};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// An entry of a list: a quantity and what is said of it.
+/// Entry of a list: a quantity and its value.
 pub(super) trait Entry: Sized {
-    /// What stands behind the quantity in a file.
+    /// Value of the quantity in a file.
     type Value: Serialize + for<'de> Deserialize<'de>;
     fn split(&self) -> (Quantity, Self::Value);
     fn join(quantity: Quantity, value: Self::Value) -> Self;
@@ -52,7 +52,7 @@ impl Entry for (Quantity, f64) {
     }
 }
 
-/// A list that is written as a map.
+/// List that is written as a map.
 pub(super) struct Named<'a, E>(pub &'a [E]);
 
 impl<E: Entry> Serialize for Named<'_, E> {
@@ -61,7 +61,7 @@ impl<E: Entry> Serialize for Named<'_, E> {
     }
 }
 
-/// Reads a list from a map; every quantity at most once.
+/// Reads a list from a map. Each quantity may occur once.
 pub(super) fn deserialize<'de, E: Entry, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<E>, D::Error> {
     deserializer.deserialize_map(Entries(PhantomData))
 }

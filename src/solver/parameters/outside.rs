@@ -1,4 +1,4 @@
-//! Why a contact lies outside a space.
+//! Reasons why a contact lies outside a space.
 
 use super::quantity::Quantity;
 use crate::solver::limits::digits;
@@ -6,7 +6,7 @@ use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Why a model does not cover a contact, as data; displayed as one sentence.
+/// Reason why a model does not cover a contact, as data. Displayed as one sentence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outside {
@@ -28,7 +28,7 @@ pub enum Outside {
         /// L of the contact.
         l: f64,
     },
-    /// The laws, the inlet or the shape are of another kind.
+    /// The laws, the inlet or the shape are of another kind. Contains the message.
     Other(String),
 }
 

@@ -44,8 +44,8 @@ pub enum Quantity {
     SlidingSpeed,
     /// κ₁ = p_H a/R \[Pa\], (3.27).
     StressUnit,
-    /// Difference of shear stress \[Pa\] that a gradient of p_H over the half-width makes across a film of the thickness
-    /// given by Moes' formula.
+    /// Difference of shear stress \[Pa\] across a film of the thickness given by Moes' formula, for a gradient of p_H
+    /// over the half-width.
     GradientStress,
     /// Eyring stress τ₀ \[Pa\].
     EyringStress,
@@ -71,11 +71,11 @@ pub enum Quantity {
     LimitEyring,
 }
 
-/// What is said of a quantity.
+/// Definition of a quantity.
 struct Facts {
     /// Word in tables, options and messages.
     name: &'static str,
-    /// Name for people, with symbol and SI unit.
+    /// Display name, with symbol and SI unit.
     label: &'static str,
     /// Name of its field in a form, with the symbol in braces.
     field: &'static str,
@@ -94,7 +94,8 @@ struct Facts {
 }
 
 impl Quantity {
-    /// What an operating point can be varied by; all others follow from these, or belong to lubricant and bodies.
+    /// Quantities by which an operating point can be varied. All others follow from these, or belong to lubricant and
+    /// bodies.
     pub const VARIED: [Self; 12] = [
         Self::M,
         Self::L,
@@ -110,7 +111,7 @@ impl Quantity {
         Self::NewtonianPlateauRatio,
     ];
 
-    /// The six in SI units, in the order of [`OperatingPoint::quantities`].
+    /// The six SI quantities, in the order of [`OperatingPoint::quantities`].
     pub const SI: [Self; 6] = [Self::Radius, Self::Speed, Self::Load, Self::Modulus, Self::Viscosity, Self::Alpha];
 
     #[rustfmt::skip]
@@ -154,7 +155,7 @@ impl Quantity {
         self.facts().name
     }
 
-    /// Returns its name for people, with symbol and SI unit.
+    /// Returns its display name, with symbol and SI unit.
     pub fn label(self) -> &'static str {
         self.facts().label
     }
@@ -205,7 +206,7 @@ impl Quantity {
         if (self, kind) == (Self::Load, ContactKind::Line) { ("kN/m", 1e3) } else { self.facts().shown }
     }
 
-    /// Returns what it measures.
+    /// Returns its dimension.
     pub fn dimension(self, kind: ContactKind) -> Dimension {
         match (self, kind) {
             (Self::Radius | Self::RadiusY, _) => Dimension::Length,
@@ -240,7 +241,7 @@ impl Quantity {
         }
     }
 
-    /// Returns its value for a contact with a lubricant; `None` where the contact or the lubricant does not have it.
+    /// Returns its value for a contact with a lubricant; `None` if the contact or the lubricant does not have it.
     pub fn of_contact(self, point: &OperatingPoint, lubricant: &Lubricant) -> Option<f64> {
         let heat = || lubricant.heat;
         let limit = || lubricant.limiting_stress;
@@ -263,8 +264,8 @@ impl Quantity {
         }
     }
 
-    /// Returns its value for an operating point; `None` for the plateau ratio where it is the lubricant's own, for what a
-    /// line contact does not have, and for constants of lubricant and bodies.
+    /// Returns its value for an operating point. `None` for the plateau ratio if it is that of the lubricant, for
+    /// quantities that a line contact does not have, and for constants of lubricant and bodies.
     pub fn of(self, point: &OperatingPoint) -> Option<f64> {
         Some(match self {
             Self::M => point.moes().m,
@@ -301,8 +302,8 @@ impl Quantity {
         })
     }
 
-    /// Returns the same contact with another value of it. M moves by the load, L by α; a speed, radius, modulus or
-    /// viscosity changes M and L too. What follows from other quantities leaves the contact as it is.
+    /// Returns the same contact with another value of it. M changes by the load, L by α. A change of speed, radius,
+    /// modulus or viscosity also changes M and L. For dependent quantities the contact is returned unchanged.
     pub fn at(self, point: &OperatingPoint, value: f64) -> OperatingPoint {
         let mut point = *point;
         match self {
@@ -323,8 +324,8 @@ impl Quantity {
         point
     }
 
-    /// Returns a lubricant with another value of a constant of oil, bodies or limiting stress; unchanged for quantities of
-    /// the operating point, and where the lubricant does not have the constant.
+    /// Returns a lubricant with another value of a constant of oil, bodies or limiting stress. It is unchanged for
+    /// quantities of the operating point, and if the lubricant does not have the constant.
     pub fn with_constant(self, mut lubricant: Lubricant, value: f64) -> Lubricant {
         if let Some(heat) = &mut lubricant.heat {
             match self {
@@ -349,7 +350,7 @@ impl Quantity {
     }
 }
 
-/// Steel with as much conductivity as the effusivity asks for.
+/// Returns steel with its conductivity adapted to the given effusivity.
 fn body_of_effusivity(wanted: f64) -> BodyHeat {
     let steel = BodyHeat::default();
     BodyHeat { conductivity: steel.conductivity * (wanted / steel.effusivity()).powi(2), ..steel }

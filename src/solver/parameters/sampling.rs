@@ -1,29 +1,29 @@
-//! The contact at a place of the unit cube.
+//! Contacts at points of the unit cube.
 
 use super::quantity::Quantity;
 use super::space::ParameterSpace;
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, Sliding, si_from_moes};
 use std::f64::consts::PI;
 
-/// Most axes of a space.
+/// Maximum number of axes of a space.
 pub const MOST_AXES: usize = 12;
-/// Coordinates that are drawn of every space, however few axes it has.
+/// Minimum number of random coordinates per contact, for spaces with fewer axes as well.
 const FEWEST_COORDINATES: usize = 4;
 
-/// Most coordinates of a space whose corners are all drawn.
+/// Maximum number of coordinates of a space whose corners are all used.
 const MOST_WITH_CORNERS: usize = 7;
 
-/// Coordinates 0…1 in the unit cube, of which a space uses as many as it has axes.
+/// Coordinates 0…1 in the unit cube. A space uses as many as it has axes.
 pub type Unit = [f64; MOST_AXES];
 
-/// The middle of the unit cube but for the first coordinates.
+/// Returns the centre of the unit cube with the first coordinates replaced.
 pub fn middle<const N: usize>(first: [f64; N]) -> Unit {
     let mut unit = [0.5; MOST_AXES];
     unit.iter_mut().zip(first).for_each(|(own, given)| *own = given);
     unit
 }
 
-/// Corners of the unit cube along the first coordinates.
+/// Returns the corners of the unit cube along the first coordinates.
 pub(super) fn corners(coordinates: usize) -> impl Iterator<Item = Unit> {
     (0..1u32 << coordinates.min(MOST_AXES)).map(|corner| std::array::from_fn(|k| f64::from(corner >> k & 1)))
 }
@@ -34,14 +34,15 @@ impl ParameterSpace {
         self.axes.len().max(FEWEST_COORDINATES)
     }
 
-    /// Returns the corners of the unit cube along its coordinates; of more than seven coordinates the lowest corner only, since
-    /// a plan of farthest points would be made of corners alone.
+    /// Returns the corners of the unit cube along its coordinates. For more than seven coordinates it returns the
+    /// lowest corner only, since a plan of farthest points would consist of corners alone.
     pub fn corners(&self) -> impl Iterator<Item = Unit> {
         let coordinates = self.coordinates();
         corners(if coordinates > MOST_WITH_CORNERS { 0 } else { coordinates })
     }
 
-    /// Returns the contact of a kind at a place of the unit cube; `None` where there is none, or a limit excludes it.
+    /// Returns the contact of a kind at a point of the unit cube. `None` if it does not exist, or if a limit excludes
+    /// it.
     pub fn at(&self, kind: ContactKind, unit: &Unit) -> Option<OperatingPoint> {
         let value = |quantity: Quantity| {
             let along = self.axes.iter().zip(unit).find(|(axis, _)| axis.quantity == quantity);
@@ -79,15 +80,15 @@ impl ParameterSpace {
         (point.check().is_ok() && self.limits.iter().all(within)).then_some(point)
     }
 
-    /// Returns the contact of the test trajectory (3.21) at the running parameter c, along the first four axes; `None` where a
-    /// limit excludes it.
+    /// Returns the contact of the test trajectory (3.21) at the running parameter c, along the first four axes.
+    /// `None` if a limit excludes it.
     pub fn trajectory(&self, kind: ContactKind, c: f64) -> Option<OperatingPoint> {
         let place = [3.0, 4.0, 5.0, 2.0].map(|halves: f64| 0.5 + 0.5 * (halves * PI * c).sin());
         self.at(kind, &middle(place))
     }
 
-    /// Returns the contacts of the tensor grid of Table 3.2 over a box of R, u_m, w and α: equal steps along all but w, equal
-    /// ratios along w. Empty for a space of other axes.
+    /// Returns the contacts of the tensor grid of Table 3.2 over a box of R, u_m, w and α: equal steps along all but
+    /// w, equal ratios along w. Empty for a space of other axes.
     pub fn grid_points(&self, kind: ContactKind, nodes: [usize; 4]) -> Vec<OperatingPoint> {
         let wanted = [Quantity::Radius, Quantity::Speed, Quantity::Load, Quantity::Alpha];
         let Some(load) = self.axis(Quantity::Load).map(|axis| axis.ends) else { return Vec::new() };

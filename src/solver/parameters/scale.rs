@@ -1,8 +1,8 @@
-//! How values are spread over an interval.
+//! Distribution of values over an interval.
 
 use serde::{Deserialize, Serialize};
 
-/// How values are spread over an interval.
+/// Distribution of values over an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     /// Equal differences.

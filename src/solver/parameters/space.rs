@@ -1,4 +1,4 @@
-//! A space of contacts: the varied quantities, limits on what follows from them, fixed values.
+//! Space of contacts: varied quantities, limits on dependent quantities, and fixed values.
 
 use super::axis::Axis;
 use super::named::{self, Named};
@@ -12,16 +12,16 @@ use serde::{Deserialize, Serialize, Serializer};
 /// R_y/R of spaces of line contacts and of circular contacts.
 pub const CIRCLES: (f64, f64) = (1.0, 1.0);
 
-/// By how much a training reaches beyond the ends of a space with its own lubricant ranges.
+/// Factor by which a training extends beyond the ends of a space with lubricant ranges.
 const BEYOND: f64 = 1.04;
-/// The same for the sliding speed of a space of thermal constants: full solutions have the constants in the middle, and heat
-/// increases with β and with 1/k.
+/// The same for the sliding speed of a space of thermal constants. Full solutions have the mean constants, and
+/// heating increases with β and with 1/k.
 const BEYOND_SLIDING: f64 = 2.0;
 
-/// A set of contacts: what a reduced model is trained for, or where random contacts are drawn.
+/// Set of contacts for which a reduced model is trained, or from which random contacts are drawn.
 ///
-/// A contact is given by M and L, or by R, u_m and w. Quantities that are neither varied nor fixed take the values of the
-/// default realisation ([`MoesRequest`]).
+/// A contact is given by M and L, or by R, u_m and w. Quantities that are neither varied nor fixed have the values of
+/// the default realisation ([`MoesRequest`]).
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ParameterSpace {
@@ -34,15 +34,15 @@ pub struct ParameterSpace {
     /// Values that all contacts share.
     #[serde(deserialize_with = "named::deserialize", default)]
     pub fixed: Vec<(Quantity, f64)>,
-    /// Constants of lubricant and bodies that vary independently of the axes. The reduced equations contain them exactly;
-    /// a basis sees some of them.
+    /// Constants of lubricant and bodies that vary independently of the axes. The reduced equations contain them
+    /// exactly; the full solutions of a basis contain some of their values.
     #[serde(deserialize_with = "named::deserialize", default)]
     pub constants: Vec<Axis>,
 }
 
 impl Serialize for ParameterSpace {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        // Formats that do not describe themselves need every list every time.
+        // Formats that are not self-describing need all lists.
         let always = !serializer.is_human_readable();
         let Self { axes, limits, fixed, constants } = self;
         let written = [!limits.is_empty(), !fixed.is_empty(), !constants.is_empty()].map(|has| has || always);
@@ -64,18 +64,18 @@ impl Serialize for ParameterSpace {
 }
 
 impl ParameterSpace {
-    /// A space of these axes.
+    /// Creates a space of these axes.
     pub fn of(axes: impl IntoIterator<Item = Axis>) -> Self {
         Self { axes: axes.into_iter().collect(), ..Self::default() }
     }
 
-    /// The same with these limits as well.
+    /// Returns the space with additional limits.
     pub fn limited(mut self, limits: impl IntoIterator<Item = (Quantity, (f64, f64))>) -> Self {
         self.limits.extend(limits);
         self
     }
 
-    /// The same with these fixed values as well.
+    /// Returns the space with additional fixed values.
     pub fn fixing(mut self, fixed: impl IntoIterator<Item = (Quantity, f64)>) -> Self {
         self.fixed.extend(fixed);
         self
@@ -126,7 +126,7 @@ impl ParameterSpace {
         !self.gives(Quantity::M)
     }
 
-    /// True if the lubricant itself varies: η₀ beside α. Such models are built of local bases around anchors.
+    /// True if the lubricant varies: η₀ in addition to α. Such models consist of local reduced bases.
     pub fn varies_lubricant(&self) -> bool {
         self.varies(Quantity::Viscosity)
     }
@@ -136,17 +136,17 @@ impl ParameterSpace {
         self.varies(Quantity::SlideToRollRatio)
     }
 
-    /// Returns R_y/R of its contacts; [`CIRCLES`] where it does not vary.
+    /// Returns R_y/R of its contacts; [`CIRCLES`] if it does not vary.
     pub fn radius_ratio(&self) -> (f64, f64) {
         self.axis(Quantity::RadiusRatio).map_or(CIRCLES, |axis| axis.ends)
     }
 
-    /// True for a space of ellipses.
+    /// True for a space of elliptical contacts.
     pub fn of_ellipses(&self) -> bool {
         self.varies(Quantity::RadiusRatio)
     }
 
-    /// Sets the limits of a quantity, in place of those it may have.
+    /// Sets the limits of a quantity and replaces existing ones.
     pub fn set_limit(&mut self, quantity: Quantity, ends: (f64, f64)) {
         match self.limits.iter_mut().find(|(own, _)| *own == quantity) {
             Some((_, own)) => *own = ends,
@@ -154,8 +154,8 @@ impl ParameterSpace {
         }
     }
 
-    /// Returns the interval of a quantity over all contacts of a kind: of an axis, a limit or a fixed value, or the interval
-    /// that follows from these. `None` if nothing is said of it.
+    /// Returns the interval of a quantity over all contacts of a kind. It is that of an axis, a limit or a fixed
+    /// value, or the interval that follows from these. `None` if none of them determines it.
     pub fn interval(&self, quantity: Quantity, kind: ContactKind) -> Option<(f64, f64)> {
         let own = self.axis(quantity).map(|axis| axis.ends).or(self.fixed(quantity).map(|value| (value, value)));
         let within = |(low, high): (f64, f64)| {
@@ -175,8 +175,8 @@ impl ParameterSpace {
         })
     }
 
-    /// Returns the space with the limits of p_H, and of M and L of a box of SI quantities, that follow from its axes written
-    /// down, so that they need not be computed again.
+    /// Returns the space with additional limits that follow from its axes: those of p_H, and for a box of SI
+    /// quantities those of M and L. They need not be computed again.
     pub fn with_followers(&self, kind: ContactKind) -> Self {
         let mut space = self.clone();
         for quantity in [Quantity::HertzPressure, Quantity::M, Quantity::L] {
@@ -187,8 +187,8 @@ impl ParameterSpace {
         space
     }
 
-    /// Smallest and largest value of a quantity at the corners of the axes, without limits: of products of powers of the
-    /// axes that is the interval of all contacts.
+    /// Returns the smallest and largest value of a quantity at the corners of the axes, without limits. For products
+    /// of powers of the axes this is the interval of all contacts.
     fn at_corners(&self, quantity: Quantity, kind: ContactKind) -> Option<(f64, f64)> {
         let free = Self { limits: Vec::new(), ..self.clone() };
         let values = sampling::corners(self.axes.len()).filter_map(|unit| quantity.of(&free.at(kind, &unit)?));
@@ -196,10 +196,11 @@ impl ParameterSpace {
         (ends.0 <= ends.1).then_some(ends)
     }
 
-    /// Refuses what is empty, inverted or outside the accepted values of a quantity, and what gives no contact.
+    /// Refuses intervals that are empty, inverted or outside the accepted values of a quantity, and spaces without
+    /// contacts.
     ///
     /// # Errors
-    /// Naming the entry.
+    /// If an entry is refused; the error names it.
     pub fn check(&self) -> Result<(), Refused> {
         let axes = [("axes", &self.axes), ("constants", &self.constants)];
         for (list, axis) in axes.into_iter().flat_map(|(list, axes)| axes.iter().map(move |axis| (list, axis))) {
@@ -223,7 +224,7 @@ impl ParameterSpace {
         self.check_names()
     }
 
-    /// Refuses quantities in places where they have no meaning.
+    /// Refuses quantities in lists in which they have no meaning.
     fn check_names(&self) -> Result<(), Refused> {
         let settable = |quantity: Quantity| quantity.at(&OperatingPoint::TABLE_2_1, 0.3) != OperatingPoint::TABLE_2_1;
         let given = self.axes.iter().map(|axis| ("axes", axis.quantity));
@@ -254,8 +255,8 @@ impl ParameterSpace {
         }
     }
 
-    /// Returns the space that a training covers: a little more on all sides where the lubricant varies, since solutions beyond
-    /// the ends keep a model from ending at its last ones.
+    /// Returns the space that a training covers. If the lubricant varies, it is slightly larger on all sides, because
+    /// solutions beyond the ends improve a model near its boundary.
     pub fn beyond(&self) -> Self {
         let mut wider = self.clone();
         if !self.varies_lubricant() {

@@ -1,4 +1,4 @@
-//! What a contact and its fluid are, before anything is discretised.
+//! Physical models of the contact, the bodies and the lubricant, before discretisation.
 
 pub mod bodies;
 pub mod contact;

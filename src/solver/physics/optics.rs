@@ -1,9 +1,11 @@
-//! What a film-thickness rig sees of a point contact: two-beam interference between the coated glass disc and the ball.
+//! Interferograms of a point contact, as seen in a film-thickness rig: two-beam interference between the coated glass
+//! disc and the ball.
 //!
-//! I = ½ (1 + V cos(4π n h/λ + φ)): the beam through the film travels 2 n h further than the one reflected at the
-//! coating, and φ is what both reflections add. So equal colours are lines of equal film thickness, and one fringe to
-//! the next is λ/(2n). The refractive index is taken as that of the oil at ambient pressure; under 1 GPa it is some per
-//! cent higher, which real measurements correct for.
+//! The intensity is I = ½ (1 + V cos(4π n h/λ + φ)), with the film thickness h, the refractive index n, the
+//! wavelength λ and the visibility V. The beam through the film travels 2 n h further than the one reflected at the
+//! coating, and φ is the phase added by both reflections. Equal colours are therefore lines of equal film thickness,
+//! and adjacent fringes differ by λ/(2n). The refractive index is that of the oil at ambient pressure. Under 1 GPa it
+//! is some per cent higher; real measurements correct for this.
 //!
 //! Cameron & Gohar 1966, Theoretical and experimental studies of the oil film in lubricated point contact, Proc. R.
 //! Soc. A 291; Wedeven, Evans & Cameron 1971, Optical analysis of ball bearing starvation, ASME J. Lubr. Technol. 93.
@@ -15,7 +17,7 @@ use std::f64::consts::{PI, TAU};
 /// frequency-doubled Nd:YAG laser.
 pub const RGB_WAVELENGTHS_M: [f64; 3] = [630e-9, 532e-9, 460e-9];
 
-/// The optics of a rig.
+/// Optical parameters of a rig.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Interferometer {
@@ -23,14 +25,14 @@ pub struct Interferometer {
     pub wavelength_m: f64,
     /// Refractive index n of the oil \[-\].
     pub refractive_index: f64,
-    /// Phase φ that the two reflections add \[rad\]; π makes touching surfaces dark.
+    /// Phase φ added by the two reflections \[rad\]; π makes touching surfaces dark.
     pub phase: f64,
-    /// Visibility V of the fringes \[-\]: 1 where both beams are equally strong.
+    /// Visibility V of the fringes \[-\]; 1 if both beams are equally strong.
     pub visibility: f64,
 }
 
 impl Default for Interferometer {
-    /// Green light, a mineral oil, dark where the surfaces touch.
+    /// Green light, a mineral oil, dark at touching surfaces.
     fn default() -> Self {
         let [_, green, _] = RGB_WAVELENGTHS_M;
         Self { wavelength_m: green, refractive_index: 1.5, phase: PI, visibility: 0.9 }
@@ -38,22 +40,22 @@ impl Default for Interferometer {
 }
 
 impl Interferometer {
-    /// Film thickness \[m\] from one fringe to the next of the same brightness, λ/(2n).
+    /// Returns the film thickness \[m\] from one fringe to the next of the same brightness, λ/(2n).
     pub fn fringe_spacing_m(&self, wavelength_m: f64) -> f64 {
         wavelength_m / (2.0 * self.refractive_index)
     }
 
-    /// Interference order 2 n h/λ + φ/2π of a film: whole numbers are bright, halves dark.
+    /// Returns the interference order 2 n h/λ + φ/2π of a film. Integers are bright, half-integers dark.
     pub fn order(&self, film_m: f64, wavelength_m: f64) -> f64 {
         film_m / self.fringe_spacing_m(wavelength_m) + self.phase / TAU
     }
 
-    /// Intensity, 0…1, of a film \[m\] in light of a wavelength \[m\].
+    /// Returns the intensity, 0…1, of a film thickness \[m\] in light of a wavelength \[m\].
     pub fn intensity(&self, film_m: f64, wavelength_m: f64) -> f64 {
         self.intensity_of_order(self.order(film_m, wavelength_m))
     }
 
-    /// Intensity, 0…1, at an interference order.
+    /// Returns the intensity, 0…1, at an interference order.
     pub fn intensity_of_order(&self, order: f64) -> f64 {
         0.5 * (1.0 + self.visibility * (TAU * order).cos())
     }

@@ -1,8 +1,9 @@
-//! The grid of either kind of contact, as a reduced model sees it: node arrays with weights, rows of the Reynolds
-//! equation, and the deformation operator, whatever their layout.
+//! Grid of either kind of contact, as a reduced model uses it: node arrays with weights, Reynolds equations, and the
+//! deformation operator, independent of their layout.
 //!
-//! Along X everything is told in a reference coordinate ξ with X = −1 + (ξ + 1)s and H = H₀ − ½ ln s + (X² + Y²)/2 + s
-//! K P: the scale s registers line contacts by their spike. A point contact is the case s = 1.
+//! Along X all quantities refer to a reference coordinate ξ with X = −1 + (ξ + 1)s. The film thickness is H = H₀ − ½
+//! ln s + (X² + Y²)/2 + s K P, where H₀ is the rigid-body separation, P the pressure and K the elastic kernel. The
+//! scale s registers line contacts by their pressure spike. A point contact has s = 1.
 
 use super::GridError;
 use super::line::{FIRST_UNKNOWN, INLET, ReferenceGrid};
@@ -17,34 +18,34 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A description of a grid, as scenes and the command line give it.
+/// Grid specification, as given in scenes and on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename = "Grid", deny_unknown_fields)]
 pub enum GridSpec {
-    /// Of a line contact: equidistant nodes from the inlet to the outlet, both ends counted; kernel (2.39).
+    /// Line contact: equidistant nodes from inlet to outlet, both ends included; kernel (2.39).
     Uniform {
         /// Spacing ΔX.
         dx: f64,
         /// Inlet and outlet.
         domain: (f64, f64),
     },
-    /// Of a line contact: nodes graded towards X = ±1, kernel of hat functions, registered by the pressure spike when
+    /// Line contact: nodes graded towards X = ±1, kernel of hat functions, registered by the pressure spike if
     /// `registered`.
     Graded {
-        /// Number of nodes, both ends counted.
+        /// Number of nodes, both ends included.
         nodes: usize,
         /// Inlet and outlet in the reference coordinate ξ.
         domain: (f64, f64),
-        /// Whether the spike is mapped to ξ = 1.
+        /// Maps the spike to ξ = 1.
         registered: bool,
     },
-    /// Of the half Y ≤ 0 of a point contact.
+    /// Point contact, half domain Y ≤ 0.
     Plane(PointGridSpec),
-    /// Of a line contact whose film is thin: as fine at X = ±1 as the film asks for; kernel of hat functions.
+    /// Line contact with a thin film: the spacing at X = ±1 follows the film thickness; kernel of hat functions.
     Following {
-        /// Length in which the film closes in front of the contact.
+        /// Length of the zone in front of the contact in which the film closes.
         zone: f64,
-        /// Cells per cell of the usual spacing.
+        /// Number of cells per cell of the usual spacing.
         finer: f64,
         /// Inlet and outlet.
         domain: (f64, f64),
@@ -52,7 +53,7 @@ pub enum GridSpec {
 }
 
 impl GridSpec {
-    /// The kind of contact it is a grid of.
+    /// Returns its kind of contact.
     pub fn kind(&self) -> ContactKind {
         match self {
             Self::Uniform { .. } | Self::Graded { .. } | Self::Following { .. } => ContactKind::Line,
@@ -60,10 +61,10 @@ impl GridSpec {
         }
     }
 
-    /// Builds the grid and its kernel; the costly part, done once per specification.
+    /// Builds the grid and its kernel. This is expensive and done once per specification.
     ///
     /// # Errors
-    /// When the specification is refused.
+    /// If the specification is refused.
     pub fn build(&self) -> Result<ContactGrid, GridError> {
         Ok(match self {
             Self::Uniform { .. } | Self::Graded { .. } | Self::Following { .. } => ContactGrid::Line(self.line()?),
@@ -72,17 +73,17 @@ impl GridSpec {
     }
 }
 
-/// The grid of either kind of contact with its kernel; cheap to clone.
+/// Grid of either kind of contact with its kernel; cheap to clone.
 #[derive(Clone, Debug)]
 pub enum ContactGrid {
-    /// The reference grid of line contacts.
+    /// Reference grid of line contacts.
     Line(Arc<ReferenceGrid>),
-    /// The grid of the half Y ≤ 0 of a point contact.
+    /// Grid of the half domain Y ≤ 0 of a point contact.
     Point(Arc<PointGrid>),
 }
 
 impl ContactGrid {
-    /// What it was built from.
+    /// Returns the specification from which it was built.
     pub fn spec(&self) -> GridSpec {
         match self {
             Self::Line(grid) => grid.spec,
@@ -90,12 +91,12 @@ impl ContactGrid {
         }
     }
 
-    /// The kind of contact it is a grid of.
+    /// Returns its kind of contact.
     pub fn kind(&self) -> ContactKind {
         self.spec().kind()
     }
 
-    /// The reference grid, of a line contact.
+    /// Returns the reference grid of a line contact, or `None` for a point contact.
     pub fn line(&self) -> Option<&Arc<ReferenceGrid>> {
         match self {
             Self::Line(grid) => Some(grid),
@@ -103,7 +104,7 @@ impl ContactGrid {
         }
     }
 
-    /// The grid, of a point contact.
+    /// Returns the grid of a point contact, or `None` for a line contact.
     pub fn point(&self) -> Option<&Arc<PointGrid>> {
         match self {
             Self::Line(_) => None,
@@ -111,26 +112,28 @@ impl ContactGrid {
         }
     }
 
-    /// Entries of node arrays.
+    /// Returns the length of node arrays.
     pub fn len(&self) -> usize {
         self.weights().len()
     }
 
-    /// Never true.
+    /// Always returns `false`.
     pub fn is_empty(&self) -> bool {
         self.weights().is_empty()
     }
 
-    /// Nodes along X, both ends counted, and across, outer edge and axis counted; a line contact has one across.
+    /// Returns the number of nodes along X, both ends included, and across, outer edge and axis included. A line
+    /// contact has one across.
     pub fn nodes(&self) -> (usize, usize) {
         match self {
-            // Its node arrays have one node outside the inlet.
+            // Node arrays of a line contact have one node outside the inlet.
             Self::Line(grid) => (grid.xi.len() - 1, 1),
             Self::Point(grid) => (grid.nx(), grid.ny()),
         }
     }
 
-    /// The first column of nodes that has a film: those of a line contact begin with one outside the inlet.
+    /// Returns the first column of nodes with a film. Node arrays of a line contact begin with a node outside the
+    /// inlet.
     pub fn first_column(&self) -> usize {
         match self {
             Self::Line(_) => INLET,
@@ -138,7 +141,7 @@ impl ContactGrid {
         }
     }
 
-    /// Number of unknown pressures.
+    /// Returns the number of unknown pressures.
     pub fn unknowns(&self) -> usize {
         match self {
             Self::Line(grid) => grid.xi.len() - 3,
@@ -146,7 +149,7 @@ impl ContactGrid {
         }
     }
 
-    /// Node index of an unknown.
+    /// Returns the node index of an unknown.
     pub fn node(&self, unknown: usize) -> usize {
         match self {
             Self::Line(_) => unknown + FIRST_UNKNOWN,
@@ -154,7 +157,7 @@ impl ContactGrid {
         }
     }
 
-    /// Lines of unknowns along X, side by side.
+    /// Returns the number of lines of unknowns along X.
     pub fn lines(&self) -> usize {
         match self {
             Self::Line(_) => 1,
@@ -162,7 +165,7 @@ impl ContactGrid {
         }
     }
 
-    /// The line of a node of an unknown, and its column along X in node arrays.
+    /// Returns the line of an unknown's node, and its column along X in node arrays.
     pub fn line_and_column(&self, node: usize) -> (usize, usize) {
         match self {
             Self::Line(_) => (0, node),
@@ -170,7 +173,7 @@ impl ContactGrid {
         }
     }
 
-    /// One entry of K in ξ: deformation of a node by unit pressure at another.
+    /// Returns one entry of K in ξ: the deformation at a node by unit pressure at another.
     pub fn kernel_entry(&self, node: usize, other: usize) -> f64 {
         match self {
             Self::Line(grid) => grid.flexibility.entry(node, other),
@@ -178,7 +181,7 @@ impl ContactGrid {
         }
     }
 
-    /// K of one node array, in ξ.
+    /// Applies K to one node array, in ξ.
     pub fn deformation(&self, pressure: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; pressure.len()];
         match self {
@@ -188,7 +191,7 @@ impl ContactGrid {
         out
     }
 
-    /// Deformations of nodes by unit pressure at each of others, one after the other, in ξ.
+    /// Returns the deformations of `nodes` by unit pressure at each of `others`, one column after the other, in ξ.
     pub fn kernel_columns(&self, nodes: &[usize], others: &[usize]) -> Vec<f32> {
         let mut entries = Vec::with_capacity(nodes.len() * others.len());
         match self {
@@ -201,7 +204,7 @@ impl ContactGrid {
                 let (ny, blocks) = (grid.ny(), grid.flexibility.column_blocks());
                 let places: Vec<(usize, usize)> = nodes.iter().map(|node| (node / ny, node % ny)).collect();
                 for other in others {
-                    // Equal distances along X are equal entries.
+                    // Entries at equal distances along X are equal.
                     let (column, from) = (other / ny, (other % ny - 1) * ny);
                     let entry = |&(own, across): &(usize, usize)| blocks[own.abs_diff(column)][from + across] as f32;
                     entries.extend(places.iter().map(entry));
@@ -211,7 +214,7 @@ impl ContactGrid {
         entries
     }
 
-    /// Quadrature weights of node arrays in ξ and Y; zero where P vanishes.
+    /// Returns the quadrature weights of node arrays in ξ and Y; zero where P vanishes.
     pub fn weights(&self) -> &[f64] {
         match self {
             Self::Line(grid) => &grid.weights,
@@ -219,7 +222,7 @@ impl ContactGrid {
         }
     }
 
-    /// Scale s of the map X = −1 + (ξ + 1)s for a contact.
+    /// Returns the scale s of the map X = −1 + (ξ + 1)s for a contact.
     pub fn scale(&self, moes: Moes) -> f64 {
         match self {
             Self::Line(grid) => grid.scale(moes),
@@ -227,7 +230,7 @@ impl ContactGrid {
         }
     }
 
-    /// ξ and Y of a node.
+    /// Returns ξ and Y of a node.
     pub fn place(&self, node: usize) -> (f64, f64) {
         match self {
             Self::Line(grid) => (grid.xi[node], 0.0),
@@ -235,7 +238,7 @@ impl ContactGrid {
         }
     }
 
-    /// The abscissae ξ and the ordinates Y of node arrays; a line contact has the one Y = 0.
+    /// Returns the abscissae ξ and the ordinates Y of node arrays. A line contact has one ordinate, Y = 0.
     pub fn abscissae(&self) -> (&[f64], &[f64]) {
         match self {
             Self::Line(grid) => (&grid.xi, &[0.0]),
@@ -243,8 +246,8 @@ impl ContactGrid {
         }
     }
 
-    /// The row of an unknown in ξ: the nodes it depends on and its coefficients. Where a node is lacking, another
-    /// stands in its place with weight zero.
+    /// Returns the stencil of an unknown's equation in ξ: its nodes and coefficients. A missing node is replaced by
+    /// another one with weight zero.
     pub fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
         match self {
             Self::Line(grid) => {
@@ -257,8 +260,8 @@ impl ContactGrid {
         }
     }
 
-    /// Nodes and weights of the cubic interpolation at X = 0 (and Y = 0) under scale s; a single unit weight where a
-    /// node of a point contact lies there.
+    /// Returns nodes and weights of the cubic interpolation at X = 0 (and Y = 0) under scale s. If a node of a point
+    /// contact lies there, its weight is 1 and all others are 0.
     pub fn at_zero(&self, scale: f64) -> [(usize, f64); 4] {
         match self {
             Self::Line(grid) => {
@@ -276,7 +279,8 @@ impl ContactGrid {
         }
     }
 
-    /// Nodal gradients of node arrays by ξ and, in the same unit, across; node (i, j) has the index i·n_y + j.
+    /// Returns the operator of nodal gradients along ξ and, in the same unit, across. Node (i, j) has the index i·n_y
+    /// + j.
     pub fn gradient(&self) -> PlaneGradient {
         match self {
             Self::Line(grid) => PlaneGradient::new(&grid.xi, &[0.0]),
@@ -284,7 +288,7 @@ impl ContactGrid {
         }
     }
 
-    /// K applied to every column, in ξ.
+    /// Applies K to every column, in ξ.
     pub fn flex(&self, columns: &Mat<f64>) -> Mat<f64> {
         match self {
             Self::Line(grid) => {

@@ -1,11 +1,13 @@
-//! Which grid does for a contact, told before it is solved.
+//! Selection of a sufficient grid for a contact before it is solved.
 //!
-//! Two lengths decide it. The inlet must begin where the pressure of an endless film is next to nothing, and the
-//! spacing must resolve the zone in which the film closes from twice to once its thickness, t = (1.06 H_c)^(2/3) before
-//! the Hertzian contact. What a grid costs H_c was fitted to what solutions say of themselves ([`GridCost`]): the
-//! second order term is (ΔX/t)² for lines and points alike, and an inlet at X₀ lacks the pressure and the load of half
-//! Sommerfeld's tail, λ̄/|X₀|³, and for a point contact that beyond the sides as well. Of an ellipse the same tail,
-//! λ̄|X|/((3 + 2R_x/R_y)H²), is integrated along both ends.
+//! Two lengths determine the grid. The inlet must begin where the pressure of an endless film is negligible. The
+//! spacing must resolve the zone in front of the Hertzian contact in which the film thickness falls from twice to
+//! once its central value; its length is t = (1.06 H_c)^(2/3). H_c is the central film thickness.
+//!
+//! The errors of H_c are fits to the discretisation errors of full solutions ([`GridCost`]). The second-order term is
+//! (ΔX/t)² for line and point contacts alike. An inlet at X₀ lacks the pressure and the load of the half-Sommerfeld
+//! tail, λ̄/|X₀|³, and for a point contact also that beyond the sides. For an elliptical contact the tail λ̄|X|/((3 +
+//! 2R_x/R_y)H²) is integrated along both ends.
 //!
 //! [`GridCost`]: crate::solver::full::GridCost
 
@@ -16,50 +18,52 @@ use super::point::PointGridSpec;
 use crate::solver::physics::contact::{ContactKind, Ellipse, FilmShape, Moes, OperatingPoint};
 use std::f64::consts::PI;
 
-/// Relative error of H_c by the end of the inlet up to which a grid does.
+/// Accepted relative error of H_c due to the end of the inlet.
 const TRUNCATION: f64 = 0.035;
-/// The same by the spacing.
+/// Accepted relative error of H_c due to the spacing.
 const RESOLUTION: f64 = 0.02;
-/// The same of a grid on which a solution is no more than a start for another one.
+/// Accepted error of a grid whose solution is only an initial guess for another one.
 const ROUGH: f64 = 0.08;
-/// Nodes along X of such a grid at least.
+/// Minimum number of nodes along X of such a grid.
 const FEWEST_ROUGH: usize = 150;
-/// What a graded grid costs at most for its lack of nodes or inlet where another one is to be had.
+/// Maximum error of a graded grid due to its number of nodes or its inlet, if a better grid is available.
 const GRADED: f64 = 0.012;
 /// Spacing in front of the contact of [`GridSpec::EXPLORER`].
 const EXPLORER_SPACING: f64 = 6e-4;
-/// A point contact's grid is at most this many times finer along X than the one it begins from.
+/// Maximum refinement along X of a point contact's grid relative to its initial grid.
 const FINEST: f64 = 16.0;
-/// What the ends of an ellipse's domain may cost as long as its spacing stays as it is; beyond, [`TRUNCATION`].
+/// Accepted domain-truncation error of an elliptical contact at the initial spacing. At wider spacings it is
+/// [`TRUNCATION`].
 const UNCOARSENED: f64 = 0.02;
-/// An ellipse's domain may have so many times more cells to reach farther.
+/// Maximum factor by which the number of cells may grow to extend an elliptical contact's domain.
 const MOST_CELLS: f64 = 5.0;
 
-/// Reach of a domain whose pressure goes on beyond its ends, in lengths √(2H_c) of the film: what the contact adds to the
-/// far field has fallen to 8⁻³ of that.
+/// Extent of a domain whose pressure continues beyond its ends, in lengths √(2H_c) of the film. There the contact's
+/// contribution to the far field has fallen to 8⁻³ of it.
 const FILM_LENGTHS: f64 = 8.0;
 
-/// No film of a contact beyond this load number reaches too far.
+/// Load number M beyond which no film extends too far.
 const HEAVIEST: f64 = 1e3;
 
-/// α p_H up to which Moes' formula is good enough to choose a grid by.
+/// α p_H up to which Moes' formula is accurate enough for the choice of a grid.
 const STIFF: f64 = 50.0;
 
-/// What a grid is chosen by.
+/// Quantities that determine the choice of a grid.
 struct Fit {
     kind: ContactKind,
     moes: Moes,
-    /// The shape, a circle for a line.
+    /// Shape of the contact; a circle for a line contact.
     ellipse: Ellipse,
     /// λ̄ of (2.23).
     lambda: f64,
-    /// α p_H.
+    /// Piezoviscous parameter α p_H.
     alpha_hertz: f64,
     /// Length t of the inlet zone.
     zone: f64,
-    /// Length √(2H_c) in which the gap grows to twice its smallest.
+    /// Length √(2H_c) in which the gap grows to twice its minimum.
     width: f64,
-    /// −d ln h/d ln M: how much the film answers to the load, next to nothing where it is elastic, 1 or 2 where rigid.
+    /// −d ln h/d ln M, sensitivity of the film thickness to the load: nearly zero in the elastic regimes, 1 or 2 in
+    /// the rigid ones.
     by_load: f64,
 }
 
@@ -96,7 +100,8 @@ impl Fit {
             ContactKind::Line => FilmShape::Line,
             ContactKind::Point => FilmShape::Ellipse(ellipse.radius_ratio),
         };
-        // At pressures far beyond those of real contacts Moes' film is too thick: oil stiffens less than by Barus' law.
+        // At pressures far beyond those of real contacts, Moes' film thickness is too large, because the viscosity
+        // rises less than by Barus' law.
         let stiff = (STIFF / alpha_hertz).min(1.0).powf(0.25);
         let zone = stiff * (1.06 * film * shape.film(moes)).powf(2.0 / 3.0);
         let thickness = |m: f64| shape.film(Moes { m, l });
@@ -105,12 +110,12 @@ impl Fit {
         Self { kind, moes, ellipse, lambda, alpha_hertz, zone, width, by_load: by_load.max(0.0) }
     }
 
-    /// What an inlet at X = −`reach` costs.
+    /// Returns the error due to an inlet at X = −`reach`.
     fn truncation(&self, reach: f64) -> f64 {
         let Self { lambda, alpha_hertz, .. } = self;
         match self.kind {
             ContactKind::Line => lambda * (4.0 / 3.0 * alpha_hertz / reach + 0.42) / (reach * reach),
-            // The sides are half as far, always.
+            // The sides are always half as far.
             ContactKind::Point if self.ellipse == Ellipse::CIRCLE => {
                 lambda * (0.8 * alpha_hertz / reach.powi(3) + 1.2 * self.by_load / reach)
             }
@@ -118,16 +123,17 @@ impl Fit {
         }
     }
 
-    /// What the inlet at X = −`reach` and the sides at Y = ±`side` of an ellipse's domain cost, each.
+    /// Returns the errors due to the inlet at X = −`reach` and due to the sides at Y = ±`side` of an elliptical
+    /// contact's domain.
     fn ends(&self, reach: f64, side: f64) -> [f64; 2] {
         let curvature = self.ellipse.gap_curvature();
-        // P X² R⁴/|X|³ of the tail, and what of ∮P x·n along the ends is load, 2π/3 being the whole.
+        // P X² R⁴/|X|³ of the tail, and the part of ∮P x·n along the ends that is load; the total load is 2π/3.
         let tail = 4.0 * self.lambda / (3.0 + 2.0 / self.ellipse.radius_ratio);
         let share = 1.5 / PI * self.by_load;
         let (square, edge, root) = (reach * reach, curvature * side * side, curvature.sqrt());
         let across = side / (square * (square + edge)) + (side * root / reach).atan() / (reach.powi(3) * root);
         let beside = 2.0 * side * (1.0 / edge - 1.0 / (square + edge));
-        // The sides of a narrow ellipse are nearer to its middle than the inlet is.
+        // The sides of a narrow ellipse are nearer to its centre than the inlet is.
         let narrow = 0.6 * (1.0 - self.ellipse.kappa.powi(2)).max(0.0) / (1.0 + edge).powi(2);
         [
             tail * (self.alpha_hertz / reach.powi(3) + share * square * across),
@@ -135,7 +141,8 @@ impl Fit {
         ]
     }
 
-    /// The inlet, as −X, from which on the end of the domain costs at most a share of H_c; at most about the longest.
+    /// Returns the inlet position, as −X, at which the end of the domain causes at most the error `share` of H_c. The
+    /// result hardly exceeds the longest inlet.
     fn reach(&self, share: f64) -> f64 {
         let mut reach = 2.0;
         while self.truncation(reach) > share && reach < LONGEST_INLET {
@@ -144,17 +151,17 @@ impl Fit {
         reach
     }
 
-    /// What a spacing in front of the contact costs.
+    /// Returns the error due to a spacing in front of the contact.
     fn resolution(&self, spacing: f64) -> f64 {
         (spacing / self.zone).powi(2)
     }
 
-    /// What a spacing costs a thick film.
+    /// Returns the error due to a spacing in a thick film.
     fn coarse(&self, spacing: f64) -> f64 {
         2.1 * (spacing / self.width).powi(2)
     }
 
-    /// A film that does not fit into `grid` however it is stretched.
+    /// Creates the error for a film that does not fit into any extension of `grid`.
     fn too_wide(&self, grid: PointGridSpec) -> GridError {
         let Moes { m, l } = self.moes;
         let holds = |m: &f64| grid.domain_for(&Self::new(self.kind, Moes { m: *m, l }, self.ellipse)).is_some();
@@ -183,15 +190,14 @@ impl Fit {
     }
 }
 
-/// Where a contact's inlet may end, as −X, and how wide its spacing may be in front of the contact, each at the cost of
-/// a hundredth of H_c.
+/// Returns the inlet position of a contact, as −X, and the spacing in front of it, each for an error of 1 % of H_c.
 pub fn that_would_do(point: &OperatingPoint) -> (f64, f64) {
     let fit = Fit::of(point);
     (fit.reach(0.01), 0.1 * fit.zone)
 }
 
 impl GridSpec {
-    /// Whether a uniform grid from X = `inlet` does for a contact.
+    /// True if a uniform grid is sufficient for a contact.
     pub fn does(&self, moes: Moes) -> bool {
         let fit = Fit::line(moes);
         match *self {
@@ -200,11 +206,11 @@ impl GridSpec {
         }
     }
 
-    /// The explorer's grid for a contact: [`GridSpec::EXPLORER`] wherever that does, else one that reaches farther, by
-    /// powers of two, or has more nodes.
+    /// Returns the explorer's grid for a line contact: [`GridSpec::EXPLORER`] if it is sufficient, otherwise one with
+    /// a longer domain, by powers of two, or with more nodes.
     ///
     /// # Errors
-    /// When no such grid resolves the film.
+    /// If no such grid resolves the film.
     fn line_for(moes: Moes) -> Result<Self, GridError> {
         let Self::Graded { nodes, domain, registered } = Self::EXPLORER else { return Ok(Self::EXPLORER) };
         let fit = Fit::line(moes);
@@ -227,11 +233,12 @@ impl GridSpec {
 }
 
 impl PointGridSpec {
-    /// This grid for a point contact: as it is wherever it does, else one that reaches farther, or is finer along X. A
-    /// circle's keeps its number of nodes in all but thick films, an ellipse's its spacing.
+    /// Returns this grid for a point contact: unchanged if it is sufficient, otherwise with a larger domain or finer
+    /// along X. The grid of a circular contact keeps its number of nodes except for thick films. That of an
+    /// elliptical contact keeps its spacing.
     ///
     /// # Errors
-    /// When no such grid resolves the film.
+    /// If no such grid resolves the film.
     pub fn for_contact(self, point: &OperatingPoint) -> Result<Self, GridError> {
         let fit = Fit::of(point);
         let Some(Stretched { domain, times, cells }) = self.domain_for(&fit) else {
@@ -247,19 +254,21 @@ impl PointGridSpec {
         Ok(Self { dx: self.dx * times / f64::max(finer, cells), dy: self.dy * times / cells, domain, ..self })
     }
 
-    /// A grid for a film that is much longer than the contact: it spans the film, and the pressure goes on beyond its ends.
+    /// Returns a grid for a film much longer than the contact. It covers the film, and the pressure continues beyond
+    /// its ends.
     fn continued_for(&self, fit: &Fit) -> Option<Self> {
-        // The film decides, and where that is short, the contact.
+        // The film determines the length; if it is short, the contact does.
         let length = fit.width.max(1.5);
         let cells = |dx: f64, x: f64| (x * length / dx).ceil() * dx;
-        // As fine as the refined or halved grid that asks for it is finer than the usual one.
+        // A refined or halved grid keeps its refinement relative to the usual one.
         let dx = length / 30.0 * (self.dx / Self::DISSERTATION.dx).min(1.0);
         let dy = length / 14.0 * (self.dy / Self::DISSERTATION.dy).min(1.0);
         let domain = (-cells(dx, FILM_LENGTHS), cells(dx, 3.0), -cells(dx, FILM_LENGTHS));
         (FILM_LENGTHS * length < LONGEST_INLET).then_some(Self { dx, dy, domain, refinement: 1.0 / 9.0 })
     }
 
-    /// How often the spacing along X may be doubled as long as a contact is resolved well enough for a start.
+    /// Returns how often the spacing along X may be doubled such that a contact is still resolved well enough for an
+    /// initial guess.
     pub fn coarsening_for(&self, point: &OperatingPoint) -> usize {
         let fit = Fit::of(point);
         let holds = |times: &u32| {
@@ -269,7 +278,7 @@ impl PointGridSpec {
         (1..=FINEST.log2() as u32 + 1).take_while(holds).count()
     }
 
-    /// How far its domain must reach for a contact; none where that would take too many nodes.
+    /// Returns the extended domain for a contact, or `None` if it would need too many nodes.
     fn domain_for(&self, fit: &Fit) -> Option<Stretched> {
         let (from, to, edge) = self.domain;
         let (mut times, mut cells) = (1.0, 1.0);
@@ -287,10 +296,10 @@ impl PointGridSpec {
         fine.or_else(|| self.ellipse_domain(fit, TRUNCATION))
     }
 
-    /// The same of an ellipse, whose ends may cost so much.
+    /// Returns the extended domain for an elliptical contact whose truncation error may be `most`.
     fn ellipse_domain(&self, fit: &Fit, most: f64) -> Option<Stretched> {
         let (from, to, edge) = self.domain;
-        // Which end costs more depends on the shape, and so does which is moved.
+        // The shape determines which end causes the larger error, and this end is moved.
         let (mut reach, mut side, mut times) = (-from, -edge, 1.0f64);
         loop {
             let [inlet, sides] = fit.ends(reach, side);
@@ -316,17 +325,17 @@ impl PointGridSpec {
     }
 }
 
-/// A domain that reaches farther.
+/// Extended domain.
 struct Stretched {
     domain: (f64, f64, f64),
-    /// How many times wider the spacing may then be.
+    /// Factor by which the spacing may be wider.
     times: f64,
-    /// How many times more nodes there are in each direction than such a spacing gives.
+    /// Factor of the number of cells in each direction relative to that spacing.
     cells: f64,
 }
 
 impl GridSpec {
-    /// The share of H_c that this grid is expected to cost a contact, by the ends of its domain and by its spacing.
+    /// Returns the expected relative error of H_c on this grid, by the ends of its domain and by its spacing.
     pub fn expected_cost(&self, point: &OperatingPoint) -> f64 {
         let (fit, moes) = (Fit::of(point), point.moes());
         let (reach, spacing) = match *self {
@@ -343,15 +352,15 @@ impl GridSpec {
         fit.truncation(reach) + fit.resolution(spacing)
     }
 
-    /// Whether the pressure goes on beyond its ends.
+    /// True if the pressure continues beyond the ends of the domain.
     fn continues(&self) -> bool {
         matches!(self, Self::Plane(spec) if spec.continues())
     }
 
-    /// The explorer's grid for a contact.
+    /// Returns the explorer's grid for a contact.
     ///
     /// # Errors
-    /// When no grid of its kind resolves the film.
+    /// If no grid of its kind resolves the film.
     pub fn explorer_for(point: &OperatingPoint) -> Result<Self, GridError> {
         match point.kind {
             ContactKind::Line => Self::line_for(point.moes()),

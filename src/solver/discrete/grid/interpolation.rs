@@ -1,7 +1,7 @@
-//! Sums over nodes and interpolation between them.
+//! Inner product of node arrays and interpolation between nodes.
 
-/// First index and weights of the cubic (4-point Lagrange) interpolation at X among increasing `nodes`; a single unit
-/// weight where X is a node.
+/// Returns the first index and the weights of the cubic (4-point Lagrange) interpolation at X among increasing
+/// `nodes`. At a node, its weight is 1 and all others are 0.
 pub(crate) fn cubic(nodes: &[f64], x: f64) -> (usize, [f64; 4]) {
     let first = nodes.partition_point(|&node| node < x).saturating_sub(2).min(nodes.len() - 4);
     let near = &nodes[first..first + 4];

@@ -1,12 +1,14 @@
-//! The computational domain of a line contact: uniform as in the dissertation, or graded towards the ends of the
-//! Hertzian zone.
+//! Computational domain of a line contact: uniform as in the dissertation, or graded towards the ends of the Hertzian
+//! zone.
 //!
-//! A grid is a *reference* grid in ξ, built once with its elastic kernel, and an affine map X = −1 + (ξ + 1) s. For s =
-//! 1 they are the same. Registration chooses s so that the pressure spike always sits at ξ = 1: the contacts of a whole
-//! range of M and L then look alike to a reduced basis, and one fine patch of nodes serves all their spikes.
+//! A grid is a *reference* grid in ξ, built once with its elastic kernel, and an affine map X = −1 + (ξ + 1) s. For s
+//! = 1 both are the same. Registration chooses s so that the pressure spike always lies at ξ = 1. Then the contacts
+//! of a whole range of the Moes numbers M and L are similar in ξ, which suits a reduced basis. One fine patch of
+//! nodes resolves all their spikes.
 //!
-//! Node arrays everywhere in the solver have one extra leading node: index 0 lies outside the inlet (the upwind stencil
-//! of the first unknown reaches it), index 1 is the inlet, the last index the outlet. P vanishes at all three.
+//! Node arrays everywhere in the solver have one extra leading node. Index 0 lies outside the inlet and belongs to
+//! the upwind stencil of the first unknown. Index 1 is the inlet, the last index the outlet. The pressure P vanishes
+//! at all three.
 
 mod refined;
 
@@ -22,51 +24,51 @@ use std::sync::Arc;
 pub const INLET: usize = 1;
 /// Index of the first unknown pressure in node arrays.
 pub const FIRST_UNKNOWN: usize = 2;
-/// Largest number of nodes a graded grid may have: its kernel is stored dense.
+/// Maximum number of nodes of a graded grid; its kernel is stored as a dense matrix.
 pub const MAX_GRADED_NODES: usize = 4001;
-/// Largest number of nodes a uniform grid may have.
+/// Maximum number of nodes of a uniform grid.
 pub const MAX_UNIFORM_NODES: usize = 200_001;
 
-/// Farthest inlet a domain may have, as −X.
+/// Longest inlet of a domain, as −X.
 pub const LONGEST_INLET: f64 = 1e7;
-/// Farthest outlet.
+/// Longest outlet of a domain.
 pub const LONGEST_OUTLET: f64 = 1e7;
 
 const EXPLORER_NODES: usize = 632;
 const EXPLORER_INLET: f64 = -20.0;
 const EXPLORER_OUTLET: f64 = 3.2;
 
-/// X = −1 + (ξ + 1) s of a reference abscissa ξ under the map with scale s.
+/// Returns X = −1 + (ξ + 1) s of a reference abscissa ξ under the map with scale s.
 #[inline]
 pub fn stretched(xi: f64, scale: f64) -> f64 {
     -1.0 + (xi + 1.0) * scale
 }
 
 impl GridSpec {
-    /// The dissertation's grid: 1201 nodes from −4 to 2.
+    /// Grid of the dissertation: 1201 nodes from −4 to 2.
     pub const DISSERTATION: Self = Self::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
 
-    /// The explorer's default for every contact: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M
-    /// = 2.
+    /// Default grid of the explorer: 632 registered nodes, fine at ξ = ±1, with an inlet long enough for M = 2.
     pub const EXPLORER: Self =
         Self::Graded { nodes: EXPLORER_NODES, domain: (EXPLORER_INLET, EXPLORER_OUTLET), registered: true };
 
-    /// [`GridSpec::EXPLORER`]'s spacing and outlet with another inlet: as many nodes as that takes.
+    /// Returns a grid with the spacing and outlet of [`GridSpec::EXPLORER`] and another inlet. The number of nodes
+    /// follows.
     pub fn explorer_from(inlet: f64, registered: bool) -> Self {
         let domain = (inlet, EXPLORER_OUTLET);
         Self::Graded { nodes: explorer_cells(domain) + 1, domain, registered }
     }
 
-    /// Builds the reference grid of line contacts and its kernel; the costly part, done once per specification.
+    /// Builds the reference grid of line contacts and its kernel. This is expensive and done once per specification.
     ///
     /// # Errors
-    /// When the domain cuts the contact, the number of nodes is out of range, or it is a grid of point contacts.
+    /// If the domain cuts the contact, the number of nodes is out of range, or it is a grid of point contacts.
     pub fn line(&self) -> Result<Arc<ReferenceGrid>, GridError> {
         let xi = self.line_nodes()?;
         Ok(Arc::new(ReferenceGrid::of_nodes(*self, xi)?))
     }
 
-    /// Refuses a grid that makes no sense, without building it.
+    /// Checks the specification without building the grid.
     ///
     /// # Errors
     /// As [`GridSpec::build`].
@@ -77,7 +79,7 @@ impl GridSpec {
         }
     }
 
-    /// The abscissae ξ of a line contact's grid.
+    /// Returns the abscissae ξ of a line contact's grid.
     fn line_nodes(&self) -> Result<Vec<f64>, GridError> {
         let holds_the_contact = |(from, to): (f64, f64)| {
             if (-LONGEST_INLET..=-1.5).contains(&from) && (1.2..=LONGEST_OUTLET).contains(&to) {
@@ -127,12 +129,12 @@ impl GridSpec {
     }
 }
 
-/// A reference grid with its elastic kernel; shared by all the grids mapped from it.
+/// Reference grid with its elastic kernel, shared by all grids mapped from it.
 #[derive(Debug)]
 pub struct ReferenceGrid {
-    /// What it was built from.
+    /// Specification from which it was built.
     pub spec: GridSpec,
-    /// Node abscissae ξ with the leading outside node.
+    /// Node abscissae ξ with the leading node outside the inlet.
     pub xi: Vec<f64>,
     /// Quadrature weights (cell sizes) in ξ; zero at the three nodes where P vanishes.
     pub weights: Vec<f64>,
@@ -140,23 +142,23 @@ pub struct ReferenceGrid {
     pub flexibility: Flexibility,
 }
 
-/// A grid for one contact: a reference grid under the map X = −1 + (ξ + 1) s.
+/// Grid of one contact: a reference grid under the map X = −1 + (ξ + 1) s.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(into = "Placed", try_from = "Placed")]
 pub struct LineGrid {
-    /// The reference grid.
+    /// Reference grid.
     pub reference: Arc<ReferenceGrid>,
-    /// The scale s of the map; 1 without registration.
+    /// Scale s of the map; 1 without registration.
     pub scale: f64,
-    /// Node abscissae X with the leading outside node.
+    /// Node abscissae X with the leading node outside the inlet.
     pub x: Vec<f64>,
     /// Quadrature weights in X.
     pub weights: Vec<f64>,
-    /// Difference coefficients of the rows at the unknowns; entry k belongs to node k + [`FIRST_UNKNOWN`].
+    /// Difference coefficients of the equations at the unknowns. Entry k belongs to node k + [`FIRST_UNKNOWN`].
     pub rows: Vec<RowGeometry>,
 }
 
-/// What a grid for one contact is built from.
+/// Data from which the grid of one contact is built.
 #[derive(Serialize, Deserialize)]
 struct Placed {
     spec: GridSpec,
@@ -178,7 +180,7 @@ impl TryFrom<Placed> for LineGrid {
 }
 
 impl ReferenceGrid {
-    /// Weights and kernel for given abscissae, the outside node among them.
+    /// Computes the weights and the kernel of given abscissae, including the node outside.
     fn of_nodes(spec: GridSpec, xi: Vec<f64>) -> Result<Self, GridError> {
         let flexibility = match spec {
             GridSpec::Uniform { .. } => Flexibility::uniform(xi[1] - xi[0], xi.len())?,
@@ -187,7 +189,7 @@ impl ReferenceGrid {
         Ok(Self { spec, weights: node_weights(&xi), xi, flexibility })
     }
 
-    /// Scale of the map for a contact: registered by its Moes numbers where the specification says so.
+    /// Returns the scale of the map for a contact, from its Moes numbers if the grid is registered.
     pub fn scale(&self, moes: Moes) -> f64 {
         match self.spec {
             GridSpec::Graded { registered: true, .. } => registration_scale(moes),
@@ -195,12 +197,12 @@ impl ReferenceGrid {
         }
     }
 
-    /// The grid for a contact.
+    /// Returns the grid of a contact.
     pub fn for_contact(self: &Arc<Self>, moes: Moes) -> LineGrid {
         self.scaled(self.scale(moes))
     }
 
-    /// The grid under the map with scale s.
+    /// Returns the grid under the map with scale s.
     pub fn scaled(self: &Arc<Self>, scale: f64) -> LineGrid {
         let x: Vec<f64> = self.xi.iter().map(|xi| stretched(*xi, scale)).collect();
         let weights = self.weights.iter().map(|w| w * scale).collect();
@@ -210,22 +212,22 @@ impl ReferenceGrid {
 }
 
 impl LineGrid {
-    /// Number of entries of node arrays: nodes of the grid plus the one outside.
+    /// Returns the length of node arrays: the nodes of the grid and the one outside.
     pub fn len(&self) -> usize {
         self.x.len()
     }
 
-    /// Never true: every grid has at least 61 nodes.
+    /// Always returns `false`: every grid has at least 61 nodes.
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
     }
 
-    /// Number of unknown pressures.
+    /// Returns the number of unknown pressures.
     pub fn unknowns(&self) -> usize {
         self.x.len() - 3
     }
 
-    /// Deformation δ = K P at every node, (2.37). Both slices are node arrays.
+    /// Computes the deformation δ = K P at every node, (2.37). Both slices are node arrays.
     pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut Scratch) {
         self.reference.flexibility.apply(pressure, deformation, scratch);
         if self.scale != 1.0 {
@@ -236,47 +238,47 @@ impl LineGrid {
         }
     }
 
-    /// −s ln s / π: what the logarithmic kernel gains under the map, times ∫P dξ.
+    /// Returns −s ln s / π. The map adds this constant times ∫P dξ to the deformation by the logarithmic kernel.
     pub fn kernel_shift(&self) -> f64 {
         if self.scale == 1.0 { 0.0 } else { -self.scale * self.scale.ln() / std::f64::consts::PI }
     }
 
-    /// One entry of K: deformation of node `i` by unit pressure at node `j`.
+    /// Returns one entry of K: the deformation at node `i` by unit pressure at node `j`.
     pub fn kernel_entry(&self, i: usize, j: usize) -> f64 {
         self.scale * self.reference.flexibility.entry(i, j) + self.kernel_shift() * self.reference.weights[j]
     }
 
-    /// Weights and first index of the cubic (4-point Lagrange) interpolation at X; a single unit weight where X is a
-    /// node.
+    /// Returns the first index and the weights of the cubic (4-point Lagrange) interpolation at X. At a node, its
+    /// weight is 1 and all others are 0.
     pub fn interpolation(&self, x: f64) -> (usize, [f64; 4]) {
         let (first, weights) = super::cubic(&self.x[INLET..], x);
         (first + INLET, weights)
     }
 
-    /// Value of a node array at X by cubic interpolation.
+    /// Returns the value of a node array at X by cubic interpolation.
     pub fn at(&self, values: &[f64], x: f64) -> f64 {
         let (first, weights) = self.interpolation(x);
         weights.iter().zip(&values[first..]).map(|(w, v)| w * v).sum()
     }
 }
 
-/// Cell sizes of the unknowns' nodes, zero elsewhere.
+/// Returns the cell sizes of the unknowns' nodes, zero elsewhere.
 fn node_weights(xi: &[f64]) -> Vec<f64> {
     let n = xi.len();
     (0..n).map(|i| if (FIRST_UNKNOWN..n - 1).contains(&i) { 0.5 * (xi[i + 1] - xi[i - 1]) } else { 0.0 }).collect()
 }
 
-/// Cells of a domain in [`GridSpec::EXPLORER`]'s spacing.
+/// Returns the number of cells of a domain in the spacing of [`GridSpec::EXPLORER`].
 pub(super) fn explorer_cells((from, to): (f64, f64)) -> usize {
     let count = |from: f64, to: f64| cells(from, to, FINE_SAMPLES);
     let share = count(from, to) / count(EXPLORER_INLET, EXPLORER_OUTLET);
     ((EXPLORER_NODES - 1) as f64 * share).round().max(0.0) as usize
 }
 
-/// Wanted relative spacing at ξ: fine at ±1, moderate inside, growing with the distance into the inlet.
+/// Returns the desired relative spacing at ξ: fine at ±1, moderate inside, growing with the distance into the inlet.
 fn wanted_spacing(xi: f64) -> f64 {
     let bump = |center: f64, depth: f64, width: f64| depth / (1.0 + ((xi - center) / width).powi(2));
-    // The inlet of heavy loads is what limits H_c.
+    // The inlet of heavily loaded contacts determines the accuracy of H_c.
     let base =
         0.016 / (1.0 + bump(-1.02, 14.0, 0.04) + bump(-1.0, 2.0, 0.3) + bump(1.0, 3.0, 0.05) + bump(0.93, 1.0, 0.2));
     let inlet = (-1.15 - xi).max(0.0);
@@ -284,19 +286,19 @@ fn wanted_spacing(xi: f64) -> f64 {
     base + 0.028 * inlet * inlet / (inlet + 0.5) + 0.03 * outlet
 }
 
-/// Samples over which the cells of a whole grid are counted.
+/// Number of samples for counting the cells of a whole grid.
 const FINE_SAMPLES: usize = 20_000;
 
-/// ∫ dξ/spacing over a short interval by Simpson's rule: the cells between its ends, up to a factor.
+/// Returns ∫ dξ/spacing over a short interval by Simpson's rule: the number of cells in it, up to a factor.
 fn cells_between(a: f64, b: f64) -> f64 {
     let middle = 0.5 * (a + b);
     (b - a) / 6.0 * (1.0 / wanted_spacing(a) + 4.0 / wanted_spacing(middle) + 1.0 / wanted_spacing(b))
 }
 
-/// Domains longer than this are counted in pieces: equal samples would step over the contact.
+/// Length beyond which a domain is counted in pieces. Equal samples would miss the contact.
 const LONG: f64 = 1500.0;
 
-/// ∫ dξ/spacing over a whole domain in `samples` intervals, or as many in each piece of a long one.
+/// Returns ∫ dξ/spacing over a whole domain in `samples` intervals, or that many in each piece of a long one.
 fn cells(from: f64, to: f64, samples: usize) -> f64 {
     if to - from <= LONG {
         return cells_of_piece(from, to, samples);
@@ -317,16 +319,16 @@ fn cells(from: f64, to: f64, samples: usize) -> f64 {
     sum
 }
 
-/// The same in equal intervals.
+/// Returns the same integral in equal intervals.
 fn cells_of_piece(from: f64, to: f64, samples: usize) -> f64 {
     let step = (to - from) / samples as f64;
     let at = |i: usize| from + i as f64 * step;
     (0..samples).map(|i| cells_between(at(i), at(i + 1))).sum()
 }
 
-/// `nodes` abscissae (and the outside one) that equidistribute 1/spacing, with one node exactly at ξ = 1 where
-/// registration puts the spike: grids of equal resolution then share their nodes in the contact, whatever their inlets.
-/// The ends move by half a cell at most.
+/// Returns `nodes` abscissae, and the one outside, that equidistribute 1/spacing. One node lies exactly at ξ = 1,
+/// where registration puts the spike. Thus grids of equal resolution share their nodes in the contact, whatever their
+/// inlets. The ends move by half a cell at most.
 fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
     // ∫ dξ/spacing on fine samples; all later steps are exact to rounding.
     let samples = 40 * nodes;
@@ -340,7 +342,8 @@ fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
         (0..whole).map(|i| cells_between(at(i), at(i + 1))).sum::<f64>() + cells_between(at(whole), 1.0)
     };
     let per_node = total / (nodes - 1) as f64;
-    // March from the anchor both ways; each node solves cells_between(previous, node) = per_node by Newton's method.
+    // March from ξ = 1 in both directions. Each node solves cells_between(previous, node) = per_node by Newton's
+    // method.
     let next = |x: f64, sign: f64| {
         let mut y = x + sign * per_node * wanted_spacing(x);
         for _ in 0..4 {
@@ -361,28 +364,28 @@ fn graded_nodes(nodes: usize, from: f64, to: f64) -> Vec<f64> {
     x
 }
 
-/// Spacing over distance from an end of the Hertzian zone, on a grid that follows a thin film.
+/// Ratio of the spacing to the distance from an end of the Hertzian zone, on a grid that follows a thin film.
 const GROWTH: f64 = 0.06;
-/// Distance from the end, in zones, at which the spacing stops to fall.
+/// Distance from the end, in units of the zone, below which the spacing is constant.
 const NEAREST: f64 = 1.5;
 
-/// Wanted spacing at ξ where a film closes in a zone of this length: [`wanted_spacing`], and towards ξ = ±1 in proportion
-/// to the distance.
+/// Returns the desired spacing at ξ for a film that closes in a zone of this length: that of [`wanted_spacing`], and
+/// towards ξ = ±1 proportional to the distance.
 fn following_spacing(zone: f64, xi: f64) -> f64 {
     let near = |end: f64| 1.0 / (GROWTH * (NEAREST * zone + (xi - end).abs()));
     1.0 / (1.0 / wanted_spacing(xi) + near(-1.0) + near(1.0))
 }
 
-/// ∫ dξ/spacing over a short interval by Simpson's rule.
+/// Returns ∫ dξ/spacing over a short interval by Simpson's rule.
 fn following_cells(zone: f64, a: f64, b: f64) -> f64 {
     let at = |xi: f64| 1.0 / following_spacing(zone, xi);
     (b - a) / 6.0 * (at(a) + 4.0 * at(0.5 * (a + b)) + at(b))
 }
 
-/// Abscissae (and the outside one) that equidistribute 1/spacing, one of them at ξ = 1.
+/// Returns the abscissae, and the one outside, that equidistribute 1/spacing. One of them lies at ξ = 1.
 ///
 /// # Errors
-/// When there would be too many.
+/// If there would be too many nodes.
 fn following_nodes(zone: f64, cell: f64, (from, to): (f64, f64)) -> Result<Vec<f64>, GridError> {
     let next = |x: f64, sign: f64| {
         let mut y = x + sign * cell * following_spacing(zone, x);
@@ -408,17 +411,17 @@ fn following_nodes(zone: f64, cell: f64, (from, to): (f64, f64)) -> Result<Vec<f
     Ok(xi)
 }
 
-/// Scale s = (1 + X_s)/2 of the registration map, X_s the fitted position of the pressure spike.
+/// Returns the scale s = (1 + X_s)/2 of the registration map, where X_s is the fitted position of the pressure spike.
 pub fn registration_scale(moes: Moes) -> f64 {
     0.5 * (1.0 + spike_position(moes))
 }
 
-/// Fitted position X_s of the pressure spike, in (0.2, 1).
+/// Returns the fitted position X_s of the pressure spike, in (0.2, 1).
 ///
-/// ln((1 − X_s)/X_s) is a cubic in ln M plus a term that fades with L, fitted to the spikes of 75 full solutions with M
-/// 2…500 and L 10…22 (Roelands, Dowson–Higginson, default realisation, ΔX = 0.0025, spike refined by a parabola): root
-/// mean square deviation 0.015. Below L ≈ 12 the spike fades and the fit continues smoothly at its value there. Only
-/// smoothness matters to the method: the map moves nodes, never the equations.
+/// ln((1 − X_s)/X_s) is a cubic in ln M plus a term that fades with L. It was fitted to the spikes of 75 full
+/// solutions with M 2…500 and L 10…22 (Roelands, Dowson–Higginson, default realisation, ΔX = 0.0025, spike refined by
+/// a parabola). The root-mean-square deviation is 0.015. Below L ≈ 12 the spike fades, and the fit continues smoothly
+/// from its value there. Only smoothness matters: the map moves nodes and never changes the equations.
 pub fn spike_position(Moes { m, l }: Moes) -> f64 {
     let x = m.clamp(1.5, 1000.0).ln();
     let effective_l = 12.0 + 2.0 * (0.5 * (l.min(40.0) - 12.0)).exp().ln_1p();
@@ -433,7 +436,7 @@ mod tests {
 
     #[test]
     fn cells_of_a_long_domain_are_counted_to_its_ends() {
-        // By the trapezoidal rule in the logarithm of the distance.
+        // Trapezoidal rule in the logarithm of the distance.
         let beyond = |end: f64| {
             let (n, from) = (100_000, 20.0f64);
             let step = (end.abs() / from).ln() / f64::from(n);

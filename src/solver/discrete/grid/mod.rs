@@ -1,5 +1,5 @@
-//! The computational domains: of a line contact along X ([`mod@line`]), of the half of a point contact that its
-//! symmetry leaves ([`mod@point`]), and of either kind ([`mod@contact`]).
+//! Computational domains: along X for a line contact ([`mod@line`]), the symmetric half for a point contact
+//! ([`mod@point`]), and either of them ([`mod@contact`]).
 
 pub mod contact;
 mod error;

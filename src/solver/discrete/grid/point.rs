@@ -1,8 +1,8 @@
-//! The computational domain of a point contact, a circle or an ellipse, in X = x/a and Y = y/b: by symmetry the half Y ≤ 0, with P = 0 at inlet, outlet and
-//! outer edge.
+//! Computational domain of a circular or elliptical point contact in X = x/a and Y = y/b. By symmetry it is the half
+//! Y ≤ 0, with pressure P = 0 at inlet, outlet and outer edge.
 //!
-//! Node arrays run over all nodes, Y fastest: node (i, j) has the index i·n_y + j, with j = 0 on the outer edge and j =
-//! n_y − 1 on the symmetry axis Y = 0. The unknown pressures are those inside and on the axis, in the same order.
+//! Node arrays run over all nodes, Y fastest. Node (i, j) has the index i·n_y + j, with j = 0 on the outer edge and j
+//! = n_y − 1 on the symmetry axis Y = 0. The unknown pressures are those inside and on the axis, in the same order.
 
 use super::{GridError, LONGEST_INLET, LONGEST_OUTLET, MAX_BYTES, cubic};
 use crate::solver::discrete::elasticity::{PointFlexibility, PointScratch};
@@ -12,20 +12,20 @@ use crate::solver::physics::contact::Ellipse;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A description of a point grid, as scenes and the command line give it: equidistant along X, equidistant or finer in
-/// the side lobes across.
+/// Specification of a point grid, as given in scenes and on the command line. It is equidistant along X, and across
+/// either equidistant or refined in the side lobes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename = "Plane", deny_unknown_fields)]
 pub struct PointGridSpec {
     /// Spacing ΔX.
     pub dx: f64,
-    /// Spacing ΔY; away from the side lobes where they are refined.
+    /// Spacing ΔY, away from the side lobes if these are refined.
     pub dy: f64,
     /// Inlet, outlet and outer edge (Y₀ < 0) of the half domain.
     pub domain: (f64, f64, f64),
-    /// How many times finer the spacing across is in the side lobes, in which H_min lies; 1 is equidistant. Below 1 the
-    /// spacing grows from the axis to so much of the inverse at the outer edge, and the pressure goes on beyond the ends
-    /// of the domain, as that of a lightly loaded contact does.
+    /// Factor by which the spacing across is finer in the side lobes, in which H_min lies; 1 is equidistant. For a
+    /// value below 1, the spacing grows from the axis to the outer edge by the inverse of this factor. Then the
+    /// pressure continues beyond the ends of the domain, for lightly loaded contacts.
     #[serde(default = "equidistant")]
     pub refinement: f64,
 }
@@ -34,44 +34,43 @@ fn equidistant() -> f64 {
     1.0
 }
 
-/// Widest spacing along X, and across, in the usual domains.
+/// Widest spacing along X and across in the usual domains.
 const WIDEST_DX: f64 = 0.1;
 const WIDEST_DY: f64 = 0.2;
-/// Cells along X and across that larger ones must have at least.
+/// Minimum number of cells along X and across in larger domains.
 const FEWEST: (f64, f64) = (60.0, 10.0);
 /// Smallest spacing across relative to that at the outer edge.
 const COARSEST: f64 = 0.02;
-/// Where the side lobes lie in heavily loaded contacts, and how wide the refined zone around them is.
+/// Position of the side lobes in heavily loaded contacts, and half-width of the refined zone.
 const SIDE_LOBE: f64 = -0.95;
 const SIDE_LOBE_WIDTH: f64 = 0.1;
 
 impl PointGridSpec {
-    /// The dissertation's grid of section 3.2: 301×41 nodes.
+    /// Grid of the dissertation, section 3.2: 301×41 nodes.
     pub const DISSERTATION: Self = Self::uniform(0.02, 0.05, (-4.0, 2.0, -2.0));
 
-    /// The same with a spacing across that is four times finer in the side lobes: 301×59 nodes, whose H_min lies
+    /// Grid of the dissertation with four times finer spacing across in the side lobes: 301×59 nodes. Its H_min lies
     /// within 2 % of that on 301×161.
     pub const EXPLORER: Self = Self { refinement: 4.0, ..Self::DISSERTATION };
 
-    /// The coarse one of Table 2.3, 151×41 nodes: for pictures that follow the hand. H_c is 5 % too small there at M =
-    /// 200.
+    /// Coarse grid of Table 2.3, 151×41 nodes, for interactive pictures. H_c is 5 % too small at M = 200.
     pub const QUICK: Self = Self::uniform(0.04, 0.05, (-4.0, 2.0, -2.0));
 
-    /// 601×81 nodes.
+    /// Fine grid of 601×81 nodes.
     pub const FINE: Self = Self::uniform(0.01, 0.025, (-4.0, 2.0, -2.0));
 
-    /// 601×116 nodes, four times finer in the side lobes than the former.
+    /// Fine grid with four times finer spacing across in the side lobes: 601×116 nodes.
     pub const FINEST: Self = Self { refinement: 4.0, ..Self::FINE };
 
-    /// Equidistant nodes in both directions; the domain is inlet, outlet and outer edge.
+    /// Creates a specification with equidistant nodes in both directions. The domain is inlet, outlet and outer edge.
     pub const fn uniform(dx: f64, dy: f64, domain: (f64, f64, f64)) -> Self {
         Self { dx, dy, refinement: 1.0, domain }
     }
 
-    /// Nodes along X and across, boundaries and axis included.
+    /// Returns the number of nodes along X and across, boundaries and axis included.
     ///
     /// # Errors
-    /// When the domain cuts the contact, or the spacing is too wide or too narrow.
+    /// If the domain cuts the contact, or the spacing is too wide or too narrow.
     pub fn nodes(&self) -> Result<(usize, usize), GridError> {
         let (from, to, edge) = self.domain;
         let along = (-LONGEST_INLET..=-1.5).contains(&from) && (1.2..=LONGEST_OUTLET).contains(&to);
@@ -103,8 +102,8 @@ impl PointGridSpec {
         Ok((((to - from) / self.dx).round() as usize + 1, cells as usize + 1))
     }
 
-    /// Cells between an ordinate Y ≤ 0 and the axis: ∫ dY/spacing, the spacing being dy/(1 + (refinement − 1)/(1 + t²))
-    /// with t the distance to the side lobe in units of its width.
+    /// Returns the number of cells between an ordinate Y ≤ 0 and the axis: ∫ dY/spacing. The spacing is dy/(1 +
+    /// (refinement − 1)/(1 + t²)), where t is the distance to the side lobe in units of its width.
     fn cells_beyond(&self, y: f64) -> f64 {
         if self.continues() {
             let growth = (1.0 / self.refinement - 1.0) / -self.domain.2;
@@ -114,18 +113,18 @@ impl PointGridSpec {
         (-y + (self.refinement - 1.0) * SIDE_LOBE_WIDTH * (angle(0.0) - angle(y))) / self.dy
     }
 
-    /// Whether the pressure goes on beyond its ends.
+    /// True if the pressure continues beyond the ends of the domain.
     pub fn continues(&self) -> bool {
         self.refinement < 1.0
     }
 
-    /// Ordinates from the outer edge to the axis, each a fixed share of the cells apart.
+    /// Returns the ordinates from the outer edge to the axis, at equal distances in the cell count.
     fn ordinates(&self, ny: usize) -> Vec<f64> {
         let edge = self.domain.2;
         let all = self.cells_beyond(edge);
         let at = |j: usize| {
             let wanted = all * (ny - 1 - j) as f64 / (ny - 1) as f64;
-            // The count of cells falls steadily from the edge to the axis: bisection to rounding.
+            // The cell count falls monotonically from the edge to the axis: bisection to rounding.
             let (mut low, mut high) = (edge, 0.0);
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
@@ -137,7 +136,7 @@ impl PointGridSpec {
         (0..ny)
             .map(|j| match j {
                 0 => edge,
-                // The last node lies on the axis exactly.
+                // The last node lies exactly on the axis.
                 j if j + 1 == ny => 0.0,
                 j if self.refinement == 1.0 => uniform(j),
                 j => at(j),
@@ -145,10 +144,11 @@ impl PointGridSpec {
             .collect()
     }
 
-    /// Refuses what [`PointGridSpec::build`] would refuse, without building it.
+    /// Checks the specification as [`PointGridSpec::build`] does, without building the grid. Returns the number of
+    /// nodes.
     ///
     /// # Errors
-    /// When the domain cuts the contact, or the grid is too coarse to hold it or too fine for memory.
+    /// If the domain cuts the contact, or the grid is too coarse for it or too fine for the memory.
     pub fn check(&self) -> Result<(usize, usize), GridError> {
         let (nx, ny) = self.nodes()?;
         let bytes = Self::bytes(nx, ny);
@@ -163,16 +163,17 @@ impl PointGridSpec {
         )))
     }
 
-    /// Bytes that the kernel and the preconditioner of nx × ny nodes take: they grow as nx·ny², all else as nx·ny.
+    /// Returns the memory in bytes of the kernel and the preconditioner for nx × ny nodes. They grow as nx·ny², all
+    /// other data as nx·ny.
     fn bytes(nx: usize, ny: usize) -> f64 {
         let (nx, ny) = (nx as f64, ny as f64);
         nx * ny * ny * (8.0 + 24.0) + nx * ny * 8.0 * 160.0
     }
 
-    /// Builds the grid and its kernel; the costly part, done once per specification.
+    /// Builds the grid and its kernel. This is expensive and done once per specification.
     ///
     /// # Errors
-    /// When the domain cuts the contact, or the grid is too coarse to hold it or too fine for memory.
+    /// If the domain cuts the contact, or the grid is too coarse for it or too fine for the memory.
     pub fn build(&self) -> Result<Arc<PointGrid>, GridError> {
         let (nx, ny) = self.check()?;
         let (from, to, _) = self.domain;
@@ -181,18 +182,19 @@ impl PointGridSpec {
     }
 }
 
-/// A grid on the half domain of a point contact, with its kernel.
+/// Grid on the half domain of a point contact, with its kernel.
 #[derive(Debug)]
 pub struct PointGrid {
-    /// What it was built from.
+    /// Specification from which it was built.
     pub spec: PointGridSpec,
-    /// The shape whose semi-axes are the units of X and Y.
+    /// Shape whose semi-axes are the units of X and Y.
     pub ellipse: Ellipse,
     /// Abscissae X, equidistant.
     pub x: Vec<f64>,
     /// Ordinates Y from the outer edge to 0.
     pub y: Vec<f64>,
-    /// κY: the same in units of a, in which distances across count in rows and kernel.
+    /// Ordinates κY in units of a, used for distances in the equations and the kernel. κ = b/a is the ratio of the
+    /// semi-axes.
     pub across: Vec<f64>,
     /// Quadrature weights of node arrays: the cells of both halves, so that wᵀP is the integral (2.29). Zero where P
     /// vanishes.
@@ -226,10 +228,10 @@ impl PointGrid {
         Ok(Self { spec, ellipse, x, y, across, weights, flexibility, columns })
     }
 
-    /// The same nodes in the semi-axes of an ellipse, with its kernel; this grid itself where that is its own.
+    /// Returns the same nodes in the semi-axes of an ellipse, with its kernel, or this grid if it has that ellipse.
     ///
     /// # Errors
-    /// When the kernel cannot be transformed.
+    /// If the kernel cannot be transformed.
     pub fn of_ellipse(self: &Arc<Self>, ellipse: Ellipse) -> Result<Arc<Self>, GridError> {
         if ellipse == self.ellipse {
             return Ok(Arc::clone(self));
@@ -237,44 +239,44 @@ impl PointGrid {
         Ok(Arc::new(Self::new(self.spec, self.x.clone(), self.y.clone(), ellipse)?))
     }
 
-    /// Nodes along X, both ends counted.
+    /// Returns the number of nodes along X, both ends included.
     pub fn nx(&self) -> usize {
         self.x.len()
     }
 
-    /// Nodes across, outer edge and axis counted.
+    /// Returns the number of nodes across, outer edge and axis included.
     pub fn ny(&self) -> usize {
         self.y.len()
     }
 
-    /// Entries of node arrays.
+    /// Returns the length of node arrays.
     pub fn len(&self) -> usize {
         self.x.len() * self.y.len()
     }
 
-    /// Never true.
+    /// Always returns `false`.
     pub fn is_empty(&self) -> bool {
         self.x.is_empty()
     }
 
-    /// Unknown pressures in one column of nodes.
+    /// Returns the number of unknown pressures in one column of nodes.
     pub fn column_unknowns(&self) -> usize {
         self.y.len() - 1
     }
 
-    /// Number of unknown pressures.
+    /// Returns the number of unknown pressures.
     pub fn unknowns(&self) -> usize {
         (self.x.len() - 2) * self.column_unknowns()
     }
 
-    /// Node index of an unknown.
+    /// Returns the node index of an unknown.
     pub fn node(&self, unknown: usize) -> usize {
         let m = self.column_unknowns();
         (unknown / m + 1) * self.ny() + unknown % m + 1
     }
 
-    /// The row of an unknown: the nodes it depends on and its coefficients. Where the first column or the axis lacks a
-    /// node, a neighbour stands in its place with weight zero.
+    /// Returns the stencil of an unknown's equation: its nodes and coefficients. A node missing at the first column
+    /// or the axis is replaced by a neighbour with weight zero.
     pub fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
         let (m, ny) = (self.column_unknowns(), self.ny());
         let (column, j) = (unknown / m, unknown % m + 1);
@@ -287,23 +289,24 @@ impl PointGrid {
         (stencil, self.columns[column].across(south, north))
     }
 
-    /// Deformation Δ = K P at every node, (2.38). Both slices are node arrays.
+    /// Computes the deformation Δ = K P at every node, (2.38). Both slices are node arrays.
     pub fn deform(&self, pressure: &[f64], deformation: &mut [f64], scratch: &mut PointScratch) {
         self.flexibility.apply(pressure, deformation, scratch);
     }
 
-    /// The gap of the undeformed bodies (X² + g_y Y²)/2 at a node, (2.24).
+    /// Returns the gap of the undeformed bodies (X² + g_y Y²)/2 at a node, (2.24).
     pub fn parabola(&self, node: usize) -> f64 {
         let (x, y) = (self.x[node / self.ny()], self.y[node % self.ny()]);
         0.5 * (x * x + self.ellipse.gap_curvature() * y * y)
     }
 
-    /// Value of a node array on the axis at X by cubic interpolation.
+    /// Returns the value of a node array on the axis at X by cubic interpolation.
     pub fn on_axis(&self, values: &[f64], x: f64) -> f64 {
         self.interpolation_on_axis(x).iter().map(|(node, w)| w * values[*node]).sum()
     }
 
-    /// Nodes and weights of the cubic interpolation on the axis at X; a single unit weight where X is a node.
+    /// Returns nodes and weights of the cubic interpolation on the axis at X. At a node, its weight is 1 and all
+    /// others are 0.
     pub fn interpolation_on_axis(&self, x: f64) -> [(usize, f64); 4] {
         let (first, weights) = cubic(&self.x, x);
         let ny = self.ny();

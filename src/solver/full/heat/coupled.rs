@@ -1,4 +1,5 @@
-//! Pressure, film and temperatures in turns: on a line, or on all lines along X of a plane.
+//! Alternating iteration of pressure, film thickness and temperatures, for a line contact or for all lines along X of
+//! a point contact. One turn is a Newton step and a march of the temperatures.
 
 use super::mixing::Mixing;
 use super::temperatures::{NodeArrays, Temperatures};
@@ -13,44 +14,46 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::lubricant::{Cavitation, ScaledHeat};
 use std::sync::Arc;
 
-/// How turns go on.
+/// Settings of the alternating iteration.
 #[derive(Clone, Copy)]
 pub(super) struct Pace {
-    /// Turns at most.
+    /// Maximum number of turns.
     turns: usize,
-    /// Least share of a change of temperatures that is taken.
+    /// Smallest share of a temperature change that is applied.
     least_share: f64,
-    /// Backtracking of the steps of pressure and film ends at this share of them.
+    /// Shortest share of a step of pressure and film thickness in backtracking.
     shortest_step: f64,
 }
 
 impl Pace {
     pub const QUICK: Self = Self { turns: 120, least_share: 0.25, shortest_step: 1.0 };
-    /// Where that does not settle.
+    /// Settings for contacts that do not converge with [`Self::QUICK`].
     pub const SLOW: Self = Self { turns: 120, least_share: 0.06, shortest_step: 1.0 / 16.0 };
 }
 
-/// A step of pressure and film, relative, and a change of θ that end the turns.
+/// Relative step of pressure and film thickness, and change of θ, below which the iteration ends. θ is the
+/// dimensionless temperature rise.
 const LAST: (f64, f64) = (1e-6, 3e-6);
 
-/// Turns after which ten times of that will do: where the film ruptures or flows back a node may come and go.
+/// Number of turns after which ten times these limits are accepted. With cavitation or backflow, a node may keep
+/// changing sides.
 const LATE: usize = 60;
 
-/// A step of pressure and film and a change of θ below which states are mixed.
+/// Step of pressure and film thickness, and change of θ, below which states are mixed.
 const NEAR: f64 = 0.1;
 
-/// Least distance of stations in front of X = ½; farther than X = −1 it grows with the distance.
+/// Smallest distance of stations in front of X = ½. Beyond X = −1 it grows with the distance.
 const SPACING: f64 = 0.02;
 
 /// Largest change of P in one step.
 const LARGEST_STEP: f64 = 0.3;
 
-/// Largest share of the film that one step may take away.
+/// Largest relative reduction of the film thickness in one step.
 const FILM_LOSS: f64 = 0.7;
 
-/// Pressure, film and temperatures in turns.
+/// Alternating iteration of pressure, film thickness and temperatures.
 pub(super) struct Coupled {
-    /// The column of nodes of each station.
+    /// Column of nodes of each station.
     columns: Vec<usize>,
     /// All lines of the grid along X.
     pub lines: Lines,
@@ -58,7 +61,7 @@ pub(super) struct Coupled {
 }
 
 impl Coupled {
-    /// At the nodes of a system, as warm as a former contact was.
+    /// Creates the lines at the nodes of a system, with the temperatures of a previous contact if given.
     pub fn new<S: NewtonSpace>(system: &System<S>, former: Option<&Temperatures>) -> Self {
         let grid = system.space.grid();
         let (x, ordinates) = (grid.abscissae().0, grid.across());
@@ -76,7 +79,7 @@ impl Coupled {
         Self { gradient: PlaneGradient::new(x, ordinates), lines, columns }
     }
 
-    /// P, its gradient and H at the stations.
+    /// Copies P, its gradient and H of the system to the stations.
     pub fn look<S: NewtonSpace>(&mut self, system: &System<S>) {
         let (x, _) = system.space.grid().abscissae();
         let Self { columns, lines, gradient } = self;
@@ -86,7 +89,7 @@ impl Coupled {
                 let node = column * ny + j;
                 let mut slopes = gradient.at(pressure, column, j);
                 if i == 0 {
-                    // At the inlet the node outside knows nothing of the pressure.
+                    // The node outside the inlet carries no information on the pressure.
                     slopes[0] = one_sided(&x[column..], [0, 1, 2].map(|k| pressure[node + k * ny]));
                 }
                 *state = NodeState { pressure: pressure[node], gradient: slopes, film: system.film[node] };
@@ -94,7 +97,7 @@ impl Coupled {
         }
     }
 
-    /// The temperatures of a state.
+    /// Returns the temperatures of a state.
     pub fn temperatures<S: NewtonSpace>(
         &self,
         system: &System<S>,
@@ -115,7 +118,7 @@ impl Coupled {
         Temperatures::marched(lines, &theta, &fields, (problem, heat))
     }
 
-    /// Takes turns until they change nothing any more.
+    /// Alternates until neither pressure, film thickness nor temperatures change.
     pub fn turn<S: NewtonSpace>(
         &mut self,
         system: &mut System<S>,
@@ -128,7 +131,7 @@ impl Coupled {
             largest_step: LARGEST_STEP,
             film_loss: FILM_LOSS,
             shortest_step: pace.shortest_step,
-            // The temperatures move on before the next step in any case.
+            // Without backtracking the residual is not needed, because the temperatures change before the next step.
             looks_back: pace.shortest_step < 1.0 || problem.lubricant.cavitation != Cavitation::Penalty,
             last: false,
         };
@@ -159,7 +162,7 @@ impl Coupled {
             report.termination = Termination::IterationLimit;
             let patience = if number > LATE { 10.0 } else { 1.0 };
             if size < patience * LAST.0 && changed < patience * LAST.1 {
-                // One more step.
+                // One final step.
                 let control = S::beside_heat(control, Turn { looks_back: true, last: true, ..turn });
                 let options = SolveOptions { control, ..options };
                 system.go_on(problem, &options, &mut memory, observer, report);
@@ -175,7 +178,7 @@ impl Coupled {
                 mixing.improve(&from, &mut image);
                 self.put(system, problem, &mut image);
             } else {
-                // Temperatures that swing with the pressure come to rest when they follow it by halves.
+                // Temperatures that oscillate with the pressure converge if only a part of their change is applied.
                 share = if now > 0.8 * before { (0.75 * share).max(pace.least_share) } else { (1.1 * share).min(1.0) };
                 mixing.forget();
             }
@@ -183,7 +186,7 @@ impl Coupled {
         }
     }
 
-    /// P, H₀ and θ in one.
+    /// Writes P, H₀ and θ to one array.
     fn state<S: NewtonSpace>(&self, system: &System<S>, out: &mut Vec<f64>) {
         out.clear();
         out.extend_from_slice(&system.pressure);
@@ -191,7 +194,7 @@ impl Coupled {
         out.extend(self.lines.stations().flat_map(|station| station.theta));
     }
 
-    /// Takes over such a state; where the film is ruptured no pressure is.
+    /// Sets such a state. The pressure is zero in the cavitated region.
     fn put<S: NewtonSpace>(&mut self, system: &mut System<S>, problem: &Problem, state: &mut [f64]) {
         let (pressure, rest) = state.split_at_mut(system.pressure.len());
         system.keep_ruptured(pressure);
@@ -201,8 +204,8 @@ impl Coupled {
     }
 }
 
-/// The columns of nodes that are stations: in front of X = ½, where nodes crowd because the viscosity rises steeply, and
-/// where no spike of pressure heats the film, those that are some distance apart.
+/// Returns the columns of nodes that are stations. From X = ½ on every column is one. In front of it, stations have a
+/// minimum distance: the nodes are dense because the viscosity rises steeply, and no pressure spike heats the film.
 fn station_columns(x: &[f64], first: usize) -> Vec<usize> {
     let mut out = vec![first];
     let mut last = x[first];
@@ -216,7 +219,7 @@ fn station_columns(x: &[f64], first: usize) -> Vec<usize> {
     out
 }
 
-/// The slope at the first of three nodes, of second order.
+/// Returns the second-order slope at the first of three nodes.
 pub(in crate::solver) fn one_sided(x: &[f64], values: [f64; 3]) -> f64 {
     let (near, far) = (x[1] - x[0], x[2] - x[0]);
     let [to_near, to_far] = [(values[1] - values[0]) / near, (values[2] - values[0]) / far];

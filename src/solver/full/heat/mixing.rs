@@ -1,49 +1,49 @@
-//! Anderson's mixing of the states that turns go through (1965; Walker & Ni 2011): the next state is the combination of
-//! the last ones whose changes are seen to cancel best.
+//! Anderson mixing of the states of a fixed-point iteration (1965; Walker & Ni 2011). The next state is the
+//! combination of the last ones whose changes cancel best.
 
 use crate::solver::discrete::grid::dot;
 
-/// Former changes that are looked at.
+/// Number of previous changes in use.
 const DEPTH: usize = 8;
 
-/// How much larger a change may become before the history is forgotten, and turns that are left alone then: a front
-/// that walks is no direction to go on in.
+/// Growth of a change beyond which the history is discarded, and the number of turns without mixing that follow. A
+/// moving cavitation boundary gives no useful direction.
 const WORSE: f64 = 1.5;
 const REST: usize = 6;
 
-/// States and their changes. Its storage grows to what it needs and is used again.
+/// States and their changes. The storage grows as needed and is reused.
 #[derive(Default)]
 pub(in crate::solver) struct Mixing {
-    /// What the last turn led to, and how far that is from where it began.
+    /// Result of the last turn, and its difference from the turn's initial state.
     image: Vec<f64>,
     change: Vec<f64>,
-    /// Differences of successive images and of their changes, the first `known` of each ring in force.
+    /// Differences of successive results and of successive changes. The first `known` of each ring are valid.
     moved: Vec<Vec<f64>>,
     turned: Vec<Vec<f64>>,
-    /// Inner products of the latter.
+    /// Inner products of the differences of changes.
     products: [[f64; DEPTH]; DEPTH],
-    /// Differences in force, and the place of the next one in the ring.
+    /// Number of valid differences, and position of the next one in the ring.
     known: usize,
     next: usize,
-    /// Whether there was a turn before.
+    /// True after the first turn.
     begun: bool,
-    /// Turns that are still left alone.
+    /// Remaining turns without mixing.
     rest: usize,
 }
 
 impl Mixing {
-    /// Forgets all states.
+    /// Discards all states.
     pub fn forget(&mut self) {
         (self.known, self.next, self.begun) = (0, 0, false);
     }
 
-    /// Forgets all states and what was seen of them, as before another contact.
+    /// Discards all states and ends the turns without mixing, as before another contact.
     pub fn begin(&mut self) {
         self.forget();
         self.rest = 0;
     }
 
-    /// Replaces the image of a turn that began at `from` by a better state, where the former ones know one.
+    /// Replaces the result `image` of a turn that began at `from` by an improved state, if the history provides one.
     pub fn improve(&mut self, from: &[f64], image: &mut [f64]) {
         let size: f64 = image.iter().zip(from).map(|(to, from)| (to - from) * (to - from)).sum();
         let worse = self.begun && size > WORSE * WORSE * dot(&self.change, &self.change);
@@ -74,7 +74,7 @@ impl Mixing {
         }
     }
 
-    /// Remembers a turn.
+    /// Adds a turn to the history.
     fn take_in(&mut self, from: &[f64], image: &[f64]) {
         if self.begun {
             let place = self.next;
@@ -103,7 +103,8 @@ impl Mixing {
     }
 }
 
-/// Solves m equations with a positive definite matrix, the right-hand side in the last column.
+/// Solves m equations with a positive definite matrix; the right-hand side is the last column. `None` if the matrix
+/// is singular.
 fn solve(mut rows: [[f64; DEPTH + 1]; DEPTH], m: usize) -> Option<[f64; DEPTH]> {
     for k in 0..m {
         let head = rows[k];

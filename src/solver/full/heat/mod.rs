@@ -1,5 +1,5 @@
-//! Contacts with heat: Newton steps for pressure and film with the temperatures held, and marches of the temperatures
-//! along the lines of the grid with pressure and film held, in turns.
+//! Thermal contacts. Newton steps for pressure and film thickness at fixed temperatures alternate with marches of the
+//! temperatures along the lines of the grid at fixed pressure and film thickness.
 
 mod coupled;
 mod mixing;

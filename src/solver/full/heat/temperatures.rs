@@ -1,4 +1,4 @@
-//! The temperatures of a solved contact.
+//! Temperatures of a solved thermal contact.
 
 use crate::solver::discrete::heat::{HeatBalance, Lines, MovingSource, POINTS, Profile, Spread, WarmFilm};
 use crate::solver::full::problem::Problem;
@@ -7,51 +7,54 @@ use crate::solver::warning::{ENDURED_K, Warning};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Rises above the inlet's temperature at one place, or the largest of a film.
+/// Temperature rises above the inlet temperature at one position, or the maxima over a film.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rises {
-    /// At mid-film \[K\].
+    /// Rise at mid-film \[K\].
     pub mid_film_k: f64,
-    /// Of the surfaces of both bodies \[K\].
+    /// Rises of the surfaces of both bodies \[K\].
     pub surfaces_k: [f64; 2],
 }
 
-/// Heat that is lost without a word, relative: on a line, and in a plane, whose cells are larger.
+/// Relative heat loss above which a warning is given: in a line contact, and in a point contact, whose cells are
+/// larger.
 const LARGEST_RESIDUAL: [f64; 2] = [3e-3, 1e-2];
 
-/// The temperatures of a contact with heat. Arrays run as those of the solution, over X and, fastest, over Y.
+/// Temperatures of a thermal contact. Arrays are ordered like those of the solution: over X and, fastest, over Y.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Temperatures {
     /// Abscissae X, those of the nodes of the solution.
     pub x: Vec<f64>,
-    /// Ordinates in units of a, the last of them on the axis; only 0 on a line.
+    /// Ordinates in units of a, the last of them on the axis; only 0 in a line contact.
     pub y: Vec<f64>,
-    /// T − T₀ there \[K\], from body 1 to body 2 at [Lobatto's points](crate::solver::discrete::heat::ACROSS).
+    /// Rises T − T₀ at these nodes \[K\], from body 1 to body 2 at [Lobatto's
+    /// points](crate::solver::discrete::heat::ACROSS).
     pub rise_k: Vec<Profile>,
-    /// H there.
+    /// Film thickness H at these nodes.
     pub thickness: Vec<f64>,
-    /// τ̄_m, the stress at mid-film over η₀u_mR/a², at the nodes of the solution, without a limit; positive where body 2
-    /// is the faster one.
+    /// τ̄_m, mid-film shear stress divided by η₀u_mR/a², at the nodes of the solution, without a limit. Positive if
+    /// body 2 is faster.
     pub shear_stress: Vec<f64>,
-    /// The same in Pa, cut where the lubricant has a limit; zero where no pressure is.
+    /// Mid-film shear stress \[Pa\], limited by the limiting stress if there is one; zero without pressure.
     pub mid_stress_pa: Vec<f64>,
-    /// At X = 0.
+    /// Rises at X = 0.
     pub central: Rises,
-    /// The largest under pressure.
+    /// Maximum rises in the pressurised film.
     pub largest: Rises,
-    /// Where heat comes from and goes to.
+    /// Heat sources and sinks.
     pub balance: HeatBalance,
     /// Temperature at the inlet \[K\].
     pub inlet_k: f64,
-    /// Abscissae of the stations of the march, and how surfaces warm there, for whoever goes on from here.
+    /// Abscissae of the stations of the march, and the surface-heating operator there, for a solve that starts from
+    /// here.
     #[serde(skip)]
     pub(super) stations: Vec<f64>,
     #[serde(skip)]
     pub(super) source: Arc<MovingSource>,
 }
 
-/// Shear stress at mid-film \[Pa\] of a film whose τ̄_m is given, cut where the lubricant has a limit; zero where no
-/// pressure is.
+/// Returns the mid-film shear stress \[Pa\] for a given τ̄_m, limited by the limiting stress if there is one; zero
+/// without pressure.
 pub(in crate::solver) fn mid_stress_pa(problem: &Problem, heat: &ScaledHeat, stress: f64, pressure: f64) -> f64 {
     if pressure <= 0.0 {
         return 0.0;
@@ -62,11 +65,11 @@ pub(in crate::solver) fn mid_stress_pa(problem: &Problem, heat: &ScaledHeat, str
     carried.min(felt.abs()).copysign(felt)
 }
 
-/// Node arrays of a contact with heat: X, Y in units of a, P, H and τ̄_m.
+/// Node arrays of a thermal contact: X, Y in units of a, P, H and τ̄_m.
 pub(in crate::solver) struct NodeArrays<'a> {
     pub x: &'a [f64],
     pub y: &'a [f64],
-    /// The first column of nodes that has a film.
+    /// First column of nodes with a film.
     pub first: usize,
     pub pressure: &'a [f64],
     pub film: &'a [f64],
@@ -74,19 +77,19 @@ pub(in crate::solver) struct NodeArrays<'a> {
 }
 
 impl Rises {
-    /// Those of a profile.
+    /// Returns the rises of a profile.
     pub fn of(rise_k: &Profile) -> Self {
         Self { mid_film_k: rise_k[POINTS / 2], surfaces_k: [rise_k[0], rise_k[POINTS - 1]] }
     }
 
-    /// Those at X = 0 (and Y = 0) of lines that were marched.
+    /// Returns the rises at X = 0 (and Y = 0) of marched lines.
     pub(in crate::solver) fn central(lines: &Lines, inlet_k: f64) -> Self {
         let centre = Spread::new(lines.x(), &lines.y, std::iter::once((0.0, 0.0)));
         let rise_k = centre.profiles(lines).next().map(|theta| theta.map(|theta| inlet_k * theta));
         rise_k.as_ref().map(Self::of).unwrap_or_default()
     }
 
-    /// How far another rise at mid-film is from this one, relative to that; to a kelvin where that is less.
+    /// Returns the difference of the mid-film rises, relative to the other one, or to 1 K if that is smaller.
     pub fn difference(&self, other: &Self) -> f64 {
         (self.mid_film_k - other.mid_film_k).abs() / other.mid_film_k.abs().max(1.0)
     }
@@ -100,7 +103,7 @@ impl Rises {
 }
 
 impl Temperatures {
-    /// The film that has them at given nodes.
+    /// Returns the thermal film with these temperatures at given nodes.
     pub(in crate::solver::full) fn film(&self, nodes: &[f64]) -> WarmFilm {
         let mut film = WarmFilm::default();
         let lines = self.y.len();
@@ -109,7 +112,7 @@ impl Temperatures {
         film
     }
 
-    /// T − T₀ along the line nearest to an ordinate in units of a.
+    /// Returns T − T₀ along the line nearest to an ordinate in units of a.
     pub(super) fn line_at(&self, y: f64) -> impl Iterator<Item = Profile> + '_ {
         let lines = self.y.len();
         let apart = |line: &usize| (self.y[*line] - y).abs();
@@ -117,38 +120,38 @@ impl Temperatures {
         self.rise_k.iter().skip(nearest).step_by(lines).copied()
     }
 
-    /// The rises along the axis Y = 0, in the order of `x`.
+    /// Returns the rises along the axis Y = 0, in the order of `x`.
     pub fn along_axis(&self) -> impl Iterator<Item = &Profile> {
         let lines = self.y.len();
         self.rise_k.iter().skip(lines - 1).step_by(lines)
     }
 
-    /// H along the axis Y = 0, in the order of `x`.
+    /// Returns H along the axis Y = 0, in the order of `x`.
     pub fn film_along_axis(&self) -> impl Iterator<Item = f64> + '_ {
         let lines = self.y.len();
         self.thickness.iter().skip(lines - 1).step_by(lines).copied()
     }
 
-    /// The rises at the nodes, in their order.
+    /// Returns the rises at the nodes, in their order.
     pub fn rises(&self) -> impl Iterator<Item = Rises> + '_ {
         self.rise_k.iter().map(Rises::of)
     }
 
-    /// A warning if the film is hotter than oils endure.
+    /// Returns a warning if the film is hotter than lubricants endure.
     pub fn too_hot(&self) -> Option<Warning> {
         let hottest = self.inlet_k + self.rise_k.iter().flatten().fold(0.0f64, |hottest, rise| hottest.max(*rise));
         (hottest > ENDURED_K).then_some(Warning::TooHot { temperature_k: hottest })
     }
 
-    /// A warning if heat is lost between the stations.
+    /// Returns a warning if too much heat is lost between the stations.
     pub fn heat_lost(&self) -> Option<Warning> {
         let share = self.balance.residual().abs();
         let most = LARGEST_RESIDUAL[usize::from(self.y.len() > 1)];
         (share > most).then_some(Warning::HeatLost { share })
     }
 
-    /// Those of lines that were marched through given states at their stations, and of the nodes of a contact between
-    /// them, θ of which is given.
+    /// Creates the temperatures from lines marched through given states at their stations. `theta` holds the
+    /// dimensionless rises θ at the nodes of the contact.
     pub(in crate::solver) fn marched(
         lines: &Lines,
         theta: &[Profile],

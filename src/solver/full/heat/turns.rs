@@ -1,4 +1,4 @@
-//! The way of a solve with heat: from the contact without it, or from a former one with heat.
+//! Stages of a thermal solve: from a previous thermal solution if there is one, then from the isothermal solution.
 
 use super::coupled::{Coupled, Pace};
 use crate::solver::full::newton_space::NewtonSpace;
@@ -10,10 +10,11 @@ use crate::solver::observer::Observer;
 use crate::solver::physics::lubricant::{Cavitation, ScaledHeat};
 use std::sync::Arc;
 
-/// Accuracy of the isothermal solution that everything begins with.
+/// Accuracy of the initial isothermal solution.
 const ISOTHERMAL: f64 = 1e-3;
 
-/// Solves a contact with heat: from a former solution with heat, if that leads to none from the contact without heat.
+/// Solves a thermal contact, first from a previous thermal solution. If that does not converge, from the isothermal
+/// solution.
 pub(in crate::solver::full) fn solve<S: NewtonSpace>(
     solver: &mut Solver<S>,
     problem: Problem,
@@ -29,8 +30,8 @@ pub(in crate::solver::full) fn solve<S: NewtonSpace>(
         }
         spent = solution.report;
     }
-    // The front of rupture comes to its place much faster by complementarity, whose pressures those of a penalty are
-    // told by.
+    // The cavitation boundary converges much faster by complementarity. The pressures of the penalty follow from its
+    // multipliers.
     let fast = by_complementarity(&problem);
     let options = solver.options;
     solver.options.tolerance = ISOTHERMAL;
@@ -48,7 +49,7 @@ pub(in crate::solver::full) fn solve<S: NewtonSpace>(
     from(solver, problem, &heat, (&cold, Pace::SLOW), solution.report, observer)
 }
 
-/// The same problem with a film that ruptures by complementarity, where a penalty would.
+/// Returns the same problem with complementarity instead of the penalty.
 fn by_complementarity(problem: &Problem) -> Problem {
     let mut fast = *problem;
     if fast.lubricant.cavitation == Cavitation::Penalty {
@@ -57,7 +58,7 @@ fn by_complementarity(problem: &Problem) -> Problem {
     fast
 }
 
-/// Solves a contact from a solution with heat or without; `report` goes on.
+/// Solves a contact from a thermal or isothermal solution. Adds the effort to `report`.
 fn from<S: NewtonSpace>(
     solver: &mut Solver<S>,
     problem: Problem,
@@ -69,7 +70,7 @@ fn from<S: NewtonSpace>(
     let mut system = solver.system_for(&problem)?;
     warm_state(&mut system, &problem, former, None);
     if problem.lubricant.cavitation == Cavitation::Penalty && former.multiplier.len() == system.pressure.len() {
-        // The pressure at which a penalty is the multiplier.
+        // Pressure at which the penalty equals the multiplier.
         for (p, multiplier) in system.pressure.iter_mut().zip(&former.multiplier) {
             *p -= multiplier / solver.options.penalty;
         }

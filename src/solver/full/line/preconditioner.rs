@@ -1,4 +1,4 @@
-//! The matrix near the Jacobian of line contacts: the rows' own derivatives and a band of the elastic kernel.
+//! Approximation of the Jacobian of line contacts: the derivatives of the equations and a band of the elastic kernel.
 
 use super::Backtracking;
 use crate::solver::discrete::grid::LineGrid;
@@ -8,12 +8,12 @@ use crate::solver::full::band::BandLu;
 use crate::solver::full::newton_space::{Factors, ScaledRows};
 use crate::solver::full::thinning::Thinning;
 
-/// A band matrix, factorised, and the kernel it is made with.
+/// Factorised band matrix and the kernel from which it is made.
 #[derive(Default)]
 pub struct BandMatrix {
     band: BandLu,
     kernel: Vec<f64>,
-    /// Its half-bandwidth, and whether it is levelled.
+    /// Half-bandwidth of the kernel, and whether it is shifted to end at zero.
     kernel_form: (usize, bool),
 }
 
@@ -24,8 +24,9 @@ impl Factors for BandMatrix {
 }
 
 impl BandMatrix {
-    /// Assembles and factorises A + C G + trunc(B K), rows scaled; C G is what shear-thinning adds. Where the unknowns
-    /// are `fractions`, K has no columns.
+    /// Assembles and factorises A + C G + trunc(B K) with scaled equations. A and B are the derivatives by pressure
+    /// and film thickness, K is the elastic kernel, and C G the contribution of shear thinning. K has no columns for
+    /// unknowns that are `fractions`.
     pub fn build(
         &mut self,
         space: &LineSpace,
@@ -44,7 +45,8 @@ impl BandMatrix {
             let (stencil, _) = space.row(k);
             let row = self.band.row_mut(k);
             for (e, &node) in stencil[..LineSpace::NODES].iter().enumerate() {
-                // Node k + m against column node k + 2 + d, d = −band…band: offset 2 − m + d from its own diagonal.
+                // Node k + m against column node k + 2 + d, d = −band…band: offset 2 − m + d from the kernel's
+                // diagonal.
                 let m = node - k;
                 let from = node * stored + (4 - m);
                 let kernel = &self.kernel[from..from + width];
@@ -84,16 +86,16 @@ impl BandMatrix {
         self.band.factorise();
     }
 
-    /// Stores the kernel's entries near the diagonal, node i against nodes i − band − 2 … i + band + 2, for all Newton
-    /// steps.
+    /// Stores the kernel entries near the diagonal for all Newton steps: node i against nodes i − band − 2 … i + band
+    /// + 2.
     fn store_kernel(&mut self, grid: &LineGrid, (band, levelled): (usize, bool)) {
         let (n, stored, reach) = (grid.len(), 2 * band + 5, band + 2);
         self.kernel.clear();
         self.kernel.resize(n * stored, 0.0);
         self.kernel_form = (band, levelled);
         for i in 0..n {
-            // The load of a step is zero, so a constant added to the kernel changes nothing but its truncation: it ends
-            // at zero.
+            // The load of a step is zero, so adding a constant to the kernel changes only its truncation. The kernel
+            // is shifted so that it ends at zero.
             let edge = if i + reach + 1 < n { i + reach } else { i - reach };
             let level = if levelled { grid.kernel_entry(i, edge) / grid.weights[edge] } else { 0.0 };
             for c in 0..stored {

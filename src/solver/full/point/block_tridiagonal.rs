@@ -1,6 +1,6 @@
-//! LU factorisation of a block-tridiagonal matrix in single precision, from both ends towards the middle: two threads
-//! share it, and no arithmetic is added. Inside the blocks rows are pivoted. It serves as a preconditioner, so single
-//! precision loses nothing.
+//! LU factorisation of a block-tridiagonal matrix in single precision. It runs from both ends towards the middle on
+//! two threads, without additional arithmetic. Rows are pivoted inside the blocks. The factors serve as a
+//! preconditioner, for which single precision is sufficient.
 
 use crate::host::pool::{both, on_all_cores};
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -11,18 +11,17 @@ use faer::{Accum, MatMut, MatRef, Par};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Products of entries on one side between two questions whether to go on: some ten milliseconds, and all of a 301×41
-/// grid.
+/// Multiplications per side between two calls of `go_on`: about ten milliseconds, and all of a 301×41 grid.
 const PRODUCTS_BETWEEN_QUESTIONS: usize = 80_000_000;
 
-/// A square matrix of blocks on three diagonals; after [`BlockTridiagonal::factorise`] its factors.
+/// Square matrix of blocks on three diagonals; after [`BlockTridiagonal::factorise`] its factors.
 #[derive(Clone, Debug, Default)]
 pub struct BlockTridiagonal {
     size: usize,
     blocks: usize,
-    /// Blocks on the diagonal, each column after column; later their LU factors.
+    /// Diagonal blocks, stored column by column; later their LU factors.
     diagonal: Vec<f32>,
-    /// Couplings of each block row to the former block.
+    /// Couplings of each block row to the previous block.
     lower: Vec<f32>,
     /// Couplings of each block row to the next block.
     upper: Vec<f32>,
@@ -32,21 +31,21 @@ pub struct BlockTridiagonal {
     permuted: Vec<f32>,
 }
 
-/// The three blocks of one block row, each stored column after column.
+/// Three blocks of one block row, each stored column by column.
 pub struct BlockRow<'a> {
     /// Index of the block row.
     pub index: usize,
-    /// Block on the diagonal.
+    /// Diagonal block.
     pub diagonal: &'a mut [f32],
-    /// Coupling to the former block.
+    /// Coupling to the previous block.
     pub lower: &'a mut [f32],
     /// Coupling to the next block.
     pub upper: &'a mut [f32],
 }
 
 impl BlockTridiagonal {
-    /// Resizes to `blocks` × `blocks` blocks of `size` × `size` entries; [`Self::fill`] clears them. New ones are of
-    /// memory that the system clears when it is first touched, so that this takes no time that nobody can stop.
+    /// Resizes to `blocks` × `blocks` blocks of `size` × `size` entries; [`Self::fill`] clears them. New memory is
+    /// cleared by the system at its first use, so this call takes no time that could not be interrupted.
     pub fn reset(&mut self, size: usize, blocks: usize) {
         (self.size, self.blocks) = (size, blocks);
         for entries in [&mut self.diagonal, &mut self.lower, &mut self.upper] {
@@ -62,7 +61,8 @@ impl BlockTridiagonal {
         self.permuted.resize(2 * size, 0.0);
     }
 
-    /// Clears all block rows and lets `row` fill them in, on all cores. Returns `None` if `row` did so for one of them.
+    /// Clears all block rows and calls `row` to fill each of them, on all cores. Returns `None` if `row` did so for
+    /// one of them.
     pub fn fill(&mut self, row: impl Fn(BlockRow<'_>) -> Option<()> + Sync + Send) -> Option<()> {
         let square = (self.size * self.size).max(1);
         on_all_cores(|| {
@@ -75,8 +75,8 @@ impl BlockTridiagonal {
         })
     }
 
-    /// Factorises in place. Every few milliseconds `go_on` is asked; `false` when it said no: then these are no
-    /// factors.
+    /// Factorises in place. Calls `go_on` every few milliseconds. Returns `false` if `go_on` did; then the factors
+    /// are incomplete.
     pub fn factorise(&mut self, go_on: impl Fn() -> bool) -> bool {
         let (size, square) = (self.size, self.size * self.size);
         let middle = self.blocks / 2;
@@ -146,15 +146,15 @@ impl BlockTridiagonal {
     }
 }
 
-/// What lies before, at and behind the block `middle`.
+/// Splits an array into the parts before, at and behind the block `middle`.
 fn parts<T>(all: &mut [T], middle: usize, stride: usize) -> [&mut [T]; 3] {
     let (left, rest) = all.split_at_mut(middle * stride);
     let (center, right) = rest.split_at_mut(stride.min(rest.len()));
     [left, center, right]
 }
 
-/// Factorises some of the blocks of one side, counted from its outer end inwards; `inward` become D⁻¹ times the
-/// couplings towards the middle.
+/// Factorises some of the blocks of one side, counted from its outer end inwards. `inward` becomes D⁻¹ times the
+/// couplings towards the middle, where D is the diagonal block.
 fn eliminate(
     steps: Range<usize>,
     size: usize,
@@ -194,14 +194,14 @@ fn lu(size: usize, block: &mut [f32], order: &mut [usize], inverse: &mut [usize]
     let _ = factor::lu_in_place(block, order, inverse, Par::Seq, stack, Default::default());
 }
 
-/// block −= a b.
+/// Computes block −= a b.
 fn subtract_product(size: usize, block: &mut [f32], a: &[f32], b: &[f32]) {
     let view = |entries| MatRef::from_column_major_slice(entries, size, size);
     let block = MatMut::from_column_major_slice_mut(block, size, size);
     matmul(block, Accum::Add, view(a), view(&b[..size * size]), -1.0, Par::Seq);
 }
 
-/// Substitution from the outer end of one side inwards.
+/// Substitutes from the outer end of one side inwards.
 fn forward(
     size: usize,
     diagonal: &[f32],
@@ -229,7 +229,7 @@ fn forward(
     }
 }
 
-/// Substitution from the middle outwards.
+/// Substitutes from the middle outwards.
 fn backward(size: usize, inward: &[f32], values: &mut [f32], center: &[f32], reversed: bool) {
     let square = size * size;
     let count = values.len() / size.max(1);
@@ -248,7 +248,7 @@ fn backward(size: usize, inward: &[f32], values: &mut [f32], center: &[f32], rev
     }
 }
 
-/// y −= A x for a block stored column after column, four columns at a time.
+/// Computes y −= A x for a block stored column by column, four columns at a time.
 fn subtract_from(y: &mut [f32], block: &[f32], x: &[f32]) {
     let size = y.len();
     let mut columns = block.chunks_exact(4 * size);
@@ -280,7 +280,7 @@ fn lu_solve(size: usize, factors: &[f32], order: &[usize], values: &mut [f32], w
     }
     for (j, column) in factors.chunks_exact(size).enumerate().rev() {
         let (head, tail) = work.split_at_mut(j);
-        // A vanishing pivot would poison everything; a preconditioner need not be exact.
+        // A zero pivot would produce non-finite values. A preconditioner need not be exact.
         tail[0] = if column[j] == 0.0 { 0.0 } else { tail[0] / column[j] };
         for (w, u) in head.iter_mut().zip(column) {
             *w -= tail[0] * u;
@@ -299,12 +299,12 @@ mod tests {
         for blocks in [1, 2, 3, 10, 11] {
             let entry = |i: usize, j: usize| {
                 let value = ((i * 31 + j * 17) as f64 * 1.37).sin();
-                // Large entries beside the diagonal, so that rows must be pivoted.
+                // Large entries next to the diagonal, so that rows must be pivoted.
                 let boost = if i / size == j / size && (i + 1) % size == j % size { 6.0 } else { 0.0 };
                 if (i / size).abs_diff(j / size) > 1 { 0.0 } else { value + boost }
             };
             let mut matrix = BlockTridiagonal::default();
-            // The second time in what the first one has left.
+            // The second run reuses the memory of the first one.
             for _ in 0..2 {
                 matrix.reset(size, blocks);
                 let filled = matrix.fill(|row| {

@@ -1,6 +1,6 @@
-//! Newton's method on the half plane of a point contact. There is no line search on the residual: the penalty makes it
-//! jump at the cavitation front, and the steps would collapse. Steps are limited by what pressure and film can bear
-//! instead.
+//! Newton's method on the half plane of a point contact. There is no line search on the residual: the penalty makes
+//! the residual jump at the cavitation boundary, so the steps would become too short. Instead, the changes of
+//! pressure and film thickness limit the steps.
 
 use super::preconditioner::PlaneMatrix;
 use crate::solver::discrete::grid::{GridSpec, PointGrid, PointGridSpec};
@@ -14,12 +14,12 @@ use crate::solver::full::system::{SolveOptions, System};
 use crate::solver::physics::contact::{ContactKind, Ellipse};
 use std::sync::Arc;
 
-/// The step control of point contacts.
+/// Step control of point contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitedSteps {
     /// Largest change of P in one step.
     pub largest_step: f64,
-    /// Largest share of the film that one step may take away.
+    /// Largest relative reduction of the film thickness in one step.
     pub film_loss: f64,
     /// Accuracy of the linear solves, relative to the right-hand side.
     pub forcing: f64,
@@ -38,12 +38,12 @@ impl StepControl for LimitedSteps {
     }
 }
 
-/// Steps smaller than this only move the cavitation front.
+/// Step size below which only the cavitation boundary moves.
 const LATE_STEP: f64 = 1e-2;
-/// Pressures are cut off here after each step: lower ones are no state, only an overshoot of the penalty.
+/// Lower limit of the pressures after each step. Lower pressures are an overshoot of the penalty.
 const LOWEST_PRESSURE: f64 = -1e-4;
 
-/// Sizes of the last two steps, and how often the front was seen to cycle.
+/// Sizes of the last two steps, and number of detected cycles of the cavitation boundary.
 pub struct Cycles {
     recent: [f64; 2],
     count: usize,
@@ -56,11 +56,11 @@ impl Default for Cycles {
 }
 
 impl Cycles {
-    /// The share of a step of this size that is taken. Where the front cycles, nodes that all change sides at once,
-    /// there and back, do so in smaller groups. The golden ratio spreads the shares over 0.035…0.7 and never repeats
-    /// them: a repeating pattern can become part of a cycle.
+    /// Returns the share of a step of this size that is taken. If the boundary cycles, nodes that would all change
+    /// sides at once do so in smaller groups. The golden ratio spreads the shares over 0.035…0.7 and never repeats
+    /// them, because a repeated pattern can become part of a cycle.
     fn share(&mut self, size: f64) -> f64 {
-        // A step as large as the one before the last, late: the front moves to and fro.
+        // A late step as large as the second last one: the boundary cycles.
         let cycles = !(size > LATE_STEP || size < 0.9 * self.recent[0]);
         self.recent = [self.recent[1], size];
         if !cycles {
@@ -126,7 +126,7 @@ impl NewtonSpace for PlaneSpace {
         control.forcing
     }
 
-    /// Takes the step as far as pressure and film can bear it; its size is max|ΔP|.
+    /// Takes the step, limited by the changes of pressure and film thickness. Its size is max|ΔP|.
     fn step(
         system: &mut System<Self>,
         problem: &Problem,

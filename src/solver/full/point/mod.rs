@@ -1,4 +1,4 @@
-//! Point contacts: their step control, their preconditioner, and how accurate their films are.
+//! Point contacts: step control, preconditioner and accuracy of the film thickness.
 
 mod accuracy;
 mod block_tridiagonal;

@@ -1,22 +1,23 @@
-//! The matrix near the Jacobian of point contacts: A + trunc(B K), kept up to a few columns away along X with all
-//! couplings across.
+//! Approximation A + trunc(B K) of the Jacobian of point contacts. A and B are the derivatives by pressure and film
+//! thickness, K is the elastic kernel. The product is kept up to a few columns away along X, with all couplings
+//! across.
 
 use super::block_tridiagonal::BlockTridiagonal;
 use crate::solver::discrete::grid::PointGrid;
 use crate::solver::discrete::reynolds::{CENTER, EAST, NORTH, SOUTH, STENCIL, WEST, WEST2};
 use crate::solver::full::newton_space::{Factors, ScaledRows};
 
-/// Columns of the product B K that are kept on either side: with one, contacts of low load and thick oil fail; three
-/// are no faster.
+/// Number of columns of the product B K kept on either side. With one, contacts of low load and thick film do not
+/// converge; three are not faster.
 const REACH: usize = 2;
 
-/// The factorised matrix and its work space.
+/// Factorised matrix and its work space.
 #[derive(Default)]
 pub struct PlaneMatrix {
-    /// K from cells 0…REACH + 2 columns away, each column of n_y entries followed by a zero.
+    /// K from cells 0…REACH + 2 columns away. Each column has n_y entries followed by a zero.
     kernel: Vec<Vec<f32>>,
     matrix: BlockTridiagonal,
-    /// Scaled derivatives with respect to H, one after the other for each column of unknowns.
+    /// Scaled derivatives with respect to H, one stencil entry after the other for each column of unknowns.
     d_h: Vec<f32>,
 }
 
@@ -27,8 +28,8 @@ impl Factors for PlaneMatrix {
 }
 
 impl PlaneMatrix {
-    /// Assembles and factorises for the given Jacobian rows and their scaling; `false` when `go_on` ended it half way.
-    /// Where the unknowns are `fractions`, K has no columns.
+    /// Assembles and factorises the matrix for the given equations and their scaling. Returns `false` if `go_on`
+    /// stopped it. K has no columns for unknowns that are `fractions`.
     pub fn build(
         &mut self,
         grid: &PointGrid,
@@ -116,8 +117,9 @@ impl PlaneMatrix {
     }
 }
 
-/// One column of B K for all rows of a column of unknowns: six kernel entries each, weighted by the derivatives with
-/// respect to H. The kernels are those from WEST2, WEST, the column itself and EAST; the cell's entries begin at `at`.
+/// Adds up one column of B K for all equations of a column of unknowns: six kernel entries each, weighted by the
+/// derivatives with respect to H. The kernels are those from WEST2, WEST, the column itself and EAST. The cell's
+/// entries begin at `at`.
 #[inline]
 fn combine(entries: &mut [f32], weights: &[f32], [w2, w, own, e]: [&[f32]; 4], at: usize) {
     let m = entries.len();

@@ -3,15 +3,15 @@
 use super::material::{BodyHeat, MATERIALS, Material};
 use serde::{Deserialize, Serialize};
 
-/// The radius of a body across the rolling direction.
+/// Radius of a body across the rolling direction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum Transverse {
-    /// The same as along it: a ball, or a plane.
+    /// Same radius as along the rolling direction: a ball, or a plane.
     #[default]
     AsAlong,
-    /// None: a cylinder.
+    /// No curvature across: a cylinder.
     Plane,
-    /// A radius \[m\], negative for a groove.
+    /// Radius \[m\], negative for a groove.
     Radius(f64),
 }
 
@@ -29,7 +29,7 @@ pub struct Body {
     /// Radius along the rolling direction \[m\], negative for a concave surface; `None` for a plane.
     #[serde(default)]
     pub radius_m: Option<f64>,
-    /// Radius across the rolling direction, which only point contacts have.
+    /// Radius across the rolling direction, used for point contacts only.
     #[serde(default)]
     pub transverse: Transverse,
     /// Speed of its surface \[m/s\].
@@ -40,22 +40,23 @@ pub struct Body {
 }
 
 impl Body {
-    /// The named material with its constants.
+    /// Returns the named material with its constants, or `None`.
     pub fn material(&self) -> Option<Material> {
         MATERIALS.into_iter().find(|material| self.of(*material) == *self)
     }
 
-    /// The same body of another material.
+    /// Returns the same body of another material.
     pub fn of(self, Material { modulus_pa, poisson, heat, .. }: Material) -> Self {
         Self { modulus_pa, poisson, heat, ..self }
     }
 
-    /// The same body with these thermal constants; those of a named material bring its elastic constants.
+    /// Returns the same body with these thermal constants. If they are those of a named material, the elastic
+    /// constants are set as well.
     pub fn conducting(self, heat: BodyHeat) -> Self {
         heat.material().map_or(Self { heat, ..self }, |material| self.of(material))
     }
 
-    /// Radius across the rolling direction \[m\]; `None` for a plane.
+    /// Returns the radius across the rolling direction \[m\]; `None` for a plane.
     pub fn transverse_radius_m(&self) -> Option<f64> {
         match self.transverse {
             Transverse::AsAlong => self.radius_m,
@@ -64,7 +65,7 @@ impl Body {
         }
     }
 
-    /// The same body with a radius across the rolling direction \[m\]; `None` for a plane.
+    /// Returns the same body with a radius across the rolling direction \[m\]; `None` for a plane.
     pub fn with_transverse_radius_m(self, radius_m: Option<f64>) -> Self {
         let transverse = match radius_m {
             radius if radius == self.radius_m => Transverse::AsAlong,

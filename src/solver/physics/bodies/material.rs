@@ -1,4 +1,4 @@
-//! Elastic and thermal constants of materials. Each constant of a named material stands here and nowhere else.
+//! Elastic and thermal constants of materials. This is the only definition of each named material's constants.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,10 +14,10 @@ pub struct BodyHeat {
     pub density: f64,
 }
 
-/// A named material.
+/// Named material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// Name for people.
+    /// Display name.
     pub name: &'static str,
     /// Young's modulus E \[Pa\].
     pub modulus_pa: f64,
@@ -25,7 +25,7 @@ pub struct Material {
     pub poisson: f64,
     /// Thermal constants.
     pub heat: BodyHeat,
-    /// What it stands for and where its constants come from.
+    /// Typical use and source of the constants.
     pub source: &'static str,
 }
 
@@ -39,7 +39,7 @@ pub const MATERIALS: [Material; 6] = [
     material("Tungsten carbide", (630e9, 0.22), (85.0, 210.0, 14900.0), "With 6 % cobalt; data sheets of makers"),
 ];
 
-/// A material by E \[Pa\] and ν, and by k \[W/(m K)\], c \[J/(kg K)\] and ρ \[kg/m³\].
+/// Creates a material from E \[Pa\] and ν, and from k \[W/(m K)\], c \[J/(kg K)\] and ρ \[kg/m³\].
 const fn material(
     name: &'static str,
     (modulus_pa, poisson): (f64, f64),
@@ -57,21 +57,21 @@ impl Material {
         (47.0, 460.0, 7850.0),
         "Bearing steel; usual values of handbooks. Through-hardened it conducts 21 W/(m K) (Reddyhoff and others 2019)",
     );
-    /// Crown glass, as discs of optical rigs are made of.
+    /// Crown glass, the usual material of discs in optical rigs.
     pub const GLASS: Self =
         material("Glass", (81e9, 0.21), (1.1, 840.0, 2500.0), "Crown glass, near N-BK7 of SCHOTT’s data sheet");
 
-    /// Its name as one word, as options spell it.
+    /// Returns its name as one word, as used in options.
     pub fn word(&self) -> String {
         self.name.to_lowercase().replace(' ', "-")
     }
 
-    /// The material of a word.
+    /// Returns the material with that word, or `None`.
     pub fn named(word: &str) -> Option<Self> {
         MATERIALS.into_iter().find(|material| material.word() == word.to_lowercase().replace(' ', "-"))
     }
 
-    /// Its constants and where they come from.
+    /// Returns its constants and their source as text.
     pub fn describe(&self) -> String {
         let Self { modulus_pa, poisson, heat: BodyHeat { conductivity, heat_capacity, density }, source, .. } = self;
         format!(
@@ -82,12 +82,13 @@ impl Material {
 }
 
 impl BodyHeat {
-    /// √(kρc) \[J/(m² K √s)\]: how far a surface warms under a moving source depends on that alone.
+    /// Returns the effusivity √(kρc) \[J/(m² K √s)\]. The temperature rise of a surface under a moving source depends
+    /// on it only.
     pub fn effusivity(&self) -> f64 {
         (self.conductivity * self.density * self.heat_capacity).sqrt()
     }
 
-    /// The named material with these constants.
+    /// Returns the named material with these constants, or `None`.
     pub fn material(&self) -> Option<Material> {
         MATERIALS.into_iter().find(|material| material.heat == *self)
     }

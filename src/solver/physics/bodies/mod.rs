@@ -1,4 +1,4 @@
-//! The two bodies of a contact: material, radii, surface speeds and roughness of each, and what they amount to together.
+//! The two bodies of a contact: material, radii, surface speeds and roughness of each, and their combined properties.
 
 mod body;
 mod material;

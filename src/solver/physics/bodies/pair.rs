@@ -8,35 +8,35 @@ use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint,
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Why two bodies make no contact.
+/// Reason why two bodies do not form a contact.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BodyError {
-    /// A radius is zero or no number.
+    /// A radius is zero or not a number.
     #[error("a radius is {0} m; it must be a finite number other than 0, negative for a concave surface")]
     Radius(f64),
-    /// The surfaces do not touch in one spot.
+    /// The surfaces do not touch in one point or line.
     #[error(
         "these radii touch in no one spot: a concave surface must be flatter than the convex one in it, and two planes are none"
     )]
     Conforming,
-    /// The surfaces do not part across the rolling direction, where they have these radii \[m\], infinite for a plane.
+    /// The surfaces do not separate across the rolling direction. Contains their radii \[m\], infinite for a plane.
     #[error(
         "across the rolling direction the radii of {} and {} leave no positive sum of curvatures: {}",
         Across(*.0), Across(*.1), accepted_across(*.0, *.1)
     )]
     ConformingAcross(f64, f64),
-    /// Elastic constants that no solid has.
+    /// Elastic constants outside the accepted range.
     #[error(transparent)]
     Material(#[from] ContactError),
-    /// Neither surface carries oil into the contact.
+    /// Neither surface carries lubricant into the contact.
     #[error("surface speeds of {0} m/s and {1} m/s carry no oil into the contact: their mean must be above zero")]
     Entrainment(f64, f64),
-    /// A roughness below zero, or both zero.
+    /// A roughness is negative, or both are zero.
     #[error("a roughness of {0} m and {1} m gives no film ratio: both must be at least 0 and one above")]
     Roughness(f64, f64),
 }
 
-/// A radius across the rolling direction in a sentence.
+/// Radius across the rolling direction as part of a message.
 struct Across(f64);
 
 impl fmt::Display for Across {
@@ -45,7 +45,7 @@ impl fmt::Display for Across {
     }
 }
 
-/// What would part two surfaces that do not.
+/// Returns the accepted radii for two surfaces that do not separate across the rolling direction.
 fn accepted_across(first: f64, second: f64) -> String {
     let convex = first.max(second);
     if convex.is_finite() && convex > 0.0 {
@@ -60,7 +60,7 @@ fn accepted_across(first: f64, second: f64) -> String {
 #[serde(transparent)]
 pub struct Bodies(pub [Body; 2]);
 
-/// Sum of the curvatures of two surfaces by their radii \[m\] \[1/m\].
+/// Returns the sum of curvatures \[1/m\] of two surfaces with the given radii \[m\].
 fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
     let curvature = |radius: f64| {
         if radius.is_finite() && radius != 0.0 { Ok(1.0 / radius) } else { Err(BodyError::Radius(radius)) }
@@ -70,8 +70,8 @@ fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
 }
 
 impl Bodies {
-    /// Two bodies of steel that amount to a contact: a roller or ball on a plane with the given reduced radius
-    /// \[m\], mean speed \[m/s\] and slide-to-roll ratio, both as smooth as good bearings.
+    /// Returns two steel bodies that form a contact: a roller or ball on a plane with the given reduced radius \[m\],
+    /// mean speed \[m/s\] and slide-to-roll ratio. Both are as smooth as good bearings.
     pub fn on_plane(radius_m: f64, mean_m_per_s: f64, slide_to_roll: f64) -> Self {
         let [first, second] = surface_speeds(mean_m_per_s, slide_to_roll);
         let Material { modulus_pa, poisson, heat, .. } = Material::STEEL;
@@ -88,19 +88,19 @@ impl Bodies {
         Self([body(Some(radius_m), first), body(None, second)])
     }
 
-    /// Reduced radius R along the rolling direction \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
+    /// Returns the reduced radius R along the rolling direction \[m\], 1/R = 1/R₁ + 1/R₂ (2.3).
     ///
     /// # Errors
-    /// A radius of zero, or a concave surface that is not flatter than the convex one in it.
+    /// If a radius is zero, or a concave surface is not flatter than the convex one.
     pub fn reduced_radius_m(&self) -> Result<f64, BodyError> {
         let radius = 1.0 / curvatures(self.0.map(|body| body.radius_m))?;
         if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
     }
 
-    /// Reduced radius R_y across the rolling direction \[m\], by the same rule.
+    /// Returns the reduced radius R_y across the rolling direction \[m\], by the same rule.
     ///
     /// # Errors
-    /// A radius of zero, or a groove that is not flatter than what runs in it.
+    /// If a radius is zero, or a groove is not flatter than the body in it.
     pub fn reduced_transverse_radius_m(&self) -> Result<f64, BodyError> {
         let radii = self.0.map(|body| body.transverse_radius_m());
         let radius = 1.0 / curvatures(radii)?;
@@ -111,24 +111,24 @@ impl Bodies {
         Err(BodyError::ConformingAcross(first, second))
     }
 
-    /// Reduced modulus E′ \[Pa\], 2/E′ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5).
+    /// Returns the reduced modulus E′ \[Pa\], 2/E′ = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂ (2.5).
     ///
     /// # Errors
-    /// Constants that no solid has.
+    /// If an elastic constant is outside the accepted range.
     pub fn reduced_modulus_pa(&self) -> Result<f64, BodyError> {
         let Self([first, second]) = self;
         Ok(reduced_modulus(first.modulus_pa, first.poisson, second.modulus_pa, second.poisson)?)
     }
 
-    /// Thermal constants of body 1 and of body 2.
+    /// Returns the thermal constants of body 1 and of body 2.
     pub fn heat(&self) -> [BodyHeat; 2] {
         self.0.map(|body| body.heat)
     }
 
-    /// Mean entrainment speed u_m \[m/s\] (2.1) and slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25).
+    /// Returns the mean entrainment speed u_m \[m/s\] (2.1) and the slide-to-roll ratio SRR = (u₂ − u₁)/u_m (3.25).
     ///
     /// # Errors
-    /// Speeds whose mean is not above zero.
+    /// If the mean speed is not positive.
     pub fn entrainment(&self) -> Result<(f64, f64), BodyError> {
         let [first, second] = self.0.map(|body| body.speed_m_per_s);
         let mean = 0.5 * (first + second);
@@ -136,11 +136,12 @@ impl Bodies {
         if inside { Ok((mean, (second - first) / mean)) } else { Err(BodyError::Entrainment(first, second)) }
     }
 
-    /// The contact with these bodies' R, R_y, E′, u_m and SRR, and the rest of another one. A point contact between
-    /// bodies that are not as round across as along is elliptical; an ellipse stays one where its radii are equal.
+    /// Returns the contact with R, R_y, E′, u_m and SRR of these bodies, and all other quantities of another one. A
+    /// point contact is elliptical if the reduced radii differ. An elliptical contact remains one if they become
+    /// equal.
     ///
     /// # Errors
-    /// Bodies that make no contact.
+    /// If the bodies do not form a contact.
     pub fn contact(&self, point: OperatingPoint) -> Result<OperatingPoint, BodyError> {
         let (speed_m_per_s, slide_to_roll_ratio) = self.entrainment()?;
         let (radius_m, modulus_pa) = (self.reduced_radius_m()?, self.reduced_modulus_pa()?);
@@ -153,10 +154,10 @@ impl Bodies {
         Ok(OperatingPoint { radius_m, radius_y_m, modulus_pa, speed_m_per_s, sliding, ..point })
     }
 
-    /// Film ratio λ = h_min/√(Rq₁² + Rq₂²) of the smallest film \[m\].
+    /// Returns the film ratio λ = h_min/√(Rq₁² + Rq₂²) of the minimum film thickness h_min \[m\].
     ///
     /// # Errors
-    /// A roughness below zero, or none at all.
+    /// If a roughness is negative, or both are zero.
     pub fn film_ratio(&self, smallest_film_m: f64) -> Result<f64, BodyError> {
         let [first, second] = self.0.map(|body| body.roughness_m);
         let composite = first.hypot(second);
@@ -168,12 +169,12 @@ impl Bodies {
     }
 }
 
-/// Speeds of body 1 and of body 2 \[m/s\] at a mean speed \[m/s\] and a slide-to-roll ratio (3.25).
+/// Returns the speeds of body 1 and of body 2 \[m/s\] at a mean speed \[m/s\] and a slide-to-roll ratio (3.25).
 pub fn surface_speeds(mean_m_per_s: f64, slide_to_roll: f64) -> [f64; 2] {
     [mean_m_per_s * (1.0 - 0.5 * slide_to_roll), mean_m_per_s * (1.0 + 0.5 * slide_to_roll)]
 }
 
-/// What a film ratio means, in the limits that handbooks use.
+/// Returns the lubrication regime of a film ratio, by the limits of handbooks.
 pub fn film_regime(lambda: f64) -> &'static str {
     match lambda {
         l if l >= 3.0 => "full film: the surfaces are apart",
@@ -210,13 +211,13 @@ mod tests {
 
     #[test]
     fn a_ball_in_a_groove_is_an_ellipse_across_the_rolling_direction() {
-        // A ball of a 6206 bearing on its inner race: 9.525 mm in a groove of 4.953 mm (52 %).
+        // Ball of a 6206 bearing on its inner race: 9.525 mm in a groove of 4.953 mm (52 %).
         let Bodies([ball, race]) = bodies([4.7625e-3, 18.2e-3], [1.0; 2]);
         let race = race.with_transverse_radius_m(Some(-4.953e-3));
         let pair = Bodies([ball, race]);
         assert!((pair.reduced_radius_m().unwrap() - 3.7747e-3).abs() < 1e-6);
         assert!((pair.reduced_transverse_radius_m().unwrap() - 123.83e-3).abs() < 1e-5);
-        // Without a radius of its own a body is as round across as along.
+        // A body without a transverse radius is as round across as along.
         let round = bodies([0.01, -0.05], [1.0; 2]);
         assert_eq!(round.reduced_radius_m(), round.reduced_transverse_radius_m());
         assert_eq!(race.with_transverse_radius_m(race.radius_m).transverse, Transverse::AsAlong);

@@ -1,43 +1,43 @@
-//! The ellipse in which two smooth bodies touch, by Hertz's theory in Carlson's integrals.
+//! Contact ellipse of two smooth bodies by Hertz's theory, in Carlson's integrals.
 //!
-//! Lengths along X are measured in the semi-axis a, across in b = κa. The pressure √(1 − X² − Y²) flattens a gap
-//! ½X² + ½g_y Y² where a³ = 3 w R_x J_x/(π E′), κ solves J_x/J_y = R_y/R_x, and J_x = ⅔ R_D(0, κ², 1),
-//! J_y = ⅔ R_D(0, 1, κ²): Johnson, Contact Mechanics, section 4.2, in the integrals of DLMF 19.16.
+//! Lengths along X are in units of the semi-axis a, across in units of b = κa. The pressure √(1 − X² − Y²) flattens a
+//! gap ½X² + ½g_y Y² if a³ = 3 w R_x J_x/(π E′) and κ solves J_x/J_y = R_y/R_x. The integrals are J_x = ⅔ R_D(0, κ²,
+//! 1) and J_y = ⅔ R_D(0, 1, κ²). Sources: Johnson, Contact Mechanics, section 4.2; DLMF 19.16.
 
 use super::error::ContactError;
 use super::limits::Limit;
 use ellip::elliprd;
 use std::f64::consts::PI;
 
-/// What the shape of the bodies makes of a point contact: numbers that R_y/R_x alone decides.
+/// Shape parameters of a point contact, which depend only on R_y/R_x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
-    /// R_y/R_x, 1 for a circle.
+    /// R_y/R_x, 1 for a circular contact.
     pub radius_ratio: f64,
     /// κ = b/a.
     pub kappa: f64,
-    /// J_x, π/2 for a circle.
+    /// J_x, π/2 for a circular contact.
     pub integral: f64,
 }
 
 impl Ellipse {
-    /// Equal radii.
+    /// Circular contact: equal radii.
     pub const CIRCLE: Self = Self { radius_ratio: 1.0, kappa: 1.0, integral: 0.5 * PI };
 
-    /// R_y/R_x that are accepted: those beyond are line contacts in all but their ends.
+    /// Accepted range of R_y/R_x. Contacts beyond it are nearly line contacts.
     pub const RADIUS_RATIOS: (f64, f64) = (0.02, 500.0);
 
-    /// The ellipse of R_y/R_x; accurate to rounding.
+    /// Returns the ellipse of R_y/R_x, accurate to rounding.
     ///
     /// # Errors
-    /// When the ratio lies outside [`Ellipse::RADIUS_RATIOS`].
+    /// If the ratio lies outside [`Ellipse::RADIUS_RATIOS`].
     pub fn of_ratio(radius_ratio: f64) -> Result<Self, ContactError> {
         Limit { name: "radius ratio R_y/R_x", unit: "", range: Self::RADIUS_RATIOS, or_zero: false }
             .accept(radius_ratio)?;
         Ok(Self::near(radius_ratio))
     }
 
-    /// The ellipse of κ = b/a; the circle where that is no positive number.
+    /// Returns the ellipse of κ = b/a; the circle if κ is not a positive number.
     pub fn of_kappa(kappa: f64) -> Self {
         let square = kappa * kappa;
         let (Ok(along), Ok(across)) = (elliprd(0.0, square, 1.0), elliprd(0.0, 1.0, square)) else {
@@ -46,7 +46,7 @@ impl Ellipse {
         Self { radius_ratio: along / across, kappa, integral: 2.0 / 3.0 * along }
     }
 
-    /// The same without a check; the circle where the ratio is no positive number.
+    /// Returns the ellipse of R_y/R_x without a check; the circle if the ratio is not a positive number.
     pub(super) fn near(radius_ratio: f64) -> Self {
         if radius_ratio == 1.0 || !(radius_ratio > 0.0 && radius_ratio.is_finite()) {
             return Self::CIRCLE;
@@ -56,7 +56,7 @@ impl Ellipse {
             let square = (2.0 * log_kappa).exp();
             (elliprd(0.0, square, 1.0).unwrap_or(f64::NAN), elliprd(0.0, 1.0, square).unwrap_or(f64::NAN))
         };
-        // ln(J_x/J_y) is all but linear in ln κ: the secant method, which ends at rounding.
+        // ln(J_x/J_y) is nearly linear in ln κ, so the secant method converges to rounding.
         let (mut before, mut here) = (0.0, 0.636 * wanted);
         let mut miss_before = -wanted;
         for _ in 0..20 {
@@ -74,12 +74,12 @@ impl Ellipse {
         Self { radius_ratio, kappa: here.exp(), integral: 2.0 / 3.0 * integrals(here).0 }
     }
 
-    /// g_y = κ² R_x/R_y, the curvature of the undeformed gap ½X² + ½g_y Y² across.
+    /// Returns g_y = κ² R_x/R_y, the curvature of the undeformed gap ½X² + ½g_y Y² across.
     pub fn gap_curvature(&self) -> f64 {
         self.kappa * self.kappa / self.radius_ratio
     }
 
-    /// c_K = 1/(π κ J_x), the factor of the deformation Δ = c_K ∬ P dX dκY / r; 2/π² for a circle.
+    /// Returns c_K = 1/(π κ J_x), the factor of the deformation Δ = c_K ∬ P dX dκY / r; 2/π² for a circle.
     pub fn kernel_factor(&self) -> f64 {
         if *self == Self::CIRCLE { 2.0 / (PI * PI) } else { 1.0 / (PI * self.kappa * self.integral) }
     }
@@ -112,7 +112,7 @@ mod tests {
         for ratio in [0.1, 0.3, 0.99, 1.01, 3.0, 7.0, 10.0] {
             let (own, turned) = (Ellipse::of_ratio(ratio).unwrap(), Ellipse::of_ratio(1.0 / ratio).unwrap());
             assert!((own.kappa * turned.kappa - 1.0).abs() < 1e-13, "{ratio}");
-            // a³ ∝ R_x J_x: the turned ellipse has b for a.
+            // a³ ∝ R_x J_x: the semi-axis a of the turned ellipse is b.
             let turned_a = (turned.integral * ratio / own.integral).cbrt();
             assert!((turned_a / own.kappa - 1.0).abs() < 1e-12, "{ratio}");
         }

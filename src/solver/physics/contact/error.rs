@@ -1,8 +1,8 @@
-//! Why an operating point is refused.
+//! Reasons for refusing an operating point.
 
 use crate::solver::limits::Number;
 
-/// Why an operating point is refused. Each message names the quantity, its value and what would be accepted.
+/// Reason for refusing an operating point. Each message names the quantity, its value and the accepted values.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ContactError {
     /// A quantity is NaN, infinite, or outside its valid range.
@@ -12,9 +12,9 @@ pub enum ContactError {
         if *or_zero { ", or 0" } else { "" }
     )]
     OutOfRange {
-        /// Name of the quantity as the field calls it.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// The value given.
+        /// Given value.
         value: f64,
         /// Unit with a leading space, or empty.
         unit: &'static str,
@@ -22,37 +22,37 @@ pub enum ContactError {
         min: f64,
         /// Largest accepted value.
         max: f64,
-        /// Whether zero is accepted as well.
+        /// Accepts zero in addition to the range.
         or_zero: bool,
     },
-    /// A viscosity that does not change with pressure has no lubricant number, or the other way round.
+    /// Exactly one of α and L is zero. L is proportional to α.
     #[error(
         "alpha is {} 1/Pa, but L is {}: L is proportional to alpha, so that both are 0 or neither is", Number(*alpha),
         Number(*l)
     )]
     Isoviscous {
-        /// The coefficient given \[1/Pa\].
+        /// Given coefficient \[1/Pa\].
         alpha: f64,
-        /// The lubricant number given.
+        /// Given lubricant number.
         l: f64,
     },
     /// A radius across was given for a line contact.
     #[error("a line contact has no radius across (radius-y): leave it out, or take a point contact")]
     LineAcross,
-    /// The bodies together are concave across.
+    /// The two bodies together are concave across the rolling direction.
     #[error(
         "radius-y is {} m, but the bodies must be convex together in both directions: R_y is what 1/R_y = 1/R_y1 + 1/R_y2 \
          leaves of a body and a groove, whose own radius counts as negative and must be the larger one; a positive number \
          is accepted", Number(*radius_y)
     )]
     Concave {
-        /// The radius given \[m\].
+        /// Given radius \[m\].
         radius_y: f64,
     },
-    /// More quantities were fixed than M and L leave free.
+    /// More quantities were given than M and L leave free.
     #[error("M and L leave two quantities to follow, but {given} are all given; leave out at least one of them")]
     Overdetermined {
-        /// The given quantities.
+        /// Given quantities.
         given: &'static str,
     },
 }

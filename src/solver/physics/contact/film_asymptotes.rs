@@ -1,10 +1,10 @@
-//! The four asymptotes of a film, and Moes' fits through them: for lines, and for ellipses by Nijenbanning, Venner and
-//! Moes.
+//! The four asymptotes of the film thickness, and formulas that join them: Moes' for line contacts, and that of
+//! Nijenbanning, Venner and Moes for elliptical contacts.
 
 use super::{ContactKind, Moes, OperatingPoint};
 
-/// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as Moes' and Nijenbanning, Venner and Moes' formulas join
-/// them.
+/// The four asymptotes of a film number H = (h/R)(2U)^(−1/2), as joined by the formulas of Moes and of Nijenbanning,
+/// Venner and Moes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmAsymptotes {
     /// Rigid bodies, constant viscosity.
@@ -17,20 +17,20 @@ pub struct FilmAsymptotes {
     pub elastic_piezoviscous: f64,
 }
 
-/// The shape that a film formula is of.
+/// Shape of contact for a film-thickness formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FilmShape {
-    /// A line contact.
+    /// Line contact.
     Line,
-    /// An ellipse with radii R_y/R across and along the rolling direction, a circle where that is 1.
+    /// Elliptical contact with radii R_y/R across and along the rolling direction; circular if the ratio is 1.
     Ellipse(f64),
 }
 
 impl FilmShape {
-    /// A circle.
+    /// Circular contact.
     pub const CIRCLE: Self = Self::Ellipse(1.0);
 
-    /// That of a contact.
+    /// Returns the shape of a contact.
     pub fn of(point: &OperatingPoint) -> Self {
         match point.kind {
             ContactKind::Line => Self::Line,
@@ -38,7 +38,8 @@ impl FilmShape {
         }
     }
 
-    /// Moes' film number H = (h/R)(2U)^(−1/2) of it, central film; see [`moes_film`] and [`ellipse_film`].
+    /// Returns Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness; see [`moes_film`] and
+    /// [`ellipse_film`].
     pub fn film(self, moes: Moes) -> f64 {
         match self {
             Self::Line => moes_film(ContactKind::Line, moes),
@@ -48,7 +49,8 @@ impl FilmShape {
 }
 
 impl FilmAsymptotes {
-    /// The asymptotes at M and L: of a line contact, Moes 1992; of an ellipse, Nijenbanning, Venner & Moes 1994.
+    /// Returns the asymptotes at M and L: for a line contact, Moes 1992; for an elliptical contact, Nijenbanning,
+    /// Venner & Moes 1994.
     pub fn of(shape: FilmShape, moes: Moes) -> Self {
         let Moes { m, l } = moes;
         match shape {
@@ -62,8 +64,8 @@ impl FilmAsymptotes {
         }
     }
 
-    /// The asymptotes of an ellipse with radii R_y/R = `radius_ratio` (above 0) across and along the rolling direction,
-    /// M and L with R along it: Nijenbanning, Venner & Moes 1994.
+    /// Returns the asymptotes of an elliptical contact with radii R_y/R = `radius_ratio` (above 0) across and along
+    /// the rolling direction, for M and L with R along it: Nijenbanning, Venner & Moes 1994.
     fn of_ellipse(radius_ratio: f64, Moes { m, l }: Moes) -> Self {
         let d = radius_ratio.recip();
         let g = 1.0 + 0.006 * d.ln() + 0.63 * d.powf(4.0 / 7.0);
@@ -76,11 +78,11 @@ impl FilmAsymptotes {
     }
 }
 
-/// Moes' film number H = (h/R)(2U)^(−1/2) of a kind of contact, central film.
+/// Returns Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness for a kind of contact.
 ///
-/// Line: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid. Circular point
-/// contact: [`ellipse_film`] at equal radii. Full solutions with Barus' law and no compressibility lie 8–15 % above it,
-/// with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
+/// Line contact: Moes, Wear 159 (1992) 57–66; 5 ≤ M ≤ 1000, 0 ≤ L ≤ 25, Barus viscosity, incompressible fluid.
+/// Circular point contact: [`ellipse_film`] at equal radii. Full solutions with Barus' law and no compressibility lie
+/// 8–15 % above it, with Roelands and Dowson–Higginson 6–13 % below (M 20…200, L 2.5…10, default realisation).
 pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
     match kind {
         ContactKind::Line => {
@@ -94,14 +96,15 @@ pub fn moes_film(kind: ContactKind, moes: Moes) -> f64 {
     }
 }
 
-/// Nijenbanning, Venner and Moes' film number H = (h/R)(2U)^(−1/2) of an ellipse with radii R_y/R = `radius_ratio`
-/// (above 0) across and along the rolling direction, central film.
+/// Returns Nijenbanning, Venner and Moes' film number H = (h/R)(2U)^(−1/2) of the central film thickness for an
+/// elliptical contact. `radius_ratio` (above 0) is R_y/R, the ratio of the radii across and along the rolling
+/// direction.
 ///
-/// Wear 176 (1994) 217–229: made for all conditions, its accuracy shown there for R_y/R from 1 on.
+/// Source: Wear 176 (1994) 217–229. The formula covers all regimes; its accuracy is shown there for R_y/R ≥ 1.
 pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
     let a = FilmAsymptotes::of_ellipse(radius_ratio, moes);
     let s = 1.5 * (1.0 + (-1.2 * a.elastic_isoviscous / a.elastic_piezoviscous).exp());
-    // The isoviscous elastic asymptote is cut off where the contact is rigid.
+    // The isoviscous-elastic asymptote is limited where the contact is rigid.
     let rigid = 1.8 * radius_ratio;
     let iso = a.rigid_isoviscous.powf(1.5) + (a.elastic_isoviscous.powi(-4) + rigid.powi(-4)).powf(-0.375);
     let piezo = a.rigid_piezoviscous.powi(-8) + a.elastic_piezoviscous.powi(-8);
@@ -112,7 +115,7 @@ pub fn ellipse_film(radius_ratio: f64, moes: Moes) -> f64 {
 pub fn expected_film(kind: ContactKind, moes: Moes) -> f64 {
     let film = moes_film(kind, moes);
     match kind {
-        // (a/R)² = (8/π) M √(2U) of a line, (3M/2)^⅔ √(2U) of a circle, and h/R = Ĥ √(2U).
+        // (a/R)² = (8/π) M √(2U) of a line contact, (3M/2)^⅔ √(2U) of a circular contact, and h/R = Ĥ √(2U).
         ContactKind::Line => film * std::f64::consts::PI / (8.0 * moes.m),
         ContactKind::Point => film * (1.5 * moes.m).powf(-2.0 / 3.0),
     }
@@ -153,8 +156,8 @@ mod tests {
         let line = FilmAsymptotes::of(FilmShape::Line, Moes { m: 1.0, l: 8.0 }).rigid_piezoviscous;
         let wide = FilmAsymptotes::of_ellipse(1e4, Moes { m: 1.0, l: 8.0 }).rigid_piezoviscous;
         assert!((wide / line - 1.0).abs() < 5e-3, "{wide}");
-        // Rigid ellipsoids in an isoviscous film by another fit: Brewe, Hamrock & Taylor 1979, minimum film, which is the
-        // central one of rigid bodies.
+        // Rigid ellipsoids in an isoviscous film by another fit: Brewe, Hamrock & Taylor 1979, for the minimum film
+        // thickness. It equals the central one of rigid bodies.
         for ratio in [0.1f64, 0.5, 1.0, 5.0, 40.0] {
             let side = (1.0 + 2.0 / (3.0 * ratio)).recip() * (0.131 * (0.5 * ratio).atan() + 1.683);
             let other = 32.0 * ratio * side * side;

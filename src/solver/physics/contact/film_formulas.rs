@@ -1,43 +1,44 @@
-//! Published film-thickness formulas for line contacts and for ellipses, of which a circle is one, each with its source
-//! and range of validity.
+//! Published film-thickness formulas for line contacts and for elliptical contacts, which include circular ones, each
+//! with its source and range of validity.
 
 use super::film_asymptotes::{ellipse_film, moes_film};
 use super::{ContactKind, OperatingPoint};
 use serde::{Deserialize, Serialize};
 
-/// A published formula, as the Regimes tab and the formula-comparison scene list them.
+/// Published formula, as listed in the Regimes tab and in the formula-comparison scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FilmFormula {
-    /// Moes' curve fit through the four asymptotes (central film).
+    /// Moes' curve fit through the four asymptotes (central film thickness).
     #[serde(rename = "Moes")]
     MoesLine,
-    /// Dowson & Higginson (minimum film).
+    /// Dowson & Higginson (minimum film thickness).
     DowsonHigginson,
-    /// Dowson & Toyoda (central film).
+    /// Dowson & Toyoda (central film thickness).
     DowsonToyoda,
-    /// Hamrock & Dowson, ellipses (central film).
+    /// Hamrock & Dowson, elliptical contacts (central film thickness).
     HamrockDowsonCentral,
-    /// Hamrock & Dowson, ellipses (minimum film).
+    /// Hamrock & Dowson, elliptical contacts (minimum film thickness).
     HamrockDowsonMinimum,
-    /// Nijenbanning, Venner & Moes' curve fit through the asymptotes of an ellipse (central film).
+    /// Nijenbanning, Venner & Moes' curve fit through the asymptotes of an elliptical contact (central film
+    /// thickness).
     NijenbanningVennerMoes,
-    /// Chittenden, Dowson, Dunn & Taylor, ellipses (central film).
+    /// Chittenden, Dowson, Dunn & Taylor, elliptical contacts (central film thickness).
     ChittendenCentral,
-    /// Chittenden, Dowson, Dunn & Taylor, ellipses (minimum film).
+    /// Chittenden, Dowson, Dunn & Taylor, elliptical contacts (minimum film thickness).
     ChittendenMinimum,
 }
 
-/// What a formula says of one contact.
+/// Prediction of a formula for one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmPrediction {
-    /// Film thickness h/R \[-\] times R \[m\].
+    /// Film thickness \[m\].
     pub film_m: f64,
-    /// Whether the contact lies in the range the formula was fitted to.
+    /// True if the contact lies in the range to which the formula was fitted.
     pub in_range: bool,
 }
 
 impl FilmFormula {
-    /// All formulas for a kind of contact.
+    /// Returns all formulas for a kind of contact.
     pub fn of(kind: ContactKind) -> &'static [Self] {
         match kind {
             ContactKind::Line => &Self::LINE,
@@ -45,10 +46,10 @@ impl FilmFormula {
         }
     }
 
-    /// All line-contact formulas.
+    /// All formulas for line contacts.
     pub const LINE: [Self; 3] = [Self::MoesLine, Self::DowsonHigginson, Self::DowsonToyoda];
 
-    /// All point-contact formulas.
+    /// All formulas for point contacts.
     pub const POINT: [Self; 5] = [
         Self::NijenbanningVennerMoes,
         Self::HamrockDowsonCentral,
@@ -57,12 +58,12 @@ impl FilmFormula {
         Self::ChittendenMinimum,
     ];
 
-    /// The kind of contact it was made for.
+    /// Returns the kind of contact to which it applies.
     pub fn contact(self) -> ContactKind {
         if Self::POINT.contains(&self) { ContactKind::Point } else { ContactKind::Line }
     }
 
-    /// Short name.
+    /// Returns its short name.
     pub fn name(self) -> &'static str {
         match self {
             Self::MoesLine => "Moes",
@@ -76,12 +77,12 @@ impl FilmFormula {
         }
     }
 
-    /// Whether it predicts the minimum film (else the central film).
+    /// True if it predicts the minimum film thickness; otherwise it predicts the central one.
     pub fn predicts_minimum(self) -> bool {
         matches!(self, Self::DowsonHigginson | Self::HamrockDowsonMinimum | Self::ChittendenMinimum)
     }
 
-    /// Source and range of validity in one sentence.
+    /// Returns source and range of validity in one sentence.
     pub fn source(self) -> &'static str {
         match self {
             Self::MoesLine => {
@@ -111,11 +112,12 @@ impl FilmFormula {
         }
     }
 
-    /// The formula's film over the radius, h/R, in U = η₀u_m/(E′R), G = αE′ and W = w/(E′R) of a line, w/(E′R²) of a
-    /// point contact, with R along the rolling direction; meaningless for the other kind of contact.
+    /// Returns the formula's film thickness over the radius, h/R, from U = η₀u_m/(E′R), G = αE′ and the load group W.
+    /// W is w/(E′R) for a line contact and w/(E′R²) for a point contact, with R along the rolling direction. The
+    /// result is meaningless for the other kind of contact.
     ///
-    /// The constants of Chittenden and others are those that are quoted since, not read in the paper; central films of
-    /// full solutions for R_y/R 0.2…20 lie within 20 % of them.
+    /// The constants of Chittenden and others are quoted from later literature, not from the original paper. Central
+    /// film thicknesses of full solutions for R_y/R 0.2…20 lie within 20 % of them.
     pub fn relative_film(self, point: &OperatingPoint) -> f64 {
         let radius_ratio = point.radius_ratio();
         let area = match point.kind {
@@ -139,7 +141,7 @@ impl FilmFormula {
         }
     }
 
-    /// Whether it was made for an ellipse of these radii.
+    /// True if the formula covers elliptical contacts of these radii.
     fn holds_for(self, radius_ratio: f64) -> bool {
         match self {
             Self::HamrockDowsonCentral | Self::HamrockDowsonMinimum => (1.0..=8.0).contains(&ellipticity(radius_ratio)),
@@ -148,7 +150,8 @@ impl FilmFormula {
         }
     }
 
-    /// The formula's film and whether it was made for such a contact; meaningless for the other kind of contact.
+    /// Returns the formula's film thickness, and whether the contact is in its range. Meaningless for the other kind
+    /// of contact.
     pub fn predict(self, point: &OperatingPoint) -> FilmPrediction {
         let moes = point.moes();
         let regime = match self {
@@ -161,7 +164,7 @@ impl FilmFormula {
     }
 }
 
-/// Hamrock and Dowson's ellipticity parameter k of radii R_y/R, 1.03 of a circle.
+/// Returns Hamrock and Dowson's ellipticity parameter k of the radii R_y/R; 1.03 for a circular contact.
 fn ellipticity(radius_ratio: f64) -> f64 {
     1.03 * radius_ratio.powf(0.64)
 }
@@ -199,9 +202,9 @@ mod tests {
 
     type Known = (f64, f64, f64, [f64; 5], [f64; 2]);
 
-    /// R_y/R, M and L of contacts in the default realisation, their films H = hR/a² by the formulas of point contacts in
-    /// the order of their list as another program works them out, and H_c and H_min of its full solutions, extrapolated
-    /// from three grids.
+    /// Contacts in the default realisation: R_y/R, M and L; film thicknesses H = hR/a² by the formulas of point
+    /// contacts in the order of their list, from an independent program; and H_c and H_min of its full solutions,
+    /// extrapolated from three grids.
     const ELLIPSES: [Known; 7] = [
         (0.2, 30.0, 6.0, [0.07945534, 0.12698493, 0.08111803, 0.04441322, 0.04130451], [0.084959, 0.028458]),
         (0.5, 50.0, 10.0, [0.15224373, 0.16848459, 0.14291087, 0.08122927, 0.07791454], [0.146829, 0.067285]),
@@ -219,7 +222,7 @@ mod tests {
             let point = OperatingPoint { radius_y_m: Some(ratio * circle.radius_m), ..circle };
             for (formula, film) in FilmFormula::POINT.into_iter().zip(films) {
                 let own = formula.predict(&point).film_m / point.film_scale_m();
-                // It has k = 1.0339 (R_y/R)^0.636, which Hamrock and Dowson round.
+                // The independent program has k = 1.0339 (R_y/R)^0.636, which Hamrock and Dowson round.
                 let rounding = match formula {
                     FilmFormula::HamrockDowsonCentral => 3e-3,
                     FilmFormula::HamrockDowsonMinimum => 1e-2,
@@ -227,7 +230,8 @@ mod tests {
                 };
                 assert!((own / film - 1.0).abs() < rounding, "R_y/R {ratio}, {formula:?}: {own} against {film}");
                 let full = if formula.predicts_minimum() { minimum } else { central };
-                // The minimum is much thinner at the sides of ellipses that are long along the rolling direction.
+                // The minimum film thickness lies at the sides of ellipses that are long along the rolling direction
+                // and is much smaller.
                 let within = match formula {
                     _ if formula.predicts_minimum() => 0.6,
                     FilmFormula::HamrockDowsonCentral if ratio < 0.5 => 0.5,

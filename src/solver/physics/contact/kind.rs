@@ -1,19 +1,19 @@
-//! The kinds of contact.
+//! Kinds of contact.
 
 use serde::{Deserialize, Serialize};
 
-/// The shape of the contact: an infinitely long line or a circular point contact.
+/// Kind of contact: an infinitely long line contact, or a circular or elliptical point contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
 pub enum ContactKind {
     /// Line contact: loads in N/m, unknowns along X only.
     #[default]
     Line,
-    /// Point contact, a circle or an ellipse: loads in N.
+    /// Point contact, circular or elliptical: loads in N.
     Point,
 }
 
 impl ContactKind {
-    /// The word that stands for it in options and results.
+    /// Returns its name in options and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Line => "line",

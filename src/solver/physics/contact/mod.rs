@@ -1,7 +1,7 @@
-//! What is asked: the operating point in SI units, its Hertzian scales, its Moes numbers, and every conversion between
-//! them.
+//! Operating point in SI units, its Hertzian scales, its Moes numbers, and all conversions between them.
 //!
-//! This is the only place where SI quantities meet dimensionless ones; the rest of the solver is scale-free.
+//! This is the only place where SI quantities and dimensionless ones are converted. The rest of the solver is
+//! dimensionless.
 
 mod ellipse;
 mod error;

@@ -1,11 +1,12 @@
-//! From Moes numbers back to SI: which quantity follows when M and L are given.
+//! Conversion from Moes numbers to SI quantities.
 
 use super::{ContactError, ContactKind, Moes, OperatingPoint, Sliding};
 
-/// M and L with whatever SI quantities are fixed; the others follow or take the default realisation.
+/// Moes numbers M and L with any fixed SI quantities. The other quantities follow or have the values of the default
+/// realisation.
 ///
-/// Default realisation, line: R 3 mm, E′ 231 GPa, η₀ 0.01 Pa·s, α = 5/GPa · L^0.463, u_m from L, w from M.
-/// Point: R 10 mm and α = 5/GPa · (L/1.7)^0.655.
+/// Default realisation of a line contact: R 3 mm, E′ 231 GPa, η₀ 0.01 Pa·s, α = 5/GPa · L^0.463, u_m from L, w from
+/// M. Point contact: R 10 mm and α = 5/GPa · (L/1.7)^0.655.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct MoesRequest {
     /// Line or point contact.
@@ -16,7 +17,7 @@ pub struct MoesRequest {
     pub l: f64,
     /// Fixed radius \[m\].
     pub radius_m: Option<f64>,
-    /// Radius across \[m\]; the radius itself where there is none.
+    /// Radius across \[m\]; `None` if it equals the radius along.
     pub radius_y_m: Option<f64>,
     /// Fixed speed \[m/s\].
     pub speed_m_per_s: Option<f64>,
@@ -30,13 +31,13 @@ pub struct MoesRequest {
     pub alpha_per_pa: Option<f64>,
 }
 
-/// η₀ of the default realisation \[Pa·s\].
+/// Viscosity η₀ of the default realisation \[Pa·s\].
 pub const DEFAULT_VISCOSITY_PA_S: f64 = 0.01;
-/// u_m of the default realisation at L = 0, where it follows from nothing \[m/s\].
+/// Speed u_m of the default realisation at L = 0, where it does not follow from L \[m/s\].
 const DEFAULT_SPEED_M_PER_S: f64 = 1.0;
 
 impl MoesRequest {
-    /// M and L of a contact, everything else left to the default realisation.
+    /// Creates a request for M and L in the default realisation.
     pub fn new(kind: ContactKind, m: f64, l: f64) -> Self {
         Self { kind, m, l, ..Self::default() }
     }
@@ -48,7 +49,7 @@ impl MoesRequest {
         }
     }
 
-    /// α of the default realisation \[1/Pa\].
+    /// Returns α of the default realisation \[1/Pa\].
     pub fn default_alpha(&self) -> f64 {
         match self.kind {
             ContactKind::Line => 5e-9 * self.l.powf(0.463),
@@ -57,16 +58,20 @@ impl MoesRequest {
     }
 }
 
-/// The operating point with the requested Moes numbers (inverse of (3.19), (3.22)).
+/// Returns the operating point with the requested Moes numbers (inverse of (3.19), (3.22)).
 ///
-/// Followers, by what is fixed: nothing of speed, load, radius → speed from L, load from M. Speed fixed → α from L.
-/// Load fixed → radius from M. Load and speed fixed → radius from M, α from L. Load and radius fixed → speed from M, α
-/// from L.
+/// The dependent quantities follow from the fixed ones:
 ///
-/// At L = 0 α is zero, and the speed is free as well: 1 m/s where neither it nor radius and load are fixed.
+/// - none of speed, load, radius: speed from L, load from M;
+/// - speed: α from L;
+/// - load: radius from M;
+/// - load and speed: radius from M, α from L;
+/// - load and radius: speed from M, α from L.
+///
+/// At L = 0, α is zero, and the speed is free as well: 1 m/s unless it, or radius and load, are fixed.
 ///
 /// # Errors
-/// When more is fixed than M and L leave free, or the result is outside any sense.
+/// If more quantities are fixed than M and L leave free, or if the result is outside the accepted range.
 pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactError> {
     let MoesRequest { m, l, .. } = *request;
     Moes { m, l }.check()?;
@@ -88,7 +93,7 @@ pub fn si_from_moes(request: &MoesRequest) -> Result<OperatingPoint, ContactErro
     si_from_moes_with(request)
 }
 
-/// The same where L and α agree.
+/// Returns the operating point for a request in which L and α are consistent.
 fn si_from_moes_with(request: &MoesRequest) -> Result<OperatingPoint, ContactError> {
     let MoesRequest { kind, m, l, .. } = *request;
     let e = request.modulus_pa.unwrap_or(231e9);

@@ -1,4 +1,4 @@
-//! The operating point in SI units with its Hertzian scales and its Moes numbers.
+//! Operating point in SI units with its Hertzian scales and its Moes numbers.
 
 use super::ellipse::Ellipse;
 use super::error::ContactError;
@@ -8,10 +8,10 @@ use super::sliding::Sliding;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Hertzian pressure \[Pa\] beyond which bearing steel yields below the surface; beyond it results carry a warning.
+/// Hertzian pressure \[Pa\] beyond which bearing steel yields below the surface. Results beyond it carry a warning.
 pub const PLAUSIBLE_HERTZ_PRESSURE_PA: f64 = 3.2e9;
 
-/// One operating point in SI units. Valid when [`OperatingPoint::check`] accepts it.
+/// Operating point in SI units. It is valid if [`OperatingPoint::check`] accepts it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OperatingPoint {
     /// Line or point contact.
@@ -20,7 +20,7 @@ pub struct OperatingPoint {
     pub radius_m: f64,
     /// Mean entrainment speed u_m \[m/s\], (2.1).
     pub speed_m_per_s: f64,
-    /// Load w: \[N/m\] for a line, \[N\] for a point contact, (2.9).
+    /// Load w: \[N/m\] for a line contact, \[N\] for a point contact, (2.9).
     pub load: f64,
     /// Reduced modulus E′ \[Pa\], (2.5).
     pub modulus_pa: f64,
@@ -30,8 +30,8 @@ pub struct OperatingPoint {
     pub alpha_per_pa: f64,
     /// Sliding and plateau ratio.
     pub sliding: Sliding,
-    /// Reduced radius R_y across the rolling direction \[m\] of a point contact; none where it is R, and of a line
-    /// contact.
+    /// Reduced radius R_y across the rolling direction \[m\] of a point contact. `None` if it equals R, and for a
+    /// line contact.
     #[serde(default)]
     pub radius_y_m: Option<f64>,
 }
@@ -39,9 +39,9 @@ pub struct OperatingPoint {
 /// Scales of the dry Hertzian contact, (2.21).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hertz {
-    /// Half width (line) or semi-axis along the rolling direction (point) a \[m\].
+    /// Half width (line contact) or semi-axis along the rolling direction (point contact) a \[m\].
     pub half_width_m: f64,
-    /// Semi-axis across b \[m\]; a of a circle, and of a line, which has none.
+    /// Semi-axis across b \[m\]; equal to a for circular and line contacts.
     pub half_length_m: f64,
     /// Maximum pressure p_H \[Pa\].
     pub pressure_pa: f64,
@@ -57,7 +57,7 @@ pub struct Moes {
 }
 
 impl Moes {
-    /// Refuses numbers outside any sense.
+    /// Refuses numbers outside the accepted range.
     pub fn check(self) -> Result<(), ContactError> {
         limits::M.accept(self.m)?;
         limits::L.accept(self.l)
@@ -65,7 +65,7 @@ impl Moes {
 }
 
 impl OperatingPoint {
-    /// Table 2.1 of the dissertation: a rolling line contact, M = 40, L = 10.
+    /// Table 2.1 of the dissertation: a rolling line contact with M = 40, L = 10.
     pub const TABLE_2_1: Self = Self {
         kind: ContactKind::Line,
         radius_m: 0.0225,
@@ -92,7 +92,7 @@ impl OperatingPoint {
     /// Case 1 of the dissertation's Table 4.5; case 2 is its sixfold load.
     pub const TABLE_4_5: Self = Self { radius_m: 0.01, speed_m_per_s: 2.5, alpha_per_pa: 2e-8, ..Self::TABLE_4_2 };
 
-    /// The point of a kind with the six SI quantities in the order of [`OperatingPoint::quantities`].
+    /// Creates a point of a kind from the six SI quantities in the order of [`OperatingPoint::quantities`].
     pub fn from_quantities(kind: ContactKind, quantities: [f64; 6], sliding: Sliding) -> Self {
         let [radius_m, speed_m_per_s, load, modulus_pa, viscosity_pa_s, alpha_per_pa] = quantities;
         Self {
@@ -108,37 +108,38 @@ impl OperatingPoint {
         }
     }
 
-    /// R_y/R_x: 1 for a circle and a line.
+    /// Returns R_y/R_x; 1 for circular and line contacts.
     pub fn radius_ratio(&self) -> f64 {
         self.radius_y_m.map_or(1.0, |radius_y| radius_y / self.radius_m)
     }
 
-    /// True for an elliptical contact, false for a circular and for a line contact.
+    /// Returns true for an elliptical contact, false for a circular or line contact.
     pub fn is_elliptic(&self) -> bool {
         self.radius_ratio() != 1.0
     }
 
-    /// The shape of the dry contact; a circle for a line.
+    /// Returns the shape of the dry contact; a circle for a line contact.
     pub fn ellipse(&self) -> Ellipse {
         Ellipse::near(self.radius_ratio())
     }
 
-    /// Speeds u₁ and u₂ of the surfaces \[m/s\], u_m(1 ∓ SRR/2).
+    /// Returns the speeds u₁ and u₂ of the surfaces \[m/s\], u_m(1 ∓ SRR/2).
     pub fn surface_speeds(&self) -> [f64; 2] {
         let half = 0.5 * self.sliding.slide_to_roll_ratio;
         [1.0 - half, 1.0 + half].map(|share| share * self.speed_m_per_s)
     }
 
-    /// The six SI quantities in the order radius, speed, load, modulus, viscosity, alpha.
+    /// Returns the six SI quantities in the order radius, speed, load, modulus, viscosity, alpha.
     pub fn quantities(&self) -> [f64; 6] {
         [self.radius_m, self.speed_m_per_s, self.load, self.modulus_pa, self.viscosity_pa_s, self.alpha_per_pa]
     }
 
-    /// The contact at the share `t` (0…1) of the way to another one, along the logarithms of SI quantities and R_y/R.
+    /// Returns the contact at the share `t` (0…1) between this one and another one, linear in the logarithms of the
+    /// SI quantities and of R_y/R.
     pub fn towards(&self, other: &Self, t: f64) -> Self {
         let (from, to) = (self.quantities(), other.quantities());
         let q: [f64; 6] = std::array::from_fn(|i| match (from[i], to[i]) {
-            // α may be zero, which no logarithm reaches.
+            // α may be zero, which has no logarithm.
             (from, to) if from == 0.0 || to == 0.0 => from + (to - from) * t,
             (from, to) => from * (to / from).powf(t),
         });
@@ -150,7 +151,7 @@ impl OperatingPoint {
         point
     }
 
-    /// Refuses values that are not finite, not positive, or outside any sense.
+    /// Refuses values that are not finite, not positive, or outside the accepted range.
     pub fn check(&self) -> Result<(), ContactError> {
         for (value, limit) in self.quantities().into_iter().zip(limits::SI) {
             limit.accept(value)?;
@@ -167,7 +168,7 @@ impl OperatingPoint {
         self.moes().check()
     }
 
-    /// Hertzian semi-axes and pressure, (2.21).
+    /// Returns the Hertzian semi-axes and pressure, (2.21).
     pub fn hertz(&self) -> Hertz {
         let (w, r, e) = (self.load, self.radius_m, self.modulus_pa);
         match self.kind {
@@ -190,12 +191,12 @@ impl OperatingPoint {
         }
     }
 
-    /// Dimensionless speed 2U = 2 η₀ u_m / (E′ R), the group under both Moes numbers.
+    /// Returns the dimensionless speed 2U = 2 η₀ u_m / (E′ R), a factor of both Moes numbers.
     pub fn speed_group(&self) -> f64 {
         2.0 * self.viscosity_pa_s * self.speed_m_per_s / (self.modulus_pa * self.radius_m)
     }
 
-    /// Moes numbers, (3.19) for a line and (3.22) for a point contact.
+    /// Returns the Moes numbers, (3.19) for a line contact and (3.22) for a point contact.
     pub fn moes(&self) -> Moes {
         let u = self.speed_group();
         let (e, r) = (self.modulus_pa, self.radius_m);
@@ -206,26 +207,26 @@ impl OperatingPoint {
         Moes { m, l: self.alpha_per_pa * e * u.powf(0.25) }
     }
 
-    /// λ̄ = 12 u_m η₀ R² / (p_H a³), the only number left in the scaled Reynolds equation (2.23).
+    /// Returns λ̄ = 12 u_m η₀ R² / (p_H a³), the only parameter of the scaled Reynolds equation (2.23).
     pub fn lambda_bar(&self) -> f64 {
         let hertz = self.hertz();
         12.0 * self.speed_m_per_s * self.viscosity_pa_s * self.radius_m.powi(2)
             / (hertz.pressure_pa * hertz.half_width_m.powi(3))
     }
 
-    /// Film thickness scale a²/R \[m\], so that h = (a²/R) H, (2.22).
+    /// Returns the film thickness scale a²/R \[m\], so that h = (a²/R) H, (2.22).
     pub fn film_scale_m(&self) -> f64 {
         self.hertz().half_width_m.powi(2) / self.radius_m
     }
 
-    /// κ₁ = p_H a/R \[Pa\], (3.27): the shear stress differs across a film by H ∂P/∂X times this.
+    /// Returns κ₁ = p_H a/R \[Pa\], (3.27). The difference of the shear stress across a film is κ₁ H ∂P/∂X.
     pub fn gradient_stress_pa(&self) -> f64 {
         let Hertz { half_width_m, pressure_pa, .. } = self.hertz();
         pressure_pa * half_width_m / self.radius_m
     }
 
-    /// What turns the integral of a stress \[Pa\] over X, and Y, into a share of the load: a/w for a line, ab/w for a
-    /// point contact \[1/Pa\].
+    /// Returns the factor \[1/Pa\] between the integral of a stress \[Pa\] over X, and Y, and its share of the load:
+    /// a/w for a line contact, ab/w for a point contact.
     pub fn area_per_load(&self) -> f64 {
         let Hertz { half_width_m, half_length_m, .. } = self.hertz();
         match self.kind {
@@ -234,13 +235,14 @@ impl OperatingPoint {
         }
     }
 
-    /// α p_H \[-\], the exponent that decides how stiff the lubricant becomes in the contact.
+    /// Returns the piezoviscous parameter α p_H \[-\], the exponent of the viscosity rise in the contact.
     pub fn alpha_hertz(&self) -> f64 {
         self.alpha_per_pa * self.hertz().pressure_pa
     }
 }
 
-/// Reduced modulus E′ \[Pa\] of two bodies, (2.5). Young's moduli in Pa, Poisson ratios in \[0, 0.5\].
+/// Returns the reduced modulus E′ \[Pa\] of two bodies, (2.5). Young's moduli are in Pa, Poisson ratios in \[0,
+/// 0.5\].
 pub fn reduced_modulus(e1: f64, nu1: f64, e2: f64, nu2: f64) -> Result<f64, ContactError> {
     let young = |name| Limit { name, ..limits::MODULUS };
     let poisson = |name| Limit { name, unit: "", range: (0.0, 0.5), or_zero: false };

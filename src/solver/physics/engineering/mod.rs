@@ -1,5 +1,5 @@
-//! The same contact as engineers know it: an oil of a grade at a temperature, units, the stress under the surface.
-//! Nothing here enters the equations: it becomes an operating point, or is read off a solution.
+//! Engineering data of a contact: an oil of a grade at a temperature, units, and the stress below the surface. None
+//! of it enters the equations: it is converted to an operating point, or derived from a solution.
 
 mod oil;
 mod subsurface;

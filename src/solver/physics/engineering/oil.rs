@@ -1,29 +1,29 @@
-//! Oils by grade and temperature: viscosity, density and the pressure–viscosity coefficient.
+//! Oils by grade and temperature: viscosity, density and pressure–viscosity coefficient.
 
 use super::units::KELVIN;
 use serde::{Deserialize, Serialize};
 
-/// Why an oil makes no sense.
+/// Reason for refusing an oil.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum OilError {
     /// A kinematic viscosity outside the chart.
     #[error("a kinematic viscosity of {0:.4} mm²/s is outside the chart of ASTM D341; 0.3 to 2e7 mm²/s are accepted")]
     Viscosity(f64),
-    /// A temperature outside what oils are liquid at.
+    /// A temperature outside the accepted range.
     #[error("a temperature of {0:.1} °C is outside what lubricating oils are used at; −60 to 300 °C are accepted")]
     Temperature(f64),
-    /// Both viscosities belong to one temperature.
+    /// Both viscosities belong to the same temperature.
     #[error(
         "two viscosities at the same temperature of {0:.1} °C do not say how the oil thins; give another temperature"
     )]
     SameTemperature(f64),
-    /// It grows thicker when it is heated.
+    /// The viscosity rises with the temperature.
     #[error("the oil would be thicker at {0:.1} °C than at {1:.1} °C; a higher temperature has the lower viscosity")]
     Rising(f64, f64),
-    /// A density that no oil has.
+    /// A density outside the accepted range.
     #[error("a density of {0} kg/m³ is none of an oil; 500 to 2000 kg/m³ are accepted")]
     Density(f64),
-    /// A grade that is none.
+    /// A number that is not an ISO viscosity grade.
     #[error("{0} is no ISO viscosity grade; 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000 and 1500 are")]
     Grade(f64),
 }
@@ -47,13 +47,13 @@ pub const ISO_VG: [(f64, f64); 14] = [
     (1500.0, 64.22),
 ];
 
-/// An oil at the temperature of its contact.
+/// Oil at the temperature of its contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Oil {
-    /// How thick it is.
+    /// Viscosity grade.
     pub grade: Grade,
-    /// What it is made of.
+    /// Base oil.
     #[serde(default)]
     pub family: OilFamily,
     /// Temperature \[K\].
@@ -62,7 +62,7 @@ pub struct Oil {
     pub density_15: f64,
 }
 
-/// How thick an oil is.
+/// Specification of an oil's viscosity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Grade {
     /// A mineral oil of an ISO viscosity grade with a viscosity index of 95.
@@ -71,7 +71,7 @@ pub enum Grade {
     Two((f64, f64), (f64, f64)),
 }
 
-/// What an oil is at its temperature.
+/// Properties of an oil at its temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OilState {
     /// Dynamic viscosity η₀ \[Pa·s\].
@@ -85,10 +85,10 @@ pub struct OilState {
 }
 
 impl Oil {
-    /// Viscosity, density and α at its temperature.
+    /// Returns viscosity, density and α at its temperature.
     ///
     /// # Errors
-    /// A grade, viscosities, a temperature or a density that no oil has.
+    /// If the grade, a viscosity, the temperature or the density is outside the accepted range.
     pub fn state(&self) -> Result<OilState, OilError> {
         if !(500.0..=2000.0).contains(&self.density_15) {
             return Err(OilError::Density(self.density_15));
@@ -105,7 +105,7 @@ impl Oil {
     }
 }
 
-/// How a kinematic viscosity depends on the temperature, log₁₀ log₁₀ Z = A − B log₁₀ T (ASTM D341).
+/// Temperature dependence of the kinematic viscosity, log₁₀ log₁₀ Z = A − B log₁₀ T (ASTM D341).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViscosityTemperature {
     a: f64,
@@ -113,10 +113,11 @@ pub struct ViscosityTemperature {
 }
 
 impl ViscosityTemperature {
-    /// Through two points of temperature \[K\] and kinematic viscosity \[m²/s\].
+    /// Creates the law through two points of temperature \[K\] and kinematic viscosity \[m²/s\].
     ///
     /// # Errors
-    /// Points outside the chart, at one temperature, or rising.
+    /// If a point lies outside the chart, both have the same temperature, or the viscosity rises with the
+    /// temperature.
     pub fn through(first: (f64, f64), second: (f64, f64)) -> Result<Self, OilError> {
         let (cold, hot) = if first.0 <= second.0 { (first, second) } else { (second, first) };
         for (temperature, viscosity) in [cold, hot] {
@@ -134,20 +135,20 @@ impl ViscosityTemperature {
         Ok(Self { a: height(cold) + b * cold.0.log10(), b })
     }
 
-    /// A mineral oil of an ISO grade with a viscosity index of 95.
+    /// Creates the law of a mineral oil of an ISO grade with a viscosity index of 95.
     ///
     /// # Errors
-    /// A number that is no grade.
+    /// If the number is not an ISO grade.
     pub fn iso_vg(grade: f64) -> Result<Self, OilError> {
         let found = ISO_VG.into_iter().find(|(at_40, _)| *at_40 == grade);
         let (at_40, at_100) = found.ok_or(OilError::Grade(grade))?;
         Self::through((KELVIN + 40.0, 1e-6 * at_40), (KELVIN + 100.0, 1e-6 * at_100))
     }
 
-    /// Kinematic viscosity \[m²/s\] at a temperature \[K\].
+    /// Returns the kinematic viscosity \[m²/s\] at a temperature \[K\].
     ///
     /// # Errors
-    /// A temperature outside what oils are used at, or a viscosity outside the chart there.
+    /// If the temperature is outside the accepted range, or the viscosity at it is outside the chart.
     pub fn at(&self, temperature_k: f64) -> Result<f64, OilError> {
         check_temperature(temperature_k)?;
         let z = 10f64.powf(10f64.powf(self.a - self.b * temperature_k.log10()));
@@ -166,19 +167,19 @@ fn check_viscosity(mm2_per_s: f64) -> Result<(), OilError> {
     if (0.3..=2e7).contains(&mm2_per_s) { Ok(()) } else { Err(OilError::Viscosity(mm2_per_s)) }
 }
 
-/// Z of ASTM D341 from a kinematic viscosity \[mm²/s\].
+/// Returns Z of ASTM D341 for a kinematic viscosity \[mm²/s\].
 fn z_of(nu: f64) -> f64 {
     nu + 0.7 + (-1.47 - 1.84 * nu - 0.51 * nu * nu).exp()
 }
 
-/// The kinematic viscosity \[mm²/s\] of a Z.
+/// Returns the kinematic viscosity \[mm²/s\] for Z.
 fn viscosity_of(z: f64) -> f64 {
     let x = z - 0.7;
     x - (-0.7487 - 3.295 * x + 0.6119 * x * x - 0.3193 * x * x * x).exp()
 }
 
-/// Density \[kg/m³\] at a temperature \[K\] of an oil whose density at 15 °C \[kg/m³\] is known: the thermal expansion
-/// of lubricating oils by ASTM D1250, coefficient 0.6278/ρ₁₅.
+/// Returns the density \[kg/m³\] at a temperature \[K\] of an oil with a given density at 15 °C \[kg/m³\]. Uses the
+/// thermal expansion of lubricating oils by ASTM D1250, coefficient 0.6278/ρ₁₅.
 pub fn density_at(density_15: f64, temperature_k: f64) -> f64 {
     let expansion = 0.6278 / density_15 * (temperature_k - KELVIN - 15.0);
     density_15 * (-expansion * (1.0 + 0.8 * expansion)).exp()
@@ -199,10 +200,10 @@ pub enum OilFamily {
 }
 
 impl OilFamily {
-    /// All of them.
+    /// All families.
     pub const ALL: [Self; 4] = [Self::Mineral, Self::Polyalphaolefin, Self::Ester, Self::Polyglycol];
 
-    /// Its name for people.
+    /// Returns its display name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mineral => "Mineral oil",
@@ -212,7 +213,7 @@ impl OilFamily {
         }
     }
 
-    /// A usual density at 15 °C \[kg/m³\].
+    /// Returns a typical density at 15 °C \[kg/m³\].
     pub fn usual_density(self) -> f64 {
         match self {
             Self::Mineral => 880.0,
@@ -222,7 +223,7 @@ impl OilFamily {
         }
     }
 
-    /// Where its correlation comes from, and how far oils lie from it.
+    /// Returns the source of its correlation and the typical deviation of oils from it.
     pub fn source(self) -> &'static str {
         match self {
             Self::Mineral => {
@@ -235,8 +236,9 @@ impl OilFamily {
         }
     }
 
-    /// Pressure–viscosity coefficient α \[1/Pa\] of an oil of a dynamic viscosity \[Pa·s\] and a kinematic one \[m²/s\]
-    /// at the temperature of the contact. Thinner than 0.5 mPa·s, Wooster's line is no longer followed downwards.
+    /// Returns the pressure–viscosity coefficient α \[1/Pa\] of an oil from its dynamic viscosity \[Pa·s\] and its
+    /// kinematic viscosity \[m²/s\] at the temperature of the contact. Below 0.5 mPa·s, Wooster's correlation is kept
+    /// constant.
     pub fn coefficient(self, viscosity_pa_s: f64, kinematic_m2_per_s: f64) -> f64 {
         let gold = |s: f64, t: f64| 1e-9 * s * (1e6 * kinematic_m2_per_s).powf(t);
         match self {

@@ -1,25 +1,25 @@
-//! The largest shear stress under a dry Hertzian contact, on the line through its centre.
+//! Maximum subsurface shear stress of a dry Hertzian contact, on the line through its centre.
 
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use ellip::{elliprd, elliprf};
 
-/// The largest shear stress under the surface and where it acts.
+/// Maximum shear stress below the surface and its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LargestShear {
     /// τ_max over the Hertzian pressure p_H.
     pub over_hertz_pressure: f64,
-    /// Depth over the half width (line) or the semi-axis along the rolling direction (point) a.
+    /// Depth over the half width (line contact) or the semi-axis along the rolling direction (point contact) a.
     pub depth_over_half_width: f64,
 }
 
-/// Where one semi-axis is all but the other, the formula of ellipses is nothing over nothing.
+/// Relative difference of the semi-axes below which the formula of elliptical contacts becomes 0/0.
 const NEARLY_ROUND: f64 = 1e-4;
 
-/// The largest shear stress on the axis below a frictionless Hertzian contact. Poisson's ratio counts for a point
-/// contact only; Johnson, Contact Mechanics, (4.45) and (3.45), for ellipses (3.69).
+/// Returns the maximum shear stress on the axis below a frictionless Hertzian contact. Poisson's ratio is used for a
+/// point contact only. Source: Johnson, Contact Mechanics, (4.45) and (3.45), for ellipses (3.69).
 pub fn largest_shear(point: &OperatingPoint, poisson: f64) -> LargestShear {
     let kappa = point.ellipse().kappa;
-    // Stresses do not know which way the rolling direction runs.
+    // Stresses are independent of the rolling direction.
     let ratio = kappa.min(kappa.recip());
     match point.kind {
         ContactKind::Line => deepest(1.0, &below_line),
@@ -28,13 +28,13 @@ pub fn largest_shear(point: &OperatingPoint, poisson: f64) -> LargestShear {
     }
 }
 
-/// The largest value, by a depth in the smaller semi-axis, which is so many times a.
+/// Returns the maximum over the depth in units of the smaller semi-axis. `smaller` is that semi-axis over a.
 fn deepest(smaller: f64, shear: &dyn Fn(f64) -> f64) -> LargestShear {
     let depth = maximum_between(0.05, 2.0, shear);
     LargestShear { over_hertz_pressure: shear(depth), depth_over_half_width: smaller * depth }
 }
 
-/// ½|σ_x − σ_z| with σ_x = −p_H((1 + 2z²)/√(1 + z²) − 2z), σ_z = −p_H/√(1 + z²).
+/// Returns ½|σ_x − σ_z| with σ_x = −p_H((1 + 2z²)/√(1 + z²) − 2z), σ_z = −p_H/√(1 + z²).
 fn below_line(z: f64) -> f64 {
     z - z * z / (1.0 + z * z).sqrt()
 }
@@ -45,25 +45,26 @@ fn below_circle(z: f64, poisson: f64) -> f64 {
     0.5 * (axial - radial).abs()
 }
 
-/// Below an ellipse by the ratio of its smaller semi-axis to the larger one, in which the depth is measured.
+/// Returns the shear stress below an ellipse. `ratio` is the smaller over the larger semi-axis, and the depth is in
+/// units of the larger one.
 fn below_ellipse(ratio: f64, z: f64, poisson: f64) -> f64 {
     let (square, eccentricity) = (ratio * ratio, 1.0 - ratio * ratio);
     let t = ((square + z * z) / (1.0 + z * z)).sqrt();
-    // The incomplete integrals F and E of the angle whose cotangent is z, by Carlson's.
+    // Incomplete elliptic integrals F and E of the angle whose cotangent is z, by Carlson's integrals.
     let (sin, cos_squared) = ((1.0 + z * z).sqrt().recip(), z * z / (1.0 + z * z));
     let delta = 1.0 - eccentricity * sin * sin;
     let first = sin * elliprf(cos_squared, delta, 1.0).unwrap_or(f64::NAN);
     let second = first - eccentricity / 3.0 * sin.powi(3) * elliprd(cos_squared, delta, 1.0).unwrap_or(f64::NAN);
     let (plain, stretched) = (z * (first - second), z * (second / square - first));
     let scale = 2.0 * ratio / eccentricity;
-    // The stresses on the axis, which are principal there, along the larger semi-axis, the smaller one, and downwards.
+    // Stresses on the axis, where they are principal: along the larger and the smaller semi-axis, and downwards.
     let larger = scale * (0.5 * (t - 1.0) + plain + poisson * (1.0 - t / square + stretched));
     let smaller = scale * (0.5 + 0.5 / t - t / square + stretched + poisson * (t - 1.0 + plain));
     let down = -0.5 * scale * (1.0 - t * t) / t;
     0.5 * (larger.max(smaller).max(down) - larger.min(smaller).min(down))
 }
 
-/// Golden-section search for the one maximum inside.
+/// Finds the only maximum in the interval by golden-section search.
 fn maximum_between(mut low: f64, mut high: f64, value: &dyn Fn(f64) -> f64) -> f64 {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     for _ in 0..60 {

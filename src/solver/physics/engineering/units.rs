@@ -1,94 +1,94 @@
-//! Numbers with units as people type them: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
+//! Numbers with units as entered by users: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
 
 use std::f64::consts::PI;
 
 /// 0 °C in K.
 pub const KELVIN: f64 = 273.15;
 
-/// What a typed number measures. Results are in SI units: m, m/s, N, N/m, Pa, Pa·s, m²/s, 1/Pa, K, 1/K, kg/m³, s, and
-/// plain ratios.
+/// Dimension of an entered number. Results are in SI units: m, m/s, N, N/m, Pa, Pa·s, m²/s, 1/Pa, K, 1/K, kg/m³, s,
+/// and dimensionless ratios.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dimension {
-    /// m.
+    /// Length in m.
     Length,
-    /// m/s; a speed of rotation where the radius of the body that turns \[m\] is known.
+    /// Speed in m/s. A rotational speed is accepted if the radius of the body \[m\] is given.
     Speed {
         /// Radius at which the surface moves.
         radius_m: Option<f64>,
     },
-    /// N.
+    /// Force in N.
     Force,
-    /// N/m.
+    /// Load per length in N/m.
     LineLoad,
-    /// Pa.
+    /// Pressure in Pa.
     Pressure,
-    /// Pa·s; a kinematic viscosity where the density \[kg/m³\] is known.
+    /// Dynamic viscosity in Pa·s. A kinematic viscosity is accepted if the density \[kg/m³\] is given.
     Viscosity {
         /// Density of the oil.
         density: Option<f64>,
     },
-    /// m²/s.
+    /// Kinematic viscosity in m²/s.
     KinematicViscosity,
-    /// 1/Pa.
+    /// Pressure–viscosity coefficient in 1/Pa.
     PressureCoefficient,
-    /// K.
+    /// Temperature in K.
     Temperature,
-    /// 1/K.
+    /// Temperature coefficient in 1/K.
     PerKelvin,
-    /// kg/m³.
+    /// Density in kg/m³.
     Density,
-    /// s.
+    /// Time in s.
     Time,
-    /// A plain number.
+    /// Dimensionless number.
     Ratio,
 }
 
-/// Why a typed text is no value of a dimension.
+/// Reason why a text is not a value of a dimension.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum UnitError {
-    /// Nothing was typed.
+    /// The text is empty.
     #[error("a number is needed here")]
     Empty,
-    /// It does not begin with a finite number.
+    /// The text does not begin with a finite number.
     #[error("“{text}” is no number; write it like {example}")]
     NoNumber {
-        /// What was typed.
+        /// Text that was entered.
         text: String,
-        /// What would be accepted.
+        /// Example of an accepted text.
         example: String,
     },
-    /// The unit is not one of this dimension.
+    /// The unit does not belong to this dimension.
     #[error("“{unit}” is no unit of {of}; accepted are {accepted}")]
     Unit {
-        /// The unit typed.
+        /// Unit that was entered.
         unit: String,
-        /// The dimension.
+        /// Name of the dimension.
         of: &'static str,
         /// Units of the dimension.
         accepted: String,
     },
-    /// A speed of rotation without a radius.
+    /// A rotational speed without a radius.
     #[error("“{unit}” needs the radius of the body that turns; enter that first, or a speed in m/s")]
     NeedsRadius {
-        /// The unit typed.
+        /// Unit that was entered.
         unit: String,
     },
     /// A kinematic viscosity without a density.
     #[error("“{unit}” is a kinematic viscosity and needs the density of the oil; enter that first, or mPa·s")]
     NeedsDensity {
-        /// The unit typed.
+        /// Unit that was entered.
         unit: String,
     },
 }
 
-/// Units with their size in SI units; the first of each is an example.
+/// Units with their size in SI units. The first of each list is used as an example.
 type Units = &'static [(&'static str, f64)];
 
 const ROTATION: Units = &[("rpm", PI / 30.0), ("1/min", PI / 30.0), ("U/min", PI / 30.0), ("rad/s", 1.0)];
 const KINEMATIC: Units = &[("cSt", 1e-6), ("mm²/s", 1e-6), ("m²/s", 1.0), ("St", 1e-4)];
 
 impl Dimension {
-    /// Its name with the article.
+    /// Returns its name with the article.
     pub fn name(self) -> &'static str {
         match self {
             Self::Length => "a length",
@@ -107,7 +107,7 @@ impl Dimension {
         }
     }
 
-    /// The SI unit of its values; empty for a ratio.
+    /// Returns the SI unit of its values; empty for a ratio.
     pub fn si_unit(self) -> &'static str {
         match self {
             Self::Length => "m",
@@ -126,7 +126,7 @@ impl Dimension {
         }
     }
 
-    /// Its units.
+    /// Returns its units.
     pub fn units(self) -> Units {
         match self {
             Self::Length => &[("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9), ("cm", 1e-2), ("m", 1.0), ("in", 0.0254)],
@@ -156,11 +156,11 @@ impl Dimension {
     }
 }
 
-/// The value in SI units of a typed text. A number without a unit is in `field_unit`, the one that stands beside the
-/// field (empty for a plain number).
+/// Returns the value in SI units of an entered text. A number without a unit is in `field_unit`, the unit shown next
+/// to the field (empty for a dimensionless number).
 ///
 /// # Errors
-/// A sentence that says what was typed and what would be accepted.
+/// If the text is not a value of the dimension. The message names the text and what is accepted.
 pub fn parse(text: &str, dimension: Dimension, field_unit: &str) -> Result<f64, UnitError> {
     let plain: String = text.chars().filter(|c| !c.is_whitespace()).map(plain_character).collect();
     if plain.is_empty() {
@@ -210,15 +210,15 @@ fn in_si((number, value): (&str, f64), typed: &str, dimension: Dimension) -> Res
     Err(UnitError::Unit { unit: typed.to_owned(), of: dimension.name(), accepted: accepted.join(", ") })
 }
 
-/// A number as it is typed times the size of its unit: 12.7 mm are 0.0127 m to the last digit, as a shift of the decimal
-/// point.
+/// Returns an entered number times the size of its unit. The decimal point of the text is shifted, so that 12.7 mm
+/// are exactly 0.0127 m. `None` if the size is not a power of ten or the number has an exponent.
 fn shifted(number: &str, size: f64) -> Option<f64> {
     let places = size.log10().round();
     let decimal = (size / 10f64.powf(places) - 1.0).abs() < 1e-12 && !number.contains(['e', 'E']);
     if decimal { format!("{number}e{places}").parse().ok() } else { None }
 }
 
-/// Minus signs and decimal commas as programs write them.
+/// Replaces minus signs and decimal commas by those of programs.
 fn plain_character(c: char) -> char {
     match c {
         ',' => '.',
@@ -228,7 +228,8 @@ fn plain_character(c: char) -> char {
     }
 }
 
-/// The longest beginning that is a number and leaves no broken unit: of “201/GPa”, which was “20 1/GPa”, it is 20.
+/// Splits a text into the longest number at its beginning and a valid unit. “201/GPa”, entered as “20 1/GPa”, gives
+/// 20.
 fn split(plain: &str) -> (&str, &str) {
     let ends = plain.char_indices().map(|(at, c)| at + c.len_utf8());
     let parts = ends.filter_map(|end| plain.split_at_checked(end));
@@ -240,7 +241,7 @@ fn is_number(text: &str) -> bool {
     text.ends_with(|c: char| c.is_ascii_digit() || c == '.') && text.parse::<f64>().is_ok()
 }
 
-/// A unit without what people leave out or write in another way.
+/// Returns a unit in a normalised form, without characters that may be omitted or written differently.
 fn key(unit: &str) -> String {
     let kept = unit.chars().filter(|c| !matches!(c, '·' | '*' | '^' | '°' | ' ' | '\u{2009}'));
     let plain: String = kept
@@ -251,7 +252,7 @@ fn key(unit: &str) -> String {
             other => other,
         })
         .collect();
-    // Typed by hand these are unambiguous in any case.
+    // These units are unambiguous in any case of letters.
     match plain.to_lowercase().as_str() {
         "rpm" | "cst" | "cp" | "gpa" | "kn" | "1/gpa" | "n/mm" | "kn/m" | "n/m" => plain.to_lowercase(),
         _ => plain,

@@ -1,28 +1,30 @@
-//! How a film ruptures where the gap opens.
+//! Cavitation of a film where the gap widens.
 
 use super::error::LubricantError;
 use crate::solver::limits::Number;
 use serde::{Deserialize, Serialize};
 
-/// What replaces Reynolds' equation where a liquid could only be pulled.
+/// Cavitation model. It replaces the Reynolds equation where the pressure would become negative.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum Cavitation {
-    /// A penalty keeps pressures from going negative, (2.36); what it leaves of them goes with 1/γ̄.
+    /// Penalty on negative pressures, (2.36). The remaining negative pressures are proportional to 1/γ̄, with the
+    /// penalty factor γ̄.
     #[default]
     Penalty,
-    /// P ≥ 0, a multiplier λ ≥ 0 joins Reynolds' equation, and P λ = 0 at every node (appendix D).
+    /// Complementarity: pressure P ≥ 0, multiplier λ ≥ 0 in the Reynolds equation, and P λ = 0 at every node
+    /// (appendix D).
     Complementarity,
-    /// P ≥ 0, and where P = 0 the gap is filled to a fraction θ ≤ 1, by which it carries what flows in (Elrod and
-    /// Adams).
+    /// Mass-conserving cavitation (Elrod and Adams): P ≥ 0, and where P = 0 the gap is filled to a fraction θ ≤ 1,
+    /// which carries the flow.
     MassConserving {
-        /// Thickness of the film that the surfaces bring to the inlet, in metres; without one the inlet is flooded.
+        /// Inlet film thickness carried by the surfaces \[m\]; `None` for a flooded inlet.
         #[serde(rename = "supply_film", default)]
         supply_film_m: Option<f64>,
     },
 }
 
 impl Cavitation {
-    /// Its words in sentences.
+    /// Returns its name in sentences.
     pub fn name(self) -> &'static str {
         match self {
             Self::Penalty => "penalty",
@@ -31,10 +33,10 @@ impl Cavitation {
         }
     }
 
-    /// Refuses a supply that is no film.
+    /// Checks the inlet film thickness.
     ///
     /// # Errors
-    /// When it is not a thickness above zero.
+    /// If it is not a positive number.
     pub fn check(self) -> Result<(), LubricantError> {
         match self.supply_film_m() {
             Some(film) if !(film.is_finite() && film > 0.0) => Err(LubricantError(format!(
@@ -46,7 +48,7 @@ impl Cavitation {
         }
     }
 
-    /// Thickness of the film that the surfaces bring to the inlet \[m\]; none where the inlet is flooded.
+    /// Returns the inlet film thickness \[m\], or `None` for a flooded inlet.
     pub fn supply_film_m(self) -> Option<f64> {
         match self {
             Self::MassConserving { supply_film_m } => supply_film_m,

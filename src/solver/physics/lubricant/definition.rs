@@ -1,4 +1,4 @@
-//! The laws of a lubricant together.
+//! Definition of a lubricant by its laws.
 
 use super::cavitation::Cavitation;
 use super::error::LubricantError;
@@ -9,7 +9,7 @@ use super::shear_thinning::{LimitingStress, ShearLaw};
 use crate::solver::physics::contact::OperatingPoint;
 use serde::{Deserialize, Serialize};
 
-/// The laws of a lubricant; its constants η₀ and α belong to the operating point.
+/// Laws of a lubricant. The constants η₀ and α belong to the operating point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub struct Lubricant {
@@ -19,22 +19,22 @@ pub struct Lubricant {
     /// Viscosity law.
     #[serde(default)]
     pub viscosity: ViscosityLaw,
-    /// How viscosity falls with shear stress.
+    /// Shear law: dependence of the viscosity on the shear stress.
     #[serde(default)]
     pub shear: ShearLaw,
-    /// The stress that limits traction, where one is known.
+    /// Stress that limits traction, or `None`.
     #[serde(default)]
     pub limiting_stress: Option<LimitingStress>,
-    /// How its film ruptures. Scenes say it in a field of their own, and models answer for what they were trained with.
+    /// Cavitation model. Scenes give it in a separate field, and models have that of their training.
     #[serde(skip)]
     pub cavitation: Cavitation,
-    /// How its film warms itself; none where everything has the inlet's temperature. Scenes say it in a field of their
-    /// own.
+    /// Thermal properties; `None` for an isothermal film at the inlet temperature. Scenes give them in a separate
+    /// field.
     #[serde(skip)]
     pub heat: Option<Heat>,
 }
 
-/// A lubricant with all its laws as one value, where scenes state cavitation and heat in fields of their own:
+/// Serialised form of a lubricant that includes cavitation and heat, which scenes give in separate fields:
 /// `#[serde(with = "WholeLubricant")]`.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Lubricant", deny_unknown_fields)]
@@ -48,10 +48,10 @@ pub(crate) struct WholeLubricant {
 }
 
 impl Lubricant {
-    /// Fixes the laws' constants at an operating point.
+    /// Computes the constants of the laws at an operating point.
     ///
     /// # Errors
-    /// When a law is not defined for the point's constants.
+    /// If a law is not defined for the constants of the point.
     pub fn scaled(self, point: &OperatingPoint) -> Result<ScaledFluid, LubricantError> {
         let roelands_log = roelands_log(point.viscosity_pa_s);
         let minimum = ViscosityLaw::thinnest_of_roelands();
@@ -75,7 +75,7 @@ impl Lubricant {
         })
     }
 
-    /// Refuses a Hertzian pressure \[Pa\] under which a law has ended.
+    /// Refuses a Hertzian pressure \[Pa\] beyond the range of a law.
     pub(crate) fn check_pressure(&self, pressure: f64) -> Result<(), LubricantError> {
         match self.viscosity {
             ViscosityLaw::Doolittle(law) if pressure >= law.largest_pressure() => {
@@ -90,10 +90,11 @@ impl Lubricant {
         }
     }
 
-    /// What heat adds at an operating point that the laws accept; none without heat.
+    /// Returns the scaled thermal properties at an operating point that the laws accept, or `None` for an isothermal
+    /// film.
     ///
     /// # Errors
-    /// When its contact is no line contact, or a body stands still or runs backwards.
+    /// If a body is stationary or runs backwards.
     pub fn scaled_heat(
         self,
         fluid: &ScaledFluid,
@@ -104,10 +105,10 @@ impl Lubricant {
         Ok(Some(ScaledHeat::new(heat, fluid, point)))
     }
 
-    /// Refuses constants for which a law is not defined, naming them.
+    /// Refuses constants for which a law is not defined.
     ///
     /// # Errors
-    /// With the first such constant.
+    /// If there is such a constant; the error names the first one.
     pub fn check(&self) -> Result<(), LubricantError> {
         if let DensityLaw::Tait(tait) = self.density {
             tait.check()?;
@@ -128,19 +129,20 @@ impl Lubricant {
         self.limiting_stress.iter().try_for_each(LimitingStress::check)
     }
 
-    /// The laws that pressure and film answer to: all but the limiting stress, which cuts traction only.
+    /// Returns the laws that affect pressure and film thickness: all but the limiting stress, which limits traction
+    /// only.
     pub fn of_the_film(self) -> Self {
         Self { limiting_stress: None, ..self }
     }
 
-    /// The laws of the liquid that make its film: all but the limiting stress and the way it ruptures, which moves H_c by
-    /// a few parts in ten million.
+    /// Returns the laws of the liquid: all but the limiting stress and the cavitation model. The latter changes H_c
+    /// by a few parts in ten million.
     pub fn of_the_liquid(self) -> Self {
         Self { limiting_stress: None, cavitation: Cavitation::Penalty, ..self }
     }
 
-    /// The pressure–viscosity coefficient that follows from the viscosity law itself, α* \[1/Pa\]; `None` where it is a
-    /// free constant.
+    /// Returns the pressure–viscosity coefficient α* \[1/Pa\] that follows from the viscosity law, or `None` if it is
+    /// a free constant.
     pub fn own_coefficient(&self) -> Option<f64> {
         match self.viscosity {
             ViscosityLaw::Doolittle(doolittle) => Some(doolittle.reciprocal_asymptotic_coefficient()),

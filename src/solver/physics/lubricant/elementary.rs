@@ -1,9 +1,10 @@
-//! Powers and hyperbolic sines of several numbers at once, by a logarithm and an exponential without branches and tables:
-//! loops over them run in the widest vector registers that the machine has, and give the same numbers on any.
+//! Powers and hyperbolic sines of several numbers at once. They use a logarithm and an exponential without branches
+//! and tables. Loops over them run in the widest vector registers of the machine and give the same numbers on all
+//! machines.
 //!
-//! The laws of a shear-thinning film take one or two at every point of the rule across it. Reductions and
-//! coefficients are those of fdlibm (Sun Microsystems 1993, `e_log.c`, `e_exp.c`); both functions are within 1e-15
-//! relative of the C library's where these do not vanish.
+//! The laws of a shear-thinning film need one or two of them at every quadrature point across it. Reductions and
+//! coefficients are those of fdlibm (Sun Microsystems 1993, `e_log.c`, `e_exp.c`). Both functions differ by at most
+//! 1e-15 from those of the C library, relative to their values, away from zeros.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -31,7 +32,7 @@ impl WithSimd for Raise<'_> {
     }
 }
 
-/// Raises e to every x.
+/// Replaces every x by e^x.
 pub(super) fn exponentials(values: &mut [f64]) {
     Arch::new().dispatch(Exponentials(values));
 }
@@ -49,7 +50,8 @@ impl WithSimd for Exponentials<'_> {
     }
 }
 
-/// Coefficients 1/(2k + 1)! of (sinh t)/t in t², and those 2k/(2k + 1)! of cosh t − (sinh t)/t over t²: enough up to t = 1.
+/// Coefficients 1/(2k + 1)! of (sinh t)/t in t², and 2k/(2k + 1)! of cosh t − (sinh t)/t over t²; sufficient up to t
+/// = 1.
 const SINE: [f64; 10] = [
     1.0,
     1.0 / 6.0,
@@ -74,8 +76,8 @@ const RISE: [f64; 9] = [
     18.0 / 121_645_100_408_832_000.0,
 ];
 
-/// Makes every t in 0…700 t/sinh t, and its slopes t times the derivative of that by t, t/sinh t (1 − t coth t). Both are
-/// exact relative to themselves, near t = 0 too.
+/// Replaces every t in 0…700 by t/sinh t. The slopes are t times its derivative by t, t/sinh t (1 − t coth t). Both
+/// have full relative accuracy, also near t = 0.
 pub(super) fn hyperbolic_sines(values: &mut [f64], slopes: &mut [f64]) {
     Arch::new().dispatch(HyperbolicSines { values, slopes });
 }
@@ -96,7 +98,7 @@ impl WithSimd for HyperbolicSines<'_> {
             (least, most) = (least.min(*t), most.max(*t));
         }
         let lanes = values.iter_mut().zip(slopes);
-        // Loops without a branch: most films lie on one side.
+        // Loops without a branch: in most films all values lie on one side.
         if most < 1.0 {
             for (value, slope) in lanes {
                 (*value, *slope) = near_sine(*value);
@@ -114,7 +116,7 @@ impl WithSimd for HyperbolicSines<'_> {
     }
 }
 
-/// By the series, which has no differences to lose, up to t = 1.
+/// Uses the series, which has no cancellation, up to t = 1.
 #[inline(always)]
 fn near_sine(t: f64) -> (f64, f64) {
     let square = t * t;
@@ -131,7 +133,7 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     sum
 }
 
-/// By the exponential, from there on.
+/// Uses the exponential for t ≥ 1.
 #[inline(always)]
 fn far_sine(t: f64) -> (f64, f64) {
     let growing = exp(t);
@@ -144,15 +146,15 @@ fn far_sine(t: f64) -> (f64, f64) {
 const LN_2_HIGH: f64 = 6.931_471_803_691_238e-1;
 const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
-/// ln x for normal x > 0. Zero and subnormal numbers count as the smallest normal one, infinity as 2^1024; other
-/// arguments have no meaning.
+/// Returns ln x for normal x > 0. Zero and subnormal numbers are treated as the smallest normal one, infinity as
+/// 2^1024. Results for other arguments are meaningless.
 #[inline(always)]
 pub(super) fn ln(x: f64) -> f64 {
     const ONE: u64 = 0x3ff0_0000_0000_0000;
     const MANTISSA: u64 = 0x000f_ffff_ffff_ffff;
-    /// √½: x is 2^k m with m between it and √2.
+    /// √½: x is 2^k m with m between √½ and √2.
     const LEAST: u64 = 0x3fe6_a09e_667f_3bcd;
-    /// 2^52: the bits below are whole numbers.
+    /// 2^52: the bits below are integers.
     const WHOLE: u64 = 0x4330_0000_0000_0000;
     let shifted = x.max(f64::MIN_POSITIVE).to_bits().wrapping_add(ONE - LEAST);
     let exponent = f64::from_bits(shifted >> 52 | WHOLE) - (f64::from_bits(WHOLE) + 1023.0);
@@ -168,10 +170,10 @@ pub(super) fn ln(x: f64) -> f64 {
     exponent * LN_2_HIGH - ((half_square - (s * (half_square + odd + even) + exponent * LN_2_LOW)) - f)
 }
 
-/// exp x, held at exp(±700): nothing that is divided by it overflows.
+/// Returns exp x, limited to exp(±700), so that divisions by it do not overflow.
 #[inline(always)]
 pub(super) fn exp(x: f64) -> f64 {
-    /// 1.5 · 2^52: what is added to it is rounded to a whole number, which its last bits hold.
+    /// 1.5 · 2^52: a sum with it is rounded to an integer, which its last bits contain.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     let x = if x > 700.0 { 700.0 } else { x };
     let x = if x < -700.0 { -700.0 } else { x };
@@ -199,7 +201,7 @@ mod tests {
             assert!((exp(x) / x.exp() - 1.0).abs() < 1e-15, "exp {x}");
             let t = x.exp();
             assert!((ln(t) - t.ln()).abs() <= 5e-16 * t.ln().abs(), "ln {t}");
-            // Where the logarithm vanishes.
+            // Near the zero of the logarithm.
             let t = 0.5 + f64::from(k) / 100_000.0;
             assert!((ln(t) - t.ln()).abs() <= 5e-16 * t.ln().abs(), "ln {t}");
         }
@@ -212,7 +214,7 @@ mod tests {
         hyperbolic_sines(&mut factors, &mut slopes);
         for ((t, factor), slope) in ts.iter().zip(&factors).zip(&slopes) {
             assert!((factor * t.sinh() / t - 1.0).abs() < 2e-15, "{t}");
-            // t coth t − 1 = t²/3 − t⁴/45 + 2 t⁶/945 − …, where the difference itself is lost.
+            // t coth t − 1 = t²/3 − t⁴/45 + 2 t⁶/945 − …, because the difference itself loses its accuracy.
             let wanted = if *t < 0.01 {
                 -t * t / 3.0 * (1.0 - t * t / 15.0 + 2.0 / 315.0 * t.powi(4))
             } else {

@@ -1,8 +1,8 @@
-//! Why a lubricant is refused.
+//! Reasons for refusing a lubricant.
 
 use crate::solver::limits::Number;
 
-/// Why a lubricant cannot be used at an operating point: a sentence.
+/// Message that states why a lubricant cannot be used at an operating point.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct LubricantError(pub(super) String);

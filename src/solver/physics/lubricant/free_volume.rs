@@ -1,4 +1,4 @@
-//! Tait's equation of state and Doolittle's viscosity, which follows from the free volume that the first one leaves.
+//! Tait's equation of state, and Doolittle's viscosity law, which follows from the free volume of that equation.
 //!
 //! Sources: Dymond & Malhotra 1988 for Tait's equation; Doolittle 1951 for the viscosity; both in the form of Bair
 //! 2007, *High Pressure Rheology for Quantitative Elastohydrodynamics*, isothermal.
@@ -16,7 +16,7 @@ pub struct Tait {
     pub k_0_prime: f64,
 }
 
-/// Doolittle's law, (3.39), with the equation of state its free volume comes from.
+/// Doolittle's law, (3.39), with the equation of state for its free volume.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Doolittle {
@@ -29,13 +29,13 @@ pub struct Doolittle {
 }
 
 impl Tait {
-    /// Refuses constants that describe no liquid.
+    /// Refuses unphysical constants.
     pub(super) fn check(&self) -> Result<(), LubricantError> {
         check_constant("Tait's bulk modulus k_0", self.k_0, 1e7, 1e12)?;
         check_constant("Tait's rate of change k_0_prime", self.k_0_prime, 1.0, 100.0)
     }
 
-    /// V/V₀ at p \[Pa\] and its derivative \[1/Pa\].
+    /// Returns V/V₀ at p \[Pa\] and its derivative \[1/Pa\].
     #[inline]
     pub fn relative_volume(&self, p: f64) -> (f64, f64) {
         let slope = (1.0 + self.k_0_prime) / self.k_0;
@@ -43,13 +43,14 @@ impl Tait {
         (1.0 - argument.ln() / (1.0 + self.k_0_prime), -1.0 / (self.k_0 * argument))
     }
 
-    /// Pressure \[Pa\] at which V/V₀ has fallen to `volume`: (3.37) solved for p.
+    /// Returns the pressure \[Pa\] at which V/V₀ has fallen to `volume`: (3.37) solved for p.
     pub fn pressure_at(&self, volume: f64) -> f64 {
         let compressed = 1.0 + self.k_0_prime;
         ((compressed * (1.0 - volume)).exp_m1()) * self.k_0 / compressed
     }
 
-    /// ρ/ρ₀ at p \[Pa\], (3.38), and its derivative \[1/Pa\]. Where the logarithm leaves no volume the density is held.
+    /// Returns ρ/ρ₀ at p \[Pa\], (3.38), and its derivative \[1/Pa\]. Below V/V₀ = 0.1 the density
+    /// is constant.
     #[inline]
     pub fn density(&self, p: f64) -> (f64, f64) {
         const LEAST_VOLUME: f64 = 0.1;
@@ -68,18 +69,18 @@ impl Doolittle {
         self.volume.check()
     }
 
-    /// The pressure \[Pa\] at which no free volume is left: the law's end.
+    /// Returns the pressure \[Pa\] at which no free volume is left. This is the end of the law's range.
     pub fn largest_pressure(&self) -> f64 {
         self.volume.pressure_at(self.r_0)
     }
 
-    /// ln(μ/η₀) at p \[Pa\] and its derivative \[1/Pa\]. Without free volume the logarithm is infinite and the
-    /// derivative zero.
+    /// Returns ln(μ/η₀) at p \[Pa\] and its derivative \[1/Pa\]. Without free volume the logarithm is infinite and
+    /// the derivative zero.
     #[inline]
     pub fn log_viscosity(&self, p: f64) -> (f64, f64) {
         let (volume, slope) = self.volume.relative_volume(p);
         let free = volume - self.r_0;
-        // A NaN volume, from pressures far under −K₀/(1 + K₀′), has none either.
+        // A NaN volume, from pressures far below −K₀/(1 + K₀′), has no free volume either.
         if free.is_nan() || free <= 0.0 {
             return (f64::INFINITY, 0.0);
         }

@@ -1,4 +1,4 @@
-//! Heat: the thermal constants of a lubricant and of both bodies, their ranges, and what they amount to in one contact.
+//! Thermal constants of a lubricant and of both bodies, their ranges, and the thermal parameters of one contact.
 
 use super::error::{LubricantError, check_constant};
 use super::laws::ViscosityLaw;
@@ -20,40 +20,42 @@ pub struct OilHeat {
     pub conductivity: f64,
     /// Density ρ₀ at ambient pressure and the inlet's temperature \[kg/m³\].
     pub density: f64,
-    /// β = −d ln η/dT at ambient pressure \[1/K\], of Roelands' and Barus' law; Doolittle's has constants of its own.
+    /// β = −d ln η/dT at ambient pressure \[1/K\], for Roelands' and Barus' laws. Doolittle's law has separate
+    /// constants.
     pub viscosity_temperature: f64,
-    /// β_ρ = −d ln ρ/dT at ambient pressure \[1/K\]; Tait's law has constants of its own.
+    /// β_ρ = −d ln ρ/dT at ambient pressure \[1/K\]. Tait's law has separate constants.
     pub density_temperature: f64,
-    /// What Tait's and Doolittle's laws need.
+    /// Thermal constants of Tait's and Doolittle's laws.
     pub free_volume: Option<FreeVolumeHeat>,
 }
 
-/// How the volumes of Tait's and Doolittle's laws change with temperature; Bair 2007.
+/// Temperature dependence of the volumes in Tait's and Doolittle's laws; Bair 2007.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FreeVolumeHeat {
     /// β_K \[1/K\]: the bulk modulus is K₀ exp(−β_K ΔT).
     pub bulk_modulus_temperature: f64,
-    /// a_V \[1/K\]: the volume at ambient pressure is that of the inlet times 1 + a_V ΔT.
+    /// a_V \[1/K\]: the volume at ambient pressure is that at the inlet times 1 + a_V ΔT.
     pub expansion: f64,
-    /// ε \[1/K\]: the occupied volume is that of the inlet times 1 + ε ΔT.
+    /// ε \[1/K\]: the occupied volume is that at the inlet times 1 + ε ΔT.
     pub occupied_expansion: f64,
 }
 
-/// A film that warms itself: what it needs to be computed. η₀ and α are those at the inlet's temperature.
+/// Input data of a thermal film. η₀ and α are those at the inlet temperature.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Heat {
-    /// Temperature T₀ of the oil and of both bodies in front of the contact \[K\].
+    /// Temperature T₀ of the lubricant and of both bodies in front of the contact \[K\].
     pub inlet_temperature: f64,
-    /// The lubricant.
+    /// Thermal constants of the lubricant.
     pub oil: OilHeat,
-    /// Body 1, which moves with u_m (1 − SRR/2), and body 2, which moves with u_m (1 + SRR/2).
+    /// Thermal constants of body 1, which moves with u_m (1 − SRR/2), and of body 2, which moves with u_m (1 +
+    /// SRR/2).
     pub bodies: [BodyHeat; 2],
 }
 
 impl OilHeat {
-    /// A mineral oil.
+    /// Typical mineral oil.
     pub const MINERAL: Self = Self {
         heat_capacity: 2000.0,
         conductivity: 0.14,
@@ -76,12 +78,15 @@ impl Default for Heat {
     }
 }
 
-/// Largest |SRR| of a contact that is computed with heat: beyond it one surface stands all but still, and heat leaves
-/// the contact through it by ways that no moving source describes.
+/// Largest |SRR| of a thermal contact. Beyond it one surface is nearly stationary, and heat leaves the contact
+/// through it in ways that the theory of moving heat sources does not cover.
 pub const LARGEST_HEATED_SRR: f64 = 1.95;
 
 impl Heat {
-    /// Refuses constants that no oil or body has, naming them.
+    /// Refuses unphysical constants.
+    ///
+    /// # Errors
+    /// If a constant is out of range; the error names it.
     pub(super) fn check(&self, viscosity: ViscosityLaw, tait: bool) -> Result<(), LubricantError> {
         check_constant("the inlet temperature in kelvin", self.inlet_temperature, 230.0, 500.0)?;
         let oil = &self.oil;
@@ -110,7 +115,8 @@ impl Heat {
         }
     }
 
-    /// Refuses bodies that stand still or run backwards: the theory of moving sources ends there.
+    /// Refuses bodies that are stationary or run backwards, to which the theory of moving heat sources does not
+    /// apply.
     pub(super) fn check_sliding(slide_to_roll_ratio: f64) -> Result<(), LubricantError> {
         if slide_to_roll_ratio.abs() <= LARGEST_HEATED_SRR {
             return Ok(());
@@ -131,31 +137,32 @@ impl FreeVolumeHeat {
     }
 }
 
-/// The numbers that heat adds to a scaled contact: θ = (T − T₀)/T₀, ζ = z/h, speeds over u_m, stresses over η₀u_mR/a².
+/// Thermal parameters of a scaled contact. The variables are θ = (T − T₀)/T₀, ζ = z/h, speeds over u_m and stresses
+/// over η₀u_mR/a².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaledHeat {
-    /// What it was made from.
+    /// Thermal constants from which it was made.
     pub heat: Heat,
-    /// The laws at temperatures.
+    /// Temperature-dependent laws.
     pub fluid: WarmFluid,
     /// ū_1 and ū_2, the speeds of body 1 and body 2.
     pub speeds: [f64; 2],
     /// κ = 12/λ̄: the pressure gradient in the scale of stresses, τ̄ = τ̄_m + κ H P_X (ζ − ½).
     pub gradient: f64,
-    /// C₁ = k R²/(ρ₀ c_p u_m a³), of conduction across the film.
+    /// C₁ = k R²/(ρ₀ c_p u_m a³), coefficient of conduction across the film.
     pub conduction: f64,
-    /// C₂ = η₀ u_m R²/(ρ₀ c_p T₀ a³), of shear.
+    /// C₂ = η₀ u_m R²/(ρ₀ c_p T₀ a³), coefficient of shear heating.
     pub shear: f64,
-    /// C₃ = p_H/(ρ₀ c_p T₀), of compression.
+    /// C₃ = p_H/(ρ₀ c_p T₀), coefficient of compressive heating.
     pub compression: f64,
-    /// D_i = k R a^(−3/2)/√(π ρ_i c_i k_i u_m ū_i): how far a surface warms under a flux into it.
+    /// D_i = k R a^(−3/2)/√(π ρ_i c_i k_i u_m ū_i): temperature rise of a surface per heat flux into it.
     pub surfaces: [f64; 2],
-    /// η₀ u_m R/a² \[Pa\].
+    /// Stress scale η₀ u_m R/a² \[Pa\].
     pub stress_scale_pa: f64,
 }
 
 impl ScaledHeat {
-    /// Heat in one contact; the point's SRR must have been accepted.
+    /// Computes the thermal parameters of one contact. The SRR of the point must have been accepted.
     pub(super) fn new(heat: Heat, fluid: &ScaledFluid, point: &OperatingPoint) -> Self {
         let (radius, speed, half_width) = (point.radius_m, point.speed_m_per_s, point.hertz().half_width_m);
         let Heat { inlet_temperature, oil, bodies } = heat;
@@ -179,7 +186,8 @@ impl ScaledHeat {
         }
     }
 
-    /// The body with the smaller Péclet number, 1 or 2, and that number: heat that flows upstream within a body is left out.
+    /// Returns the body with the smaller Péclet number, 1 or 2, and that number. Heat conduction upstream within a
+    /// body is neglected.
     pub fn smallest_peclet(&self, point: &OperatingPoint) -> (usize, f64) {
         let half_width = point.hertz().half_width_m;
         let peclet = |body: &BodyHeat, speed: f64| {

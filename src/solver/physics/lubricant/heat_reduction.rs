@@ -1,9 +1,9 @@
-//! Published factors by which the heat that shear makes in the inlet thins a film.
+//! Published thermal reduction factors of the film thickness, for shear heating in the inlet.
 
 use super::ScaledHeat;
 use crate::solver::physics::contact::OperatingPoint;
 
-/// A published factor.
+/// Published thermal reduction factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HeatReduction {
     /// Murch & Wilson, pure rolling.
@@ -16,10 +16,10 @@ pub enum HeatReduction {
 const ROLLING_SRR: f64 = 0.02;
 
 impl HeatReduction {
-    /// All of them.
+    /// All factors.
     pub const ALL: [Self; 2] = [Self::MurchWilson, Self::Gupta];
 
-    /// Short name.
+    /// Returns its short name.
     pub fn name(self) -> &'static str {
         match self {
             Self::MurchWilson => "Murch–Wilson",
@@ -27,7 +27,7 @@ impl HeatReduction {
         }
     }
 
-    /// Source and range of validity in one sentence.
+    /// Returns source and range of validity in one sentence.
     pub fn source(self) -> &'static str {
         match self {
             Self::MurchWilson => {
@@ -41,8 +41,8 @@ impl HeatReduction {
         }
     }
 
-    /// The factor for a film without heat, between 0 and 1, and whether the contact lies in its range; the constants are
-    /// those that are quoted since, not read in the papers.
+    /// Returns the factor for an isothermal film, between 0 and 1, and whether the contact lies in its range. The
+    /// constants are quoted from later literature, not from the original papers.
     pub fn factor(self, point: &OperatingPoint, heat: &ScaledHeat) -> (f64, bool) {
         let per_kelvin = -heat.fluid.at(0.0, &[0.0]).log_viscosity_t[0] / heat.heat.inlet_temperature;
         let square = point.speed_m_per_s * point.speed_m_per_s;

@@ -1,19 +1,18 @@
-//! How density and viscosity depend on pressure.
+//! Dependence of density and viscosity on pressure.
 
 use super::free_volume::{Doolittle, Tait};
 use serde::{Deserialize, Serialize};
 
-/// Pressure \[Pa\] under which laws are frozen: no physical state, only passing Newton iterates, gets there.
+/// Pressure \[Pa\] below which the laws are constant. Only intermediate Newton iterates have lower pressures.
 pub const CAVITATION_FLOOR_PA: f64 = -1e7;
 
 /// Roelands' reference pressure p_Roe \[Pa\], (2.12).
 pub const ROELANDS_PRESSURE_PA: f64 = 1.96e8;
 
-/// Largest ln(η/η₀) that is evaluated: beyond it the fluid is a solid for every purpose of the discretisation, and exp
-/// would overflow.
+/// Upper limit of ln(η/η₀). Beyond it the lubricant is effectively solid, and exp would overflow.
 pub(super) const LOG_VISCOSITY_CEILING: f64 = 250.0;
 
-/// How density depends on pressure.
+/// Density law: dependence of the density on pressure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum DensityLaw {
     /// ρ = ρ₀.
@@ -25,20 +24,20 @@ pub enum DensityLaw {
     Tait(Tait),
 }
 
-/// How viscosity depends on pressure.
+/// Viscosity law: dependence of the viscosity on pressure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum ViscosityLaw {
-    /// (2.11), Barus 1893: η = η₀ exp(αp); overestimates above some 0.5 GPa.
+    /// (2.11), Barus 1893: η = η₀ exp(αp); overestimates the viscosity above about 0.5 GPa.
     Barus,
     /// (2.12), Roelands 1966, with p_Roe = 0.196 GPa and ln η₀ + 9.67 > 0.
     #[default]
     Roelands,
-    /// (3.39); its α is no free constant but follows from it.
+    /// (3.39); its α is not a free constant but follows from the law.
     Doolittle(Doolittle),
 }
 
 impl ViscosityLaw {
-    /// Ambient viscosity \[Pa·s\] that Roelands' law must exceed.
+    /// Returns the ambient viscosity \[Pa·s\] that must be exceeded for Roelands' law.
     pub fn thinnest_of_roelands() -> f64 {
         (0.05f64 - 9.67).exp()
     }

@@ -1,9 +1,9 @@
 //! Density and viscosity laws with their exact derivatives, sources and ranges of validity.
 //!
-//! A [`Lubricant`] names the laws; [`Lubricant::scaled`] fixes their constants at one operating point and evaluates in
-//! the solver's variable P = p/p_H. Slightly negative pressures (the penalty lets them reach about −1e-5 p_H) use the
-//! analytic laws; below [`CAVITATION_FLOOR_PA`] the laws are held constant so that no Newton iterate can leave their
-//! domain.
+//! A [`Lubricant`] selects the laws. [`Lubricant::scaled`] computes their constants at one operating point and
+//! evaluates them in the solver's variable P = p/p_H, where p_H is the Hertzian pressure. Slightly negative
+//! pressures, which reach about −1e-5 p_H with the penalty, use the analytic laws. Below [`CAVITATION_FLOOR_PA`] the
+//! laws are constant, so that no Newton iterate leaves their range.
 
 mod cavitation;
 mod definition;

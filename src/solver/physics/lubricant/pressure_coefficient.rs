@@ -1,11 +1,11 @@
-//! The reciprocal asymptotic isoviscous pressure coefficient α*, which gives M and L a meaning for any viscosity law.
+//! Reciprocal asymptotic isoviscous pressure coefficient α*, which defines M and L for any viscosity law.
 //!
-//! 1/α* = ∫₀^∞ η₀/μ(p) dp, Blok 1963; it is the coefficient that the film formulas ask for (Bair, Liu & Wang 2006). For
-//! Barus' law α* = α.
+//! 1/α* = ∫₀^∞ η₀/μ(p) dp, Blok 1963. It is the coefficient for which the film formulas hold (Bair, Liu & Wang 2006).
+//! For Barus' law α* = α.
 
 use super::free_volume::Doolittle;
 
-/// Abscissae and weights of Gauss's rule with six points on (−½, ½).
+/// Abscissae and weights of the six-point Gauss rule on (−½, ½).
 pub const GAUSS_6: [(f64, f64); 6] = [
     (-0.466_234_757_101_576, 0.085_662_246_189_585_2),
     (-0.330_604_693_233_132_25, 0.180_380_786_524_069_3),
@@ -15,10 +15,10 @@ pub const GAUSS_6: [(f64, f64); 6] = [
     (0.466_234_757_101_576, 0.085_662_246_189_585_2),
 ];
 
-/// α* \[1/unit of p\] of a law given as ln(μ/η₀)(p), whose slope at ambient pressure is `ambient`.
+/// Returns α* \[1/unit of p\] of a law ln(μ/η₀)(p), whose slope at ambient pressure is `ambient`.
 ///
-/// Panels of one e-folding at ambient pressure, six Gauss points each, until what is left adds nothing; a law that does
-/// not rise for long (60 e-foldings) ends the sum as well.
+/// Each panel has a width of one e-folding at ambient pressure and six Gauss points. The sum ends when a panel is
+/// negligible, or after 400 panels.
 pub(super) fn reciprocal_asymptotic(ambient: f64, log_viscosity: impl Fn(f64) -> f64) -> f64 {
     let width = 1.0 / ambient;
     let mut integral = 0.0;
@@ -34,7 +34,7 @@ pub(super) fn reciprocal_asymptotic(ambient: f64, log_viscosity: impl Fn(f64) ->
 }
 
 impl Doolittle {
-    /// α* \[1/Pa\] of this law.
+    /// Returns α* \[1/Pa\] of this law.
     pub fn reciprocal_asymptotic_coefficient(&self) -> f64 {
         reciprocal_asymptotic(self.log_viscosity(0.0).1, |p| self.log_viscosity(p).0)
     }

@@ -1,4 +1,4 @@
-//! The laws of a lubricant at one operating point, evaluated in P = p/p_H.
+//! Laws of a lubricant at one operating point, evaluated in P = p/p_H, where p_H is the Hertzian pressure.
 
 use super::elementary;
 use super::laws::{CAVITATION_FLOOR_PA, DensityLaw, LOG_VISCOSITY_CEILING, ROELANDS_PRESSURE_PA, ViscosityLaw};
@@ -37,18 +37,19 @@ pub(super) fn roelands_log(viscosity_pa_s: f64) -> f64 {
     viscosity_pa_s.ln() + 9.67
 }
 
-/// Roelands' exponent z of (2.12), which makes α the slope of ln η at ambient pressure; of mineral oils 0.4…0.8.
+/// Returns Roelands' exponent z of (2.12), for which α is the slope of ln η at ambient pressure; 0.4…0.8 for mineral
+/// oils.
 pub fn roelands_exponent(point: &OperatingPoint) -> f64 {
     point.alpha_per_pa * ROELANDS_PRESSURE_PA / roelands_log(point.viscosity_pa_s)
 }
 
 impl ScaledFluid {
-    /// p_H \[Pa\].
+    /// Returns p_H \[Pa\].
     pub fn hertz_pressure_pa(&self) -> f64 {
         self.hertz_pressure_pa
     }
 
-    /// The pressure P at which a law ends; infinite where none does.
+    /// Returns the pressure P at which the range of a law ends; infinite if it does not end.
     pub fn largest_pressure(&self) -> f64 {
         match self.viscosity {
             ViscosityLaw::Doolittle(doolittle) => doolittle.largest_pressure() / self.hertz_pressure_pa,
@@ -56,12 +57,13 @@ impl ScaledFluid {
         }
     }
 
-    /// α* p_H \[-\] with the reciprocal asymptotic isoviscous pressure coefficient of the law in use.
+    /// Returns α* p_H \[-\], where α* is the reciprocal asymptotic isoviscous pressure coefficient of the viscosity
+    /// law.
     pub fn reciprocal_asymptotic_exponent(&self) -> f64 {
         pressure_coefficient::reciprocal_asymptotic(self.at(0.0).log_viscosity_slope, |p| self.at(p).viscosity.ln())
     }
 
-    /// Density and viscosity at P.
+    /// Returns density and viscosity at P.
     #[inline]
     pub fn at(&self, pressure: f64) -> FluidState {
         let (ph, p) = (self.hertz_pressure_pa, self.counted(pressure));
@@ -76,7 +78,7 @@ impl ScaledFluid {
         self.state(pressure, (log_viscosity, slope), log_viscosity.min(LOG_VISCOSITY_CEILING).exp())
     }
 
-    /// The same at several P at once: Roelands' law runs in vector registers.
+    /// Returns the states at several P at once. Roelands' law runs in vector registers.
     pub fn at_all<const N: usize>(&self, pressures: &[f64; N]) -> [FluidState; N] {
         match self.viscosity {
             ViscosityLaw::Roelands => Arch::new().dispatch(RoelandsStates { fluid: self, pressures }),
@@ -84,13 +86,14 @@ impl ScaledFluid {
         }
     }
 
-    /// The pressure \[Pa\] that counts: below a floor nothing follows it.
+    /// Returns the pressure \[Pa\] at which the laws are evaluated. Below a floor they are constant.
     #[inline(always)]
     fn counted(&self, pressure: f64) -> f64 {
         (pressure * self.hertz_pressure_pa).max(CAVITATION_FLOOR_PA)
     }
 
-    /// ln η̄ and its slope by P of Roelands' law at a pressure \[Pa\], by the power z of 1 + p/p_Roe.
+    /// Returns ln η̄ and its slope with respect to P by Roelands' law at a pressure \[Pa\]. `power` is (1 +
+    /// p/p_Roe)^z.
     #[inline(always)]
     fn roelands(&self, p: f64, power: f64) -> (f64, f64) {
         let per_pressure = self.hertz_pressure_pa / ROELANDS_PRESSURE_PA;
@@ -98,7 +101,7 @@ impl ScaledFluid {
         (self.roelands_log * (power - 1.0), slope)
     }
 
-    /// The state at P, with ln η̄ and its slope, and η̄.
+    /// Returns the state at P from ln η̄ and its slope, and η̄.
     #[inline(always)]
     fn state(&self, pressure: f64, (log_viscosity, slope): (f64, f64), viscosity: f64) -> FluidState {
         let (ph, p) = (self.hertz_pressure_pa, self.counted(pressure));
@@ -154,7 +157,7 @@ impl<const N: usize> WithSimd for RoelandsStates<'_, N> {
     }
 }
 
-/// 1 + p/p_Roe.
+/// Returns 1 + p/p_Roe.
 #[inline(always)]
 fn roelands_base(p: f64) -> f64 {
     1.0 + p / ROELANDS_PRESSURE_PA

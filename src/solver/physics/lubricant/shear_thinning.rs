@@ -1,16 +1,16 @@
-//! Generalized-Newtonian laws: how viscosity falls with shear stress, and the conditions that decide by how much.
+//! Generalised Newtonian laws: the dependence of viscosity on shear stress, and the conditions that determine it.
 //!
-//! Every law is a factor F(τ/τ₀) ≤ 1 on the viscosity, explicit in the effective shear stress τ, and is blended with a
-//! second Newtonian plateau as (3.40) does: η = μ(p) \[NPR + (1 − NPR) F\]. The film integrals (3.24) ask for the
-//! fluidity μ/η.
+//! Every law is a factor F(τ/τ₀) ≤ 1 on the low-shear viscosity μ, explicit in the effective shear stress τ with the
+//! stress scale τ₀. It is combined with a second Newtonian plateau as in (3.40): η = μ(p) \[NPR + (1 − NPR) F\]. NPR
+//! is the Newtonian plateau ratio. The film integrals (3.24) use the fluidity μ/η.
 
 use super::elementary;
 use super::error::{LubricantError, check_constant};
 use crate::solver::physics::contact::{OperatingPoint, Sliding};
 use serde::{Deserialize, Serialize};
 
-/// How viscosity depends on shear stress. `npr` is the lubricant's own Newtonian plateau ratio, used where the
-/// operating conditions name none.
+/// Dependence of the viscosity on the shear stress. `npr` is the lubricant's Newtonian plateau ratio, used unless the
+/// operating conditions give one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
 pub enum ShearLaw {
     /// η = μ.
@@ -31,7 +31,7 @@ pub enum ShearLaw {
     /// Ellis' law, F = 1/(1 + (τ/G)^(1/n − 1)): a Newtonian plateau followed by a power law. It is Cross's law (1965)
     /// written in stress instead of rate; Matsuhisa & Bird 1965.
     Ellis {
-        /// Shear stress G \[Pa\] at which half of the viscosity is left.
+        /// Shear stress G \[Pa\] at which the viscosity has fallen to one half.
         critical_stress: f64,
         /// Power-law exponent n \[-\], in (0, 1\].
         n: f64,
@@ -49,10 +49,10 @@ pub enum ShearLaw {
     },
 }
 
-/// The stress that a film carries at most, τ_L = τ_L0 + Λ p: beyond it the lubricant slips or yields. It limits
-/// traction; pressure and film, which the inlet makes, are computed without it. Bair & Winer 1979. With an Eyring
-/// stress the traction of a film that is computed as Newtonian bends before it is cut: τ = τ_E asinh(τ_N/τ_E), Johnson
-/// & Tevaarwerk 1977.
+/// Limiting shear stress of a film, τ_L = τ_L0 + Λ p, beyond which the lubricant slips or yields; Bair & Winer 1979.
+/// It limits traction only. Pressure and film thickness, which the inlet determines, are computed without it. With an
+/// Eyring stress τ_E, the traction of a Newtonian film is first reduced to τ = τ_E asinh(τ_N/τ_E), Johnson &
+/// Tevaarwerk 1977.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitingStress {
@@ -60,13 +60,13 @@ pub struct LimitingStress {
     pub ambient: f64,
     /// Λ \[-\].
     pub slope: f64,
-    /// τ_E \[Pa\] of the traction alone, of films whose own law is Newtonian.
+    /// τ_E \[Pa\] for the traction only, of films whose shear law is Newtonian.
     #[serde(default)]
     pub eyring: Option<f64>,
 }
 
 impl ShearLaw {
-    /// The lubricant's own Newtonian plateau ratio.
+    /// Returns the lubricant's Newtonian plateau ratio.
     pub fn plateau(&self) -> f64 {
         match *self {
             Self::Newtonian => 1.0,
@@ -107,25 +107,26 @@ impl LimitingStress {
         self.eyring.map_or(Ok(()), |stress| check_constant("the Eyring stress of the traction", stress, 1.0, 1e12))
     }
 
-    /// What becomes of a stress τ \[Pa\] ≥ 0 at p \[Pa\]: bent by the Eyring stress, cut at the limit.
+    /// Returns the stress that the film carries for a stress τ \[Pa\] ≥ 0 at p \[Pa\]: reduced by the Eyring stress
+    /// and limited by τ_L.
     pub fn carried(&self, stress: f64, p: f64) -> f64 {
         self.eyring.map_or(stress, |eyring| eyring * (stress / eyring).asinh()).min(self.at(p))
     }
 
-    /// τ_L \[Pa\] at p \[Pa\].
+    /// Returns τ_L \[Pa\] at p \[Pa\].
     pub fn at(&self, p: f64) -> f64 {
         self.ambient + self.slope * p.max(0.0)
     }
 }
 
-/// Fluidity g = μ/η of a law as a function of t = τ/τ₀, its plateau included.
+/// Fluidity g = μ/η of a law as a function of t = τ/τ₀, including its plateau.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fluidity {
     factor: Factor,
     plateau: f64,
 }
 
-/// The factor F in the form that is evaluated.
+/// Factor F in the form in which it is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Factor {
     /// F = (1 + t^β)^q.
@@ -134,12 +135,12 @@ enum Factor {
     HyperbolicSine,
 }
 
-/// Largest t of the hyperbolic sine: no state gets there, only passing iterates of Newton's method, and they must stay
-/// finite.
+/// Upper limit of t in the hyperbolic sine. Only intermediate Newton iterates reach it, and they must stay finite.
 const STEEPEST: f64 = 150.0;
 
 impl Fluidity {
-    /// The law's fluidity with a Newtonian plateau ratio, and its stress scale τ₀ \[Pa\]; `None` for a Newtonian fluid.
+    /// Returns the law's fluidity with a Newtonian plateau ratio, and its stress scale τ₀ \[Pa\]; `None` for a
+    /// Newtonian fluid.
     pub fn of(law: ShearLaw, plateau: f64) -> Option<(Self, f64)> {
         let power = |beta: f64, n: f64| Factor::Power { beta, q: (1.0 - 1.0 / n) / beta, n };
         let (factor, scale) = match law {
@@ -151,20 +152,20 @@ impl Fluidity {
         Some((Self { factor, plateau }, scale))
     }
 
-    /// Whether it is a smooth function of t², so that it has no kink where stresses change their sign.
+    /// True if it is a smooth function of t², without a kink where the stress changes its sign.
     #[inline]
     pub fn is_smooth(&self) -> bool {
         self.factor == Factor::HyperbolicSine
     }
 
-    /// g and t dg/dt at t ≥ 0.
+    /// Returns g and t dg/dt at t ≥ 0.
     #[inline]
     pub fn at(&self, t: f64) -> (f64, f64) {
         let ([fluidity], [slope]) = self.at_all(&[t]);
         (fluidity, slope)
     }
 
-    /// The same at several t at once.
+    /// Returns the same at several t at once.
     #[inline]
     pub fn at_all<const N: usize>(&self, t: &[f64; N]) -> ([f64; N], [f64; N]) {
         let (factor, slope) = match self.factor {
@@ -180,8 +181,8 @@ impl Fluidity {
         (fluidity, fluidity_slope)
     }
 
-    /// A stress t near the one at which t g(t) is `rate` ≥ 0: Newton's method in logarithms, in which the laws are
-    /// almost straight.
+    /// Returns an approximate stress t at which t g(t) is `rate` ≥ 0. Uses Newton's method in logarithms, in which
+    /// the laws are nearly linear.
     #[inline]
     pub fn stress_near(&self, rate: f64) -> f64 {
         if rate < 1e-9 {
@@ -206,11 +207,11 @@ impl Fluidity {
     }
 }
 
-/// F = (1 + t^β)^q and t dF/dt.
+/// Returns F = (1 + t^β)^q and t dF/dt.
 fn power<const N: usize>(beta: f64, q: f64, t: &[f64; N]) -> ([f64; N], [f64; N]) {
     let mut y = *t;
     elementary::raise(&mut y, beta);
-    // A y that is lost beside 1 changes nothing: 1 + y need not be exact relative to y.
+    // A y that is negligible next to 1 has no effect, so 1 + y need not be exact relative to y.
     let mut factor = y.map(|y| 1.0 + y);
     elementary::raise(&mut factor, q);
     let mut slope = [0.0; N];
@@ -220,7 +221,7 @@ fn power<const N: usize>(beta: f64, q: f64, t: &[f64; N]) -> ([f64; N], [f64; N]
     (factor, slope)
 }
 
-/// F = t/sinh t and t dF/dt.
+/// Returns F = t/sinh t and t dF/dt.
 fn hyperbolic_sine<const N: usize>(t: &[f64; N]) -> ([f64; N], [f64; N]) {
     let (mut factors, mut slopes) = (t.map(|t| t.min(STEEPEST)), [0.0; N]);
     elementary::hyperbolic_sines(&mut factors, &mut slopes);
@@ -230,27 +231,27 @@ fn hyperbolic_sine<const N: usize>(t: &[f64; N]) -> ([f64; N], [f64; N]) {
     (factors, slopes)
 }
 
-/// A shear-thinning law at one operating point: what turns P, P_X and H into the scalars of the film integrals.
+/// Shear-thinning law at one operating point. It converts P, P_X and H into the scalars of the film integrals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScaledShear {
-    /// The law.
+    /// Fluidity of the law.
     pub fluidity: Fluidity,
-    /// Its stress scale τ₀ \[Pa\].
+    /// Stress scale τ₀ \[Pa\] of the law.
     pub stress_scale_pa: f64,
-    /// κ₁/τ₀ with κ₁ = p_H a/R: the difference of stress between the surfaces is this times H P_X.
+    /// κ₁/τ₀ with κ₁ = p_H a/R. The difference of stress between the surfaces is this times H P_X.
     pub gradient: f64,
-    /// κ₂/τ₀ with κ₂ = η₀ (u₂ − u₁) R/a²: the Newtonian stress of sliding is this times μ̄/H.
+    /// κ₂/τ₀ with κ₂ = η₀ (u₂ − u₁) R/a². The Newtonian stress due to sliding is this times μ̄/H.
     pub sliding: f64,
-    /// SRR.
+    /// Slide-to-roll ratio SRR.
     pub slide_to_roll_ratio: f64,
 }
 
 impl ScaledShear {
-    /// The law of a lubricant under operating conditions; `None` where the fluid is Newtonian: without a law, or for
+    /// Creates the law of a lubricant under operating conditions. `None` for a Newtonian fluid: without a law, or for
     /// NPR = 1.
     ///
     /// # Errors
-    /// When NPR lies outside 0…1 or SRR is no sensible number.
+    /// If NPR lies outside 0…1 or SRR is out of range.
     pub fn new(law: ShearLaw, sliding: Sliding, point: &OperatingPoint) -> Result<Option<Self>, LubricantError> {
         let srr = sliding.slide_to_roll_ratio;
         check_constant("the slide-to-roll ratio", srr, -10.0, 10.0)?;

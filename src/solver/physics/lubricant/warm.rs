@@ -1,7 +1,7 @@
-//! Density and viscosity of a lubricant at one pressure and several temperatures across the film, with derivatives.
+//! Density and viscosity of a lubricant, with derivatives, at one pressure and several temperatures across the film.
 //!
-//! Sources: Roelands 1966 for the viscosity, with S₀ = β (T₀ − 138)/(ln η₀ + 9.67); Dowson & Higginson's density times
-//! 1 − β_ρ ΔT; Tait's and Doolittle's laws with volumes that change with temperature as in Bair 2007.
+//! Sources: Roelands 1966 for the viscosity, with S₀ = β (T₀ − 138)/(ln η₀ + 9.67); Dowson & Higginson's density
+//! times 1 − β_ρ ΔT; Tait's and Doolittle's laws with temperature-dependent volumes as in Bair 2007.
 
 use super::elementary;
 use super::free_volume::{Doolittle, Tait};
@@ -12,18 +12,18 @@ use super::scaled::ScaledFluid;
 /// Temperature \[K\] at which Roelands' viscosity is infinite.
 const ROELANDS_TEMPERATURE_K: f64 = 138.0;
 
-/// Temperatures over T₀ between which laws are evaluated: no state, only passing iterates, leaves them.
+/// Range of temperatures over T₀ in which the laws are evaluated. Only intermediate iterates leave it.
 const EVALUATED: (f64, f64) = (0.75, 6.0);
 
-/// Least density over ρ₀, and least free volume over the volume.
+/// Lower limits of the density over ρ₀, and of the free volume over the volume.
 const LEAST: f64 = 1e-3;
 
-/// Laws at pressures and temperatures, in one contact.
+/// Laws at given pressures and temperatures in one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WarmFluid {
     fluid: ScaledFluid,
     heat: Heat,
-    /// S₀, of Roelands' law.
+    /// S₀ of Roelands' law.
     slope: f64,
 }
 
@@ -36,7 +36,7 @@ pub struct Across<const N: usize> {
     pub density_p: [f64; N],
     /// ∂ρ̄/∂θ.
     pub density_t: [f64; N],
-    /// Fluidity at rest η₀/η.
+    /// Fluidity η₀/η at zero shear stress.
     pub fluidity: [f64; N],
     /// ∂ ln η/∂P.
     pub log_viscosity_p: [f64; N],
@@ -59,14 +59,14 @@ impl<const N: usize> Default for Across<N> {
 }
 
 impl WarmFluid {
-    /// Laws with their thermal constants.
+    /// Creates the laws with their thermal constants.
     pub(super) fn new(fluid: &ScaledFluid, heat: Heat) -> Self {
         let slope =
             heat.oil.viscosity_temperature * (heat.inlet_temperature - ROELANDS_TEMPERATURE_K) / fluid.roelands_log;
         Self { fluid: *fluid, heat, slope }
     }
 
-    /// Density and viscosity at P and θ = (T − T₀)/T₀. Where θ = 0 they are those of [`ScaledFluid::at`].
+    /// Returns density and viscosity at P and θ = (T − T₀)/T₀. For θ = 0 they equal those of [`ScaledFluid::at`].
     pub fn at<const N: usize>(&self, pressure: f64, theta: &[f64; N]) -> Across<N> {
         let fluid = &self.fluid;
         let ph = fluid.hertz_pressure_pa;
@@ -106,7 +106,7 @@ impl WarmFluid {
                 }
             }
         }
-        // ln(η/η₀), of which the fluidity is made at the end.
+        // ln(η/η₀), from which the fluidity is computed at the end.
         let mut log_viscosity = zero;
         match fluid.viscosity {
             ViscosityLaw::Barus => {
@@ -153,7 +153,7 @@ impl WarmFluid {
         out
     }
 
-    /// V/V₀ at p \[Pa\] and ΔT \[K\] with its derivatives by both.
+    /// Returns V/V₀ at p \[Pa\] and ΔT \[K\] with its derivatives by both.
     fn volume(&self, tait: Tait, p: f64, rise: f64) -> [f64; 3] {
         let (softening, expansion) =
             self.heat.oil.free_volume.map_or((0.0, 0.0), |volume| (volume.bulk_modulus_temperature, volume.expansion));
@@ -162,7 +162,7 @@ impl WarmFluid {
         let argument = (1.0 + p * compressed / modulus).max(LEAST);
         let share = 1.0 - argument.ln() / compressed;
         let swollen = (1.0 + expansion * rise).max(LEAST);
-        // A modulus that falls acts as a pressure that rises.
+        // A decrease of the modulus has the effect of a pressure rise.
         let by_p = -1.0 / (modulus * argument);
         let volume = swollen * share;
         if volume < 0.1 {
@@ -171,7 +171,7 @@ impl WarmFluid {
         [volume, swollen * by_p, expansion * share + swollen * by_p * p * softening]
     }
 
-    /// ln(η/η₀) at p \[Pa\] and ΔT \[K\] with its derivatives by both.
+    /// Returns ln(η/η₀) at p \[Pa\] and ΔT \[K\] with its derivatives by both.
     fn doolittle(&self, law: Doolittle, p: f64, rise: f64) -> [f64; 3] {
         let [volume, volume_p, volume_t] = self.volume(law.volume, p, rise);
         let occupied_slope = self.heat.oil.free_volume.map_or(0.0, |volume| volume.occupied_expansion);

@@ -1,9 +1,9 @@
-//! A lubricant in words.
+//! Description of a lubricant as text.
 
 use super::{DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw};
 
 impl Lubricant {
-    /// All laws with their constants in words and SI units, for the heads of tables.
+    /// Returns all laws with their constants in SI units as text, for table headers.
     pub fn describe(&self) -> String {
         let tait = |volume: &Tait| format!("K_0 {:e} Pa, K_0' {:e}", volume.k_0, volume.k_0_prime);
         let viscosity = match &self.viscosity {

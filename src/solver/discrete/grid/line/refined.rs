@@ -1,9 +1,9 @@
-//! The next finer grid of the same grading: every interval halved, every old node kept.
+//! Refinement of a grid with the same grading: every interval is halved, every node is kept.
 //!
-//! A graded interval is halved in the grading's own coordinate ∫dξ/spacing, not in ξ. Halving in ξ would leave a
-//! staircase of spacings whose truncation error differs from that of the coarse grid by more than the factor 2² that
-//! Richardson's extrapolation counts on. A new grid of twice as many nodes would do neither: its ends lie elsewhere, by
-//! up to half a cell.
+//! A graded interval is halved in the grading's coordinate ∫dξ/spacing, not in ξ. Halving in ξ would give a staircase
+//! of spacings. Its truncation error would differ from that of the coarse grid by more than the factor 2² that
+//! Richardson extrapolation assumes. A new grid with twice as many nodes is not sufficient either, because its ends
+//! would differ by up to half a cell.
 
 use super::{
     GridError, GridSpec, INLET, MAX_GRADED_NODES, MAX_UNIFORM_NODES, ReferenceGrid, cells_between, following_cells,
@@ -12,11 +12,11 @@ use super::{
 use std::sync::Arc;
 
 impl ReferenceGrid {
-    /// The grid with every interval halved. Node k of this grid is node 2k − 1 of the finer one (k ≥ 1), and the ends
-    /// stay.
+    /// Returns the grid with every interval halved. Node k of this grid is node 2k − 1 of the finer one (k ≥ 1). The
+    /// ends are unchanged.
     ///
     /// # Errors
-    /// When it would have too many nodes.
+    /// If the refined grid would have too many nodes.
     pub fn refined(&self) -> Result<Arc<Self>, GridError> {
         let nodes = 2 * (self.xi.len() - 1) - 1;
         let (max, spec) = match self.spec {
@@ -48,7 +48,7 @@ impl ReferenceGrid {
     }
 }
 
-/// The abscissa that halves the grading's coordinate between two nodes, by Newton's method.
+/// Returns the abscissa that halves the grading's coordinate between two nodes, by Newton's method.
 fn halfway(a: f64, b: f64, cells: impl Fn(f64, f64) -> f64, spacing: impl Fn(f64) -> f64) -> f64 {
     let mut middle = 0.5 * (a + b);
     for _ in 0..4 {
