@@ -7,7 +7,7 @@ use super::purpose::{Purpose, Written};
 use super::wake::wake;
 use crate::app::refusal::Refusal;
 use crate::engine::job::{Background, Ending, Given, Job, Reporter, Standing, Task};
-use crate::engine::{EngineError, Store, Workbench};
+use crate::engine::{Store, Workbench};
 use crate::scene::{Answer, Method, Request, Sheet, answer_or_full};
 use crate::solver::physics::bodies::Bodies;
 use crate::solver::reduced::Trust;
@@ -67,7 +67,7 @@ impl Task for Solves {
         }
         for (k, request) in self.requests.iter().enumerate() {
             reporter.stage(&format!("solving, {}", request.method.name()), k, self.requests.len());
-            match answer_or_full(&mut bench, request, reporter).map_err(EngineError::from) {
+            match answer_or_full(&mut bench, request, reporter) {
                 Ok(answer) => reporter.send(Told::Answer(Box::new(answer))),
                 Err(error) if error.cancelled() || reporter.cancelled() => return Ok(()),
                 Err(error) => return Err(error.to_string().into()),

@@ -95,7 +95,6 @@ pub fn of_model(model: &ReducedModel) -> Vec<Array> {
 ///   spacing), with `states` (p̃, H₀);
 /// - the linearised systems (4.27), points × state × columns: `storage_by_state`, `storage_by_input`, `flux_by_state`,
 ///   `flux_by_input`, with `storage` and `flux` at the points.
-/// `storage_by_state`, `storage_by_input`, `flux_by_state`, `flux_by_input`, with `storage` and `flux` at the points.
 pub fn of_linearised(model: &TpwlModel) -> Vec<Array> {
     let (space, points) = (&model.space, &model.points);
     let states: Vec<&[f64]> = points.iter().map(|point| point.moment.state.as_slice()).collect();
