@@ -49,7 +49,7 @@ fn bad_options_are_refused_with_one_sentence() {
         (&["--alpha", "0"], "proportional"),
         (&["--u1", "1"], "give both"),
         (&["--u1", "1", "--u2", "-1"], "entrains no lubricant"),
-        (&["--u1", "1", "--u2", "-1.1"], "SRR is 42"),
+        (&["--u1", "1", "--u2", "-1.25"], "SRR is 18"),
         (&["--u1", "1", "--u2", "2", "--srr", "0.1"], "give two of them"),
         (&["--srr", "nan"], "--srr"),
         (&["--dy", "0.1"], "--dy"),
