@@ -73,11 +73,13 @@ fn a_light_line_contact_has_martins_film() {
     assert!((known - 2.4475).abs() < 1e-3, "{known}");
     for m in [1e-3, 0.01, 0.1] {
         let solution = solved(&contact(ContactKind::Line, m, 0.0), INCOMPRESSIBLE);
-        // H in a²/R = (8M/π) √(2U) R, and the smallest film counts.
+        // H is in a²/R = (8M/π) √(2U) R. Martin's film thickness is the minimum.
         let film = solution.scalars.h_min * 8.0 * m / PI * m;
-        // The ends of the domain may cost 1.2 %, the spacing a little more.
-        let bar = 0.018 + m;
-        assert!((film / known - 1.0).abs() < bar, "M {m}: {film} instead of {known}, {:?}", solution.grid_cost);
+        let cost = solution.grid_cost.unwrap();
+        // The longest domain is too short below M = 0.01. The answer says so.
+        let estimated = if m < 0.01 { 1.2 * cost.truncation } else { 0.012 };
+        let bar = 0.006 + m + estimated;
+        assert!((film / known - 1.0).abs() < bar, "M {m}: {film} instead of {known}, {cost:?}");
     }
 }
 
