@@ -85,7 +85,7 @@ pub static NAMED: [NamedLubricant; 6] = [
         viscosity_pa_s: None,
         heat: OilHeat::MINERAL,
         studied: None,
-        about: "Newtonian film: Roelands, Dowson–Higginson; traction by Eyring’s law with a limiting shear stress",
+        about: "Newtonian film: Roelands, Dowson–Higginson; Eyring traction with a limiting stress",
     },
     NamedLubricant {
         name: "roelands-oil",
