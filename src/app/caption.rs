@@ -14,7 +14,7 @@ pub fn contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
         ContactKind::Line => format!("{} N/mm", significant(1e-3 * point.load)),
         ContactKind::Point => format!("{} N", significant(point.load)),
     };
-    let laws = named_lubricant::of_laws(lubricant)
+    let laws = named_lubricant::of_laws(lubricant, point)
         .map_or_else(|| lubricant.of_the_film().describe(), |named| named.title.to_owned());
     let limit = lubricant.limiting_stress.map_or_else(String::new, |limit| {
         format!(", limiting stress {} MPa + {} p", significant(1e-6 * limit.ambient), significant(limit.slope))

@@ -7,7 +7,7 @@ use super::notice::Notice;
 use super::outcome::SceneOutcome;
 use super::{Scene, StudyObserver, StudyRow};
 use crate::host::clock::Stopwatch;
-use crate::solver::observer::{NewtonStep, Observer, Progress};
+use crate::solver::observer::{NewtonStep, Observer, Progress, WalkStep};
 use crate::solver::training::{TrainingObserver, TrainingState};
 use std::sync::{Mutex, PoisonError};
 
@@ -51,6 +51,10 @@ struct Kept<'a> {
 impl Observer for Kept<'_> {
     fn newton_step(&self, step: &NewtonStep) {
         self.observer.newton_step(step);
+    }
+
+    fn walk_step(&self, step: &WalkStep) {
+        self.observer.walk_step(step);
     }
 
     fn krylov_iteration(&self, count: usize) {

@@ -45,7 +45,7 @@ pub struct NewtonStep {
 }
 
 /// Where a walk is: the solver's continuation from an easier contact to the wanted one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WalkStep {
     /// The wanted contact.
     pub wanted: Moes,

@@ -81,7 +81,7 @@ impl Document {
     /// # Errors
     /// A sentence if the contact cannot be computed with heat. The document is then unchanged.
     pub fn switch_heat(&mut self, on: bool) -> Result<(), Refusal> {
-        let oil = of_laws(&self.lubricant).map(|named| named.heat).unwrap_or_default();
+        let oil = of_laws(&self.lubricant, &self.point).map(|named| named.heat).unwrap_or_default();
         let entered = self.view.bodies.filter(|bodies| bodies.reduced_modulus_pa() == Ok(self.point.modulus_pa));
         let bodies = entered.map_or(Heat::default().bodies, |bodies| bodies.heat());
         let heat = on.then(|| Heat { oil, bodies, ..Heat::default() });

@@ -231,9 +231,10 @@ impl Document {
     /// # Errors
     /// A sentence if a law is not defined for the contact. The document is then unchanged.
     pub fn pick_lubricant(&mut self, named: &NamedLubricant) -> Result<(), Refusal> {
-        let own = named.viscosity_pa_s.unwrap_or(self.point.viscosity_pa_s);
+        let viscosity_pa_s = named.viscosity_pa_s.unwrap_or(self.point.viscosity_pa_s);
+        let alpha_per_pa = named.alpha_per_pa.unwrap_or(self.point.alpha_per_pa);
         let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
-        let point = OperatingPoint { sliding, viscosity_pa_s: own, ..self.point };
+        let point = OperatingPoint { sliding, viscosity_pa_s, alpha_per_pa, ..self.point };
         let heat = self.lubricant.heat.map(|heat| Heat { oil: named.heat, ..heat });
         self.set_contact(point, Lubricant { cavitation: self.lubricant.cavitation, heat, ..named.laws })?;
         if named.viscosity_pa_s.is_some() {

@@ -58,7 +58,7 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
         let entry = Entry::new("Contact", shape.name().to_owned(), shape.synonyms(), edit);
         entry.refused_where(shape == present, "It is already selected")
     }));
-    let present = of_laws(&desk.document.lubricant).filter(|_| !desk.own_lubricant);
+    let present = of_laws(&desk.document.lubricant, &desk.document.point).filter(|_| !desk.own_lubricant);
     entries.extend(NAMED.iter().map(|named| {
         let name = format!("Lubricant: {}", named.title);
         let entry = Entry::new("Lubricant", name, named.about, Command::Edit(Edit::Named(named), GROUP));

@@ -51,7 +51,7 @@ enum Pick {
 pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut Entries, commands: &mut Commands) {
     let (laws, kind) = (&document.lubricant, document.point.kind);
     heading(ui, "Lubricant");
-    let known = named_lubricant::of_laws(laws).filter(|_| !*own_laws);
+    let known = named_lubricant::of_laws(laws, &document.point).filter(|_| !*own_laws);
     picker(ui, own_laws, commands, known);
     match known {
         Some(lubricant) => {

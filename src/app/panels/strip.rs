@@ -69,6 +69,7 @@ pub fn ui(ui: &mut Ui, desk: &Desk, frame_s: f64, commands: &mut Commands) {
 /// Returns the purpose of a full solve, its progress, and its remaining time based on the last solves.
 fn solve(job: &Running, usual_s: Option<f64>) -> [String; 2] {
     let since_s = job.since.elapsed().as_secs_f64();
+    let walk = job.walk.as_ref().map(ToString::to_string);
     let step = job
         .steps
         .last()
@@ -77,5 +78,5 @@ fn solve(job: &Running, usual_s: Option<f64>) -> [String; 2] {
     let left_s = usual_s.map(|usual_s| usual_s - since_s).filter(|left_s| *left_s >= 1.0);
     let time = left_s
         .map_or_else(|| numbers::duration(since_s), |left_s| format!("about {} left", numbers::remaining(left_s)));
-    [job.kind.name().to_owned(), step.into_iter().chain(inner).chain([time]).collect::<Vec<_>>().join(", ")]
+    [job.kind.name().to_owned(), walk.into_iter().chain(step).chain(inner).chain([time]).collect::<Vec<_>>().join(", ")]
 }

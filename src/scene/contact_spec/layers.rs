@@ -33,12 +33,13 @@ impl ContactSpec {
         }
         let oil = states(&[Field::Oil, Field::Temperature]);
         let named = self.lubricant.is_some_and(|named| named.viscosity_pa_s.is_some());
+        let named_alpha = self.lubricant.is_some_and(|named| named.alpha_per_pa.is_some());
         for (replaced, field) in [
             (self.kind() != base.kind(), Field::Load),
             (self.kind() == ContactKind::Line, Field::RadiusY),
             (states(&[Field::E1, Field::Nu1, Field::E2, Field::Nu2]), Field::Modulus),
             (oil || named, Field::Viscosity),
-            (oil, Field::Alpha),
+            (oil || named_alpha, Field::Alpha),
             (states(&[Field::U1, Field::U2]), Field::Speed),
             (states(&[Field::U1, Field::U2]), Field::Srr),
             (states(&[Field::Speed, Field::Srr]), Field::U1),

@@ -68,6 +68,7 @@ impl ContactSpec {
             return refuse(Field::Alpha, sentence);
         }
         let alpha = own_alpha.or(self.alpha).or(oil.map(|oil| oil.alpha_per_pa));
+        let alpha = alpha.or(self.lubricant.and_then(|named| named.alpha_per_pa));
         let at = self.numbers([self.radius, speed, self.load, modulus, viscosity, alpha])?;
         let point = at.point(self.kind()).map_err(|error| self.of_contact(&error))?;
         Ok(OperatingPoint { sliding: Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: self.npr }, ..point })

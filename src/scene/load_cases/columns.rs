@@ -3,18 +3,22 @@
 use super::error::CasesError;
 use crate::scene::contact_spec::{Field, Words};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::{UnitError, parse};
+use crate::solver::physics::engineering::{Dimension, UnitError, parse};
 
 /// Content of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Column {
     Name,
+    /// Measured central film thickness.
+    Measured,
     Of(Field),
     Skipped,
 }
 
 /// Titles of the column with contact names, in lower case and without spaces.
 const NAMES: [&str; 4] = ["name", "case", "id", "loadcase"];
+/// Titles of the column with measured central film thicknesses, written the same way.
+const MEASURED: [&str; 3] = ["measured", "measuredfilm", "measuredh_c"];
 
 /// Returns the titles of all fields that a column may hold.
 pub(super) fn accepted() -> String {
@@ -29,10 +33,13 @@ pub(super) fn titles(line: usize, cells: &[&str]) -> Result<Vec<(Column, String)
         let (word, unit) = split_title(cell);
         let column = if word.is_empty() || word.starts_with('#') {
             Column::Skipped
-        } else if NAMES.contains(&word.to_lowercase().split_whitespace().collect::<String>().as_str()) {
-            Column::Name
         } else {
-            Field::titled(word).map(Column::Of).ok_or_else(|| CasesError::Title { line, title: title() })?
+            let plain: String = word.to_lowercase().split_whitespace().collect();
+            let own = |titles: &[&str]| titles.contains(&plain.as_str());
+            let column = if own(&NAMES) { Some(Column::Name) } else { own(&MEASURED).then_some(Column::Measured) };
+            column
+                .or_else(|| Field::titled(word).map(Column::Of))
+                .ok_or_else(|| CasesError::Title { line, title: title() })?
         };
         if column != Column::Skipped && columns.iter().any(|(other, _)| *other == column) {
             return Err(CasesError::Twice { line, title: title() });
@@ -53,7 +60,10 @@ fn split_title(cell: &str) -> (&str, &str) {
 
 /// Checks that the unit of a title belongs to its field, for at least one contact kind.
 fn check_unit(column: Column, unit: &str) -> Result<(), UnitError> {
-    let Column::Of(field) = column else { return Ok(()) };
+    let Column::Of(field) = column else {
+        let checked = column == Column::Measured && !unit.is_empty();
+        return if checked { parse("1", Dimension::Length, unit).map(drop) } else { Ok(()) };
+    };
     if unit.is_empty() || !field.is_number() {
         return Ok(());
     }

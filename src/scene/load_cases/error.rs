@@ -29,7 +29,7 @@ pub enum CasesError {
     TooLong,
     /// A title is unknown.
     #[error(
-        "line {line}: the column “{title}” is unknown; accepted are name, {}; put # before a title that is not to be read",
+        "line {line}: the column “{title}” is unknown; accepted are name, measured, {}; put # before a title that is not to be read",
         accepted()
     )]
     Title {
@@ -69,6 +69,12 @@ pub enum LineError {
         /// Number of titles.
         titles: usize,
     },
+    /// The measured film thickness is not a length.
+    #[error("measured: {0}")]
+    Measured(UnitError),
+    /// The measured film thickness is not positive.
+    #[error("measured is {0} m, but must be above zero; leave the cell empty if there is no measurement")]
+    MeasuredRange(f64),
     /// The contact is refused.
     #[error("{}", .0.in_words(Words::Columns))]
     Contact(Refusal),

@@ -7,6 +7,15 @@ use crate::scene::contact_spec::{ContactSpec, Field};
 use crate::scene::experiment::Experiment;
 use crate::scene::grid;
 use crate::solver::full::Problem;
+use crate::solver::physics::engineering::{Dimension, parse};
+
+/// Returns the measured central film thickness of a line \[m\], or `None` if the line has none.
+pub(super) fn measured(columns: &[(Column, String)], cells: &[&str]) -> Result<Option<f64>, LineError> {
+    let column = columns.iter().zip(cells).find(|((column, _), cell)| *column == Column::Measured && !cell.is_empty());
+    let Some(((_, unit), cell)) = column else { return Ok(None) };
+    let film = parse(cell, Dimension::Length, unit).map_err(LineError::Measured)?;
+    if film > 0.0 { Ok(Some(film)) } else { Err(LineError::MeasuredRange(film)) }
+}
 
 /// Returns the request of a line. Fields that the line leaves out are those of the scene, if the scene is written in SI
 /// units.
@@ -19,7 +28,7 @@ pub(super) fn request(
         return Err(LineError::Cells { cells: cells.len(), titles: columns.len() });
     }
     let stated = columns.iter().zip(cells).filter_map(|((column, unit), cell)| match (column, *cell) {
-        (_, "") | (Column::Name | Column::Skipped, _) => None,
+        (_, "") | (Column::Name | Column::Measured | Column::Skipped, _) => None,
         (Column::Of(field @ Field::Contact), "roller") => Some((*field, "line", "")),
         (Column::Of(field @ Field::Contact), "ball") => Some((*field, "point", "")),
         (Column::Of(field), cell) => Some((*field, cell, unit.as_str())),

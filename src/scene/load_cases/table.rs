@@ -2,7 +2,7 @@
 
 use super::columns::{Column, accepted, titles};
 use super::error::{CasesError, LineError};
-use super::line::request;
+use super::line::{measured, request};
 use crate::host::files;
 use crate::scene::answer::Request;
 use crate::scene::check::MAX_POINTS;
@@ -31,6 +31,8 @@ pub struct LoadCase {
     pub line: usize,
     /// Name; may be empty.
     pub name: String,
+    /// Measured central film thickness \[m\], with which the computed one is compared.
+    pub measured_m: Option<f64>,
     /// Request, or the reason why the line is refused.
     pub request: Result<Request, LineError>,
 }
@@ -52,7 +54,7 @@ impl CaseTable {
         }
     }
 
-    /// Returns the accepted titles, in addition to those of the name column.
+    /// Returns the accepted titles, in addition to those of the columns of names and measured film thicknesses.
     pub fn accepted() -> String {
         accepted()
     }
@@ -103,7 +105,11 @@ fn cases(text: &str, experiment: &Experiment) -> Result<Vec<LoadCase>, CasesErro
         }
         let name = columns.iter().zip(&cells).find(|((column, _), _)| *column == Column::Name);
         let name = name.map_or(String::new(), |(_, cell)| (*cell).to_owned());
-        cases.push(LoadCase { line, name, request: request(columns, &cells, experiment) });
+        let (measured_m, request) = match measured(columns, &cells) {
+            Ok(measured) => (measured, request(columns, &cells, experiment)),
+            Err(refused) => (None, Err(refused)),
+        };
+        cases.push(LoadCase { line, name, measured_m, request });
     }
     if cases.is_empty() { Err(CasesError::Empty) } else { Ok(cases) }
 }
@@ -192,6 +198,17 @@ mod tests {
     }
 
     #[test]
+    fn a_measured_film_thickness_is_a_length_above_zero_and_may_be_left_out() {
+        let cases = read("M,L,Measured h_c [nm]\n40,10,80\n40,10,0.1 µm\n40,10,\n40,10,3 N\n40,10,-1\n").unwrap();
+        let films: Vec<_> = cases.iter().map(|case| case.measured_m.map(|film| (1e9 * film).round())).collect();
+        assert_eq!(films, [Some(80.0), Some(100.0), None, None, None]);
+        let accepted: Vec<bool> = cases.iter().map(|case| case.request.is_ok()).collect();
+        assert_eq!(accepted, [true, true, true, false, false]);
+        assert!(cases[4].request.as_ref().unwrap_err().to_string().contains("above zero"));
+        assert!(read("M,L,measured [N]\n40,10,80\n").unwrap_err().to_string().contains("no unit of a length"));
+    }
+
+    #[test]
     fn what_a_line_leaves_out_is_the_scenes() {
         let here = Scene { at: OperatingPoint::TABLE_2_1.into(), ..Scene::at_moes(40.0, 10.0) };
         let cases = cases("load\n1e5\n2e5\n", &here.experiment()).unwrap();
@@ -216,6 +233,7 @@ mod tests {
             ("0.012,3,3e5,2e11,0.02,2e-8,,,ellipsoid", "“ellipsoid” is not valid"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,nan", "srr"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,11", "srr is 11, but must be a finite number between -10 and 10"),
+            ("0.012,3,3e5,2e11,0.02,2e-8,,,,,,,80 N", "there are 13 cells"),
             ("1,2,3,4,5,6,7,8,9,10,11,12,13", "there are 13 cells, but 12 titles"),
             ("0.012,3,3e5,2e11,0.02,2e-8,,,point,40,10", "M and L leave"),
         ] {

@@ -35,6 +35,9 @@ pub struct Row {
     pub line: usize,
     /// Name; may be empty.
     pub name: String,
+    /// Measured central film thickness \[m\].
+    #[serde(default)]
+    pub measured_m: Option<f64>,
     /// Results by each method, or the reason why the line is refused.
     pub results: ByMethods,
 }
@@ -42,6 +45,11 @@ pub struct Row {
 impl Row {
     fn results(&self) -> &[ContactResult] {
         self.results.as_ref().map_or(&[], Vec::as_slice)
+    }
+
+    /// Returns the relative deviation of the k-th method's central film thickness from the measured one.
+    fn deviation(&self, k: usize) -> Option<f64> {
+        Some(self.results().get(k)?.value(names::H_C_M)? / self.measured_m? - 1.0)
     }
 }
 
@@ -52,7 +60,7 @@ impl LoadCases {
 
     fn solve_all(&self, cases: Vec<LoadCase>, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let total = cases.len();
-        for (i, LoadCase { line, name, request }) in cases.into_iter().enumerate() {
+        for (i, LoadCase { line, name, measured_m, request }) in cases.into_iter().enumerate() {
             setting.step("load cases", i, total)?;
             // Drop starting values, so that a line's result does not depend on the lines above it.
             setting.bench.forget();
@@ -60,7 +68,7 @@ impl LoadCases {
                 Ok(request) => self.solve(setting, &request)?,
                 Err(why) => Err(RefusedContact::of(&why)),
             };
-            tell(Row { line, name, results });
+            tell(Row { line, name, measured_m, results });
         }
         Ok(())
     }
@@ -132,7 +140,8 @@ impl Question for LoadCases {
     }
 
     /// Values: `cases`, `refused`; for each method `failures`; for each reduced method also `untrained`, the number of
-    /// contacts outside the trained range, and `H_c_error` relative to the first full method.
+    /// contacts outside the trained range, and `H_c_error` relative to the first full method. If the table has measured film
+    /// thicknesses, `deviation_mean` is the mean deviation of h_c from them, and `deviation` are its amounts.
     fn findings(&self, _experiment: &Experiment, rows: &[&Row], found: &mut Findings) {
         let refused = || rows.iter().filter(|row| row.results.is_err());
         found.push("cases", None, rows.len() as f64);
@@ -155,6 +164,12 @@ impl Question for LoadCases {
             let failures = rows.iter().filter_map(|row| row.results().get(k)).filter(|r| !r.converged).count();
             found.converged &= failures == 0;
             found.push("failures", of, failures as f64);
+            let deviations: Vec<f64> = rows.iter().filter_map(|row| row.deviation(k)).collect();
+            if !deviations.is_empty() {
+                let amounts: Vec<f64> = deviations.iter().map(|deviation| deviation.abs()).collect();
+                found.push("deviation_mean", of, deviations.iter().sum::<f64>() / deviations.len() as f64);
+                found.push_spread("deviation", of, &amounts);
+            }
             if method.model().is_none() {
                 continue;
             }
@@ -175,10 +190,12 @@ impl Question for LoadCases {
         let (of_contact, of_result) = (contact_columns(), result_columns(heat));
         let results = (0..self.methods.len()).map(|k| tag(&self.methods, k));
         let results = results.flat_map(|tag| of_result.iter().map(move |column| names::by(&tag, column)));
-        let columns: Vec<String> =
-            std::iter::once(&"line").chain(&of_contact).map(|&column| column.to_owned()).chain(results).collect();
+        let measured = rows.iter().any(|row| row.measured_m.is_some()).then_some(&"measured_h_c_m");
+        let first = std::iter::once(&"line").chain(measured).chain(&of_contact);
+        let columns: Vec<String> = first.map(|&column| column.to_owned()).chain(results).collect();
         let numbers = |row: &&Row| -> Vec<f64> {
-            let line = std::iter::once(row.line as f64);
+            let film = measured.map(|_| row.measured_m.unwrap_or(f64::NAN));
+            let line = std::iter::once(row.line as f64).chain(film);
             let Some(first) = row.results().first() else {
                 return line.chain(std::iter::repeat(f64::NAN)).take(columns.len()).collect();
             };
@@ -202,6 +219,10 @@ impl Question for LoadCases {
                 let point = |row: &&Row| Some([row.line as f64, factor * row.results().get(k)?.value(name)?]);
                 let marks = if k == 0 { Marks::Line } else { Marks::Dots };
                 chart.add(tag(&self.methods, k), marks, rows.iter().filter_map(point));
+            }
+            let measured = |row: &&Row| Some([row.line as f64, factor * row.measured_m?]);
+            if name == names::H_C_M && rows.iter().any(|row| row.measured_m.is_some()) {
+                chart.add("measured", Marks::Dots, rows.iter().filter_map(measured));
             }
             chart
         };

@@ -289,11 +289,9 @@ pub(super) fn formula_film(problem: &Problem) -> f64 {
         ContactKind::Point => {
             let ellipse = problem.point.is_elliptic();
             let all_regimes = FilmFormula::NijenbanningVennerMoes.predict(&problem.point).film_m;
-            let film = match ellipse {
-                true => all_regimes,
-                // A power law in α, which does not cover the isoviscous regimes.
-                false => FilmFormula::HamrockDowsonCentral.predict(&problem.point).film_m.max(0.5 * all_regimes),
-            };
+            let piezoviscous = FilmFormula::HamrockDowsonCentral.predict(&problem.point).film_m;
+            // Hamrock and Dowson's power law in α does not cover the isoviscous regimes.
+            let film = if ellipse || piezoviscous < 0.5 * all_regimes { all_regimes } else { piezoviscous };
             film / problem.point.film_scale_m()
         }
     }

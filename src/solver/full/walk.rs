@@ -20,6 +20,8 @@ const THIN: f64 = 0.3;
 
 /// Length of the first step in ln M; a third of it in ln L.
 const FIRST_STRIDE: f64 = 0.7;
+/// Longest step in the same measure.
+const LONGEST_STRIDE: f64 = 1.4;
 /// Shortest step in the same measure, below which the continuation ends.
 const SHORTEST_STRIDE: f64 = 2e-3;
 /// Newton iterations below which the next step is longer, and above which it is shorter.
@@ -98,6 +100,7 @@ impl Path {
 /// Solved contact of the path.
 struct Passed {
     t: f64,
+    level: usize,
     solution: Solution,
 }
 
@@ -135,27 +138,37 @@ impl<S: NewtonSpace> Solver<S> {
         let most = report.newton_iterations + most_walked(S::unknowns(&self.reference));
         let mut levels: Vec<Self> = Vec::new();
         let mut begun = None;
+        let level = self.coarsening(&mut levels, &first)?;
         for film in S::COLD_FILMS {
             let beginning = Beginning::Cold(film, 1.0);
-            begun = self.step((&mut levels, false), &first, beginning, most, observer, report)?;
+            begun = self.step((&mut levels, level, length > 0.0), &first, beginning, most, observer, report)?;
             if begun.is_some() || report.termination == Termination::Cancelled {
                 break;
             }
         }
         let Some(solution) = begun else { return Ok(()) };
-        let mut last = Passed { t: 0.0, solution };
+        let mut last = Passed { t: if length > 0.0 { 0.0 } else { 1.0 }, level, solution };
         let mut before: Option<Passed> = None;
-        let mut stride = if length > 0.0 { (FIRST_STRIDE / length).min(1.0) } else { 1.0 };
+        let longest = if length > 0.0 { LONGEST_STRIDE / length } else { 1.0 };
+        let mut stride = FIRST_STRIDE / LONGEST_STRIDE * longest;
         let shortest = SHORTEST_STRIDE / length.max(SHORTEST_STRIDE);
-        while last.t < 1.0 {
+        // Coarsest level that still converges along the path.
+        let mut coarsest = usize::MAX;
+        while last.t < 1.0 || last.level > 0 {
+            let refines = last.t >= 1.0;
             let next = if last.t + 1.2 * stride >= 1.0 { 1.0 } else { last.t + stride };
             let at = |passed: &Passed| passed.solution.problem.moes;
             observer.walk_step(&WalkStep { wanted: problem.moes, reached: at(&last) });
             let Some(wanted) = path.at(problem, next) else { break };
+            let level = match refines {
+                true => last.level - 1,
+                false => self.coarsening(&mut levels, &wanted)?.min(coarsest),
+            };
             let (start, film) = extrapolated(&last, before.as_ref(), next);
             let spent = report.newton_iterations;
+            let along = !(level == 0 && next >= 1.0);
             match self.step(
-                (&mut levels, next >= 1.0),
+                (&mut levels, level, along),
                 &wanted,
                 Beginning::Along(&start, film),
                 most,
@@ -163,21 +176,33 @@ impl<S: NewtonSpace> Solver<S> {
                 report,
             )? {
                 Some(solution) => {
-                    before = Some(std::mem::replace(&mut last, Passed { t: next, solution }));
+                    let passed = std::mem::replace(&mut last, Passed { t: next, level, solution });
+                    if !refines {
+                        before = Some(passed);
+                    }
                     stride *= match report.newton_iterations - spent {
                         ..QUICK => 1.5,
                         QUICK..=SLOW => 1.0,
                         _ => 0.5,
                     };
+                    stride = stride.min(longest);
                 }
                 None if matches!(report.termination, Termination::Cancelled | Termination::Effort) => break,
+                // The film on the coarser grid is too far from that on the finer one: return to the last contact
+                // before the requested one, and continue on finer grids.
+                None if refines => {
+                    let Some(passed) = before.take() else { break };
+                    coarsest = level;
+                    stride = 0.5 * (1.0 - passed.t);
+                    last = passed;
+                }
                 None => stride = 0.5 * stride.min(next - last.t),
             }
             if stride < shortest {
                 break;
             }
         }
-        if last.t < 1.0 {
+        if last.t < 1.0 || last.level > 0 {
             report.reached = Some(last.solution.problem.moes);
             if report.termination == Termination::Converged {
                 report.termination = Termination::IterationLimit;
@@ -186,29 +211,34 @@ impl<S: NewtonSpace> Solver<S> {
         Ok(())
     }
 
-    /// Solves one contact of the path on the coarsest grid that resolves it, or on the solver's grid if `own` is set.
+    /// Returns the coarsest level of grids that resolves a contact of the path, and builds the grids up to it. Level 0
+    /// is the solver's grid, and each level doubles the spacing.
+    fn coarsening(&self, levels: &mut Vec<Self>, problem: &Problem) -> Result<usize, SolveError> {
+        let wanted = S::coarsening(&self.reference, problem);
+        while levels.len() < wanted {
+            let Some(coarser) = S::coarser(&self.reference, levels.len() as i32 + 1)? else { break };
+            levels.push(Self { options: self.options, ..Self::on(coarser) });
+        }
+        Ok(wanted.min(levels.len()))
+    }
+
+    /// Solves one contact of the path on the grid of a level, with a lower accuracy if `along` the path.
     fn step(
         &mut self,
-        (levels, own): (&mut Vec<Self>, bool),
+        (levels, level, along): (&mut [Self], usize, bool),
         problem: &Problem,
         beginning: Beginning<'_>,
         most: usize,
         observer: &dyn Observer,
         report: &mut Report,
     ) -> Result<Option<Solution>, SolveError> {
-        let wanted = if own { 0 } else { S::coarsening(&self.reference, problem) };
-        // Level k has 2^(k + 1) times the spacing.
-        while levels.len() < wanted {
-            let Some(coarser) = S::coarser(&self.reference, levels.len() as i32 + 1)? else { break };
-            levels.push(Self { options: self.options, ..Self::on(coarser) });
-        }
-        let solver = match levels.len().min(wanted) {
+        let solver = match level {
             0 => self,
             level => &mut levels[level - 1],
         };
         let options = solver.options;
         solver.options.max_newton = options.max_newton.min(MOST_PER_STEP);
-        if !own {
+        if along {
             solver.options.tolerance *= ALONG_THE_WAY;
         }
         let ended = solver.attempt(problem, beginning, most, observer, report);

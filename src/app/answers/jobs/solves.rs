@@ -9,7 +9,7 @@ use crate::engine::{Answer, Solver, Store, answer};
 use crate::host::clock::Stopwatch;
 use crate::scene::Method;
 use crate::solver::full::{ContactSolver, Start};
-use crate::solver::observer::{NewtonStep, Observer};
+use crate::solver::observer::{NewtonStep, Observer, WalkStep};
 use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -19,6 +19,7 @@ use std::time::Duration;
 pub enum News {
     Step(NewtonStep),
     Krylov(usize),
+    Walk(WalkStep),
     Solved(Box<Answer>),
 }
 
@@ -32,6 +33,8 @@ pub struct Running {
     pub steps: Vec<NewtonStep>,
     /// Krylov iterations of the present Newton step. Zero if they are not counted.
     pub krylov: usize,
+    /// Position of a continuation from an easier contact.
+    pub walk: Option<WalkStep>,
     /// Time since the job was submitted.
     pub since: Stopwatch,
     solved: Option<Box<Answer>>,
@@ -41,13 +44,14 @@ pub struct Running {
 impl Running {
     /// Receives the messages of the solve. Returns the outcome once the solve has ended.
     fn receive(&mut self) -> Option<Outcome> {
-        let Self { job, steps, krylov, solved, .. } = self;
+        let Self { job, steps, krylov, walk, solved, .. } = self;
         let ending = job.poll(|news| match news {
             News::Step(step) => {
                 steps.push(step);
                 *krylov = 0;
             }
             News::Krylov(count) => *krylov = count,
+            News::Walk(step) => *walk = Some(step),
             News::Solved(answer) => *solved = Some(answer),
         })?;
         Some(match (ending, solved.take()) {
@@ -94,7 +98,7 @@ impl Jobs {
         let job = self.queue.submit(kind as usize, kind.name(), wake(ctx), request);
         self.running.retain(|running| running.kind != kind || running.job.begun());
         let since = job.since();
-        self.running.push(Running { kind, key, steps: Vec::new(), krylov: 0, since, solved: None, job });
+        self.running.push(Running { kind, key, steps: Vec::new(), krylov: 0, walk: None, since, solved: None, job });
     }
 
     /// Returns the jobs that have finished since the last call, with their outcomes.
@@ -150,6 +154,10 @@ struct Steps<'a>(&'a Reporter<News>);
 impl Observer for Steps<'_> {
     fn newton_step(&self, step: &NewtonStep) {
         self.0.send(News::Step(*step));
+    }
+
+    fn walk_step(&self, step: &WalkStep) {
+        self.0.send(News::Walk(*step));
     }
 
     fn krylov_iteration(&self, count: usize) {

@@ -30,9 +30,9 @@ fn words(input: Input) -> [&'static str; 3] {
 /// Returns amplitude and period of a function of time, to be changed. Of several amplitudes it returns the first.
 fn swing(signal: &mut Signal) -> Option<(&mut f64, &mut f64)> {
     match signal {
-        Signal::Harmonic { amplitude, period } | Signal::TriangleToSquare { amplitude, period, .. } => {
-            Some((amplitude, period))
-        }
+        Signal::Harmonic { amplitude, period }
+        | Signal::Reversing { amplitude, period }
+        | Signal::TriangleToSquare { amplitude, period, .. } => Some((amplitude, period)),
         Signal::TwoScale { amplitudes, periods } => Some((&mut amplitudes.0, &mut periods.0)),
         Signal::Constant | Signal::Sampled { .. } => None,
     }
@@ -44,6 +44,7 @@ fn shape(signal: &Signal) -> &'static str {
         Signal::Constant => "constant",
         Signal::Harmonic { .. } => "harmonic",
         Signal::TwoScale { .. } => "two-scale",
+        Signal::Reversing { .. } => "reversing",
         Signal::TriangleToSquare { .. } => "triangle to square",
         Signal::Sampled { .. } => "from a table",
     }

@@ -89,6 +89,9 @@ pub fn inputs(setup: &Setup) -> String {
             number(*long),
             number(*short)
         )),
+        Signal::Reversing { amplitude, period } => {
+            Some(format!("reversing, amplitude {}, period {}", percent(*amplitude), number(*period)))
+        }
         Signal::TriangleToSquare { amplitude, period, s } => Some(format!(
             "between a triangle and a square wave (s {}), amplitude {}, period {}",
             number(*s),

@@ -32,6 +32,9 @@ struct Names {
     steepness: &'static str,
 }
 
+/// Name of the only input that may change its sign.
+const SPEED: &str = "Speed";
+
 /// Builds the names of the fields from the name of the input.
 macro_rules! names {
     ($kind:literal, $tip:literal) => {
@@ -103,6 +106,7 @@ enum Kind {
     Harmonic,
     TwoScale,
     TriangleToSquare,
+    Reversing,
     Sampled,
 }
 
@@ -115,6 +119,7 @@ impl Kind {
             Signal::Harmonic { .. } => Self::Harmonic,
             Signal::TwoScale { .. } => Self::TwoScale,
             Signal::TriangleToSquare { .. } => Self::TriangleToSquare,
+            Signal::Reversing { .. } => Self::Reversing,
             Signal::Sampled { .. } => Self::Sampled,
         }
     }
@@ -127,6 +132,7 @@ impl Kind {
             Self::TriangleToSquare => {
                 ("Triangle to square", "A triangle for s = 0, ever steeper flanks towards s = 1 (Fig. 4.16)")
             }
+            Self::Reversing => ("Reversing", "A cos(2π T/T_ex): the speed falls to zero and changes its sign"),
             Self::Sampled => ("From a table", "Given values, joined by straight lines"),
         }
     }
@@ -138,6 +144,7 @@ impl Kind {
                 (*amplitude, *period)
             }
             Signal::TwoScale { amplitudes, periods } => (amplitudes.0, periods.0),
+            Signal::Reversing { period, .. } => (0.1, *period),
             Signal::Constant | Signal::Sampled { .. } => (0.1, 4.0),
         };
         match self {
@@ -147,6 +154,7 @@ impl Kind {
                 Signal::TwoScale { amplitudes: (amplitude, 0.125 * amplitude), periods: (period, 0.0625 * period) }
             }
             Self::TriangleToSquare => Signal::TriangleToSquare { amplitude, period, s: 0.5 },
+            Self::Reversing => Signal::Reversing { amplitude: 1.0, period },
             Self::Sampled => former.clone(),
         }
     }
@@ -157,8 +165,11 @@ fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signa
     let kind = Kind::of(signal);
     let mut wanted = kind;
     let mut options = Kind::GIVEN.to_vec();
-    if kind == Kind::Sampled {
-        options.push(Kind::Sampled);
+    if names.kind == SPEED {
+        options.push(Kind::Reversing);
+    }
+    if matches!(kind, Kind::Sampled | Kind::Reversing) && !options.contains(&kind) {
+        options.push(kind);
     }
     choose(ui, names.kind, names.tip, &mut wanted, &options, Kind::describe);
     if wanted != kind {
@@ -171,7 +182,7 @@ fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signa
     let plain = ("", 1.0);
     match signal {
         Signal::Constant => {}
-        Signal::Harmonic { amplitude, period } => {
+        Signal::Harmonic { amplitude, period } | Signal::Reversing { amplitude, period } => {
             form.row(ui, names.one[0], plain, amplitude, AMPLITUDE);
             form.row(ui, names.one[1], plain, period, PERIOD);
         }

@@ -24,6 +24,10 @@ const TRUNCATION: f64 = 0.035;
 const RESOLUTION: f64 = 0.02;
 /// Accepted error of a grid whose solution is only an initial guess for another one.
 const ROUGH: f64 = 0.08;
+/// Length of the inlet zone below which the side lobes are narrower than those of [`PointGridSpec::EXPLORER`], and
+/// their spacing across relative to it. The error of H_min is about the square of the latter.
+const THIN_ZONE: f64 = 0.055;
+const LOBE: f64 = 0.2;
 /// Minimum number of nodes along X of such a grid.
 const FEWEST_ROUGH: usize = 150;
 /// Maximum error of a graded grid due to its number of nodes or its inlet, if a better grid is available.
@@ -249,9 +253,15 @@ impl PointGridSpec {
             if finer >= FINEST {
                 return Err(fit.too_thin());
             }
-            finer *= 2.0;
+            // 1, 2, 4, 5, 6 …
+            finer = if finer < 4.0 { 2.0 * finer } else { finer + 1.0 };
         }
-        Ok(Self { dx: self.dx * times / f64::max(finer, cells), dy: self.dy * times / cells, domain, ..self })
+        let dy = self.dy * times / cells;
+        let refinement = match dy / (LOBE * fit.zone) {
+            wanted if fit.zone < THIN_ZONE && wanted > self.refinement => wanted,
+            _ => self.refinement,
+        };
+        Ok(Self { dx: self.dx * times / f64::max(finer, cells), dy, domain, refinement })
     }
 
     /// Returns a grid for a film much longer than the contact. It covers the film, and the pressure continues beyond

@@ -23,8 +23,8 @@ pub struct PointGridSpec {
     pub dy: f64,
     /// Inlet, outlet and outer edge (Y₀ < 0) of the half domain.
     pub domain: (f64, f64, f64),
-    /// Factor by which the spacing across is finer in the side lobes, in which H_min lies; 1 is equidistant. For a
-    /// value below 1, the spacing grows from the axis to the outer edge by the inverse of this factor. Then the
+    /// Factor by which the spacing across is finer in the side lobes, in which H_min lies; 1 is equidistant. Above 8,
+    /// the finest spacing lies close to the edge of the contact, for thin films. For a value below 1, the spacing grows from the axis to the outer edge by the inverse of this factor. Then the
     /// pressure continues beyond the ends of the domain, for lightly loaded contacts.
     #[serde(default = "equidistant")]
     pub refinement: f64,
@@ -44,6 +44,14 @@ const COARSEST: f64 = 0.02;
 /// Position of the side lobes in heavily loaded contacts, and half-width of the refined zone.
 const SIDE_LOBE: f64 = -0.95;
 const SIDE_LOBE_WIDTH: f64 = 0.1;
+/// Largest refinement of these lobes. Above it, the lobes are those of a thin film.
+const MOST_WIDE: f64 = 8.0;
+/// Finest spacing across relative to that at the outer edge.
+const FINEST: f64 = 1000.0;
+/// Distance of the lobes of a thin film from the edge of the contact, in their spacings.
+const THIN_LOBE: f64 = 4.0;
+/// Growth of the spacing with the distance from these lobes.
+const GROWTH: f64 = 0.25;
 
 impl PointGridSpec {
     /// Grid of the dissertation, section 3.2: 301×41 nodes.
@@ -91,11 +99,11 @@ impl PointGridSpec {
                 )));
             }
         }
-        if !(COARSEST..=8.0).contains(&self.refinement) {
+        if !(COARSEST..=FINEST).contains(&self.refinement) {
             let refinement = Number(self.refinement);
             return Err(GridError::Refused(format!(
-                "the refinement of the side lobes is {refinement}, but must lie between 1 (equidistant) and 8, or between \
-                 {COARSEST} and 1 (wider towards the outer edge)"
+                "the refinement of the side lobes is {refinement}, but must lie between 1 (equidistant) and {FINEST}, or \
+                 between {COARSEST} and 1 (wider towards the outer edge)"
             )));
         }
         let cells = self.cells_beyond(edge).round();
@@ -103,11 +111,18 @@ impl PointGridSpec {
     }
 
     /// Returns the number of cells between an ordinate Y ≤ 0 and the axis: ∫ dY/spacing. The spacing is dy/(1 +
-    /// (refinement − 1)/(1 + t²)), where t is the distance to the side lobe in units of its width.
+    /// (refinement − 1)/(1 + t²)), where t is the distance to the side lobe in units of its width. For a refinement
+    /// above [`MOST_WIDE`], it grows linearly from dy/refinement at the side lobe to dy.
     fn cells_beyond(&self, y: f64) -> f64 {
         if self.continues() {
             let growth = (1.0 / self.refinement - 1.0) / -self.domain.2;
             return (-growth * y).ln_1p() / (growth * self.dy);
+        }
+        if self.refinement > MOST_WIDE {
+            let finest = self.dy / (self.refinement - 1.0);
+            let lobe = THIN_LOBE * finest - 1.0;
+            let growing = |y: f64| (GROWTH * (y - lobe) / finest).asinh() / GROWTH;
+            return -y / self.dy + growing(0.0) - growing(y);
         }
         let angle = |y: f64| ((y - SIDE_LOBE) / SIDE_LOBE_WIDTH).atan();
         (-y + (self.refinement - 1.0) * SIDE_LOBE_WIDTH * (angle(0.0) - angle(y))) / self.dy
@@ -340,6 +355,16 @@ mod tests {
         assert_eq!((grid.y[0], grid.y[grid.ny() - 1]), (-2.0, 0.0));
         let area: f64 = grid.weights.iter().sum();
         assert!((area - 299.0 * 0.02 * (4.0 - steps[0])).abs() < 1e-9, "{area}");
+    }
+
+    #[test]
+    fn the_side_lobes_of_a_thin_film_are_refined_at_the_edge_of_the_contact() {
+        let grid = PointGridSpec { refinement: 20.0, ..PointGridSpec::DISSERTATION }.build().unwrap();
+        let steps: Vec<f64> = grid.y.windows(2).map(|w| w[1] - w[0]).collect();
+        let near = |y: f64| steps[grid.y.partition_point(|&node| node < y) - 1];
+        assert!((0.002..0.003).contains(&near(-0.99)) && near(-0.5) > 0.03 && near(-1.9) > 0.04, "{steps:?}");
+        assert!(steps.windows(2).all(|w| (0.75..1.33).contains(&(w[1] / w[0]))), "{steps:?}");
+        assert_eq!((grid.y[0], grid.y[grid.ny() - 1]), (-2.0, 0.0));
     }
 
     #[test]

@@ -25,6 +25,13 @@ pub enum Signal {
         /// Periods T₁ and T₂.
         periods: (f64, f64),
     },
+    /// A cos(2π T/T_ex): a speed that falls to zero and reverses.
+    Reversing {
+        /// Amplitude A.
+        amplitude: f64,
+        /// Period T_ex.
+        period: f64,
+    },
     /// Wave between a triangle (s = 0) and a square (s = 1) around 1, Fig. 4.16: a triangle 1/(1 − s) times as high,
     /// cut at ±A.
     TriangleToSquare {
@@ -88,6 +95,7 @@ impl Signal {
             Self::TwoScale { amplitudes, periods } => {
                 1.0 + amplitudes.0 * (TAU * time / periods.0).sin() + amplitudes.1 * (TAU * time / periods.1).sin()
             }
+            Self::Reversing { amplitude, period } => amplitude * (TAU * time / period).cos(),
             Self::TriangleToSquare { amplitude, period, s } => {
                 // Triangle of height 1 that starts upwards at zero.
                 let phase = (time / period + 0.25).fract();
@@ -114,6 +122,7 @@ impl Signal {
             Self::Constant => 1.0,
             Self::Harmonic { amplitude, .. } | Self::TriangleToSquare { amplitude, .. } => 1.0 - amplitude.abs(),
             Self::TwoScale { amplitudes: (one, other), .. } => 1.0 - one.abs() - other.abs(),
+            Self::Reversing { amplitude, .. } => -amplitude.abs(),
             Self::Sampled { values, .. } if values.iter().all(|value| value.is_finite()) => {
                 values.iter().copied().fold(f64::INFINITY, f64::min)
             }
@@ -132,7 +141,7 @@ impl Signal {
         };
         match self {
             Self::Constant => Ok(()),
-            Self::Harmonic { period, .. } => positive("period", *period),
+            Self::Harmonic { period, .. } | Self::Reversing { period, .. } => positive("period", *period),
             Self::TwoScale { periods, .. } => {
                 positive("first period", periods.0).and_then(|()| positive("second period", periods.1))
             }
@@ -271,6 +280,7 @@ mod tests {
             Signal::Constant,
             Signal::Harmonic { amplitude: -0.7, period: 0.3 },
             Signal::TriangleToSquare { amplitude: 0.4, period: 0.9, s: 0.5 },
+            Signal::Reversing { amplitude: 1.5, period: 0.8 },
             Signal::TwoScale { amplitudes: (0.5, -0.3), periods: (1.7, 0.11) },
             sampled,
         ] {
@@ -288,6 +298,9 @@ mod tests {
         assert!(message(Inputs::load(deep.clone())).contains("T = 0.65"));
         assert!(Inputs { speed: deep.clone(), ..Inputs::default() }.check(2.0).is_ok());
         assert!(Inputs::load(deep).check(0.5).is_ok());
+        let reversing = Signal::Reversing { amplitude: 1.0, period: 1.0 };
+        assert!(message(Inputs::load(reversing.clone())).starts_with("the load falls to"));
+        assert!(Inputs { speed: reversing, ..Inputs::default() }.check(2.0).is_ok());
         let dip = Signal::Sampled { times: vec![0.0, 1.000_000_1, 1.1], values: vec![1.0, -0.5, 1.0] };
         assert!(message(Inputs { radius: dip, ..Inputs::default() }).contains("radius"));
         let order = Signal::Sampled { times: vec![0.0, 1.0, 1.0], values: vec![1.0; 3] };

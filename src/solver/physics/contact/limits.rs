@@ -25,7 +25,7 @@ pub const RADIUS: Limit = Limit { name: "radius", unit: " m", range: (1e-6, 1e3)
 /// Reduced radius across R_y.
 pub const RADIUS_Y: Limit = Limit { name: "radius-y", unit: " m", range: (1e-7, 1e5), or_zero: false };
 /// Entrainment speed u_m.
-pub const SPEED: Limit = Limit { name: "speed", unit: " m/s", range: (1e-9, 1e4), or_zero: false };
+pub const SPEED: Limit = Limit { name: "speed", unit: " m/s", range: (1e-9, 1e7), or_zero: false };
 /// Load w.
 pub const LOAD: Limit = Limit { name: "load", unit: " N (or N/m)", range: (1e-6, 1e10), or_zero: false };
 /// Reduced modulus E′.
