@@ -86,14 +86,17 @@ struct Line<'a> {
     #[serde(skip_serializing_if = "str::is_empty")]
     name: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
+    measured_h_c_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
     #[serde(flatten)]
     result: Option<ResultJson<'a>>,
 }
 
 fn print(row: &Row) -> Result<(), Failure> {
-    let Row { line, name, results } = row;
-    let print = |refused, result| output::print_json(&Line { line: *line, name, refused, result });
+    let Row { line, name, measured_m: measured_h_c_m, results } = row;
+    let (line, measured_h_c_m) = (*line, *measured_h_c_m);
+    let print = |refused, result| output::print_json(&Line { line, name, measured_h_c_m, refused, result });
     match results {
         Err(why) => print(Some(why.to_string()), None),
         Ok(results) => results.iter().try_for_each(|result| print(None, Some(result.json()))),

@@ -194,7 +194,8 @@ fn the_side_lobes_of_a_thin_film_are_resolved() {
     let point = contact(ContactKind::Point, if long() { 4000.0 } else { 1000.0 }, 2.0);
     let Ok(GridSpec::Plane(spec)) = GridSpec::explorer_for(&point) else { panic!() };
     let [chosen, finer] = [1.0, 2.0].map(|times| {
-        let spec = GridSpec::Plane(PointGridSpec { refinement: times * spec.refinement.max(8.1), ..spec });
+        let dx = if long() { spec.dx } else { 0.01 };
+        let spec = GridSpec::Plane(PointGridSpec { dx, refinement: times * spec.refinement.max(8.1), ..spec });
         let solution = ContactSolver::on(&spec.build().unwrap()).solve(&point, Lubricant::default(), Start::Cold, &());
         solution.unwrap().scalars
     });
