@@ -136,12 +136,10 @@ pub fn lock_ui(ui: &mut Ui, room: [f32; 2], closed: bool) -> Response {
     response
 }
 
-/// Draws the explanation of a tab if explanations are switched on.
-pub fn why(ui: &mut Ui, wanted: bool, text: &str) {
-    if wanted {
-        let frame = egui::Frame::new().inner_margin(6.0).corner_radius(4.0).fill(ui.visuals().faint_bg_color);
-        frame.show(ui, |ui| ui.label(text));
-    }
+/// Draws the explanation of a tab.
+pub fn why(ui: &mut Ui, text: &str) {
+    let frame = egui::Frame::new().inner_margin(6.0).corner_radius(4.0).fill(ui.visuals().faint_bg_color);
+    frame.show(ui, |ui| ui.label(text));
 }
 
 /// Returns the text with a capital first letter (unless it is a symbol) and a full stop at the end.

@@ -6,7 +6,8 @@ use super::chart::{Chart, ChartAxis, Marks};
 use super::chart_page::Page;
 use super::contact_result::ContactResult;
 use super::drawing::escaped;
-use super::regimes::{self, Regime};
+use super::regime::{Ratios, RegimeMap};
+use super::regimes;
 use super::table::{quoted, significant};
 use crate::solver::physics::bodies::{Bodies, film_regime};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, FilmShape};
@@ -234,8 +235,9 @@ fn inputs(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     }
     part.number("Load number M", point.moes().m, "");
     part.number("Lubricant number L", point.moes().l, "");
-    let regime = Regime::of(FilmShape::of(point), point.moes());
-    part.words("Regime", format!("{}: {}", regime.title().to_lowercase(), regime.meaning()));
+    let estimate = || RegimeMap::new(FilmShape::of(point)).at(point.moes());
+    let ratios = solved.fields().map_or_else(estimate, Ratios::of);
+    part.words("Regime", format!("{}: {}", ratios.regime().title().to_lowercase(), ratios.describe()));
     part
 }
 

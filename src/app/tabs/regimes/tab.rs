@@ -12,7 +12,8 @@ use crate::app::tabs::regimes::trail::Trail;
 use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::{Palette, faded, rich};
 use crate::app::{formulas, numbers};
-use crate::scene::regimes::{L_AXIS, M_AXIS, Regime};
+use crate::scene::regime::RegimeMap;
+use crate::scene::regimes::{L_AXIS, M_AXIS};
 use crate::solver::physics::contact::{ContactKind, FilmShape, Moes};
 use crate::solver::reduced::ReducedModel;
 use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
@@ -84,11 +85,12 @@ impl Regimes {
             self.lines = Some((owner, lines));
         }
         let top = ui.cursor().top();
-        let regime = Regime::of(present, context.document.point.moes());
+        let (map, ratios) = (RegimeMap::new(shape), context.regime_ratios());
+        let regime = ratios.regime();
         ui.horizontal_wrapped(|ui| {
             let name = ui.label(RichText::new(regime.title()).size(LARGE).strong());
             spoken(ui, name, &format!("Regime: {}", regime.title()));
-            ui.label(regime.meaning());
+            ui.label(ratios.describe());
         });
         // If the hint needs more than one line, the button is below it.
         let beside = ui.available_width() > HINT;
@@ -145,7 +147,7 @@ impl Regimes {
                         "M {}   L {}\n{}",
                         numbers::significant(moes.m),
                         numbers::significant(moes.l),
-                        Regime::of(shape, moes).name().replace('\n', " ")
+                        map.regime(moes).name().replace('\n', " ")
                     ))
                 }),
             ui,

@@ -60,7 +60,9 @@ impl View for Traction {
             });
             ui.separator();
         }
-        why(ui, context.why && choices.shows_fluid, WHY_FLUID);
+        if context.why && choices.shows_fluid {
+            why(ui, WHY_FLUID);
+        }
         if choices.shows_fluid {
             fluid::ui(ui, &mut self.stress_met, context);
             return;
