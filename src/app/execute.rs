@@ -2,6 +2,7 @@
 
 use super::command::Command;
 use super::context::Commands;
+use super::controls::show;
 use super::desk::files::Pending;
 use super::display::Display;
 use super::layouts::Layout;
@@ -91,6 +92,7 @@ impl Explorer {
                 self.lessons.toggle();
                 self.hold_axes();
             }
+            Command::PointAt(control) => show(ctx, control),
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
             Command::SiUnits => desk.display.units = desk.display.units.other(),

@@ -4,6 +4,7 @@
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
+use crate::app::controls::point_at;
 use crate::app::desk::files::Pending;
 use crate::app::desk::{Desk, Opened};
 use crate::app::document::Document;
@@ -205,6 +206,16 @@ impl Explorer {
     /// Draws the panel of lessons if it is open.
     fn lessons_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
         if !self.lessons.is_open() {
+            // The ring of the palette disappears with the next click or key.
+            let moves_on = |event: &egui::Event| {
+                matches!(
+                    event,
+                    egui::Event::PointerButton { pressed: true, .. } | egui::Event::Key { pressed: true, .. }
+                )
+            };
+            if ui.input(|input| input.events.iter().any(moves_on)) {
+                point_at(ui.ctx(), None);
+            }
             return;
         }
         let screen = OnScreen {

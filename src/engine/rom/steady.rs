@@ -152,7 +152,7 @@ fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFi
     let cavitation = domain.lubricant.cavitation;
     let (penalty, heat) = (cavitation == Cavitation::Penalty, domain.heats());
     if !penalty && (cavitation != Cavitation::Complementarity || heat || ellipses) {
-        return Err(damaged("rupture"));
+        return Err(damaged("cavitation"));
     }
     if heat && windows.iter().any(|window| window.scheme != Scheme::Galerkin) {
         return Err(damaged("heat"));
@@ -236,7 +236,7 @@ fn of_domain(domain: &Domain, entry: &WindowEntry, mut window: Window) -> Result
     };
     let ruptures = |s: &Snapshot| s.fronts.len() == lines && s.fronts.iter().all(|front| *front <= columns);
     if !window.snapshots.iter().all(ruptures) {
-        return Err(damaged("rupture"));
+        return Err(damaged("cavitation"));
     }
     if let Some(ratios) = entry.radius_ratio {
         let ContactGrid::Point(grid) = &window.grid else { return Err(damaged("shapes")) };

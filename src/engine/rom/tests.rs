@@ -133,7 +133,7 @@ fn the_law_of_rupture_and_the_scheme_survive_a_round_trip_and_must_fit_the_windo
             let mut wrong = model.clone();
             lie(&mut wrong);
             let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
-            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "rupture" })), "{refused:?}");
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "cavitation" })), "{refused:?}");
         }
     }
     let scheme = Scheme::Gnat { weighted: true };

@@ -99,7 +99,7 @@ impl ContactMap {
 }
 
 const ABOUT: About = About {
-    keywords: "interferogram fringes contours horseshoe side lobes",
+    keywords: "interferogram fringes contours horseshoe side lobes film thickness temperature cavitation starvation",
     page: "tour.md",
     has_units: true,
     why: "Seen from above, the film is flat in the middle and thin in a horseshoe around the sides and the outlet, \

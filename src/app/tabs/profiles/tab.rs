@@ -51,7 +51,7 @@ impl Default for Choices {
 }
 
 const ABOUT: About = About {
-    keywords: "pressure film spike shear",
+    keywords: "pressure film thickness spike shear Hertz Hertzian temperature inlet outlet cavitation starvation",
     page: "tour.md",
     has_units: true,
     why: "The surfaces drag oil into the narrowing gap, where it builds up pressure; in a heavily loaded contact the \

@@ -63,8 +63,8 @@ impl Facts {
             )
         } else {
             format!(
-                "here the bodies hardly flatten, by {by} times the film thickness, so that the pressure is a hill of \
-                 its own with a maximum of {largest} of that of the dry contact (dashed)"
+                "here the bodies hardly flatten, by {by} times the film thickness, so that the pressure is a \
+                 separate hill with a maximum of {largest} of that of the dry contact (dashed)"
             )
         }
     }

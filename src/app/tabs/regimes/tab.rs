@@ -208,7 +208,7 @@ impl Regimes {
 }
 
 const ABOUT: About = About {
-    keywords: "chart film formulas Moes asymptotes",
+    keywords: "chart film thickness formulas Moes Hamrock Dowson Higginson isoviscous piezoviscous rigid elastic",
     page: "physics.md",
     has_units: false,
     why: "Load, speed, size and stiffness determine the film thickness only through two numbers: the load number M, \

@@ -36,7 +36,7 @@ pub struct Traction {
 }
 
 const ABOUT: About = About {
-    keywords: "friction Stribeck slide-to-roll fluid viscosity",
+    keywords: "friction coefficient Stribeck lambda power loss slide-to-roll fluid viscosity flow curve Eyring",
     page: "physics.md",
     has_units: false,
     why: "Sliding surfaces shear the film, and the shear stress integrated over the contact is the traction. High \

@@ -29,7 +29,7 @@ pub struct TrainingTab {
 }
 
 const ABOUT: About = About {
-    keywords: "snapshots model plan range",
+    keywords: "snapshots model plan range train own reduced",
     page: "training.md",
     has_units: false,
     why: "A reduced model is trained from full solutions, its snapshots, of contacts all over a range. A plan that \
