@@ -43,6 +43,10 @@ pub enum Command {
     ExportProfiles,
     /// Writes a results sheet of the contact.
     ExportSheet(Form),
+    /// Writes the worksheet of the running lesson.
+    ExportWorksheet,
+    /// Marks the lesson of this title as finished.
+    FinishLesson(String),
     /// Closes the program.
     Quit,
     /// Reverts the last edit.
@@ -200,6 +204,14 @@ pub static MENUS: &[Item] = {
             Some((CTRL, Key::E)),
         ),
         item("File", 2, C::ExportProfiles, "Export profiles as CSV…", "table data pressure film thickness excel", None),
+        item(
+            "File",
+            2,
+            C::ExportWorksheet,
+            "Export worksheet…",
+            "lesson print exercise solutions pdf class teach",
+            None,
+        ),
         item("File", 3, C::Quit, "Quit", "exit close end", Some((CTRL, Key::Q))),
         item("Edit", 0, C::Undo, "Undo", "back revert", Some((CTRL, Key::Z))),
         item("Edit", 0, C::Redo, "Redo", "again repeat", Some((CTRL_SHIFT, Key::Z))),

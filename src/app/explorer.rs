@@ -228,12 +228,16 @@ impl Explorer {
         };
         // On a small screen the panel is placed below, so that adjacent tabs keep their width.
         let below = ui.ctx().content_rect().width() < lessons::BESIDE && screen.tabs.len() > 1;
+        let ((least, most), width) = (Place::LESSONS, self.place.lessons);
         let panel = match below {
-            true => Panel::bottom("lessons below").exact_size(lessons::HEIGHT),
-            false => Panel::right("lessons").exact_size(lessons::WIDTH),
+            true => Panel::bottom("lessons below").default_size(lessons::HEIGHT).size_range(lessons::HEIGHT..=420.0),
+            false => Panel::right("lessons").default_size(width).size_range(least..=most),
         };
-        let lessons = &mut self.lessons;
-        panel.resizable(false).show(ui, |ui| lessons.ui(ui, &screen, commands));
+        let (lessons, finished) = (&mut self.lessons, &self.desk.finished);
+        let shown = panel.resizable(true).show(ui, |ui| lessons.ui(ui, &screen, finished, commands));
+        if !below {
+            self.place.lessons = shown.response.rect.width().clamp(least, most);
+        }
     }
 
     /// Brings the tab of a newly opened scene to the front. Runs its study if it needs no confirmation.

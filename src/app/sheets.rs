@@ -3,6 +3,7 @@
 
 use super::answers::Answers;
 use super::document::Document;
+use super::lessons::Lesson;
 use super::purpose::{Purpose, Written};
 use super::wake::wake;
 use crate::app::refusal::Refusal;
@@ -39,6 +40,8 @@ struct Of {
     title: String,
     bodies: Option<Bodies>,
     answers: Vec<Answer>,
+    /// Lesson of a worksheet, and the answers of its start and its steps.
+    lesson: Option<(Lesson, Vec<usize>)>,
 }
 
 /// Solves of a sheet.
@@ -111,9 +114,32 @@ impl Sheets {
             model = Some(Given::of(&in_use.model));
         }
         let requests = methods.into_iter().map(|method| key.request(grid, method)).collect();
-        self.of =
-            Some(Of { form, title: document.title.clone(), bodies: document.bodies_in_force(), answers: Vec::new() });
+        self.of = Some(Of {
+            form,
+            title: document.title.clone(),
+            bodies: document.bodies_in_force(),
+            answers: Vec::new(),
+            lesson: None,
+        });
         self.work.run(Job::of("Results sheet", wake(ctx), answers.store(), Solves { requests, model }));
+    }
+
+    /// Starts the worksheet of a lesson. Its contacts are solved by the full solver.
+    ///
+    /// # Errors
+    /// A sentence if a contact of the lesson is refused.
+    pub fn begin_worksheet(
+        &mut self,
+        ctx: &Context,
+        (document, answers): (&Document, &Answers),
+        lesson: Lesson,
+    ) -> Result<(), Refusal> {
+        let (keys, indices) = lesson.pictures()?;
+        let requests = keys.iter().map(|key| key.request(document.grid, Method::Full)).collect();
+        let (title, lesson) = (lesson.title.clone(), Some((lesson, indices)));
+        self.of = Some(Of { form: Form::Html, title, bodies: None, answers: Vec::new(), lesson });
+        self.work.run(Job::of("Worksheet", wake(ctx), answers.store(), Solves { requests, model: None }));
+        Ok(())
     }
 
     /// Returns the sheet once it is complete, or the reason why there is none.
@@ -125,7 +151,11 @@ impl Sheets {
             Told::Answer(answer) => answers.push(*answer),
             Told::Complete => complete = true,
         });
-        if let Some(Of { form, title, bodies, answers }) = self.of.take_if(|_| complete) {
+        if let Some(Of { form, title, bodies, answers, lesson }) = self.of.take_if(|_| complete) {
+            if let Some((lesson, indices)) = lesson {
+                let page = lesson.worksheet(&answers, &indices);
+                return Some(Ok(Purpose::Write(Written::Html, page.into_bytes().into())));
+            }
             return Some(Ok(form.write(Sheet::new(&title, &answers, bodies.as_ref()))));
         }
         self.work.message.take().map(|why| Err(Refusal::new(why)))

@@ -103,6 +103,11 @@ impl Sheet {
         Self { title: title.to_owned(), parts, figures }
     }
 
+    /// Returns its figures: pressure, film thickness and the chart of regimes.
+    pub fn figures(&self) -> &[Chart] {
+        &self.figures
+    }
+
     /// Returns the files of the sheet with their texts. The extension of the path selects the format: md with separate
     /// figures, html or csv. Empty for other extensions.
     pub fn files(&self, path: &Path) -> Vec<(PathBuf, String)> {
@@ -214,9 +219,10 @@ impl Value {
 fn inputs(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     let point = &solved.result.point;
     let mut part = Part::new("Contact");
-    let (kind, load) = match point.kind {
-        ContactKind::Line => ("line contact", "N/m"),
-        ContactKind::Point => ("circular point contact", "N"),
+    let (kind, load) = match (point.kind, point.radius_y_m) {
+        (ContactKind::Line, _) => ("line contact", "N/m"),
+        (ContactKind::Point, None) => ("circular point contact", "N"),
+        (ContactKind::Point, Some(_)) => ("elliptical point contact", "N"),
     };
     part.words("Kind", kind);
     part.number("Reduced radius R", point.radius_m, "m");

@@ -259,7 +259,8 @@ mod tests {
         explorer.desk.tabs.traction.choices.against = Against::Stribeck;
         explorer.desk.figures.settings = FigureSettings { dpi: 600.0, dark: true, ..FigureSettings::default() };
         explorer.desk.lock(Tab::Transient, true);
-        explorer.place = Place { corner: Some((3.0, 4.0)), size: (1000.0, 700.0), maximized: true, sliders: 400.0 };
+        explorer.place =
+            Place { corner: Some((3.0, 4.0)), size: (1000.0, 700.0), maximized: true, sliders: 400.0, lessons: 350.0 };
         let (former, place) = (explorer.desk.document.clone(), explorer.place);
         let (shown, tree) = (Shown::of(&explorer.desk), explorer.tree.clone());
         close(explorer);

@@ -235,13 +235,15 @@ impl View for Regimes {
                     self.chart(ui, context, commands, ui.available_height());
                 });
                 ui.add_space(6.0);
-                ui.vertical(|ui| formulas::ui(ui, context));
+                ui.vertical(|ui| {
+                    ScrollArea::vertical().id_salt("formulas").show(ui, |ui| formulas::ui(ui, context, commands));
+                });
             });
         } else {
             let room = ui.available_height();
             self.chart(ui, context, commands, (room - FORMULAS).max(0.7 * room));
             let table = ScrollArea::vertical().id_salt("formulas").auto_shrink(false);
-            table.show(ui, |ui| formulas::ui(ui, context));
+            table.show(ui, |ui| formulas::ui(ui, context, commands));
         }
     }
 
