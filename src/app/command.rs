@@ -344,7 +344,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_command_stands_in_two_menus_and_no_key_or_name_means_two_things() {
+    fn commands_keys_and_names_are_unique() {
         for (k, item) in MENUS.iter().enumerate() {
             for other in &MENUS[..k] {
                 assert_ne!(item.command, other.command);

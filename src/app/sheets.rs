@@ -31,7 +31,7 @@ pub enum Form {
 #[derive(Default)]
 pub struct Sheets {
     of: Option<Of>,
-    work: Background<Told>,
+    work: Background<Progress>,
 }
 
 /// Content of a sheet, with the answers that have been solved so far.
@@ -53,7 +53,7 @@ pub struct Solves {
 
 /// Messages of the solves of a sheet.
 #[derive(Serialize, Deserialize)]
-pub enum Told {
+pub enum Progress {
     Answer(Box<Answer>),
     Complete,
 }
@@ -61,9 +61,9 @@ pub enum Told {
 impl Task for Solves {
     const KIND: &'static str = "sheet";
     const LANE: usize = 1;
-    type Message = Told;
+    type Message = Progress;
 
-    fn run(self, store: &Store, reporter: &Reporter<Told>) -> Ending {
+    fn run(self, store: &Store, reporter: &Reporter<Progress>) -> Ending {
         let mut bench = Workbench::on(store, "");
         if let Some(model) = &self.model {
             bench = bench.using(&model.model(store)?);
@@ -71,12 +71,12 @@ impl Task for Solves {
         for (k, request) in self.requests.iter().enumerate() {
             reporter.stage(&format!("solving, {}", request.method.name()), k, self.requests.len());
             match answer_or_full(&mut bench, request, reporter) {
-                Ok(answer) => reporter.send(Told::Answer(Box::new(answer))),
+                Ok(answer) => reporter.send(Progress::Answer(Box::new(answer))),
                 Err(error) if error.cancelled() || reporter.cancelled() => return Ok(()),
                 Err(error) => return Err(error.to_string().into()),
             }
         }
-        reporter.send(Told::Complete);
+        reporter.send(Progress::Complete);
         Ok(())
     }
 }
@@ -148,8 +148,8 @@ impl Sheets {
         let mut unread = Vec::new();
         let answers = answers.unwrap_or(&mut unread);
         self.work.receive(|told| match told {
-            Told::Answer(answer) => answers.push(*answer),
-            Told::Complete => complete = true,
+            Progress::Answer(answer) => answers.push(*answer),
+            Progress::Complete => complete = true,
         });
         if let Some(Of { form, title, bodies, answers, lesson }) = self.of.take_if(|_| complete) {
             if let Some((lesson, indices)) = lesson {

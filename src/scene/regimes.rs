@@ -1,7 +1,7 @@
 //! Chart of M and L with the lubrication regimes.
 
 use super::chart::{Chart, ChartAxis, Marks, Note, Series};
-use super::drawing::{Beside, Pen, Words};
+use super::drawing::{Pen, TextAnchor, Words};
 use super::regime::{Regime, RegimeMap};
 use crate::solver::physics::contact::{FilmShape, Moes};
 
@@ -79,9 +79,9 @@ pub fn chart(shape: FilmShape, moes: Moes) -> Chart {
     for (regime, at) in names(shape) {
         let [m, _] = at;
         let beside = match m {
-            ..1.0 => Beside::Right,
-            1000.0.. => Beside::Left,
-            _ => Beside::Middle,
+            ..1.0 => TextAnchor::Right,
+            1000.0.. => TextAnchor::Left,
+            _ => TextAnchor::Middle,
         };
         let words = Words::plain(regime.name().replace('\n', " "));
         chart.notes.push(Note { at, words, beside, above: 0, color: None });

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn a_session_comes_back_with_its_unsaved_changes_and_its_truncation() {
+    fn session_restores_unsaved_changes() {
         let (folder, start) = in_folder("own");
         let mut explorer = start(true);
         let document = &mut explorer.desk.document;
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn unsaved_changes_are_set_aside_when_a_scene_is_opened_in_their_place() {
+    fn unsaved_changes_are_saved_separately() {
         let (folder, start) = in_folder("aside");
         let mut explorer = start(true);
         explorer.desk.document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();

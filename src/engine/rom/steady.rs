@@ -124,7 +124,7 @@ fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
 fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFileError> {
     let (ellipses, anchored) = (domain.space.of_ellipses(), domain.space.varies_lubricant());
     // Thermal elliptical models are lubricant-parameterised, and none is shear-thinning.
-    if ellipses && (domain.thins() || (domain.heats() && !anchored)) {
+    if ellipses && (domain.is_shear_thinning() || (domain.heats() && !anchored)) {
         return Err(damaged("its parts"));
     }
     // Elliptical models are in ascending order of M only for each shape, and anchored ones are not ordered.

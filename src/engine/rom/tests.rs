@@ -241,7 +241,7 @@ fn oils_that_thin_survive_a_round_trip_with_their_stresses() {
     let model = ReducedModel::clone(&trained(&sliding_oils(Sampling::QDeim, 60)));
     let bytes = to_bytes(&model).unwrap();
     let read = from_bytes(&bytes).unwrap();
-    assert!(read.domain == model.domain && read.domain.thins() && read.domain.space.varies_lubricant());
+    assert!(read.domain == model.domain && read.domain.is_shear_thinning() && read.domain.space.varies_lubricant());
     assert!(read.windows.iter().all(|window| window.metric == model.windows[0].metric
         && window.anchor.is_some()
         && window.traction.is_some()));

@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn the_box_of_table_3_4_has_the_numbers_the_dissertation_states_and_holds_its_trajectory() {
+    fn table_3_4_contains_its_trajectory() {
         let lines = ChartLines::new(FilmShape::CIRCLE, None).lines;
         let of = |kind: Kind| &lines.iter().find(|line| line.kind == kind).unwrap().points;
         let table = of(Kind::Table);
