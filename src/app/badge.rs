@@ -119,7 +119,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                 Kind::Verified,
             ),
         },
-        (Origin::Reduced { residual_estimate, error, iterations, window, stands_in }, _) => {
+        (Origin::Reduced { residual_estimate, error, iterations, window, by_neighbour }, _) => {
             let how = format!(
                 "{iterations} reduced Newton steps in local model {}, residual e_f {}",
                 window + 1,
@@ -151,7 +151,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                             "99 % empirical error bounds: 99 of 100 random contacts of the trained range have smaller \
                              errors against a full solution on the same grid",
                         ),
-                        None if stands_in => {
+                        None if by_neighbour => {
                             ("no error bound: a neighbouring local model is used".to_owned(), neighbour.as_str())
                         }
                         None => (
@@ -165,7 +165,7 @@ pub fn verdict(answers: &Answers, thresholds: Thresholds) -> Verdict {
                         Some(failure) => failure.message.trim_end_matches('.'),
                         None => "The full solve will show the true errors",
                     };
-                    let doubtful = answers.verify_failure().is_some() || picture.costly_grid || stands_in;
+                    let doubtful = answers.verify_failure().is_some() || picture.costly_grid || by_neighbour;
                     let kind = if doubtful { Kind::Warning } else { Kind::Neutral };
                     make(
                         "Reduced model",

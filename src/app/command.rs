@@ -43,6 +43,10 @@ pub enum Command {
     ExportProfiles,
     /// Writes a results sheet of the contact.
     ExportSheet(Form),
+    /// Writes the worksheet of the running lesson.
+    ExportWorksheet,
+    /// Marks the lesson of this title as finished.
+    FinishLesson(String),
     /// Closes the program.
     Quit,
     /// Reverts the last edit.
@@ -135,6 +139,8 @@ pub enum Command {
     Ask(Purpose),
     /// Exports a plot of a tab as a figure.
     ExportFigure(Tab),
+    /// Scrolls a panel to a heading or control and draws a ring around it.
+    PointAt(&'static str),
     /// Runs the study of the open scene.
     RunStudy,
     /// Closes the headline above the tabs.
@@ -181,22 +187,44 @@ pub static MENUS: &[Item] = {
         Item { menu, group, command, name, synonyms, key }
     }
     &[
-        item("File", 0, C::New, "New", "", Some((CTRL, Key::N))),
-        item("File", 0, C::Open, "Open…", "", Some((CTRL, Key::O))),
+        item("File", 0, C::New, "New", "empty start scene", Some((CTRL, Key::N))),
+        item("File", 0, C::Open, "Open…", "load file scene", Some((CTRL, Key::O))),
         item("File", 0, C::Examples, "Examples…", "scenes tables figures dissertation search", None),
-        item("File", 0, C::LoadCases, "Load cases…", "table csv paste bearings gears batch", None),
+        item("File", 0, C::LoadCases, "Load cases…", "table csv paste bearings gears batch spreadsheet excel", None),
         item("File", 0, C::OpenLink, "Open link…", "address url share fragment", None),
-        item("File", 1, C::Save, "Save", "", Some((CTRL, Key::S))),
-        item("File", 1, C::SaveAs, "Save as…", "", Some((CTRL_SHIFT, Key::S))),
+        item("File", 1, C::Save, "Save", "file scene store", Some((CTRL, Key::S))),
+        item("File", 1, C::SaveAs, "Save as…", "file scene store", Some((CTRL_SHIFT, Key::S))),
         item("File", 1, C::CopyLink, "Copy link", "address url share send fragment", None),
-        item("File", 2, C::ExportFigures, "Export figure…", "picture plot image svg png", Some((CTRL, Key::E))),
-        item("File", 2, C::ExportProfiles, "Export profiles as CSV…", "table data", None),
-        item("File", 3, C::Quit, "Quit", "", Some((CTRL, Key::Q))),
-        item("Edit", 0, C::Undo, "Undo", "", Some((CTRL, Key::Z))),
-        item("Edit", 0, C::Redo, "Redo", "", Some((CTRL_SHIFT, Key::Z))),
+        item(
+            "File",
+            2,
+            C::ExportFigures,
+            "Export figure…",
+            "picture plot image svg png print pdf",
+            Some((CTRL, Key::E)),
+        ),
+        item("File", 2, C::ExportProfiles, "Export profiles as CSV…", "table data pressure film thickness excel", None),
+        item(
+            "File",
+            2,
+            C::ExportWorksheet,
+            "Export worksheet…",
+            "lesson print exercise solutions pdf class teach",
+            None,
+        ),
+        item("File", 3, C::Quit, "Quit", "exit close end", Some((CTRL, Key::Q))),
+        item("Edit", 0, C::Undo, "Undo", "back revert", Some((CTRL, Key::Z))),
+        item("Edit", 0, C::Redo, "Redo", "again repeat", Some((CTRL_SHIFT, Key::Z))),
         item("Edit", 1, C::Pin, "Pin curve", "compare keep", Some((CTRL, Key::D))),
-        item("Edit", 1, C::Unpin, "Remove all pins", "", Some((CTRL_SHIFT, Key::D))),
-        item("Edit", 2, C::CopyReadouts, "Copy read-outs", "clipboard table values", Some((CTRL_SHIFT, Key::C))),
+        item("Edit", 1, C::Unpin, "Remove all pins", "clear compare unpin", Some((CTRL_SHIFT, Key::D))),
+        item(
+            "Edit",
+            2,
+            C::CopyReadouts,
+            "Copy read-outs",
+            "clipboard table values results film thickness",
+            Some((CTRL_SHIFT, Key::C)),
+        ),
         item(
             "Edit",
             3,
@@ -205,7 +233,7 @@ pub static MENUS: &[Item] = {
             "preferences options thresholds badge theme text",
             Some((CTRL, Key::Comma)),
         ),
-        item("View", 0, C::Palette, "Command palette…", "", Some((CTRL, Key::P))),
+        item("View", 0, C::Palette, "Command palette…", "search find", Some((CTRL, Key::P))),
         item("View", 0, C::Presentation, "Presentation", "full screen projector lecture", Some((PLAIN, Key::F11))),
         item("View", 1, C::Overlay, "Full solution over the profiles", "show hide overlay reduced compare", None),
         item("View", 1, C::Difference, "Difference of the profiles", "show hide overlay reduced compare", None),
@@ -233,14 +261,14 @@ pub static MENUS: &[Item] = {
         item("View", 5, C::ResetLayout, "Reset layout", "tabs panels windows", None),
         item("Run", 0, C::Verify, "Verify now", "full solve check", Some((PLAIN, Key::F5))),
         item("Run", 0, C::EstimateGridError, "Estimate grid error", "accuracy nodes refine", None),
-        item("Run", 1, C::SolveAlong, "Full solutions along the traction curve", "", None),
-        item("Run", 1, C::RunInTime, "Run transient", "in time march", None),
+        item("Run", 1, C::SolveAlong, "Full solutions along the traction curve", "friction Stribeck check", None),
+        item("Run", 1, C::RunInTime, "Run transient", "time step march harmonic load", None),
         item("Run", 1, C::Train, "Start training", "reduced model snapshots", None),
         item("Run", 2, C::Cancel, "Cancel", "stop abort", Some((PLAIN, Key::Escape))),
         item("Help", 0, C::Manual, "Manual", "help documentation tour physics", Some((PLAIN, Key::F1))),
-        item("Help", 0, C::Lessons, "Lessons", "teach learn course steps", None),
+        item("Help", 0, C::Lessons, "Lessons", "teach learn course steps exercise worksheet tutorial", None),
         item("Help", 0, C::Keyboard, "Keyboard", "keys shortcuts help", None),
-        item("Help", 1, C::About, "About EHL Explorer", "", None),
+        item("Help", 1, C::About, "About EHL Explorer", "version licence", None),
     ]
 };
 
@@ -316,7 +344,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_command_stands_in_two_menus_and_no_key_or_name_means_two_things() {
+    fn commands_keys_and_names_are_unique() {
         for (k, item) in MENUS.iter().enumerate() {
             for other in &MENUS[..k] {
                 assert_ne!(item.command, other.command);

@@ -7,6 +7,8 @@ use super::controls::Entries;
 use super::display::Thresholds;
 use super::document::{Document, Edit};
 use crate::app::tabs::transient::TransientRuns;
+use crate::scene::regime::{Ratios, RegimeMap};
+use crate::solver::physics::contact::FilmShape;
 use std::path::Path;
 
 /// Read-only state of the window.
@@ -32,6 +34,15 @@ pub struct Context<'a> {
     pub presenting: bool,
     /// True if plots shall be fitted to their data in this frame.
     pub fit: bool,
+}
+
+impl Context<'_> {
+    /// Returns the ratios that define the regime: of the picture if it belongs to the sliders, otherwise estimated.
+    pub fn regime_ratios(&self) -> Ratios {
+        let point = &self.document.point;
+        let estimate = || RegimeMap::new(FilmShape::of(point)).at(point.moes());
+        self.answers.current_picture().map_or_else(estimate, |picture| Ratios::of(&picture.solution))
+    }
 }
 
 /// Commands of a frame, in their order.

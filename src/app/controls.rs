@@ -136,12 +136,10 @@ pub fn lock_ui(ui: &mut Ui, room: [f32; 2], closed: bool) -> Response {
     response
 }
 
-/// Draws the explanation of a tab if explanations are switched on.
-pub fn why(ui: &mut Ui, wanted: bool, text: &str) {
-    if wanted {
-        let frame = egui::Frame::new().inner_margin(6.0).corner_radius(4.0).fill(ui.visuals().faint_bg_color);
-        frame.show(ui, |ui| ui.label(text));
-    }
+/// Draws the explanation of a tab.
+pub fn why(ui: &mut Ui, text: &str) {
+    let frame = egui::Frame::new().inner_margin(6.0).corner_radius(4.0).fill(ui.visuals().faint_bg_color);
+    frame.show(ui, |ui| ui.label(text));
 }
 
 /// Returns the text with a capital first letter (unless it is a symbol) and a full stop at the end.
@@ -163,17 +161,35 @@ pub fn sentence(text: &str) -> String {
 /// Sets the accessible name of a widget, which screen readers and tests use.
 pub fn named(ui: &Ui, response: Response, name: &str) -> Response {
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
-    let pointed = ui.ctx().data(|data| data.get_temp::<String>(Id::unique("pointed at")));
+    ringed(ui, response, name)
+}
+
+/// Draws a ring around a widget if [`point_at`] or [`show`] has chosen its name. Scrolls to it once after [`show`].
+pub fn ringed(ui: &Ui, response: Response, name: &str) -> Response {
+    let pointed = ui.ctx().data(|data| data.get_temp::<String>(pointed_at()));
     if pointed.is_some_and(|pointed| pointed == name) {
         let stroke = egui::Stroke::new(2.0, Palette::of(ui).accent);
         ui.painter().rect_stroke(response.rect.expand(3.0), 4.0, stroke, egui::StrokeKind::Outside);
+        if ui.ctx().data_mut(|data| data.remove_temp::<bool>(pointed_at())).is_some() {
+            response.scroll_to_me(Some(egui::Align::Center));
+        }
     }
     response
 }
 
+fn pointed_at() -> Id {
+    Id::unique("pointed at")
+}
+
 /// Draws a ring around the control of this name, for demonstrations. No ring with `None`.
 pub fn point_at(ctx: &Context, name: Option<&str>) {
-    ctx.data_mut(|data| data.insert_temp(Id::unique("pointed at"), name.unwrap_or_default().to_owned()));
+    ctx.data_mut(|data| data.insert_temp(pointed_at(), name.unwrap_or_default().to_owned()));
+}
+
+/// Draws a ring around the control of this name and scrolls to it.
+pub fn show(ctx: &Context, name: &str) {
+    point_at(ctx, Some(name));
+    ctx.data_mut(|data| data.insert_temp(pointed_at(), true));
 }
 
 /// Sets the text that a screen reader reads for a label whose own text is not sufficient.
@@ -200,7 +216,10 @@ pub fn choice<T: Copy + PartialEq>(
     options: &[T],
     describe: impl Fn(T) -> (&'static str, &'static str),
 ) {
-    let label = ui.label(name).on_hover_text(tooltip);
+    let name = name.into();
+    let text = name.text().to_owned();
+    let label = ui.label(name);
+    let label = ringed(ui, label, &text).on_hover_text(tooltip);
     let (chosen, meaning) = describe(*value);
     let response = ComboBox::from_id_salt(label.id)
         .selected_text(chosen)
@@ -336,7 +355,8 @@ impl RangeSlider<'_> {
 /// Draws the heading of a group in a panel.
 pub fn heading(ui: &mut Ui, text: &str) {
     ui.add_space(4.0);
-    ui.label(RichText::new(text).strong().size(14.5));
+    let label = ui.label(RichText::new(text).strong().size(14.5));
+    ringed(ui, label, text);
 }
 
 /// Width of the column of names, so that values line up across groups.

@@ -2,6 +2,7 @@
 
 use super::command::Command;
 use super::context::Commands;
+use super::controls::show;
 use super::desk::files::Pending;
 use super::display::Display;
 use super::layouts::Layout;
@@ -54,6 +55,25 @@ impl Explorer {
                 }
             }
             Command::ExportSheet(form) => desk.sheets.begin(ctx, (&desk.document, &desk.answers), form),
+            Command::ExportWorksheet => match self.lessons.running().cloned() {
+                Some(lesson) => {
+                    if let Err(why) = desk.sheets.begin_worksheet(ctx, (&desk.document, &desk.answers), lesson) {
+                        desk.files.notice = Some(Notice::wrong(why));
+                    }
+                }
+                None => {
+                    let text = "A worksheet belongs to a lesson: open one first (Help, Lessons)";
+                    desk.files.notice = Some(Notice::Done(text.to_owned()));
+                    if !self.lessons.is_open() {
+                        self.lessons.toggle();
+                    }
+                }
+            },
+            Command::FinishLesson(title) => {
+                if !desk.finished.contains(&title) {
+                    desk.finished.push(title);
+                }
+            }
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 desk.history.undo(&mut desk.document);
@@ -91,6 +111,7 @@ impl Explorer {
                 self.lessons.toggle();
                 self.hold_axes();
             }
+            Command::PointAt(control) => show(ctx, control),
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
             Command::SiUnits => desk.display.units = desk.display.units.other(),

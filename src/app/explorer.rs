@@ -4,6 +4,7 @@
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
+use crate::app::controls::point_at;
 use crate::app::desk::files::Pending;
 use crate::app::desk::{Desk, Opened};
 use crate::app::document::Document;
@@ -205,6 +206,16 @@ impl Explorer {
     /// Draws the panel of lessons if it is open.
     fn lessons_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
         if !self.lessons.is_open() {
+            // The ring of the palette disappears with the next click or key.
+            let moves_on = |event: &egui::Event| {
+                matches!(
+                    event,
+                    egui::Event::PointerButton { pressed: true, .. } | egui::Event::Key { pressed: true, .. }
+                )
+            };
+            if ui.input(|input| input.events.iter().any(moves_on)) {
+                point_at(ui.ctx(), None);
+            }
             return;
         }
         let screen = OnScreen {
@@ -217,12 +228,16 @@ impl Explorer {
         };
         // On a small screen the panel is placed below, so that adjacent tabs keep their width.
         let below = ui.ctx().content_rect().width() < lessons::BESIDE && screen.tabs.len() > 1;
+        let ((least, most), width) = (Place::LESSONS, self.place.lessons);
         let panel = match below {
-            true => Panel::bottom("lessons below").exact_size(lessons::HEIGHT),
-            false => Panel::right("lessons").exact_size(lessons::WIDTH),
+            true => Panel::bottom("lessons below").default_size(lessons::HEIGHT).size_range(lessons::HEIGHT..=420.0),
+            false => Panel::right("lessons").default_size(width).size_range(least..=most),
         };
-        let lessons = &mut self.lessons;
-        panel.resizable(false).show(ui, |ui| lessons.ui(ui, &screen, commands));
+        let (lessons, finished) = (&mut self.lessons, &self.desk.finished);
+        let shown = panel.resizable(true).show(ui, |ui| lessons.ui(ui, &screen, finished, commands));
+        if !below {
+            self.place.lessons = shown.response.rect.width().clamp(least, most);
+        }
     }
 
     /// Brings the tab of a newly opened scene to the front. Runs its study if it needs no confirmation.

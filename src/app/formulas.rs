@@ -1,14 +1,17 @@
 //! Comparison of the contact's film thickness with published formulas.
 
-use crate::app::context::Context;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::warning_ui;
+use crate::app::document::Edit;
 use crate::app::export::describe_contact;
 use crate::app::numbers;
+use crate::app::panels::lubricant::GROUP;
 use crate::app::theme::symbol;
 use crate::engine::Table;
-use crate::solver::full::Problem;
+use crate::scene::named_lubricant::NAMED;
+use crate::solver::full::{Problem, Solution};
 use crate::solver::physics::contact::{FilmFormula, OperatingPoint};
-use crate::solver::physics::lubricant::{HeatReduction, Lubricant};
+use crate::solver::physics::lubricant::{DensityLaw, HeatReduction, Lubricant, ShearLaw, ViscosityLaw};
 use egui::{Grid, RichText, Ui};
 
 /// Returns the comparison as CSV.
@@ -41,10 +44,53 @@ pub fn csv(context: &Context<'_>) -> String {
     format!("# {}\n{}", describe_contact(point, &context.document.lubricant), table.to_csv())
 }
 
-/// Draws the table under its title.
-pub fn ui(ui: &mut Ui, context: &Context<'_>) {
+/// Name of the lubricant to which Moes' formula was fitted.
+const FITTED: &str = "barus-oil";
+
+/// Draws the table under its title, and below it why the formulas deviate from this contact.
+pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     ui.strong("Film thickness by published formulas");
     table(ui, context);
+    ui.add_space(4.0);
+    let picture = context.answers.current_picture();
+    for reason in picture.map(|picture| reasons(&picture.solution)).unwrap_or_default() {
+        ui.label(RichText::new(reason).small());
+    }
+    let Some(fitted) = NAMED.iter().find(|named| named.name == FITTED) else { return };
+    let (own, theirs) = (context.document.lubricant, fitted.laws);
+    if own.density != theirs.density || own.viscosity != theirs.viscosity || own.shear != theirs.shear {
+        let tip = "Selects an incompressible oil with Barus’ law, to which Moes’ formula was fitted, for this contact. \
+                   Undo restores your oil";
+        if ui.button("Use the fluid of the formulas").on_hover_text(tip).clicked() {
+            commands.edit(Edit::Named(fitted), GROUP);
+        }
+    }
+}
+
+/// Returns the properties of a contact that the formulas do not cover, one sentence each.
+fn reasons(solution: &Solution) -> Vec<String> {
+    let problem = &solution.problem;
+    let lubricant = &problem.lubricant;
+    let mut reasons = Vec::new();
+    if lubricant.density != DensityLaw::Incompressible {
+        let denser = problem.fluid.at(solution.scalars.p_c).density;
+        reasons.push(format!(
+            "The oil is {} denser in the middle, so that the same mass makes the central film {} thinner. Moes’ formula \
+             is for an incompressible oil.",
+            numbers::share(denser - 1.0),
+            numbers::share(1.0 - 1.0 / denser)
+        ));
+    }
+    if lubricant.viscosity != ViscosityLaw::Barus {
+        reasons.push("Moes’ formula is for Barus’ law; the viscosity of this oil rises less.".to_owned());
+    }
+    if lubricant.shear != ShearLaw::Newtonian {
+        reasons.push("The formulas are for Newtonian oils; this oil is shear-thinning.".to_owned());
+    }
+    if lubricant.cavitation.supply_film_m().is_some() {
+        reasons.push("The formulas are for a flooded inlet; this one has a limited supply.".to_owned());
+    }
+    reasons
 }
 
 /// Draws the table without title.

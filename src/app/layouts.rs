@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_arrangement_has_every_tab_once_and_the_first_of_each_group_in_front() {
+    fn layouts_have_every_tab_once() {
         for (layout, width) in Layout::ALL.into_iter().flat_map(|layout| [(layout, 1280.0), (layout, 2560.0)]) {
             let tree = layout.tree(width);
             let groups = layout.groups(width >= WIDE);

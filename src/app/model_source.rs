@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn the_fluid_picks_the_model_and_another_fluid_gets_the_one_akin() {
+    fn fluid_selects_the_model_or_the_nearest() {
         let models = Models::embedded(&Store::default());
         let of = |lubricant: &Lubricant| models.of(&line(), lubricant).unwrap();
         let (newtonian, thinning) = (of(&Lubricant::default()), of(&SQUALANE_PIP));
@@ -188,7 +188,7 @@ mod tests {
         assert!(models.of(&line(), &SQUALANE_PIP).is_none());
     }
     #[test]
-    fn the_model_of_ellipses_is_read_once_and_only_when_there_is_one() {
+    fn ellipse_model_is_read_once_and_on_demand() {
         let store = Store::default();
         let mut models = Models::embedded(&store);
         let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, 50.0, 5.0)).unwrap();
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn light_balls_have_a_model_beside_that_of_the_others_and_one_of_the_users_takes_the_place_of_the_nearer() {
+    fn user_model_replaces_the_nearer_embedded_one() {
         let store = Store::default();
         let mut models = Models::embedded(&store);
         let ball = |m: f64| si_from_moes(&MoesRequest::new(ContactKind::Point, m, 5.0)).unwrap();
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn models_of_oils_that_thin_by_eyrings_law_are_read_late_and_know_the_first_contacts() {
+    fn eyring_models_are_read_on_demand() {
         let store = Store::default();
         let mut models = Models::embedded(&store);
         let shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn the_model_with_heat_is_read_late_and_draws_what_has_heat_only() {
+    fn thermal_model_is_read_on_demand() {
         let store = Store::default();
         let mut models = Models::embedded(&store);
         let cold = Document::default().lubricant;

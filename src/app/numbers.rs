@@ -102,6 +102,11 @@ pub fn percent(relative: f64) -> String {
     if relative > 0.0 { format!("+{text}") } else { text }
 }
 
+/// Returns a share in whole percent.
+pub fn share(of: f64) -> String {
+    format!("{:.0}{THIN}%", 100.0 * of)
+}
+
 /// Returns the magnitude of a relative error in percent: two digits, at most four decimals, never a power of ten.
 pub fn error_percent(relative: f64) -> String {
     let percent = 100.0 * relative.abs();

@@ -16,7 +16,7 @@ pub enum Purpose {
     /// Read a table of load cases.
     Cases,
     /// Read a reduced model for a comparison.
-    Beside,
+    ComparedModel,
     /// Write a file with this content.
     Write(Written, Arc<Vec<u8>>),
     /// Write a sheet as notes, with figures next to them.
@@ -55,7 +55,7 @@ pub struct Words {
 impl Purpose {
     /// Returns true if a file is read. It must then exist, and no file is replaced.
     pub fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Inputs | Self::Cases | Self::Beside)
+        matches!(self, Self::Open | Self::Inputs | Self::Cases | Self::ComparedModel)
     }
 
     /// Returns the paths of further files that are written with a file of this name.
@@ -74,7 +74,7 @@ impl Purpose {
             Self::Save => ("Save the scene", "Save", "Scene", &["ron"], "contact.ron"),
             Self::Inputs => ("Inputs from a table", "Read", "Table", &["csv"], ""),
             Self::Cases => ("Load cases from a table", "Read", "Table", &["csv"], ""),
-            Self::Beside => ("Add a reduced model to the comparison", "Add", "Reduced model", &["rom"], ""),
+            Self::ComparedModel => ("Add a reduced model to the comparison", "Add", "Reduced model", &["rom"], ""),
             Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),
             Self::Write(Written::Table, _) => ("Export the data as CSV", "Export", "Table", &["csv"], "profiles.csv"),
             Self::Notes(_) => ("Export the sheet", "Export", "Notes", &["md"], "contact.md"),

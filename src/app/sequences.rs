@@ -187,7 +187,7 @@ fn sequences() -> u64 {
 }
 
 #[test]
-fn whatever_came_before_a_request_has_the_answer_of_a_fresh_program() {
+fn requests_do_not_depend_on_earlier_ones() {
     let (used, fresh_store) = (Store::default(), Store::default());
     let (mut reduced, mut full, mut none) = (0, 0, 0);
     for seed in 0..sequences() {

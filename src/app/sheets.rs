@@ -3,6 +3,7 @@
 
 use super::answers::Answers;
 use super::document::Document;
+use super::lessons::Lesson;
 use super::purpose::{Purpose, Written};
 use super::wake::wake;
 use crate::app::refusal::Refusal;
@@ -30,7 +31,7 @@ pub enum Form {
 #[derive(Default)]
 pub struct Sheets {
     of: Option<Of>,
-    work: Background<Told>,
+    work: Background<Progress>,
 }
 
 /// Content of a sheet, with the answers that have been solved so far.
@@ -39,6 +40,8 @@ struct Of {
     title: String,
     bodies: Option<Bodies>,
     answers: Vec<Answer>,
+    /// Lesson of a worksheet, and the answers of its start and its steps.
+    lesson: Option<(Lesson, Vec<usize>)>,
 }
 
 /// Solves of a sheet.
@@ -50,7 +53,7 @@ pub struct Solves {
 
 /// Messages of the solves of a sheet.
 #[derive(Serialize, Deserialize)]
-pub enum Told {
+pub enum Progress {
     Answer(Box<Answer>),
     Complete,
 }
@@ -58,9 +61,9 @@ pub enum Told {
 impl Task for Solves {
     const KIND: &'static str = "sheet";
     const LANE: usize = 1;
-    type Message = Told;
+    type Message = Progress;
 
-    fn run(self, store: &Store, reporter: &Reporter<Told>) -> Ending {
+    fn run(self, store: &Store, reporter: &Reporter<Progress>) -> Ending {
         let mut bench = Workbench::on(store, "");
         if let Some(model) = &self.model {
             bench = bench.using(&model.model(store)?);
@@ -68,12 +71,12 @@ impl Task for Solves {
         for (k, request) in self.requests.iter().enumerate() {
             reporter.stage(&format!("solving, {}", request.method.name()), k, self.requests.len());
             match answer_or_full(&mut bench, request, reporter) {
-                Ok(answer) => reporter.send(Told::Answer(Box::new(answer))),
+                Ok(answer) => reporter.send(Progress::Answer(Box::new(answer))),
                 Err(error) if error.cancelled() || reporter.cancelled() => return Ok(()),
                 Err(error) => return Err(error.to_string().into()),
             }
         }
-        reporter.send(Told::Complete);
+        reporter.send(Progress::Complete);
         Ok(())
     }
 }
@@ -111,9 +114,32 @@ impl Sheets {
             model = Some(Given::of(&in_use.model));
         }
         let requests = methods.into_iter().map(|method| key.request(grid, method)).collect();
-        self.of =
-            Some(Of { form, title: document.title.clone(), bodies: document.bodies_in_force(), answers: Vec::new() });
+        self.of = Some(Of {
+            form,
+            title: document.title.clone(),
+            bodies: document.bodies_in_force(),
+            answers: Vec::new(),
+            lesson: None,
+        });
         self.work.run(Job::of("Results sheet", wake(ctx), answers.store(), Solves { requests, model }));
+    }
+
+    /// Starts the worksheet of a lesson. Its contacts are solved by the full solver.
+    ///
+    /// # Errors
+    /// A sentence if a contact of the lesson is refused.
+    pub fn begin_worksheet(
+        &mut self,
+        ctx: &Context,
+        (document, answers): (&Document, &Answers),
+        lesson: Lesson,
+    ) -> Result<(), Refusal> {
+        let (keys, indices) = lesson.pictures()?;
+        let requests = keys.iter().map(|key| key.request(document.grid, Method::Full)).collect();
+        let (title, lesson) = (lesson.title.clone(), Some((lesson, indices)));
+        self.of = Some(Of { form: Form::Html, title, bodies: None, answers: Vec::new(), lesson });
+        self.work.run(Job::of("Worksheet", wake(ctx), answers.store(), Solves { requests, model: None }));
+        Ok(())
     }
 
     /// Returns the sheet once it is complete, or the reason why there is none.
@@ -122,10 +148,14 @@ impl Sheets {
         let mut unread = Vec::new();
         let answers = answers.unwrap_or(&mut unread);
         self.work.receive(|told| match told {
-            Told::Answer(answer) => answers.push(*answer),
-            Told::Complete => complete = true,
+            Progress::Answer(answer) => answers.push(*answer),
+            Progress::Complete => complete = true,
         });
-        if let Some(Of { form, title, bodies, answers }) = self.of.take_if(|_| complete) {
+        if let Some(Of { form, title, bodies, answers, lesson }) = self.of.take_if(|_| complete) {
+            if let Some((lesson, indices)) = lesson {
+                let page = lesson.worksheet(&answers, &indices);
+                return Some(Ok(Purpose::Write(Written::Html, page.into_bytes().into())));
+            }
             return Some(Ok(form.write(Sheet::new(&title, &answers, bodies.as_ref()))));
         }
         self.work.message.take().map(|why| Err(Refusal::new(why)))

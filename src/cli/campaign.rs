@@ -190,7 +190,7 @@ fn tell(folder: &Folder, whole: &Whole) -> Result<Verdict, Failure> {
 
 /// Progress of a campaign as JSON.
 #[derive(Serialize)]
-struct Told<'a> {
+struct StatusJson<'a> {
     #[serde(flatten)]
     status: &'a crate::engine::campaign::Status,
     program: &'a str,
@@ -203,7 +203,7 @@ fn status(args: &StatusArgs) -> Result<Verdict, Failure> {
         let numbers: String = status.open.iter().map(|shard| format!("{shard}\n")).collect();
         output::print(&numbers)?;
     } else if args.json {
-        output::print_json(&Told { status: &status, program: &folder.plan.program_hash })?;
+        output::print_json(&StatusJson { status: &status, program: &folder.plan.program_hash })?;
     } else {
         let mut text =
             format!("{}: {} of {} shards are done, round {}", status.title, status.done, status.shards, status.rounds);

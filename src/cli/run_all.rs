@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_that_trains_an_embedded_model_runs_if_it_is_named_and_its_row_outlives_other_runs() {
+    fn embedded_training_scene_runs_only_if_named() {
         let folder = tempfile::tempdir().unwrap();
         let scenes = folder.path();
         std::fs::create_dir(scenes.join("training")).unwrap();
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn every_scene_is_run_whatever_became_of_the_others_and_a_quick_run_leaves_the_page() {
+    fn all_scenes_run_and_quick_runs_keep_the_page() {
         let folder = tempfile::tempdir().unwrap();
         let (scenes, out) = (folder.path().join("scenes"), folder.path().join("out"));
         std::fs::create_dir_all(scenes.join("line")).unwrap();

@@ -119,7 +119,7 @@ fn by_model(
             (facts.window, facts.size.pressure) = (solved.window, solved.coefficients.len());
             (facts.residual_estimate, facts.error) = (Some(solved.residual_estimate), solved.error);
             (effort.dofs, effort.newton_iterations) = (facts.size.pressure + 1, solved.iterations);
-            warnings.extend(solved.stands_in.then_some(Warning::NeighbouringModel));
+            warnings.extend(solved.by_neighbour.then_some(Warning::NeighbouringModel));
             traction = solved.traction;
             // Sliding affects the traction of a Newtonian lubricant, but not its film.
             solution = Some(online.reconstruct(&solved)?.of_problem(*problem));

@@ -26,7 +26,7 @@ pub fn describe_in_time(model: &TrajectoryModel) -> String {
     if domain.only.is_some() {
         text.push_str("  one course of inputs: errors along other courses are unknown\n");
     }
-    let ruptures = match window.cavitation {
+    let cavitation = match window.cavitation {
         Cavitation::Penalty => format!("γ̄ {:e}", window.penalty),
         other => other.name().to_owned(),
     };
@@ -35,7 +35,7 @@ pub fn describe_in_time(model: &TrajectoryModel) -> String {
         other => format!(", {}", other.name()),
     };
     let (size, sampling) = (window.size(), window.sampling);
-    let _ = writeln!(text, "  {}; {size} ({sampling:?}{scheme}), {ruptures}", grid_of(window));
+    let _ = writeln!(text, "  {}; {size} ({sampling:?}{scheme}), {cavitation}", grid_of(window));
     for (k, local) in model.locals.iter().enumerate() {
         let (size, sampling) = (local.window.size(), local.window.sampling);
         let _ = writeln!(text, "  local basis {}: {size} ({sampling:?})", k + 1);

@@ -26,9 +26,12 @@ impl Remoteness {
         if !outside {
             return Self { outside, kinds: [other_shape.into(), 0, 0, 0], far: extent(domain) };
         }
-        let law = match (discriminant(&domain.lubricant.shear) == discriminant(&lubricant.shear), thins(lubricant)) {
+        let law = match (
+            discriminant(&domain.lubricant.shear) == discriminant(&lubricant.shear),
+            is_shear_thinning(lubricant),
+        ) {
             (true, _) => 0,
-            (false, thinning) => 1 + u8::from(thinning != thins(&domain.lubricant)),
+            (false, thinning) => 1 + u8::from(thinning != is_shear_thinning(&domain.lubricant)),
         };
         let other_heat = domain.heats() != lubricant.heat.is_some();
         let other_lubricant = !domain.is_of(lubricant);
@@ -44,7 +47,7 @@ impl Remoteness {
 }
 
 /// True if a lubricant is shear-thinning.
-fn thins(laws: &Lubricant) -> bool {
+fn is_shear_thinning(laws: &Lubricant) -> bool {
     laws.shear != ShearLaw::Newtonian
 }
 
@@ -66,7 +69,8 @@ pub fn best<'a, T>(
     let problem = Problem::new(point, *lubricant).ok();
     // A model for another shear-thinning law only has a larger error. A model without shear thinning has no equations
     // for it.
-    let serves = |domain: &Domain| domain.heats() || thins(&domain.lubricant) == thins(lubricant);
+    let serves =
+        |domain: &Domain| domain.heats() || is_shear_thinning(&domain.lubricant) == is_shear_thinning(lubricant);
     let of_kind = models.into_iter().filter(|(_, domain)| domain.contact == point.kind && serves(domain));
     let judged = of_kind.map(|(model, domain)| (Remoteness::of(domain, problem.as_ref(), point, lubricant), model));
     judged.min_by(|(a, _), (b, _)| a.cmp(b)).map(|(_, model)| model)
@@ -137,7 +141,11 @@ mod tests {
         let oil = Lubricant::default();
         assert_eq!(best(models, &at(40.0), &oil), Some("narrow"));
         assert_eq!(best(models, &at(100.0), &oil), Some("wide"));
-        assert_eq!(best(models, &at(40.0), &SQUALANE_PIP), None, "neither has equations for a lubricant that thins");
+        assert_eq!(
+            best(models, &at(40.0), &SQUALANE_PIP),
+            None,
+            "neither has equations for a lubricant that is shear-thinning"
+        );
         let waxy = Lubricant { viscosity: ViscosityLaw::Barus, ..oil };
         assert_eq!(best(models, &at(40.0), &waxy), Some("wide"), "the first of equals");
         assert_eq!(

@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn half_of_graded_values_lie_where_they_are_wanted_and_steps_only_grow() {
+    fn half_of_graded_values_are_in_the_refined_part() {
         for (from, half, to) in [(0.0, 0.05, 1.0), (0.0, 0.05, 2.0), (-1.0, -0.9, 3.0), (1.0, 0.9, -2.0)] {
             assert_eq!(Steps::check_grading(from, half, to), Ok(()));
             let values = Steps::Graded { from, half, to, n: 41 }.values();

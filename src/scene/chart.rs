@@ -1,6 +1,6 @@
 //! Charts of study results as plain data: lines and points over axes with units.
 
-use super::drawing::{Beside, Pen, Pixels, Rgb, Words};
+use super::drawing::{Pen, Pixels, Rgb, TextAnchor, Words};
 use super::table::Table;
 
 /// A chart.
@@ -97,7 +97,7 @@ pub struct Note {
     /// Text.
     pub words: Words,
     /// Horizontal side of the position on which the text stands.
-    pub beside: Beside,
+    pub beside: TextAnchor,
     /// Vertical placement: above the position (1), on it (0) or below it (−1).
     pub above: i8,
     /// Colour of the text; `None` for the colour of the axes.

@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn every_scene_of_the_folders_is_there_and_reads_as_its_file_does() {
+    fn every_scene_file_is_embedded() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
         let folders = files_in(&root).into_iter().filter(|path| path.is_dir());
         let scenes = folders.flat_map(|folder| files_in(&folder));

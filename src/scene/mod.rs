@@ -35,6 +35,7 @@ mod notice;
 mod outcome;
 mod parallel;
 mod random_points;
+pub mod regime;
 pub mod regimes;
 mod run;
 pub mod sampled;

@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lubricant_keeps_its_name_under_a_limiting_stress_and_loses_it_with_other_constants() {
+    fn lubricant_keeps_its_name_under_a_limiting_stress() {
         let limited = Lubricant {
             limiting_stress: Some(LimitingStress { ambient: 5e6, slope: 0.05, eyring: None }),
             ..SQUALANE_PIP

@@ -1,72 +1,14 @@
-//! Lubrication regimes on the chart of M and L: which asymptote of Moes' film formula is dominant.
+//! Chart of M and L with the lubrication regimes.
 
 use super::chart::{Chart, ChartAxis, Marks, Note, Series};
-use super::drawing::{Beside, Pen, Words};
-use crate::solver::physics::contact::{FilmAsymptotes, FilmShape, Moes};
+use super::drawing::{Pen, TextAnchor, Words};
+use super::regime::{Regime, RegimeMap};
+use crate::solver::physics::contact::{FilmShape, Moes};
 
 /// Ends of the chart along M.
 pub const M_AXIS: (f64, f64) = (0.4, 1500.0);
 /// Ends of the chart along L.
-pub const L_AXIS: (f64, f64) = (0.2, 32.0);
-/// Asymptotic lubrication regime.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Regime {
-    /// Rigid bodies, constant viscosity.
-    RigidIsoviscous,
-    /// Elastic bodies, constant viscosity.
-    ElasticIsoviscous,
-    /// Rigid bodies, viscosity rising with pressure.
-    RigidPiezoviscous,
-    /// Elastic bodies, viscosity rising with pressure.
-    ElasticPiezoviscous,
-}
-
-impl Regime {
-    /// Returns the regime whose asymptote dominates Moes' formula at M and L. The isoviscous asymptotes add up, so the
-    /// larger one counts. The piezoviscous ones add up inversely, so the smaller one counts. The larger of these two
-    /// decides.
-    pub fn of(shape: FilmShape, moes: Moes) -> Self {
-        let a = FilmAsymptotes::of(shape, moes);
-        let iso = a.rigid_isoviscous.max(a.elastic_isoviscous);
-        if iso > a.rigid_piezoviscous.min(a.elastic_piezoviscous) {
-            if a.rigid_isoviscous > a.elastic_isoviscous { Self::RigidIsoviscous } else { Self::ElasticIsoviscous }
-        } else if a.rigid_piezoviscous < a.elastic_piezoviscous {
-            Self::RigidPiezoviscous
-        } else {
-            Self::ElasticPiezoviscous
-        }
-    }
-
-    /// Returns the name on two lines, for the chart.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::RigidIsoviscous => "rigid,\nisoviscous",
-            Self::ElasticIsoviscous => "elastic,\nisoviscous",
-            Self::RigidPiezoviscous => "rigid,\npiezoviscous",
-            Self::ElasticPiezoviscous => "elastic,\npiezoviscous",
-        }
-    }
-
-    /// Returns the name on one line.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::RigidIsoviscous => "Rigid, isoviscous",
-            Self::ElasticIsoviscous => "Elastic, isoviscous",
-            Self::RigidPiezoviscous => "Rigid, piezoviscous",
-            Self::ElasticPiezoviscous => "Elastic, piezoviscous",
-        }
-    }
-
-    /// Returns a one-line description.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::RigidIsoviscous => "The bodies keep their shape, the oil its viscosity",
-            Self::ElasticIsoviscous => "The bodies flatten, the oil keeps its viscosity",
-            Self::RigidPiezoviscous => "The bodies keep their shape, pressure stiffens the oil",
-            Self::ElasticPiezoviscous => "The bodies flatten, pressure stiffens the oil",
-        }
-    }
-}
+pub const L_AXIS: (f64, f64) = (0.05, 32.0);
 
 /// Number of samples along each line.
 pub const SAMPLES: usize = 240;
@@ -76,74 +18,48 @@ pub fn spread((low, high): (f64, f64), k: usize, of: usize) -> f64 {
     (low.ln() + (high.ln() - low.ln()) * k as f64 / (of - 1) as f64).exp()
 }
 
-/// Returns the boundaries between regimes by their ends in (M, L). Each is a straight line on logarithmic axes. The
-/// places where the regime changes are found along the rows and columns of a fine lattice and refined by bisection.
-pub fn boundaries(shape: FilmShape) -> Vec<[[f64; 2]; 2]> {
-    let mut found: Vec<([Regime; 2], Vec<Moes>)> = Vec::new();
-    let mut add = |a: Regime, b: Regime, place: Moes| {
-        let pair = if (a as usize) < b as usize { [a, b] } else { [b, a] };
-        match found.iter_mut().find(|(known, _)| *known == pair) {
-            Some((_, places)) => places.push(place),
-            None => found.push((pair, vec![place])),
+/// Returns the boundaries between regimes as lines of (M, L): where the deformation equals the film thickness, and
+/// where the viscosity doubles.
+pub fn boundaries(shape: FilmShape) -> [Vec<[f64; 2]>; 2] {
+    let map = RegimeMap::new(shape);
+    let crossing = |(low, high): (f64, f64), holds: &dyn Fn(f64) -> bool| {
+        let (mut from, mut to) = (low.ln(), high.ln());
+        if holds(low) || !holds(high) {
+            return None;
         }
-    };
-    for along_m in [false, true] {
-        for k in 0..SAMPLES {
-            let place = |t: f64| {
-                let moving = |(low, high): (f64, f64)| (low.ln() + (high / low).ln() * t).exp();
-                if along_m {
-                    Moes { m: moving(M_AXIS), l: spread(L_AXIS, k, SAMPLES) }
-                } else {
-                    Moes { m: spread(M_AXIS, k, SAMPLES), l: moving(L_AXIS) }
-                }
-            };
-            for step in 0..SAMPLES - 1 {
-                let (mut low, mut high) =
-                    (step as f64 / (SAMPLES - 1) as f64, (step + 1) as f64 / (SAMPLES - 1) as f64);
-                let (a, b) = (Regime::of(shape, place(low)), Regime::of(shape, place(high)));
-                if a == b {
-                    continue;
-                }
-                for _ in 0..24 {
-                    let middle = 0.5 * (low + high);
-                    if Regime::of(shape, place(middle)) == a { low = middle } else { high = middle }
-                }
-                add(a, Regime::of(shape, place(high)), place(0.5 * (low + high)));
-            }
+        for _ in 0..30 {
+            let middle = 0.5 * (from + to);
+            if holds(middle.exp()) { to = middle } else { from = middle }
         }
-    }
-    let ends = |(_, mut places): (_, Vec<Moes>)| {
-        // Sorted along the axis on which the boundary is longer.
-        let ratio = |of: fn(&Moes) -> f64| {
-            places.iter().map(of).fold(0.0, f64::max) / places.iter().map(of).fold(f64::INFINITY, f64::min)
-        };
-        let along: fn(&Moes) -> f64 = if ratio(|p| p.m) > ratio(|p| p.l) { |p| p.m } else { |p| p.l };
-        places.sort_by(|a, b| along(a).total_cmp(&along(b)));
-        Some([places.first()?, places.last()?].map(|place| [place.m, place.l]))
+        Some((0.5 * (from + to)).exp())
     };
-    found.into_iter().filter_map(ends).collect()
+    // The deformation grows with M, the viscosity with L.
+    let elastic = |l: f64| Some([crossing(M_AXIS, &|m| map.regime(Moes { m, l }).is_elastic())?, l]);
+    let piezoviscous = |m: f64| Some([m, crossing(L_AXIS, &|l| map.regime(Moes { m, l }).is_piezoviscous())?]);
+    [
+        (0..SAMPLES).filter_map(|k| elastic(spread(L_AXIS, k, SAMPLES))).collect(),
+        (0..SAMPLES).filter_map(|k| piezoviscous(spread(M_AXIS, k, SAMPLES))).collect(),
+    ]
 }
 
 /// Returns places (M, L) for the names of the regimes, away from the most important contacts. Text at M < 1 begins
-/// there; text at M > 1000 ends there. The regimes of elliptical contacts lie elsewhere: a regime that contains none of
-/// these places has no name on the chart.
+/// there; text at M > 1000 ends there. A regime that contains none of these places has no name on the chart.
 pub fn names(shape: FilmShape) -> Vec<(Regime, [f64; 2])> {
-    let places: [&[[f64; 2]]; 4] = match shape {
-        FilmShape::Line => [&[[0.43, 0.6]], &[[30.0, 0.5]], &[[0.5, 15.0]], &[[1100.0, 22.0]]],
-        FilmShape::Ellipse(_) => [
-            &[[0.6, 2.5]],
-            &[[60.0, 0.45]],
-            &[[5.5, 22.0], [30.0, 25.0], [120.0, 28.0]],
-            &[[1100.0, 13.5], [1100.0, 5.0], [1100.0, 2.5]],
-        ],
+    let map = RegimeMap::new(shape);
+    let inside = |regime: Regime, [m, l]: [f64; 2]| {
+        // The name needs some room.
+        [0.8, 1.25].iter().all(|by| map.regime(Moes { m, l: by * l }) == regime)
     };
     use Regime::{ElasticIsoviscous, ElasticPiezoviscous, RigidIsoviscous, RigidPiezoviscous};
-    let regimes = [RigidIsoviscous, ElasticIsoviscous, RigidPiezoviscous, ElasticPiezoviscous];
-    let first = |(regime, places): (Regime, &[[f64; 2]])| {
-        let place = places.iter().find(|[m, l]| Regime::of(shape, Moes { m: *m, l: *l }) == regime)?;
-        Some((regime, *place))
-    };
-    regimes.into_iter().zip(places).filter_map(first).collect()
+    let places: [(Regime, &[[f64; 2]]); 4] = [
+        (RigidIsoviscous, &[[0.43, 0.3], [0.43, 0.1]]),
+        (ElasticIsoviscous, &[[25.0, 0.08], [60.0, 0.08], [120.0, 0.07], [300.0, 0.07]]),
+        (RigidPiezoviscous, &[[0.43, 15.0], [0.43, 25.0], [5.0, 20.0]]),
+        (ElasticPiezoviscous, &[[1100.0, 22.0], [1100.0, 13.5], [1100.0, 5.0], [1100.0, 2.5]]),
+    ];
+    let first =
+        |(regime, places): (Regime, &[[f64; 2]])| Some((regime, *places.iter().find(|place| inside(regime, **place))?));
+    places.into_iter().filter_map(first).collect()
 }
 
 /// Returns the regime chart for print, with one contact marked.
@@ -153,8 +69,8 @@ pub fn chart(shape: FilmShape, moes: Moes) -> Chart {
     let around = |(from, to): (f64, f64), value: f64| Some((from.min(0.7 * value), to.max(1.4 * value)));
     (chart.x.ends, chart.y.ends) = (around(M_AXIS, moes.m), around(L_AXIS, moes.l));
     let pen = Pen { color: [0x88; 3], opacity: 1.0, width: 0.8, dashes: Vec::new() };
-    for ends in boundaries(shape) {
-        let (name, points) = (String::new(), ends.to_vec());
+    for points in boundaries(shape) {
+        let name = String::new();
         chart.series.push(Series { name, marks: Marks::Line, points, pen: Some(pen.clone()) });
     }
     let (name, points) = ("this contact".to_owned(), vec![[moes.m, moes.l]]);
@@ -163,9 +79,9 @@ pub fn chart(shape: FilmShape, moes: Moes) -> Chart {
     for (regime, at) in names(shape) {
         let [m, _] = at;
         let beside = match m {
-            ..1.0 => Beside::Right,
-            1000.0.. => Beside::Left,
-            _ => Beside::Middle,
+            ..1.0 => TextAnchor::Right,
+            1000.0.. => TextAnchor::Left,
+            _ => TextAnchor::Middle,
         };
         let words = Words::plain(regime.name().replace('\n', " "));
         chart.notes.push(Note { at, words, beside, above: 0, color: None });
@@ -179,7 +95,7 @@ mod tests {
 
     #[test]
     fn the_corners_belong_to_the_regimes_of_the_literature() {
-        let of = |shape, m, l| Regime::of(shape, Moes { m, l });
+        let of = |shape, m, l| RegimeMap::new(shape).regime(Moes { m, l });
         let line = FilmShape::Line;
         assert_eq!(of(line, 0.6, 0.3), Regime::RigidIsoviscous);
         assert_eq!(of(line, 1000.0, 0.3), Regime::ElasticIsoviscous);

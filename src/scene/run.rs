@@ -19,7 +19,7 @@ use std::sync::{Mutex, PoisonError};
 pub fn run_scene(scene: &Scene, bench: &mut dyn Bench, observer: &dyn StudyObserver) -> Result<SceneOutcome, RunError> {
     scene.check()?;
     let (clock, experiment) = (Stopwatch::start(), scene.experiment());
-    let kept = Kept { observer, rows: Mutex::default() };
+    let kept = RowCollector { observer, rows: Mutex::default() };
     scene.study.run(&experiment, bench, &kept)?;
     let rows = kept.rows.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok(scene.outcome(&rows, clock.seconds()))
@@ -43,12 +43,12 @@ impl Scene {
 }
 
 /// Observer that stores the rows and forwards all calls.
-struct Kept<'a> {
+struct RowCollector<'a> {
     observer: &'a dyn StudyObserver,
     rows: Mutex<Vec<StudyRow>>,
 }
 
-impl Observer for Kept<'_> {
+impl Observer for RowCollector<'_> {
     fn newton_step(&self, step: &NewtonStep) {
         self.observer.newton_step(step);
     }
@@ -70,13 +70,13 @@ impl Observer for Kept<'_> {
     }
 }
 
-impl TrainingObserver for Kept<'_> {
+impl TrainingObserver for RowCollector<'_> {
     fn checkpoint(&self, state: &TrainingState) {
         self.observer.checkpoint(state);
     }
 }
 
-impl StudyObserver for Kept<'_> {
+impl StudyObserver for RowCollector<'_> {
     fn row(&self, row: StudyRow) {
         self.rows.lock().unwrap_or_else(PoisonError::into_inner).push(row.clone());
         self.observer.row(row);

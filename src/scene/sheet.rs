@@ -6,7 +6,8 @@ use super::chart::{Chart, ChartAxis, Marks};
 use super::chart_page::Page;
 use super::contact_result::ContactResult;
 use super::drawing::escaped;
-use super::regimes::{self, Regime};
+use super::regime::{Ratios, RegimeMap};
+use super::regimes;
 use super::table::{quoted, significant};
 use crate::solver::physics::bodies::{Bodies, film_regime};
 use crate::solver::physics::contact::{ContactKind, FilmFormula, FilmShape};
@@ -100,6 +101,11 @@ impl Sheet {
         }
         parts.push(program());
         Self { title: title.to_owned(), parts, figures }
+    }
+
+    /// Returns its figures: pressure, film thickness and the chart of regimes.
+    pub fn figures(&self) -> &[Chart] {
+        &self.figures
     }
 
     /// Returns the files of the sheet with their texts. The extension of the path selects the format: md with separate
@@ -213,9 +219,10 @@ impl Value {
 fn inputs(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     let point = &solved.result.point;
     let mut part = Part::new("Contact");
-    let (kind, load) = match point.kind {
-        ContactKind::Line => ("line contact", "N/m"),
-        ContactKind::Point => ("circular point contact", "N"),
+    let (kind, load) = match (point.kind, point.radius_y_m) {
+        (ContactKind::Line, _) => ("line contact", "N/m"),
+        (ContactKind::Point, None) => ("circular point contact", "N"),
+        (ContactKind::Point, Some(_)) => ("elliptical point contact", "N"),
     };
     part.words("Kind", kind);
     part.number("Reduced radius R", point.radius_m, "m");
@@ -234,8 +241,9 @@ fn inputs(solved: &Answer, bodies: Option<&Bodies>) -> Part {
     }
     part.number("Load number M", point.moes().m, "");
     part.number("Lubricant number L", point.moes().l, "");
-    let regime = Regime::of(FilmShape::of(point), point.moes());
-    part.words("Regime", format!("{}: {}", regime.title().to_lowercase(), regime.meaning()));
+    let estimate = || RegimeMap::new(FilmShape::of(point)).at(point.moes());
+    let ratios = solved.fields().map_or_else(estimate, Ratios::of);
+    part.words("Regime", format!("{}: {}", ratios.regime().title().to_lowercase(), ratios.describe()));
     part
 }
 

@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn unknown_fields_and_values_outside_any_sense_are_refused_by_name() {
+    fn unknown_fields_and_bad_values_are_refused() {
         let text = scene(View { pressure_loss: Some(0.25), ..View::default() }).to_ron().unwrap();
         let error = |text: String| Scene::from_ron(&text).unwrap_err().to_string();
         assert!(error(text.replace("pressure_loss", "presure_loss")).contains("presure_loss"));

@@ -93,7 +93,7 @@ fn a_worker_that_is_killed_in_the_middle_changes_no_byte() {
 }
 
 #[test]
-fn two_processes_on_the_same_shard_do_no_harm_and_status_says_how_far_it_is() {
+fn two_processes_may_share_a_shard() {
     let scratch = Scratch::new("twice");
     let folder = planned(&scratch, "dir", 30);
     let shard = |k: &str| {
@@ -138,7 +138,7 @@ fn a_campaign_of_another_build_is_refused_by_shard_and_merge() {
 }
 
 #[test]
-fn a_model_of_another_version_is_refused_by_its_own_name_before_anything_is_written() {
+fn model_of_another_version_is_refused_first() {
     let scratch = Scratch::new("version");
     let mut model = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/line.rom")).unwrap();
     model[8] = 3;
@@ -199,7 +199,7 @@ fn the_script_for_slurm_takes_every_open_shard_once() {
 /// A process of the first round and one of a round that the training added are killed and submitted again.
 #[cfg(unix)]
 #[test]
-fn an_adaptive_training_by_the_script_for_slurm_survives_killed_jobs() {
+fn slurm_training_survives_killed_jobs() {
     let scratch = Scratch::new("slurm-training");
     let folder = planned_of(&scratch, ADAPTIVE, "dir", 2);
     let killed = "#!/bin/bash\nif [ \"$2\" = shard ] && [[ $4 = [14] ]] && mkdir \"$3/killed$4\" 2>/dev/null; then \

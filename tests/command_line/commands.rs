@@ -41,7 +41,7 @@ pub fn assert_refused(arguments: &[&str], words: &str) {
 }
 
 #[test]
-fn complementarity_is_asked_for_by_its_name_and_its_multiplier_is_written() {
+fn complementarity_writes_its_multiplier() {
     let folder = tempfile::tempdir().unwrap();
     let profiles = folder.path().join("profiles.csv");
     let asked = ["solve", "--json", "--moes-m", "20", "--moes-l", "5", "--cavitation", "complementarity"];
@@ -78,7 +78,7 @@ fn complementarity_is_asked_for_by_its_name_and_its_multiplier_is_written() {
 }
 
 #[test]
-fn a_supplied_film_starves_the_contact_and_its_fraction_is_written() {
+fn inlet_film_starves_and_writes_the_fraction() {
     let folder = tempfile::tempdir().unwrap();
     let profiles = folder.path().join("profiles.csv");
     let asked = ["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--cavitation", "mass-conserving"];
@@ -149,7 +149,7 @@ fn moes_numbers_two_bodies_and_overrides_are_printed_back() {
 }
 
 #[test]
-fn srr_moves_only_the_traction_and_beyond_3_2_gpa_there_is_a_warning() {
+fn srr_changes_only_traction_and_high_pressure_warns() {
     let point = ["solve", "--json", "--moes-m", "10", "--moes-l", "3"];
     let still = json(&program(&point));
     let sliding = json(&program(&[&point[..], &["--srr", "-0.5"]].concat()));
@@ -162,7 +162,7 @@ fn srr_moves_only_the_traction_and_beyond_3_2_gpa_there_is_a_warning() {
 }
 
 #[test]
-fn a_reduced_solve_says_what_served_it_and_whether_it_was_trained() {
+fn reduced_solve_reports_model_and_trained_range() {
     let object = json(&program(&["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--method", "reduced"]));
     assert_eq!((&object["method"], &object["converged"]), (&"reduced".into(), &true.into()));
     assert_eq!(object["grid"]["kind"], "model");
@@ -248,7 +248,7 @@ fn a_grid_that_does_not_do_is_said_and_the_default_one_does() {
 
 /// The speeds of both surfaces are u_m and SRR, and α = 0 is a contact.
 #[test]
-fn surfaces_that_run_against_each_other_and_oils_without_alpha_are_solved() {
+fn opposed_surfaces_and_zero_alpha_are_solved() {
     let at = ["solve", "--json", "--radius", "0.01", "--load", "1e5", "--modulus", "2e11", "--viscosity", "0.02"];
     let by = |more: &[&str]| json(&program(&[&at[..], &["--dx", "0.02"], more].concat()));
     let reversing = by(&["--alpha", "0", "--u1", "-0.5", "--u2", "4.5"]);
@@ -264,7 +264,7 @@ fn surfaces_that_run_against_each_other_and_oils_without_alpha_are_solved() {
 
 /// M = 0.06 is far outside the range of the embedded model.
 #[test]
-fn where_a_reduced_model_fails_the_full_solver_takes_over_and_says_so() {
+fn full_solver_replaces_a_failed_reduced_solve() {
     let answer = json(&program(&["solve", "--json", "--method", "reduced", "--moes-m", "0.06", "--moes-l", "5"]));
     assert_eq!((&answer["method"], &answer["converged"]), (&"full".into(), &true.into()), "{answer}");
     let warning = answer["warning"].as_str().unwrap();
@@ -379,7 +379,7 @@ fn a_reader_that_leaves_early_is_no_panic() {
 }
 
 #[test]
-fn shear_thinning_contacts_slide_and_show_the_shear_across_the_film() {
+fn sliding_shear_thinning_contacts_show_film_shear() {
     let folder = Scratch::new("film_shear");
     let file = folder.join("shear.csv");
     let path = file.to_string_lossy().into_owned();

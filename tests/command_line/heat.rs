@@ -56,7 +56,7 @@ fn glass_keeps_the_heat_and_a_limit_makes_less_of_it() {
 
 /// A glass disc and a steel ball, given by their elastic and thermal constants. The disc is slower.
 #[test]
-fn exchanged_bodies_that_slide_the_other_way_are_the_same_contact() {
+fn exchanged_bodies_and_reversed_sliding_agree() {
     let oil = ["--radius=0.0127", "--speed=0.74", "--load=1e5", "--viscosity=0.05", "--alpha=1.8e-8", "--heat"];
     let solve =
         |bodies: [&str; 7]| json(&program(&[&["solve", "--grid=graded", "--json"], &oil[..], &bodies].concat()));
@@ -102,7 +102,7 @@ const TRAINING: &str = "Scene(
 )";
 
 #[test]
-fn a_model_that_was_trained_with_heat_answers_and_says_what_it_does_not_know() {
+fn thermal_model_reports_its_limits() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (scene, rom) = (path("heat.ron"), path("heat.rom"));
@@ -146,7 +146,7 @@ fn the_programs_model_answers_for_a_ball_with_heat() {
 }
 
 #[test]
-fn the_programs_model_of_lines_knows_warm_inlets_other_bodies_and_other_limits() {
+fn embedded_thermal_model_covers_inlets_and_bodies() {
     let oil = ["--lubricant", "mineral-oil", "--heat", "--srr", "0.3", "--grid", "model", "--json"];
     let solve =
         |more: &[&str], method: &str| json(&program(&[&CONTACT[..], &oil, more, &["--method", method]].concat()));
@@ -203,7 +203,7 @@ fn what_heat_cannot_be_computed_for_is_refused_in_one_sentence() {
 }
 
 #[test]
-fn an_ellipse_with_heat_is_handed_to_the_full_solver_by_the_model_of_circles() {
+fn thermal_ellipse_falls_back_to_the_full_solver() {
     let ellipse = ["solve", "--contact", "point", "--moes-m", "50", "--moes-l", "8", "--radius-y", "0.03"];
     let warm = json(&program(&[&ellipse[..], &["--heat", "--method", "reduced", "--json"]].concat()));
     assert_eq!(warm["method"], "full");

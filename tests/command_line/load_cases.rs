@@ -21,7 +21,7 @@ fn both(titles: &str, cells: &str) -> [Value; 2] {
 }
 
 #[test]
-fn a_table_with_bodies_heat_shear_supply_and_grid_gives_the_numbers_of_the_flags() {
+fn load_case_columns_equal_the_options() {
     let si = "radius;speed;load;viscosity;alpha;e1;nu1;e2;nu2";
     let contact = "0.01;2;3e5;0.02;1.8e-8;210e9;0.3;310e9;0.27";
     let thermal = "heat;srr;shear;shear-stress;limiting-stress;inlet-temperature;body2;oil-thermal;grid;domain";

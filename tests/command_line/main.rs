@@ -12,6 +12,7 @@ mod heat;
 mod in_time;
 mod installed;
 mod interfaces;
+mod language;
 mod load_cases;
 mod readme;
 mod refused;

@@ -8,7 +8,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 #[test]
-fn run_gives_one_object_per_scene_and_exit_1_when_an_expectation_falls_short() {
+fn run_returns_objects_and_exit_1_for_failed_checks() {
     let folder = Scratch::new("run");
     let scene = |name: &str, value: &str| {
         let text = format!(

@@ -5,7 +5,7 @@ use crate::commands::{json, program};
 const OIL: [&str; 6] = ["--shear", "eyring", "--shear-stress", "5e6", "--limiting-stress", "5e6,0.05"];
 
 #[test]
-fn rollers_and_balls_of_an_oil_that_thins_are_served_by_models_of_the_program() {
+fn shear_thinning_contacts_use_embedded_models() {
     for contact in ["line", "point"] {
         for srr in ["0.02", "0.6"] {
             let at = ["solve", "--json", "--contact", contact, "--moes-m", "60", "--moes-l", "7", "--srr", srr];
@@ -26,7 +26,7 @@ fn rollers_and_balls_of_an_oil_that_thins_are_served_by_models_of_the_program() 
 }
 
 #[test]
-fn a_stress_that_was_not_trained_and_an_ellipse_that_thins_are_told() {
+fn untrained_stress_and_shear_thinning_ellipse_are_reported() {
     let at = ["solve", "--json", "--method", "reduced", "--contact", "point", "--moes-m", "60", "--moes-l", "7"];
     for (stress, words) in [("5e5", "Eyring stress τ₀ = 0.5 MPa"), ("3e7", "Eyring stress τ₀ = 30 MPa")] {
         let other = json(&program(&[&at[..], &["--shear", "eyring", "--shear-stress", stress]].concat()));

@@ -37,7 +37,7 @@ fn two_hundred() -> String {
 }
 
 #[test]
-fn good_load_cases_are_those_of_solve_and_bad_ones_are_named_with_line_and_reason() {
+fn load_cases_agree_with_solve_or_are_refused() {
     let folder = Scratch::new("load-cases");
     let table = written(&folder, "cases.csv", &two_hundred());
     let out = folder.join("results.csv");

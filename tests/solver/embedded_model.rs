@@ -119,10 +119,10 @@ fn what_a_window_beside_the_contacts_own_answers_says_so_and_promises_nothing() 
     model.windows[own].reconstruction.fill(0.0);
     let mut online = Online::new(Arc::new(model), ReducedOptions::default());
     let solved = online.solve(&contact, Lubricant::default()).unwrap();
-    assert!(solved.stands_in && solved.window != own && solved.trust == Trust::Trained);
+    assert!(solved.by_neighbour && solved.window != own && solved.trust == Trust::Trained);
     assert_eq!(solved.error, None);
     let by_its_own = self::online().solve(&contact, Lubricant::default()).unwrap();
-    assert!(!by_its_own.stands_in && by_its_own.window == own && by_its_own.error.is_some());
+    assert!(!by_its_own.by_neighbour && by_its_own.window == own && by_its_own.error.is_some());
     let off = (solved.h_c / by_its_own.h_c - 1.0).abs();
     assert!(off < 1e-2, "{off:.1e}");
 }

@@ -12,8 +12,8 @@ use ehl_explorer::solver::training::{Plan, TrainingSpec, Windows, train};
 fn small(scene: &str) -> TrainingSpec {
     let Study::Training(mut spec) = scene_files::read(scene).study else { panic!("{scene} is no training") };
     let si_box = spec.range.is_si_box();
-    let thins = spec.range.varies(Quantity::NewtonianPlateauRatio);
-    let thinning_line = thins && spec.contact() == ContactKind::Line;
+    let shear_thinning = spec.range.varies(Quantity::NewtonianPlateauRatio);
+    let thinning_line = shear_thinning && spec.contact() == ContactKind::Line;
     match &mut spec.plan {
         Plan::FarthestPoint { snapshots } => *snapshots = if thinning_line { 40 } else { 30 },
         Plan::WorstOfPool { start, pool, per_round, limit, .. } => {
@@ -25,8 +25,8 @@ fn small(scene: &str) -> TrainingSpec {
     for axis in &mut spec.range.axes {
         axis.ends = match axis.quantity {
             _ if thinning_line => axis.ends,
-            Quantity::M if thins => (30.0, 45.0),
-            Quantity::L if thins => (7.0, 9.0),
+            Quantity::M if shear_thinning => (30.0, 45.0),
+            Quantity::L if shear_thinning => (7.0, 9.0),
             Quantity::NewtonianPlateauRatio => (0.2, 0.5),
             Quantity::M => (20.0, 40.0),
             Quantity::L => (5.0, 10.0),

@@ -246,7 +246,7 @@ fn an_eyring_stress_bends_the_traction_of_a_newtonian_film_node_by_node() {
     let (bent, free) = (bent.traction_coefficient(), free.traction_coefficient());
     assert!(free > 0.5 && bent > 0.01 && bent < slope, "{free} {bent}");
     let twice = Lubricant { limiting_stress: Some(limit), ..problem(0.74, 0.0, 0.2227).lubricant };
-    assert!(twice.check().unwrap_err().to_string().contains("thins under shear by its own law"));
+    assert!(twice.check().unwrap_err().to_string().contains("determines the traction too"));
 }
 
 #[test]

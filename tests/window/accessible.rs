@@ -75,7 +75,7 @@ fn round(harness: &mut Window) -> Vec<(String, Rect)> {
 }
 
 #[test]
-fn the_tab_key_follows_the_eye_down_the_panel_and_along_its_rows() {
+fn tab_key_goes_down_the_panel_and_along_rows() {
     let mut harness = open(1400.0);
     harness.run_steps(3);
     let places = round(&mut harness);

@@ -198,7 +198,7 @@ fn the_trajectory_is_followed_in_both_ranges() {
 }
 
 #[test]
-fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
+fn stopped_study_keeps_its_results() {
     let mut harness = open("Failure map");
     rest(&mut harness);
     count(&mut harness, "Random contacts", 10_000.0);
@@ -216,7 +216,7 @@ fn a_study_stops_at_once_and_keeps_what_it_found_while_the_picture_lives() {
 }
 
 #[test]
-fn the_tab_opens_on_results_which_follow_the_model_and_stop_where_nobody_looks() {
+fn accuracy_results_follow_the_model_while_visible() {
     let mut harness = open("Failure map");
     assert!(harness.state().studying(), "nobody has to press anything");
     click(&mut harness, "Profiles");
@@ -231,7 +231,7 @@ fn the_tab_opens_on_results_which_follow_the_model_and_stop_where_nobody_looks()
 }
 
 #[test]
-fn residuals_are_still_there_and_without_a_model_there_is_a_sentence() {
+fn residuals_remain_and_a_missing_model_is_reported() {
     let harness = open("Newton residuals");
     assert!(shows(&harness, "Last full solve"));
     let mut harness = crate::driver::window(Explorer::new(None).without_system_dialogs(), [1280.0, 800.0]);

@@ -15,7 +15,7 @@ fn modes(harness: &Window) -> Option<usize> {
 }
 
 #[test]
-fn error_and_time_against_modes_and_rows_come_by_themselves_and_are_dragged() {
+fn error_over_modes_appears_and_can_be_dragged() {
     let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
     wait(&mut harness, "the picture", |app| app.central_film().is_some());
     click(&mut harness, "Reduced basis");

@@ -38,7 +38,7 @@ fn shows_part(harness: &Window, text: &str) -> bool {
 }
 
 #[test]
-fn a_campaign_fills_while_it_is_watched_and_ends_as_one_run_does() {
+fn watched_campaign_equals_a_single_run() {
     let scratch = Scratch::new("watched-campaign");
     let folder = planned(&scratch);
     // The last shard first: the display is in the order of the study all the same.
@@ -94,7 +94,7 @@ fn a_training_that_was_merged_is_judged_as_one_run_is() {
 }
 
 #[test]
-fn watching_is_stopped_and_a_folder_without_a_campaign_is_refused() {
+fn watching_stops_and_refuses_other_folders() {
     let scratch = Scratch::new("stopped-campaign");
     let folder = planned(&scratch);
     shard(&folder, 0);

@@ -69,7 +69,7 @@ fn the_switch_keeps_m_and_l_and_undo_brings_the_line_back() {
 }
 
 #[test]
-fn a_line_contact_shows_its_film_over_time_and_a_ball_with_one_click() {
+fn line_contact_shows_film_over_time_and_offers_a_ball() {
     let mut harness = open();
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
     click(&mut harness, "Contact map");
@@ -89,7 +89,7 @@ fn a_line_contact_shows_its_film_over_time_and_a_ball_with_one_click() {
 }
 
 #[test]
-fn the_map_shows_fields_and_fringes_and_its_cuts_feed_the_profiles() {
+fn map_shows_fields_and_fringes_with_cuts() {
     let mut harness = point_on((101, 21));
     let (along, across) = harness.state().profile_peaks().unwrap();
     assert!(along > 0.9 && across.is_some_and(|p| p > 0.9));
@@ -149,7 +149,7 @@ fn grids_are_chosen_estimated_and_taken_back() {
 }
 
 #[test]
-fn a_heavy_load_on_a_coarse_grid_says_that_the_side_lobes_are_not_resolved() {
+fn unresolved_side_lobes_are_reported() {
     let mut harness = quick_point();
     harness.get_by_label("Load number M").set_value_accesskit(700.0);
     harness.run();
@@ -159,7 +159,7 @@ fn a_heavy_load_on_a_coarse_grid_says_that_the_side_lobes_are_not_resolved() {
 }
 
 #[test]
-fn a_light_ball_is_drawn_by_the_model_of_such_and_says_what_its_domain_leaves_out() {
+fn lightly_loaded_ball_uses_its_model_and_reports_its_domain() {
     // While the model is being read, pictures are full solutions on another grid, which do not measure the model.
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 1500.0]);

@@ -88,7 +88,7 @@ fn a_short_list_of_matches_does_not_keep_a_longer_one_short() {
 }
 
 #[test]
-fn arrows_choose_escape_leaves_everything_as_it_was_and_keys_belong_to_the_palette() {
+fn palette_handles_arrows_escape_and_keys() {
     let mut harness = open();
     harness.get_by_role_and_label(Role::TextInput, "Radius R").focus();
     harness.run_steps(2);
@@ -123,7 +123,7 @@ fn arrows_choose_escape_leaves_everything_as_it_was_and_keys_belong_to_the_palet
 }
 
 #[test]
-fn recent_scenes_are_in_the_palette_and_unsaved_work_is_asked_about() {
+fn palette_opens_recent_scenes_and_asks_first() {
     let folder = Scratch::new("palette");
     let path = folder.join("bearing_47.ron");
     let text = "Scene(version: 1, title: \"t\", at: Moes(m: 17.0, l: 7.0), study: Point(methods: [Full]))";
@@ -148,7 +148,7 @@ fn full_screen(harness: &Window) -> Option<bool> {
 }
 
 #[test]
-fn a_presentation_shows_plots_and_the_sliders_in_use_large_and_ends_with_escape() {
+fn presentation_shows_plots_and_ends_with_escape() {
     let mut harness = open();
     let before = harness.ctx.zoom_factor();
     harness.key_down(Key::F11);

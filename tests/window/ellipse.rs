@@ -42,7 +42,7 @@ fn spoken(harness: &Window) -> String {
 }
 
 #[test]
-fn the_slider_morphs_the_ellipse_while_m_and_l_stay_and_the_map_follows() {
+fn ellipse_slider_keeps_m_and_l_and_updates_the_map() {
     let mut harness = ellipse();
     let (before, moes, film) = (harness.state().point(), harness.state().moes(), harness.state().central_film());
     assert!((before.radius_ratio() - 3.0).abs() < 1e-12);
@@ -141,7 +141,7 @@ fn tables_have_both_semi_axes_and_formulas_say_where_they_end() {
 }
 
 #[test]
-fn traction_and_film_are_drawn_against_the_ratio_of_radii_of_a_point_contact() {
+fn traction_is_drawn_against_the_ratio_of_radii() {
     let mut harness = ellipse();
     set(&mut harness, Role::Slider, "Slide-to-roll ratio SRR", 0.1);
     click(&mut harness, "Traction");
@@ -152,7 +152,7 @@ fn traction_and_film_are_drawn_against_the_ratio_of_radii_of_a_point_contact() {
 }
 
 #[test]
-fn the_reduced_model_of_ellipses_is_read_when_it_is_needed_and_the_slider_answers_at_once() {
+fn ellipse_model_is_read_on_demand() {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 1200.0]);
     click(&mut harness, "Ellipse");

@@ -25,7 +25,7 @@ fn enter(harness: &mut Window, field: &str, text: &str) {
 }
 
 #[test]
-fn a_roller_with_an_oil_grade_is_entered_in_seven_steps_and_is_the_contact_of_the_command_line() {
+fn roller_with_oil_grade_equals_the_command_line() {
     let mut harness = window();
     enter(&mut harness, "Radius R", "12 mm");
     enter(&mut harness, "Speed u_m", "3 m/s");
@@ -58,7 +58,7 @@ fn a_roller_with_an_oil_grade_is_entered_in_seven_steps_and_is_the_contact_of_th
 }
 
 #[test]
-fn what_was_typed_stays_while_the_sliders_move_and_the_screen_names_what_follows() {
+fn typed_values_stay_while_sliders_move() {
     let mut harness = window();
     enter(&mut harness, "Radius R", "12");
     enter(&mut harness, "Load w", "300 N/mm");

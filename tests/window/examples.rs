@@ -30,7 +30,7 @@ fn open_example(harness: &mut Window, search: &str, title: &str) {
 }
 
 #[test]
-fn an_example_is_found_by_a_search_and_opens_untitled_on_the_tab_that_answers_it() {
+fn example_is_found_and_opens_on_its_tab() {
     let mut harness = fresh();
     click(&mut harness, "File");
     click(&mut harness, "Examples…");
@@ -58,7 +58,7 @@ fn examples_that_refer_to_others_run_without_their_folder() {
 }
 
 #[test]
-fn a_table_of_load_cases_is_read_as_it_is_typed_and_solved_as_headless() {
+fn load_cases_are_read_while_typed_and_solved() {
     let mut harness = fresh();
     click(&mut harness, "File");
     click(&mut harness, "Load cases…");

@@ -183,7 +183,7 @@ fn a_dragged_frame_of_the_embedded_model_is_cheap() {
 }
 
 #[test]
-fn a_reduced_answer_that_is_late_is_drawn_when_it_comes_and_what_there_was_is_grey_until_then() {
+fn previous_picture_is_grey_until_a_late_answer_arrives() {
     let explorer = Explorer::new(Some(embedded("line").unwrap())).without_system_dialogs();
     let mut harness = crate::driver::impatient_window(explorer.waiting_for_answers(Duration::ZERO), [1280.0, 800.0]);
     let arrived = |app: &Explorer| app.central_film().is_some();
@@ -238,7 +238,7 @@ fn the_badge_estimates_first_and_knows_later() {
 }
 
 #[test]
-fn an_answer_by_a_window_beside_the_own_one_is_a_warning_until_it_is_verified() {
+fn answer_by_a_neighbouring_model_warns_until_checked() {
     let mut model = ReducedModel::clone(&embedded("line").unwrap());
     let window = |m: f64| model.window_for(&si_from_moes(&MoesRequest::new(ContactKind::Line, m, 10.0)).unwrap());
     let (own, beyond) = (window(100.0), (1..40).map(|k| 100.0 / 1.05f64.powi(k)).find(|m| window(*m) != window(100.0)));

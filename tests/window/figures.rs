@@ -183,7 +183,7 @@ fn locked_axes_stand_still_while_the_load_runs_from_2_to_500() {
 }
 
 #[test]
-fn a_figure_of_all_plots_has_one_caption_and_the_clipboard_takes_it() {
+fn figure_of_all_plots_has_one_caption() {
     let mut harness = open();
     click(&mut harness, "Reduced basis");
     let folder = Scratch::new("all");

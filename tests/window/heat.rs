@@ -20,7 +20,7 @@ fn verified() -> Window {
 }
 
 #[test]
-fn a_contact_with_heat_is_drawn_at_once_and_its_temperatures_stand_in_results() {
+fn thermal_contact_is_live_with_temperatures() {
     let mut harness = verified();
     let cold = harness.state().central_film().expect("a picture");
     click(&mut harness, "Heat");

@@ -11,6 +11,7 @@ mod accuracy_tab;
 mod basis_tab;
 mod campaign;
 mod contact_map;
+mod cut_off;
 mod desktop;
 mod ellipse;
 mod engineering;

@@ -93,7 +93,7 @@ fn preset(harness: &mut Window, size: [f32; 2], layout: &str, seen: &[&str], bes
 }
 
 #[test]
-fn every_preset_has_room_on_small_and_large_screens_in_both_themes() {
+fn presets_fit_small_and_large_screens() {
     for size in [[1024.0, 640.0], [2560.0, 1440.0]] {
         let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), size);
         for kind in ["Roller", "Ball", "Ellipse"] {
@@ -111,7 +111,7 @@ fn every_preset_has_room_on_small_and_large_screens_in_both_themes() {
 }
 
 #[test]
-fn a_lesson_below_tabs_that_lie_beside_each_other_leaves_them_their_width() {
+fn lesson_below_adjacent_tabs_keeps_their_width() {
     let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
     click(&mut harness, "View");
     click(&mut harness, "Layout: Teach");
@@ -134,7 +134,7 @@ fn a_lesson_below_tabs_that_lie_beside_each_other_leaves_them_their_width() {
 }
 
 #[test]
-fn a_lesson_in_a_presentation_keeps_the_axes_still_until_it_ends() {
+fn lesson_in_a_presentation_locks_the_axes() {
     let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
     click(&mut harness, "Help");
     click(&mut harness, "Lessons");
@@ -160,7 +160,7 @@ fn an_engineer_has_si_units() {
 }
 
 #[test]
-fn the_lecture_from_m_2_to_500_names_the_regime_and_hides_nothing_that_is_needed() {
+fn presentation_names_regimes_and_shows_all_controls() {
     for size in [[1024.0, 768.0], [1920.0, 1080.0]] {
         let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), size);
         click(&mut harness, "View");

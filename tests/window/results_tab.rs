@@ -96,7 +96,7 @@ fn studies_of_contacts_give_the_same_on_the_screen_and_headless() {
 }
 
 #[test]
-fn studies_of_trainings_give_the_same_on_the_screen_and_headless() {
+fn training_studies_agree_on_screen_and_headless() {
     let folder = Scratch::new("results-trainings");
     let farthest = training("FarthestPoint(snapshots: 14)");
     agrees(&folder, "training", &scene("training", "", &farthest), false);

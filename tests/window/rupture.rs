@@ -9,7 +9,7 @@ fn film(harness: &Window) -> f64 {
 }
 
 #[test]
-fn a_supplied_film_starves_the_contact_and_the_full_solver_draws_it() {
+fn inlet_film_starves_the_contact_by_the_full_solver() {
     let explorer = Explorer::with_embedded_models().without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 1600.0]);
     wait(&mut harness, "verification", |app| app.badge() == "Verified");

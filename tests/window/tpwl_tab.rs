@@ -111,7 +111,7 @@ fn business() -> f64 {
 }
 
 #[test]
-fn a_fresh_window_shows_operating_points_within_two_clicks_and_two_seconds() {
+fn new_window_shows_operating_points_quickly() {
     let explorer = Explorer::new(None).without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
@@ -169,7 +169,7 @@ fn more_points_err_less_and_the_study_can_be_stopped() {
 }
 
 #[test]
-fn inputs_that_are_too_steep_are_said_to_be_so_and_reversals_are_refused_with_what_there_is() {
+fn steep_inputs_warn_and_reversals_are_refused() {
     // Trained on a gentle sine, run with a steep wave of three times its amplitude.
     let other = "trainings: [(inputs: (load: Harmonic(amplitude: 0.1, period: 0.5)), duration: 0.5)],
         linearised: (modes: 90, selection: Step(tolerance: 1e-3))";
@@ -228,7 +228,7 @@ fn the_model_is_set_up_undone_refused_and_saved_with_the_scene() {
 }
 
 #[test]
-fn a_study_of_several_inputs_opens_on_its_own_and_is_saved_whole() {
+fn study_of_several_inputs_opens_and_is_saved() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/time/fig_4_17_quick.ron");
     let asked = Scene::read(&path).unwrap();
     let Study::Transient(study) = &asked.study else { panic!() };
@@ -253,7 +253,7 @@ fn a_study_of_several_inputs_opens_on_its_own_and_is_saved_whole() {
 }
 
 #[test]
-fn the_same_scene_runs_headless_and_is_refused_without_the_fixed_frame() {
+fn scene_runs_headless_only_in_the_fixed_frame() {
     let wanted = "reduced: (loss: 1e-6), linearised: (modes: 90, selection: Distance(tolerance: 0.1), points: 40)";
     let run = |text: &str| run_scene(&Scene::from_ron(text).unwrap(), &mut Workbench::new(Path::new(".")), &());
     let outcome = run(&scene(SINE, wanted)).unwrap();

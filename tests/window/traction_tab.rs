@@ -53,7 +53,7 @@ fn assert_full_beside_reduced(rows: &[Vec<f64>], within: impl Fn(f64) -> f64) {
 }
 
 #[test]
-fn all_four_sliders_are_live_with_a_lubricant_that_thins_under_shear() {
+fn four_sliders_are_live_with_shear_thinning() {
     let mut harness = squalane();
     assert_eq!(harness.state().sliding(), (0.0, 0.2227));
     assert_eq!(harness.state().traction(), Some(0.0));
@@ -83,7 +83,7 @@ fn all_four_sliders_are_live_with_a_lubricant_that_thins_under_shear() {
 }
 
 #[test]
-fn a_newtonian_lubricant_keeps_npr_still_and_slides_without_another_film() {
+fn newtonian_sliding_keeps_npr_and_film() {
     let mut harness = window(Explorer::with_embedded_models());
     wait(&mut harness, "verification", |app| app.badge() == "Verified");
     let npr = harness.get_by_label("Newtonian plateau ratio NPR");
@@ -116,7 +116,7 @@ fn a_newtonian_lubricant_keeps_npr_still_and_slides_without_another_film() {
 }
 
 #[test]
-fn the_picker_brings_a_lubricant_with_its_contact_and_undo_takes_it_back() {
+fn lubricant_with_its_contact_is_selected_and_undone() {
     let mut harness = window(Explorer::with_embedded_models());
     wait(&mut harness, "the picture", |app| app.central_film().is_some());
     let (moes, before) = (harness.state().moes(), film(&harness));
@@ -146,7 +146,7 @@ fn the_picker_brings_a_lubricant_with_its_contact_and_undo_takes_it_back() {
 }
 
 #[test]
-fn bad_constants_of_ones_own_lubricant_are_refused_with_the_reason() {
+fn bad_constants_of_a_lubricant_are_refused() {
     let mut harness = squalane();
     let before = film(&harness);
     choose(&mut harness, "Fluid", "Own");
@@ -174,7 +174,7 @@ fn bad_constants_of_ones_own_lubricant_are_refused_with_the_reason() {
 }
 
 #[test]
-fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there() {
+fn traction_curve_follows_sliders_and_clicks() {
     let mut harness = squalane();
     click(&mut harness, "Traction");
     wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));
@@ -234,7 +234,7 @@ fn the_curve_follows_the_sliders_full_solutions_lie_on_it_and_a_press_goes_there
 }
 
 #[test]
-fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_is_none() {
+fn point_contact_curve_needs_a_model() {
     let (path, folder) = (Path::new("scenes/shear/fig_3_14_point.ron"), Scratch::new("traction"));
     let text = std::fs::read_to_string(path).unwrap();
     // Full solutions are waited for, whatever their grid.
@@ -260,7 +260,7 @@ fn a_point_contact_has_its_curve_where_there_is_a_model_and_says_so_where_there_
 }
 
 #[test]
-fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
+fn curve_of_an_untrained_fluid_is_marked() {
     let mut explorer = Explorer::with_embedded_models();
     // PAO 650's point contact; the model was trained with squalane with polyisoprene.
     explorer.open_scene(Path::new("scenes/shear/fig_3_16.ron")).unwrap();
@@ -290,7 +290,7 @@ fn a_fluid_that_the_model_was_not_trained_with_has_a_curve_that_says_so() {
 }
 
 #[test]
-fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids() {
+fn sketch_follows_own_constants_and_newtonian_fluids() {
     let mut harness = squalane();
     click(&mut harness, "Traction");
     choose(&mut harness, "Fluid", "Own");
@@ -316,7 +316,7 @@ fn a_sketch_goes_along_with_ones_own_constants_and_with_other_newtonian_fluids()
 }
 
 #[test]
-fn contacts_that_a_sketch_cannot_give_are_left_out_with_the_reason() {
+fn contacts_outside_a_sketch_are_left_out_with_reason() {
     let mut harness = window(Explorer::with_embedded_models());
     click(&mut harness, "Traction");
     wait(&mut harness, "the curve", |app| app.traction_contacts().0 == Some(41));

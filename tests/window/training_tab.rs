@@ -121,7 +121,7 @@ fn a_stopped_training_is_kept_used_and_resumed_after_a_crash() {
 }
 
 #[test]
-fn a_model_is_kept_until_it_is_saved_or_thrown_away_and_nothing_asks_where_nothing_is_lost() {
+fn unsaved_models_are_kept_and_asked_about() {
     let folder = Scratch::new("training-tab-kept");
     let kept = folder.join("trained.rom");
     let mut harness = open(&folder, "Small box", TINY);
@@ -185,7 +185,7 @@ fn a_bad_range_is_a_sentence_and_edits_can_be_undone() {
 }
 
 #[test]
-fn a_range_where_full_solves_fail_is_named_and_what_there_is_stays() {
+fn failing_full_solves_of_a_training_are_reported() {
     let folder = Scratch::new("training-tab-failing");
     // A grid that is too coarse at high loads: some contact there has no full solution.
     let text = scene("Failing box", "FarthestPoint(snapshots: 60)")

@@ -112,7 +112,7 @@ fn a_stopped_run_keeps_what_it_has_and_the_sliders_make_it_old() {
 }
 
 #[test]
-fn a_step_that_cannot_be_taken_is_named_and_what_was_computed_stays() {
+fn failed_time_step_is_reported_and_results_stay() {
     // The load falls below all accepted contacts within one step.
     let inputs = "load: Sampled(times: [0.0, 1.0, 1.01, 2.0], values: [1.0, 1.0, 1e-9, 1e-9])";
     let (mut harness, folder) = open("refused", &scene(inputs, 2.0, "Fixed"));
@@ -161,7 +161,7 @@ fn the_set_up_is_edited_undone_refused_and_saved_with_the_scene() {
 }
 
 #[test]
-fn a_fresh_window_runs_by_itself_replays_at_once_and_checks_at_rest() {
+fn new_transient_runs_replays_and_is_checked() {
     let explorer = Explorer::new(None).without_system_dialogs();
     let mut harness = crate::driver::window(explorer, [1280.0, 800.0]);
     wait(&mut harness, "the first picture", |app| app.central_film().is_some() && !app.busy());
@@ -245,7 +245,7 @@ fn what_has_not_come_to_a_moment_is_not_drawn_there() {
 }
 
 #[test]
-fn a_reduced_model_is_trained_on_the_spot_and_runs_beside_the_full_system() {
+fn transient_model_is_trained_and_compared() {
     let (mut harness, folder) = open("reduced", &scene(BREATHING, 2.0, "Fixed"));
     click(&mut harness, "Set-up");
     click(&mut harness, "Reduced model");

@@ -85,12 +85,12 @@ pub struct Instance {
 }
 
 /// Model shared by instances, freed with the last of them.
-enum Lent {
+enum SharedModel {
     Stationary(Weak<ReducedModel>),
     InTime(Weak<TrajectoryModel>),
 }
 
-impl Lent {
+impl SharedModel {
     fn upgrade(&self) -> Option<SavedModel> {
         match self {
             Self::Stationary(model) => model.upgrade().map(SavedModel::Stationary),
@@ -100,7 +100,7 @@ impl Lent {
 }
 
 /// Shared models, by the identity of their units.
-static MODELS: Mutex<Vec<(String, Lent)>> = Mutex::new(Vec::new());
+static MODELS: Mutex<Vec<(String, SharedModel)>> = Mutex::new(Vec::new());
 
 pub fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
     let name = identity(bytes, Pressed::Load);
@@ -110,8 +110,8 @@ pub fn shared(bytes: &[u8]) -> Result<SavedModel, Refused> {
     }
     let model = SavedModel::from_bytes(bytes)?;
     let lent = match &model {
-        SavedModel::Stationary(model) => Lent::Stationary(Arc::downgrade(model)),
-        SavedModel::InTime(model) => Lent::InTime(Arc::downgrade(model)),
+        SavedModel::Stationary(model) => SharedModel::Stationary(Arc::downgrade(model)),
+        SavedModel::InTime(model) => SharedModel::InTime(Arc::downgrade(model)),
     };
     models.retain(|(_, model)| model.upgrade().is_some());
     models.push((name, lent));

@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn of_asks_that_wait_the_newest_is_answered_and_of_models_no_longer_in_use_none() {
+    fn only_the_newest_request_is_answered() {
         let (ctx, model) = (egui::Context::default(), embedded("line").unwrap());
         let mut live = patient();
         live.be_patient(Duration::ZERO);

@@ -44,7 +44,7 @@ pub enum Origin {
         /// Index of the local model that computed it.
         window: usize,
         /// True if the contact's own local model found no solution and a neighbouring one computed it.
-        stands_in: bool,
+        by_neighbour: bool,
     },
     /// By the full solver.
     Full,
@@ -58,7 +58,7 @@ impl From<&ContactResult> for Origin {
             error: facts.error,
             iterations: result.newton_iterations,
             window: facts.window,
-            stands_in: result.warnings.contains(&Warning::NeighbouringModel),
+            by_neighbour: result.warnings.contains(&Warning::NeighbouringModel),
         }
     }
 }
@@ -68,10 +68,10 @@ impl Origin {
     pub fn describe(&self) -> String {
         match self {
             Self::Full => "full solution".to_owned(),
-            Self::Reduced { residual_estimate, error, iterations, window, stands_in } => {
+            Self::Reduced { residual_estimate, error, iterations, window, by_neighbour } => {
                 let bound = match error {
                     Some(e) => format!("error bounds H_c {:e}, H_min {:e}", e.h_c.bound, e.h_min.bound),
-                    None if *stands_in => "no error bound: computed by a neighbouring local model".to_owned(),
+                    None if *by_neighbour => "no error bound: computed by a neighbouring local model".to_owned(),
                     None => "no calibrated error bound".to_owned(),
                 };
                 let window = window + 1;
@@ -189,8 +189,8 @@ impl Picture {
 
     /// Returns the warnings as sentences that end with a space. Empty without warnings.
     pub fn warned(&self) -> String {
-        let stands_in = |warning: &&Warning| **warning != Warning::NeighbouringModel;
-        let sentences = self.warnings.iter().filter(stands_in).map(|warning| sentence(&warning.to_string()) + " ");
+        let by_neighbour = |warning: &&Warning| **warning != Warning::NeighbouringModel;
+        let sentences = self.warnings.iter().filter(by_neighbour).map(|warning| sentence(&warning.to_string()) + " ");
         sentences.collect()
     }
 

@@ -271,7 +271,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     #[test]
-    fn a_reduced_solve_that_is_stopped_says_so_and_no_full_one_follows() {
+    fn stopped_reduced_solve_starts_no_full_one() {
         let (ctx, document) = (Context::default(), Document::default());
         let mut answers = Answers::new(Models::only(embedded("line").ok()), Store::default());
         let ask = Ask::of(&document, answers.models());
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_model_is_in_use_as_soon_as_it_is_there_however_long_its_reader_takes_to_end() {
+    fn model_is_used_as_soon_as_it_is_read() {
         let mut answers = Answers::new(Models::only(None), Store::default());
         let model = embedded("line").unwrap();
         let (own, (sent, arrived), (end, ended)) = (Arc::clone(&model), channel(), channel::<()>());

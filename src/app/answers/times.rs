@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_slow_solve_does_not_move_the_median_and_old_ones_are_forgotten() {
+    fn median_ignores_outliers_and_old_solves() {
         let mut times = Times::default();
         assert_eq!(times.median_s(), None);
         [1.0, 1.0, 90.0].into_iter().for_each(|seconds| times.add(seconds));

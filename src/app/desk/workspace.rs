@@ -52,6 +52,8 @@ pub struct Desk {
     pub load_cases: LoadCasesWindow,
     /// Question of the example scene that was opened.
     pub headline: Option<Headline>,
+    /// Titles of the lessons that were finished.
+    pub finished: Vec<String>,
     /// Results sheet that is being made.
     pub sheets: Sheets,
     /// Running presentation, which shows only plots and sliders.
@@ -82,6 +84,7 @@ impl Desk {
             figures: Figures::default(),
             load_cases: LoadCasesWindow::default(),
             headline: None,
+            finished: Vec::new(),
             sheets: Sheets::default(),
             presentation: None,
             opened: None,

@@ -124,7 +124,7 @@ mod tests {
         Oil { grade: Grade::IsoVg(68.0), family: OilFamily::Mineral, temperature_k: 333.15, density_15: 880.0 };
 
     #[test]
-    fn an_oil_and_two_bodies_become_the_contact_and_stay_when_m_moves() {
+    fn oil_and_bodies_define_the_contact_and_stay() {
         let mut document = Document::default();
         document.set_oil(VG_68).unwrap();
         let bodies = Bodies::on_plane(0.012, 3.0, 0.05);
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_in_a_groove_becomes_an_ellipse_and_a_roller_has_no_groove() {
+    fn ball_in_a_groove_is_an_ellipse() {
         let mut document = Document::default();
         document.set_shape(Shape::Ball).unwrap();
         let Bodies([ball, race]) = Bodies::on_plane(4.7625e-3, 3.0, 0.0);

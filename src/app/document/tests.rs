@@ -8,7 +8,7 @@ use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::training::Windows;
 
 #[test]
-fn every_pair_of_followers_reaches_the_wanted_numbers_and_keeps_the_rest() {
+fn followers_reach_m_and_l_and_keep_the_rest() {
     for m_follower in LoadFollower::ALL {
         for &l_follower in m_follower.partners() {
             let view = View { when_m_moves: m_follower, when_l_moves: l_follower, ..View::default() };
@@ -85,7 +85,7 @@ fn a_training_is_edited_saved_and_refused_like_the_rest() {
 }
 
 #[test]
-fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
+fn transient_contact_is_saved_and_checked() {
     let mut document = Document::default();
     let study = document.transient_study();
     document.set_transient(study.clone()).unwrap();
@@ -105,7 +105,7 @@ fn a_contact_in_time_is_saved_with_its_grid_and_checked_like_the_rest() {
 }
 
 #[test]
-fn every_contact_in_time_of_the_repository_opens_and_is_saved_as_it_was() {
+fn transient_scenes_open_and_are_saved_unchanged() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/time");
     let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut count = 0;
@@ -124,7 +124,7 @@ fn every_contact_in_time_of_the_repository_opens_and_is_saved_as_it_was() {
 }
 
 #[test]
-fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
+fn changing_the_kind_keeps_numbers_and_lubricant() {
     let mut document = Document::default();
     let line = document.point;
     document.set_shape(Shape::Ball).unwrap();
@@ -142,7 +142,7 @@ fn the_other_kind_of_contact_keeps_the_numbers_and_the_lubricant() {
 }
 
 #[test]
-fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_changes() {
+fn point_scene_keeps_its_question_until_the_kind_changes() {
     let scene = Scene::from_ron(include_str!("../../../scenes/point/table_2_3.ron")).unwrap();
     let mut document = Document::of_scene(scene.clone()).unwrap();
     assert_eq!((document.point.kind, document.to_scene()), (ContactKind::Point, scene));
@@ -153,7 +153,7 @@ fn a_scene_of_a_point_contact_opens_and_keeps_its_question_until_the_kind_change
 }
 
 #[test]
-fn a_lubricant_brings_its_own_viscosity_only_and_keeps_alpha_when_m_and_l_move() {
+fn lubricant_sets_viscosity_and_keeps_alpha() {
     let squalane = by_name("squalane-pip").unwrap();
     let mut document = Document::default();
     document.set_quantity(Quantity::SlideToRollRatio, 0.3).unwrap();
@@ -189,7 +189,7 @@ fn a_lubricant_brings_its_own_viscosity_only_and_keeps_alpha_when_m_and_l_move()
 }
 
 #[test]
-fn a_contact_in_time_gives_way_to_a_lubricant_that_thins_under_shear() {
+fn shear_thinning_ends_the_transient_contact() {
     let scene = Scene::from_ron(include_str!("../../../scenes/time/fig_2_6_right.ron")).unwrap();
     let mut document = Document::of_scene(scene).unwrap();
     document.pick_lubricant(&by_name("squalane-pip").unwrap()).unwrap();
@@ -197,7 +197,7 @@ fn a_contact_in_time_gives_way_to_a_lubricant_that_thins_under_shear() {
 }
 
 #[test]
-fn a_question_that_the_contact_has_lost_takes_its_title_along_and_is_said() {
+fn lost_question_is_reported_with_its_title() {
     let load_cases = include_str!("../../../scenes/load_cases/rollers_and_balls.ron");
     for (text, keeps_with_heat) in
         [(load_cases, true), (include_str!("../../../scenes/accuracy/grid_convergence.ron"), false)]
@@ -245,7 +245,7 @@ fn history_goes_back_and_forth() {
 }
 
 #[test]
-fn contacts_that_transient_runs_do_not_cover_are_refused_for_the_reason_that_all_interfaces_give() {
+fn transient_refusals_agree_in_all_interfaces() {
     let reason = |document: &Document| {
         let why = Unsupported::check(document.point.kind, &document.lubricant).unwrap_err().to_string();
         let said = document.no_transient().unwrap();

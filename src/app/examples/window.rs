@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn a_search_finds_by_title_source_and_question_and_needs_all_words() {
+    fn search_matches_title_source_and_question() {
         let found = |words: &str| {
             let words: Vec<String> = words.split(' ').map(str::to_owned).collect();
             examples::all().iter().filter(|example| fits(example, "", &words)).map(|example| example.path).collect()

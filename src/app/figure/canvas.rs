@@ -3,7 +3,7 @@
 
 use super::sitting::{pixels, rgb, with_sitting};
 use super::texture::known;
-use crate::scene::drawing::{Beside, Pen, Rgb, Words};
+use crate::scene::drawing::{Pen, Rgb, TextAnchor, Words};
 use crate::scene::{Band, Chart, ChartAxis, Map, Marks, Note, Series};
 use egui::epaint::{ColorMode, TextShape};
 use egui::{Align, Color32, Context, Id, Shape, TextureId, Ui, UiBuilder, pos2};
@@ -124,9 +124,9 @@ impl Recording {
             let Shape::Text(drawn) = shape else { continue };
             let (at, size) = (plot.transform().position_from_point(&place), drawn.galley.size());
             let beside = match (at.x - drawn.pos.x) / size.x.max(1.0) {
-                share if share < 0.25 => Beside::Right,
-                share if share < 0.75 => Beside::Middle,
-                _ => Beside::Left,
+                share if share < 0.25 => TextAnchor::Right,
+                share if share < 0.75 => TextAnchor::Middle,
+                _ => TextAnchor::Left,
             };
             let above = match (at.y - drawn.pos.y) / size.y.max(1.0) {
                 share if share < 0.25 => -1,

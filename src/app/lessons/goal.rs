@@ -1,11 +1,12 @@
 //! Conditions that a step of a lesson waits for.
 
+use crate::app::document::{Document, Edit};
 use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::scene::named_lubricant::{NAMED, NamedLubricant, by_name};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 
 /// Condition of a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +19,10 @@ pub enum Goal {
     Tab(Tab),
     /// The lubricant is this named one.
     Lubricant(&'static NamedLubricant),
+    /// The inlet is starved, with an inlet film thickness between two values \[nm\].
+    Starved(f64, f64),
+    /// Temperatures are computed.
+    Heat,
     /// This number of curves is pinned.
     Pins(usize),
     /// A full solution has checked the picture.
@@ -42,7 +47,7 @@ pub struct OnScreen {
 
 /// Accepted forms of a condition.
 const ACCEPTED: &str = "accepted are `M between 2 and 3` (likewise L, R_y/R, SRR, NPR), `contact point`, `tab Regimes`, \
-    `lubricant mineral-oil`, `pin 1`, `checked` and `read`";
+    `lubricant mineral-oil`, `starved`, `inlet film between 70 and 90` (nm), `heat`, `pin 1`, `checked` and `read`";
 
 impl Goal {
     /// Parses the conditions of a line, separated by commas. Empty for a step that is only read.
@@ -57,8 +62,14 @@ impl Goal {
     }
 
     fn read(words: &str) -> Option<Self> {
-        if words == "checked" {
-            return Some(Self::Checked);
+        match words {
+            "checked" => return Some(Self::Checked),
+            "heat" => return Some(Self::Heat),
+            "starved" => return Some(Self::Starved(0.0, f64::INFINITY)),
+            _ => {}
+        }
+        if let Some(range) = words.strip_prefix("inlet film ") {
+            return between(range).map(|(from, to)| Self::Starved(from, to));
         }
         let (first, rest) = words.split_once(' ')?;
         match first {
@@ -73,9 +84,7 @@ impl Goal {
             "pin" => rest.parse().ok().map(Self::Pins),
             _ => {
                 let quantity = quantity(first)?;
-                let (from, to) = rest.strip_prefix("between ")?.split_once(" and ")?;
-                let (from, to): (f64, f64) = (from.trim().parse().ok()?, to.trim().parse().ok()?);
-                (from < to).then_some(Self::Between(quantity, from, to))
+                between(rest).map(|(from, to)| Self::Between(quantity, from, to))
             }
         }
     }
@@ -83,6 +92,25 @@ impl Goal {
     /// Returns the tab that must be visible.
     pub fn tab(&self) -> Option<Tab> {
         if let Self::Tab(tab) = self { Some(*tab) } else { None }
+    }
+
+    /// Changes a document as a reader does: a quantity is set to the middle of its range.
+    ///
+    /// # Errors
+    /// A sentence if the document refuses the change.
+    pub fn carry_out(&self, document: &mut Document) -> Result<(), Refusal> {
+        match self {
+            Self::Between(quantity, from, to) => document.edit(Edit::Quantity(*quantity, 0.5 * (from + to))),
+            Self::Lubricant(named) => document.edit(Edit::Named(named)),
+            Self::Heat => document.edit(Edit::Heat(true)),
+            Self::Starved(from, to) => {
+                let film = 0.5 * (from + to);
+                let film = if film.is_finite() { film } else { SUPPLY_NM };
+                let cavitation = Cavitation::MassConserving { supply_film_m: Some(1e-9 * film) };
+                document.edit(Edit::Laws(Box::new(Lubricant { cavitation, ..document.lubricant })))
+            }
+            Self::Kind(_) | Self::Tab(_) | Self::Pins(_) | Self::Checked => Ok(()),
+        }
     }
 
     pub fn holds(&self, screen: &OnScreen) -> bool {
@@ -94,11 +122,26 @@ impl Goal {
             Self::Kind(kind) => screen.point.kind == *kind,
             Self::Tab(tab) => screen.tabs.contains(tab),
             Self::Lubricant(named) => screen.lubricant == named.laws,
+            Self::Starved(from, to) => {
+                let film = screen.lubricant.cavitation.supply_film_m();
+                film.is_some_and(|film| (*from..=*to).contains(&(1e9 * film)))
+            }
+            Self::Heat => screen.lubricant.heat.is_some(),
             Self::Pins(count) => screen.pins >= *count,
             Self::Checked => screen.checked,
         }
     }
 }
+
+/// Parses `between A and B`.
+fn between(words: &str) -> Option<(f64, f64)> {
+    let (from, to) = words.strip_prefix("between ")?.split_once(" and ")?;
+    let (from, to): (f64, f64) = (from.trim().parse().ok()?, to.trim().parse().ok()?);
+    (from < to).then_some((from, to))
+}
+
+/// Inlet film thickness of the switch \[nm\].
+const SUPPLY_NM: f64 = 200.0;
 
 fn quantity(name: &str) -> Option<Quantity> {
     match name {

@@ -2,7 +2,11 @@
 
 mod goal;
 mod panel;
+#[cfg(test)]
+mod tests;
 mod text;
+mod worksheet;
 
 pub use goal::OnScreen;
-pub use panel::{BESIDE, HEIGHT, Lessons, WIDTH, count};
+pub use panel::{BESIDE, HEIGHT, Lessons, count};
+pub use text::Lesson;

@@ -5,7 +5,7 @@ use super::goal::{Goal, OnScreen};
 use super::text::Lesson;
 use crate::app::command::Command;
 use crate::app::context::Commands;
-use crate::app::controls::{named, point_at};
+use crate::app::controls::{described, named, point_at};
 use crate::app::document::Edit;
 use crate::app::tab::Tab;
 use crate::app::theme::Palette;
@@ -14,7 +14,7 @@ use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use std::sync::LazyLock;
 
 /// Source texts of the built-in lessons.
-const TEXTS: [&str; 11] = [
+const TEXTS: [&str; 13] = [
     include_str!("../../../assets/lessons/01_rigid_to_hertz.md"),
     include_str!("../../../assets/lessons/02_the_spike.md"),
     include_str!("../../../assets/lessons/03_four_regimes.md"),
@@ -26,17 +26,20 @@ const TEXTS: [&str; 11] = [
     include_str!("../../../assets/lessons/09_a_load_that_breathes.md"),
     include_str!("../../../assets/lessons/10_what_a_basis_is.md"),
     include_str!("../../../assets/lessons/11_when_to_trust.md"),
+    include_str!("../../../assets/lessons/12_starvation.md"),
+    include_str!("../../../assets/lessons/13_heat.md"),
 ];
 
 /// A test checks that none of them is refused.
-static LESSONS: LazyLock<Vec<Lesson>> = LazyLock::new(|| TEXTS.iter().flat_map(|text| Lesson::read(text)).collect());
+pub(super) static LESSONS: LazyLock<Vec<Lesson>> =
+    LazyLock::new(|| TEXTS.iter().flat_map(|text| Lesson::read(text)).collect());
 
 /// Maximum number of lessons of the user.
 #[cfg(feature = "desktop")]
 const MOST_OWN: usize = 100;
-/// Width of the panel next to the tabs \[points\].
-pub const WIDTH: f32 = 300.0;
-/// Height of the panel below the tabs \[points\].
+/// Least width of the panel next to the tabs \[points\].
+const WIDTH: f32 = 300.0;
+/// Initial height of the panel below the tabs \[points\].
 pub const HEIGHT: f32 = 190.0;
 /// Width of the window from which the panel fits next to adjacent tabs \[points\].
 pub const BESIDE: f32 = 1600.0;
@@ -101,16 +104,23 @@ impl Lessons {
     }
 
     /// Draws the panel.
-    pub fn ui(&mut self, ui: &mut Ui, screen: &OnScreen, commands: &mut Commands) {
+    ///
+    /// `finished` has the titles of the lessons that were finished.
+    pub fn ui(&mut self, ui: &mut Ui, screen: &OnScreen, finished: &[String], commands: &mut Commands) {
         point_at(ui.ctx(), None);
         if self.now.is_some() {
             self.lesson_ui(ui, screen, commands);
         } else {
-            self.list_ui(ui, commands);
+            self.list_ui(ui, finished, commands);
         }
     }
 
-    fn list_ui(&mut self, ui: &mut Ui, commands: &mut Commands) {
+    /// Returns the lesson that runs.
+    pub fn running(&self) -> Option<&Lesson> {
+        self.now.as_ref().map(|now| &now.lesson)
+    }
+
+    fn list_ui(&mut self, ui: &mut Ui, finished: &[String], commands: &mut Commands) {
         ui.horizontal(|ui| {
             ui.heading("Lessons");
             self.close_ui(ui);
@@ -122,8 +132,11 @@ impl Lessons {
                 let steps = lesson.steps.len();
                 let width = vec2(ui.available_width(), 0.0);
                 let title = format!("{}. {}", k + 1, lesson.title);
-                let button = Button::new(&title).min_size(width).shortcut_text(format!("{steps} steps"));
+                let state =
+                    if finished.contains(&lesson.title) { "✔ done".to_owned() } else { format!("{steps} steps") };
+                let button = Button::new(&title).wrap().min_size(width).shortcut_text(state);
                 let response = ui.add(button);
+                let response = described(ui, response, if finished.contains(&lesson.title) { "done" } else { "" });
                 if named(ui, response, &title).on_hover_text(&lesson.about).clicked() {
                     chosen = Some(lesson.clone());
                 }
@@ -170,6 +183,10 @@ impl Lessons {
         let title = self.now.as_ref().map_or_else(String::new, |now| now.lesson.title.clone());
         ui.horizontal(|ui| {
             leave = ui.button("All lessons").clicked();
+            let tip = "A page for print: questions with space for answers, and the solutions on a second page";
+            if ui.button("Worksheet…").on_hover_text(tip).clicked() {
+                commands.push(Command::ExportWorksheet);
+            }
             if wide {
                 ui.heading(&title);
             }
@@ -222,6 +239,7 @@ impl Lessons {
             let next = ui.button(if *done { RichText::new(name).strong() } else { RichText::new(name) });
             if next.clicked() {
                 if last {
+                    commands.push(Command::FinishLesson(lesson.title.clone()));
                     leave = true;
                 } else {
                     target = *step + 1;

@@ -9,6 +9,8 @@
 //! - Do: M between 1.5 and 3, tab Regimes
 //! - At: M
 //! - Seen: What there was to see.
+//! - Check: P_max between 0.7 and 0.8
+//! - Ask: A question of the worksheet.
 //! ```
 
 use super::goal::Goal;
@@ -41,6 +43,10 @@ pub struct Step {
     pub control: Option<String>,
     /// Text after the step: what to notice.
     pub seen: String,
+    /// Numbers of `seen` that the tests compare with the solver, separated by commas.
+    pub check: String,
+    /// Question of the worksheet.
+    pub ask: String,
 }
 
 /// Reason why a text is no lesson.
@@ -68,8 +74,8 @@ impl Lesson {
         let title = lines.next().and_then(|(_, line)| line.strip_prefix("# "));
         let title = title.ok_or_else(|| refuse(0, "a lesson begins with `# ` and its title"))?.trim().to_owned();
         let (mut about, mut start, mut steps) = (String::new(), None, Vec::<Step>::new());
-        // True if continuation lines belong to the text after `Seen:`.
-        let mut in_seen = false;
+        // Name of the field to which a continuation line belongs.
+        let mut last = "";
         for (k, line) in lines {
             let told = |why: Refusal| LessonError { line: k + 1, problem: why.to_string() };
             if let Some(title) = line.strip_prefix("## ") {
@@ -77,21 +83,25 @@ impl Lesson {
                     return Err(refuse(k, "a lesson has at most 50 steps"));
                 }
                 steps.push(Step { title: title.trim().to_owned(), ..Step::default() });
-                in_seen = false;
+                last = "";
                 continue;
             }
             match (steps.last_mut(), field(line)) {
                 (None, Some(("Start", words))) => start = Some(start_of(words).map_err(told)?),
                 (Some(step), Some(("Do", words))) => step.goals = Goal::all(words).map_err(told)?,
                 (Some(step), Some(("At", words))) => step.control = Some(words.to_owned()),
-                (Some(step), Some(("Seen", words))) => {
-                    words.clone_into(&mut step.seen);
-                    in_seen = true;
+                (Some(step), Some((name @ ("Seen" | "Check" | "Ask"), words))) => {
+                    last = name;
+                    if let Some(text) = step.folded(name) {
+                        words.clone_into(text);
+                    }
                 }
                 (None, _) => add(&mut about, line),
-                (Some(step), _) if in_seen => {
-                    step.seen.push(' ');
-                    step.seen.push_str(line.trim());
+                (Some(step), _) if !last.is_empty() => {
+                    if let Some(text) = step.folded(last) {
+                        text.push(' ');
+                        text.push_str(line.trim());
+                    }
                 }
                 (Some(step), _) => add(&mut step.text, line),
             }
@@ -103,9 +113,23 @@ impl Lesson {
         }
         for step in &mut steps {
             step.text = step.text.trim().to_owned();
-            step.seen = step.seen.trim().to_owned();
+            for text in [&mut step.seen, &mut step.check, &mut step.ask] {
+                *text = text.trim().to_owned();
+            }
         }
         Ok(Self { title, about: about.trim().to_owned(), point, lubricant, steps })
+    }
+}
+
+impl Step {
+    /// Returns the text of a field that may continue on the next lines.
+    fn folded(&mut self, name: &str) -> Option<&mut String> {
+        match name {
+            "Seen" => Some(&mut self.seen),
+            "Check" => Some(&mut self.check),
+            "Ask" => Some(&mut self.ask),
+            _ => None,
+        }
     }
 }
 
@@ -117,7 +141,7 @@ fn add(text: &mut String, line: &str) {
 /// Returns name and content of a line `- Do: words` or `Start: words`.
 fn field(line: &str) -> Option<(&str, &str)> {
     let (name, words) = line.trim_start_matches("- ").split_once(':')?;
-    ["Start", "Do", "At", "Seen"].contains(&name).then(|| (name, words.trim()))
+    ["Start", "Do", "At", "Seen", "Check", "Ask"].contains(&name).then(|| (name, words.trim()))
 }
 
 fn start_of(words: &str) -> Result<(OperatingPoint, &'static NamedLubricant), Refusal> {
@@ -158,12 +182,13 @@ mod tests {
 
     #[test]
     fn a_lesson_is_read_with_its_start_and_steps() {
-        let steps = "## One\nDo **this**.\n\n- Do: M between 1 and 3, tab Regimes\n- At: M\n- Seen: It is\n  so.\n\n## Two\nRead.\n";
+        let steps = "## One\nDo **this**.\n\n- Do: M between 1 and 3, tab Regimes\n- At: M\n- Seen: It is\n  so.\n- Check: M between 1\n  and 2\n- Ask: Why?\n\n## Two\nRead.\n";
         let lesson = Lesson::read(&format!("{HEAD}{steps}")).unwrap();
         assert!((lesson.point.moes().m - 40.0).abs() < 1e-9 && lesson.lubricant.name == "roelands-oil");
         let [one, two] = &lesson.steps[..] else { panic!("{:?}", lesson.steps) };
         assert_eq!((one.text.as_str(), one.seen.as_str()), ("Do **this**.", "It is so."));
         assert_eq!((one.goals.len(), one.control.as_deref()), (2, Some("M")));
+        assert_eq!((one.check.as_str(), one.ask.as_str()), ("M between 1 and 2", "Why?"));
         assert!(two.goals.is_empty() && two.seen.is_empty());
         let published = Lesson::read("# T\nStart: point contact, published, squalane-pip\n## S\n").unwrap();
         assert_eq!(published.point.viscosity_pa_s, 0.0705);

@@ -1,10 +1,12 @@
-//! Entries of the palette: commands, tabs, kinds of contact, lubricants, recent scenes.
+//! Entries of the palette: commands, tabs, places of the panels, kinds of contact, lubricants, sheets, recent scenes.
 
+use super::places::PLACES;
 use crate::app::command::{Command, MENUS};
 use crate::app::desk::Desk;
 use crate::app::document::{Edit, Shape};
 use crate::app::panels::lubricant::GROUP;
 use crate::app::panels::operating_point::SHAPE;
+use crate::app::sheets::Form;
 use crate::app::tab::Tab;
 use crate::scene::named_lubricant::{NAMED, of_laws};
 use egui::KeyboardShortcut;
@@ -52,6 +54,15 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
         ..Entry::new(item.menu, item.name.to_owned(), item.synonyms, item.command.clone())
     });
     let mut entries: Vec<Entry> = tabs.chain(commands).collect();
+    entries.extend(
+        PLACES
+            .iter()
+            .map(|place| Entry::new("Panel", place.name.to_owned(), place.keywords, Command::PointAt(place.control))),
+    );
+    entries.extend(Form::ALL.map(|form| {
+        let keywords = "report protocol print pdf summary export document";
+        Entry::new("Export", form.name().to_owned(), keywords, Command::ExportSheet(form))
+    }));
     let present = Shape::of(&desk.document.point);
     entries.extend(Shape::ALL.map(|shape| {
         let edit = Command::Edit(Edit::Shape(shape), SHAPE);

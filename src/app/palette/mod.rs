@@ -1,6 +1,7 @@
 //! Command palette.
 
 mod entry;
+mod places;
 mod search;
 mod window;
 

@@ -61,6 +61,50 @@ mod tests {
         assert_eq!(names(&desk, " ").len(), entry::all(&desk).len());
     }
 
+    /// Words of the field, and an entry that each finds first or among the first four.
+    const SYNONYMS: [(&str, &str); 28] = [
+        ("starvation", "Cavitation and oil supply"),
+        ("starved", "Cavitation and oil supply"),
+        ("rough", "Two bodies: materials, speeds, roughness"),
+        ("lambda", "Two bodies: materials, speeds, roughness"),
+        ("film ratio", "Two bodies: materials, speeds, roughness"),
+        ("temperature", "Heat"),
+        ("thermal", "Heat"),
+        ("heat", "Heat"),
+        ("report", "Results sheet as HTML…"),
+        ("sheet", "Results sheet as HTML…"),
+        ("pdf", "Results sheet as HTML…"),
+        ("print", "Results sheet as HTML…"),
+        ("stribeck", "Go to Traction"),
+        ("friction", "Go to Traction"),
+        ("power loss", "Go to Traction"),
+        ("grease", "Cavitation and oil supply"),
+        ("grease", "Lubricant"),
+        ("hertz", "Load, speed and radius"),
+        ("bearing", "Load, speed and radius"),
+        ("bearing", "Two bodies: materials, speeds, roughness"),
+        ("gear", "Load cases…"),
+        ("cavitation", "Cavitation and oil supply"),
+        ("film thickness", "Go to Profiles"),
+        ("film thickness", "Go to Regimes"),
+        ("hamrock", "Go to Regimes"),
+        ("worksheet", "Lessons"),
+        ("validation", "Go to Accuracy"),
+        ("excel", "Export profiles as CSV…"),
+    ];
+
+    #[test]
+    fn words_of_the_field_find_their_command() {
+        let desk = Desk::new(Document::default(), Models::only(None), Store::default());
+        for (word, wanted) in SYNONYMS {
+            let found = names(&desk, word);
+            assert!(found.iter().take(4).any(|name| name == wanted), "{word}: {found:?}");
+        }
+        for entry in entry::all(&desk) {
+            assert!(!entry.synonyms.is_empty() || entry.group == "Recent scene", "{} has no keywords", entry.name);
+        }
+    }
+
     #[test]
     fn what_cannot_be_done_says_why_and_comes_last() {
         let desk = Desk::new(Document::default(), Models::only(None), Store::default());

@@ -2,7 +2,7 @@
 //! the film ratio and, for a thermal contact, the thermal constants.
 
 use crate::app::context::Commands;
-use crate::app::controls::{Entries, named, row_name, typed_field, warning_ui};
+use crate::app::controls::{Entries, named, ringed, row_name, typed_field, warning_ui};
 use crate::app::document::{Document, Edit};
 use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
@@ -70,7 +70,8 @@ const ACROSS: &str = "Across";
 
 /// Draws the group. It is collapsed until bodies have been entered.
 pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
-    CollapsingHeader::new("Two bodies").default_open(document.view.bodies.is_some()).show(ui, |ui| {
+    let bodies = CollapsingHeader::new("Two bodies").default_open(document.view.bodies.is_some());
+    let shown = bodies.show(ui, |ui| {
         let before = document.bodies();
         let mut wanted = before;
         let mut field = materials_ui(ui, &mut wanted);
@@ -92,6 +93,7 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
         }
         entries.reserved_ui(ui, ROWS.iter().flat_map(|row| row.names).chain([GROUP]));
     });
+    ringed(ui, shown.header_response, "Two bodies");
 }
 
 fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {

@@ -2,7 +2,7 @@
 
 use super::lubricant::{Constant, GROUP, constant, constants_ui};
 use crate::app::context::Commands;
-use crate::app::controls::{Entries, NAME_WIDTH, choice};
+use crate::app::controls::{Entries, NAME_WIDTH, choice, named};
 use crate::app::document::{Document, Edit};
 use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
 use egui::{Checkbox, Grid, Ui};
@@ -44,7 +44,8 @@ pub(super) const CONSTANTS: [Constant; 6] = [
 pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
     let before = document.lubricant;
     let mut on = before.heat.is_some();
-    if ui.add(Checkbox::new(&mut on, "Heat")).on_hover_text(TIP).changed() {
+    let heat = ui.add(Checkbox::new(&mut on, "Heat"));
+    if named(ui, heat, "Heat").on_hover_text(TIP).changed() {
         commands.edit(Edit::Heat(on), GROUP);
     }
     let Some(heat) = before.heat else { return };

@@ -2,7 +2,7 @@
 
 use super::{heat, oil};
 use crate::app::context::Commands;
-use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, row_name, sentence, typed_field};
+use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, named, row_name, sentence, typed_field};
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
@@ -282,7 +282,8 @@ fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, command
     let before = *laws;
     let mut wanted = before;
     let mut on = wanted.limiting_stress.is_some();
-    if ui.add(Checkbox::new(&mut on, "Limiting shear stress")).on_hover_text(LIMITING_TIP).changed() {
+    let limit = ui.add(Checkbox::new(&mut on, "Limiting shear stress"));
+    if named(ui, limit, "Limiting shear stress").on_hover_text(LIMITING_TIP).changed() {
         wanted.limiting_stress = on.then_some(LIMITING);
     }
     if wanted.shear == ShearLaw::Newtonian

@@ -5,8 +5,6 @@ use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, named};
 use crate::app::document::Shape;
-use crate::scene::regimes::Regime;
-use crate::solver::physics::contact::FilmShape;
 use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 
 /// Text size of the regime.
@@ -18,8 +16,9 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entrie
         ui.horizontal(|ui| {
             let point = &context.document.point;
             operating_point::shape_ui(ui, Shape::of(point), commands);
-            let regime = Regime::of(FilmShape::of(point), point.moes());
-            ui.label(RichText::new(regime.title()).size(LARGE).strong()).on_hover_text(regime.meaning());
+            let ratios = context.regime_ratios();
+            let title = RichText::new(ratios.regime().title()).size(LARGE).strong();
+            ui.label(title).on_hover_text(ratios.describe());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let button = ui.add(Button::new("Esc").small()).on_hover_text("Ends the presentation (Esc or F11)");
                 if named(ui, button, "End the presentation").clicked() {

@@ -67,7 +67,7 @@ fn range(quantity: Quantity) -> RangeInclusive<f64> {
     low..=high
 }
 
-fn thins(document: &Document) -> bool {
+fn is_shear_thinning(document: &Document) -> bool {
     document.lubricant.shear != ShearLaw::Newtonian
 }
 
@@ -87,7 +87,7 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
         logarithmic: matches!(quantity, Quantity::M | Quantity::L | Quantity::RadiusRatio),
     };
     let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
-    let srr_tip = if thins(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
+    let srr_tip = if is_shear_thinning(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
     let m = slider(Quantity::M, trained(Quantity::M), HOME.m, m_tip);
     let l = slider(Quantity::L, trained(Quantity::L), HOME.l, L_TIP);
     let marked = domain.and_then(Domain::srr);
@@ -120,7 +120,7 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
     let mut wanted = None;
     Grid::new("sliders").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
         for row in rows(context) {
-            if row.quantity == Quantity::NewtonianPlateauRatio && !thins(context.document) {
+            if row.quantity == Quantity::NewtonianPlateauRatio && !is_shear_thinning(context.document) {
                 disabled_plateau(ui, width);
             } else {
                 wanted = row.ui(ui, entries, width, true).or(wanted);
@@ -134,10 +134,10 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
 /// Draws the sliders that change the picture, side by side.
 pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
     let document = context.document;
-    let slides = thins(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
+    let slides = is_shear_thinning(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
     let used = |quantity: Quantity| match quantity {
         Quantity::SlideToRollRatio => slides,
-        Quantity::NewtonianPlateauRatio => thins(document),
+        Quantity::NewtonianPlateauRatio => is_shear_thinning(document),
         Quantity::RadiusRatio => Shape::of(&document.point) == Shape::Ellipse,
         _ => true,
     };

@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interferogram_has_the_colours_of_its_films_where_fringes_are_wide() {
+    fn wide_fringes_have_the_colours_of_the_film() {
         let rig = Interferometer::default();
         let values: Vec<f32> = (0..400).map(|k| k as f32 * 1e-9).collect();
         let raster = Raster { width: 400, rows: 1, values: values.clone() };

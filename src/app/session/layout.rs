@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn a_layout_from_before_a_tab_was_added_keeps_its_order_and_gets_the_tab() {
+    fn old_layout_gets_a_new_tab() {
         let old: Vec<Tab> = Tab::ALL.iter().copied().filter(|tab| *tab != Tab::Results).rev().collect();
         let tree = checked(&tabs_of(old.clone())).unwrap();
         let panes: Vec<Tab> = match tree.root().and_then(|root| tree.tiles.get(root)) {
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn tabs_beside_each_other_keep_their_shares_and_cycles_and_foreign_numbers_are_refused() {
+    fn adjacent_tabs_keep_shares_and_bad_layouts_are_refused() {
         // Two groups of tabs next to each other, the first twice as wide.
         let side_by_side = |share: f32| {
             let mut tiles = Tiles::default();

@@ -14,11 +14,13 @@ pub struct Place {
     pub maximized: bool,
     /// Width of the panel with the sliders.
     pub sliders: f32,
+    /// Width of the panel with a lesson.
+    pub lessons: f32,
 }
 
 impl Default for Place {
     fn default() -> Self {
-        Self { corner: None, size: (1280.0, 800.0), maximized: false, sliders: 312.0 }
+        Self { corner: None, size: (1280.0, 800.0), maximized: false, sliders: 312.0, lessons: 320.0 }
     }
 }
 
@@ -32,6 +34,8 @@ impl Place {
     pub const LEAST: (f32, f32) = (900.0, 560.0);
     /// Range of widths of the panel with the sliders.
     pub const SLIDERS: (f32, f32) = (250.0, 520.0);
+    /// Range of widths of the panel with a lesson.
+    pub const LESSONS: (f32, f32) = (300.0, 640.0);
 
     /// Returns true if all numbers lie in their ranges.
     pub fn is_sound(&self) -> bool {
@@ -39,6 +43,7 @@ impl Place {
         within(width, (0.5 * least_width, 16e3))
             && within(height, (0.5 * least_height, 16e3))
             && within(self.sliders, Self::SLIDERS)
+            && within(self.lessons, Self::LESSONS)
             && self.corner.is_none_or(|(x, y)| within(x, (-16e3, 16e3)) && within(y, (-16e3, 16e3)))
     }
 

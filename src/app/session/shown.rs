@@ -9,6 +9,9 @@ use crate::app::tab::Tab;
 use crate::app::tabs::all::Tabs;
 use serde::{Deserialize, Serialize};
 
+/// Maximum number of finished lessons in a session.
+const MOST_FINISHED: usize = 1000;
+
 /// Display settings in the session file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -18,6 +21,8 @@ pub struct Shown {
     figures: FigureSettings,
     /// Settings of the tabs as text.
     tabs: Vec<(Tab, String)>,
+    /// Titles of the lessons that were finished.
+    finished: Vec<String>,
     /// Tabs whose axes are locked.
     locked: Vec<Tab>,
 }
@@ -29,6 +34,7 @@ impl Shown {
             display: desk.display,
             figures: desk.figures.settings,
             tabs: desk.tabs.kept(),
+            finished: desk.finished.clone(),
             locked: desk.presentation.as_ref().map_or(&desk.locked, Presentation::locked_before).clone(),
         }
     }
@@ -36,6 +42,7 @@ impl Shown {
     pub fn restore(self, desk: &mut Desk) {
         desk.tabs.restore(&self.tabs);
         desk.display = self.display;
+        desk.finished = self.finished;
         (desk.figures.settings, desk.locked) = (self.figures, self.locked);
     }
 
@@ -48,6 +55,7 @@ impl Shown {
             && cuts.y.is_finite()
             && Tabs::default().restore(&self.tabs)
             && self.figures.is_sound()
+            && self.finished.len() <= MOST_FINISHED
             && Tab::ALL.iter().all(|tab| self.locked.iter().filter(|locked| *locked == tab).count() <= 1)
     }
 }

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn a_session_comes_back_with_its_unsaved_changes_and_its_truncation() {
+    fn session_restores_unsaved_changes() {
         let (folder, start) = in_folder("own");
         let mut explorer = start(true);
         let document = &mut explorer.desk.document;
@@ -259,7 +259,8 @@ mod tests {
         explorer.desk.tabs.traction.choices.against = Against::Stribeck;
         explorer.desk.figures.settings = FigureSettings { dpi: 600.0, dark: true, ..FigureSettings::default() };
         explorer.desk.lock(Tab::Transient, true);
-        explorer.place = Place { corner: Some((3.0, 4.0)), size: (1000.0, 700.0), maximized: true, sliders: 400.0 };
+        explorer.place =
+            Place { corner: Some((3.0, 4.0)), size: (1000.0, 700.0), maximized: true, sliders: 400.0, lessons: 350.0 };
         let (former, place) = (explorer.desk.document.clone(), explorer.place);
         let (shown, tree) = (Shown::of(&explorer.desk), explorer.tree.clone());
         close(explorer);
@@ -281,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn unsaved_changes_are_set_aside_when_a_scene_is_opened_in_their_place() {
+    fn unsaved_changes_are_saved_separately() {
         let (folder, start) = in_folder("aside");
         let mut explorer = start(true);
         explorer.desk.document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();

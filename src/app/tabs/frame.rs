@@ -45,8 +45,9 @@ impl Frame<'_> {
     pub fn tab_ui(&mut self, ui: &mut Ui, tab: Tab) {
         egui::Frame::new().fill(ui.visuals().panel_fill).inner_margin(egui::Margin::symmetric(10, 8)).show(ui, |ui| {
             ui.set_min_size(ui.available_size());
-            let about = self.desk.tabs.of(tab).about();
-            why(ui, self.desk.display.why && self.desk.presentation.is_none(), about.why);
+            if self.desk.display.why && self.desk.presentation.is_none() {
+                why(ui, &self.desk.tabs.of(tab).why(&self.desk.context()));
+            }
             figure::enter(ui.ctx(), Some(tab));
             let units = self.desk.figures.units().unwrap_or(self.desk.display.units);
             Manner { units, locked: self.desk.locked.contains(&tab) }.set(ui.ctx());

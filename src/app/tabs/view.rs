@@ -16,7 +16,7 @@ pub struct About {
     /// True if its axes can be shown in dimensionless and SI units. The axes of other tabs show numbers of the
     /// contact or relative errors, or they are always in SI units.
     pub has_units: bool,
-    /// Explanation of its content in three sentences.
+    /// Explanation of its content in three sentences, for any contact.
     pub why: &'static str,
 }
 
@@ -24,6 +24,11 @@ pub struct About {
 pub trait View {
     /// Returns its constant properties.
     fn about(&self) -> &'static About;
+
+    /// Returns the explanation of its content in three sentences, for the present contact.
+    fn why(&self, _: &Context<'_>) -> String {
+        self.about().why.to_owned()
+    }
 
     /// Draws the tab and adds commands.
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands);

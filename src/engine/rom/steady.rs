@@ -124,7 +124,7 @@ fn wanted(observer: &dyn Observer) -> Result<(), ModelFileError> {
 fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFileError> {
     let (ellipses, anchored) = (domain.space.of_ellipses(), domain.space.varies_lubricant());
     // Thermal elliptical models are lubricant-parameterised, and none is shear-thinning.
-    if ellipses && (domain.thins() || (domain.heats() && !anchored)) {
+    if ellipses && (domain.is_shear_thinning() || (domain.heats() && !anchored)) {
         return Err(damaged("its parts"));
     }
     // Elliptical models are in ascending order of M only for each shape, and anchored ones are not ordered.
@@ -152,7 +152,7 @@ fn check_windows(domain: &Domain, windows: &[WindowEntry]) -> Result<(), ModelFi
     let cavitation = domain.lubricant.cavitation;
     let (penalty, heat) = (cavitation == Cavitation::Penalty, domain.heats());
     if !penalty && (cavitation != Cavitation::Complementarity || heat || ellipses) {
-        return Err(damaged("rupture"));
+        return Err(damaged("cavitation"));
     }
     if heat && windows.iter().any(|window| window.scheme != Scheme::Galerkin) {
         return Err(damaged("heat"));
@@ -236,7 +236,7 @@ fn of_domain(domain: &Domain, entry: &WindowEntry, mut window: Window) -> Result
     };
     let ruptures = |s: &Snapshot| s.fronts.len() == lines && s.fronts.iter().all(|front| *front <= columns);
     if !window.snapshots.iter().all(ruptures) {
-        return Err(damaged("rupture"));
+        return Err(damaged("cavitation"));
     }
     if let Some(ratios) = entry.radius_ratio {
         let ContactGrid::Point(grid) = &window.grid else { return Err(damaged("shapes")) };

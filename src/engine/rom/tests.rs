@@ -133,7 +133,7 @@ fn the_law_of_rupture_and_the_scheme_survive_a_round_trip_and_must_fit_the_windo
             let mut wrong = model.clone();
             lie(&mut wrong);
             let refused = from_bytes(&to_bytes(&wrong).unwrap()).err();
-            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "rupture" })), "{refused:?}");
+            assert!(matches!(refused, Some(ModelFileError::Damaged { what: "cavitation" })), "{refused:?}");
         }
     }
     let scheme = Scheme::Gnat { weighted: true };
@@ -241,7 +241,7 @@ fn oils_that_thin_survive_a_round_trip_with_their_stresses() {
     let model = ReducedModel::clone(&trained(&sliding_oils(Sampling::QDeim, 60)));
     let bytes = to_bytes(&model).unwrap();
     let read = from_bytes(&bytes).unwrap();
-    assert!(read.domain == model.domain && read.domain.thins() && read.domain.space.varies_lubricant());
+    assert!(read.domain == model.domain && read.domain.is_shear_thinning() && read.domain.space.varies_lubricant());
     assert!(read.windows.iter().all(|window| window.metric == model.windows[0].metric
         && window.anchor.is_some()
         && window.traction.is_some()));

@@ -150,7 +150,7 @@ pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFi
     }
     let grid = ContactGrid::Line(grid.line()?);
     let counts: Vec<usize> = windows.iter().map(|window| window.snapshots).collect();
-    let mut snapshots = snapshots::read(contents, &counts).ok_or(damaged("rupture"))?.into_iter();
+    let mut snapshots = snapshots::read(contents, &counts).ok_or(damaged("cavitation"))?.into_iter();
     let sound_fronts = |fronts: &[usize]| {
         let lines = if cavitation == Cavitation::Penalty { 0 } else { grid.lines() };
         fronts.len() == lines && fronts.iter().all(|front| *front <= grid.nodes().0)
@@ -161,7 +161,7 @@ pub(super) fn decode(contents: &Contents<'_>) -> Result<TrajectoryModel, ModelFi
         let own = snapshots.next().unwrap_or_default();
         let boundaries = own.is_empty() == (cavitation == Cavitation::Penalty);
         if !boundaries || !own.iter().all(|snapshot| sound_fronts(&snapshot.fronts)) {
-            return Err(damaged("rupture"));
+            return Err(damaged("cavitation"));
         }
         let window = read_window(contents, (k, entry), (grid.clone(), shared), Arc::clone(&deformation), own)?;
         Ok(Window { cavitation, ..window })

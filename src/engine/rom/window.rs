@@ -280,7 +280,8 @@ fn read_rows(
     (grid, pressure): (&ContactGrid, &PressureModes),
 ) -> Result<SampledRows, ModelFileError> {
     let (modes, name) = (pressure.count(), |what| name(k, what));
-    let rows = contents.indices(&name("rows")).filter(|rows| are_rows(rows, grid)).ok_or(damaged("sampled rows"))?;
+    let rows =
+        contents.indices(&name("rows")).filter(|rows| are_rows(rows, grid)).ok_or(damaged("sampled equations"))?;
     let (own, residual) = (name("reconstruction"), name("residual_reconstruction"));
     let stored = contents.shape(&own).and_then(|shape| shape.first().copied()).unwrap_or(modes);
     let equations = match scheme {
@@ -288,12 +289,12 @@ fn read_rows(
         Scheme::LeastSquares { .. } => 1,
         Scheme::Gnat { .. } => stored.max(modes).min(grid.unknowns()),
     };
-    let weights: Vec<f32> = contents.list(&name("weights")).ok_or(damaged("sampled rows"))?;
+    let weights: Vec<f32> = contents.list(&name("weights")).ok_or(damaged("sampled equations"))?;
     let reconstruction = match weights.is_empty() {
         true => contents.matrix(&own, equations),
         false => of_weights(&weights, &rows, || modes_at(grid, pressure, &rows)).filter(|own| own.nrows() == equations),
     };
-    let reconstruction = reconstruction.filter(|own| own.ncols() == rows.len()).ok_or(damaged("sampled rows"))?;
+    let reconstruction = reconstruction.filter(|own| own.ncols() == rows.len()).ok_or(damaged("sampled equations"))?;
     let gnat = matches!(scheme, Scheme::Gnat { .. });
     let enough = scheme == Scheme::Galerkin || rows.len() > modes;
     if !enough || gnat != contents.shape(&residual).is_some() {

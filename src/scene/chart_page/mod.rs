@@ -5,7 +5,7 @@ mod panel;
 mod scale;
 
 use super::chart::Chart;
-use super::drawing::{Beside, Drawing, Lettering, Mark, Rgb, Words, wrapped};
+use super::drawing::{Drawing, Lettering, Mark, Rgb, TextAnchor, Words, wrapped};
 use panel::Panel;
 
 /// Font size \[pt\].
@@ -70,7 +70,7 @@ pub fn drawn(charts: &[Chart], page: &Page) -> Drawing {
         drawing.marks.push(Mark::Words(Lettering {
             words,
             at,
-            beside: Beside::Right,
+            beside: TextAnchor::Right,
             upwards: false,
             size: SMALL,
             bold: false,

@@ -3,7 +3,7 @@
 use super::scale::{Scale, scale_ticks};
 use super::{LETTERS, LINE, Page, SMALL};
 use crate::scene::chart::{Chart, ColorScale, Map, Marks, Note, Series};
-use crate::scene::drawing::{Beside, Lettering, Mark, Pen, Pixels, Rgb, Words, wrapped};
+use crate::scene::drawing::{Lettering, Mark, Pen, Pixels, Rgb, TextAnchor, Words, wrapped};
 
 /// Width of bold text over that of regular text.
 const BOLD: f64 = 1.08;
@@ -93,7 +93,7 @@ impl Panel<'_> {
         let legend = chart.legend(width);
         let mut base = top + 4.0 + LETTERS;
         for line in &title {
-            self.lettering(Words::plain(line), [4.0, base], Beside::Right, |words| words.bold = true);
+            self.lettering(Words::plain(line), [4.0, base], TextAnchor::Right, |words| words.bold = true);
             base += LETTERS * LINE;
         }
         for line in &legend {
@@ -154,7 +154,7 @@ impl Panel<'_> {
         axes
     }
 
-    fn lettering(&mut self, words: Words, at: [f64; 2], beside: Beside, change: impl FnOnce(&mut Lettering)) {
+    fn lettering(&mut self, words: Words, at: [f64; 2], beside: TextAnchor, change: impl FnOnce(&mut Lettering)) {
         let color = self.page.ink();
         let mut lettering =
             Lettering { words, at, beside, upwards: false, size: LETTERS, bold: false, color, class: "".into() };
@@ -183,7 +183,7 @@ impl Panel<'_> {
             self.marks.push(Mark::Line(vec![[at, axes.bottom], [at, axes.bottom - 2.5]], pen.clone()));
             if at - half > free {
                 let place = [at, axes.bottom + LETTERS * LINE];
-                self.lettering(Words::plain(text), place, Beside::Middle, |words| words.class = "x".into());
+                self.lettering(Words::plain(text), place, TextAnchor::Middle, |words| words.class = "x".into());
                 free = at + half + 2.0;
             }
         }
@@ -191,14 +191,14 @@ impl Panel<'_> {
             let at = axes.y(*value);
             self.marks.push(Mark::Line(vec![[axes.left, at], [axes.left + 2.5, at]], pen.clone()));
             let place = [axes.left - 3.0, at + 0.35 * LETTERS];
-            self.lettering(Words::plain(text), place, Beside::Left, |words| words.class = "y".into());
+            self.lettering(Words::plain(text), place, TextAnchor::Left, |words| words.class = "y".into());
         }
         self.marks.push(Mark::Frame(axes.rect(), pen));
         let [x, y] = [&self.chart.x, &self.chart.y].map(|axis| self.chart.words(&axis.label));
         let across = [0.5 * (axes.left + axes.right), axes.bottom + 2.0 * LETTERS * LINE];
-        self.lettering(x, across, Beside::Middle, |words| words.class = "x title".into());
+        self.lettering(x, across, TextAnchor::Middle, |words| words.class = "x title".into());
         let up = [LETTERS + 2.0, 0.5 * (axes.top + axes.bottom)];
-        self.lettering(y, up, Beside::Middle, |words| {
+        self.lettering(y, up, TextAnchor::Middle, |words| {
             (words.upwards, words.class) = (true, "y title".into());
         });
     }
@@ -229,15 +229,15 @@ impl Panel<'_> {
         let Some(series) = self.chart.series.get(k) else { return };
         self.mark([x + 8.0, y], series.marks, &series.pen.clone().unwrap_or_else(|| pen(k)));
         let name = self.chart.words(&series.name);
-        self.lettering(name, [x + 19.0, y + 0.35 * LETTERS], Beside::Right, |words| words.class = "legend".into());
+        self.lettering(name, [x + 19.0, y + 0.35 * LETTERS], TextAnchor::Right, |words| words.class = "legend".into());
     }
 
     fn note(&mut self, axes: &Axes, note: &Note) {
         let [x, y] = axes.at(note.at);
         let aside = match note.beside {
-            Beside::Right => 2.0,
-            Beside::Middle => 0.0,
-            Beside::Left => -2.0,
+            TextAnchor::Right => 2.0,
+            TextAnchor::Middle => 0.0,
+            TextAnchor::Left => -2.0,
         };
         let down = match note.above {
             1.. => -2.0,
@@ -261,12 +261,12 @@ impl Panel<'_> {
         for (value, text) in scale_ticks(scale) {
             let y = axes.bottom - (value - low) / (end - low) * high;
             let place = [left + BAR + 2.0, y + 0.35 * LETTERS];
-            self.lettering(Words::plain(text), place, Beside::Right, |words| words.class = "scale".into());
+            self.lettering(Words::plain(text), place, TextAnchor::Right, |words| words.class = "scale".into());
         }
         let numbers = scale_ticks(scale).iter().map(|(_, text)| width_of(text)).fold(0.0, f64::max);
         let title = self.chart.words(&scale.label);
         let place = [left + BAR + 4.0 + numbers + LETTERS, top + 0.5 * high];
-        self.lettering(title, place, Beside::Middle, |words| {
+        self.lettering(title, place, TextAnchor::Middle, |words| {
             (words.upwards, words.class) = (true, "scale title".into());
         });
     }

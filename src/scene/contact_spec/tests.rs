@@ -169,7 +169,7 @@ fn everything_that_flags_say_a_table_says_too() {
 }
 
 #[test]
-fn what_is_left_out_is_the_scenes_and_what_says_the_same_takes_its_place() {
+fn link_omits_what_equals_the_scene() {
     let heat = Heat { inlet_temperature: 333.0, ..Heat::default() };
     let scene =
         Scene { at: OperatingPoint::TABLE_2_1.into(), heat: Some(heat), srr: 0.3, ..Scene::at_moes(40.0, 10.0) };

@@ -33,7 +33,7 @@ pub struct Pen {
 
 /// Horizontal alignment of text at a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Beside {
+pub enum TextAnchor {
     /// Text begins at the position.
     Right,
     /// Text is centred at the position.
@@ -50,7 +50,7 @@ pub struct Lettering {
     /// Position of the baseline \[pt\].
     pub at: [f64; 2],
     /// Alignment at this position.
-    pub beside: Beside,
+    pub beside: TextAnchor,
     /// True if the text runs upwards.
     pub upwards: bool,
     /// Font size \[pt\].

@@ -1,7 +1,7 @@
 //! Writes drawings and pixels as PNG.
 
 use super::words::{LOWERED, font};
-use super::{Beside, Drawing, Lettering, Mark, PT_PER_MM, Pen, Pixels, Rgb};
+use super::{Drawing, Lettering, Mark, PT_PER_MM, Pen, Pixels, Rgb, TextAnchor};
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, PixelDimensions, Unit};
 use skrifa::MetadataProvider as _;
 use skrifa::instance::{LocationRef, Size};
@@ -184,9 +184,9 @@ impl Canvas {
         let (letters, outlines) = (font.charmap(), font.outline_glyphs());
         let length = words.length(*size);
         let mut pen = match beside {
-            Beside::Right => 0.0,
-            Beside::Middle => -0.5 * length,
-            Beside::Left => -length,
+            TextAnchor::Right => 0.0,
+            TextAnchor::Middle => -0.5 * length,
+            TextAnchor::Left => -length,
         };
         let turned = if *upwards { Affine::rotate(-std::f64::consts::FRAC_PI_2) } else { Affine::IDENTITY };
         let place = Affine::scale(scale) * Affine::translate((*x, *y)) * turned;
@@ -275,7 +275,7 @@ mod tests {
         let words = Lettering {
             words: Words::marked("{H_c}"),
             at: [5.0, 60.0],
-            beside: Beside::Right,
+            beside: TextAnchor::Right,
             upwards: false,
             size: 20.0,
             bold: false,

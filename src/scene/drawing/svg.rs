@@ -1,7 +1,7 @@
 //! Writes drawings as SVG.
 
 use super::words::LOWERED;
-use super::{Beside, Drawing, Lettering, Mark, Pen, Pixels, Rgb, encode};
+use super::{Drawing, Lettering, Mark, Pen, Pixels, Rgb, TextAnchor, encode};
 use std::fmt::Write as _;
 
 /// Escapes a text for XML.
@@ -103,9 +103,9 @@ fn file(pixels: &Pixels) -> String {
 fn text(lettering: &Lettering) -> String {
     let Lettering { words, at: [x, y], beside, upwards, size, bold, color, class } = lettering;
     let anchor = match beside {
-        Beside::Right => "start",
-        Beside::Middle => "middle",
-        Beside::Left => "end",
+        TextAnchor::Right => "start",
+        TextAnchor::Middle => "middle",
+        TextAnchor::Left => "end",
     };
     let mut more = String::new();
     if !class.is_empty() {

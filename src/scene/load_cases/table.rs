@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn units_stand_in_titles_or_cells_and_cells_are_separated_as_spreadsheets_do() {
+    fn units_and_separators_of_spreadsheets_are_read() {
         let wanted = [0.012, 3.0, 3e5, 2.31e11, 0.02, 2e-8];
         for text in [
             "radius,speed,load,modulus,viscosity,alpha\n0.012,3,3e5,2.31e11,0.02,2e-8\n",
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bad_line_is_refused_by_itself_and_bad_titles_refuse_the_table() {
+    fn bad_lines_and_bad_titles_are_refused() {
         let head = "radius,speed,load,modulus,viscosity,alpha,oil,temperature,contact,M,L,srr";
         for (line, part) in [
             ("0.012,3,-3e5,2e11,0.02,2e-8", "load is -300000 N"),

@@ -153,7 +153,7 @@ fn ladder(least: usize, most: usize, steps: usize) -> Vec<usize> {
 fn training(model: &ReducedModel, window: &Window) -> Result<TrainingSpec, RunError> {
     match Scene::from_ron(&model.scene).ok().and_then(|scene| scene.training()) {
         Some(spec) => Ok(spec),
-        None if !model.domain.thins() => {
+        None if !model.domain.is_shear_thinning() => {
             let (range, plan) = (model.domain.space.clone(), Plan::FarthestPoint { snapshots: window.snapshots.len() });
             Ok(TrainingSpec {
                 lubricant: model.domain.lubricant,
@@ -260,7 +260,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ladder_goes_from_the_least_to_the_most_and_never_stands_still() {
+    fn ladder_increases_from_least_to_most() {
         assert_eq!(ladder(6, 86, 2), [6, 86]);
         let all = ladder(6, 86, 9);
         assert!(all.len() == 9 && all[0] == 6 && all[8] == 86 && all.windows(2).all(|pair| pair[0] < pair[1]));

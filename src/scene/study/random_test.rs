@@ -321,7 +321,7 @@ mod tests_of_doubts {
     use crate::solver::reduced::{ErrorEstimate, Estimated};
 
     #[test]
-    fn most_doubtful_are_failures_then_answers_without_a_bound_then_large_bounds() {
+    fn doubtful_contacts_are_sorted_by_severity() {
         let bound = |h_c: f64| {
             let of = |bound: f64| Estimated { likely: bound / 4.0, bound };
             ErrorEstimate { h_c: of(h_c), h_min: of(h_c), state: of(h_c), traction: None, rise: None }

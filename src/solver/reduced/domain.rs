@@ -67,13 +67,13 @@ impl Domain {
     }
 
     /// Returns true for isothermal contacts with shear-thinning lubricants, whose film thickness depends on sliding.
-    pub fn thins(&self) -> bool {
+    pub fn is_shear_thinning(&self) -> bool {
         self.lubricant.shear != ShearLaw::Newtonian && !self.heats()
     }
 
     /// Returns true if the film thickness depends on sliding, by shear-thinning or by heat.
     pub fn slides(&self) -> bool {
-        self.thins() || self.heats()
+        self.is_shear_thinning() || self.heats()
     }
 
     /// Returns true if errors are measured against converged full solutions. For shear-thinning, thermal and
@@ -90,7 +90,7 @@ impl Domain {
     /// Returns true if the Eyring stress τ₀ is free: a lubricant-parameterised model depends only on the product with
     /// the reduced modulus, E′ τ₀.
     fn frees_eyring_stress(&self) -> bool {
-        self.thins() && self.space.varies_lubricant()
+        self.is_shear_thinning() && self.space.varies_lubricant()
     }
 
     /// Returns τ₀ of a lubricant relative to that of the model; `None` if τ₀ is not free or the lubricant has none.

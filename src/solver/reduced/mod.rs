@@ -31,11 +31,11 @@ mod sampling;
 mod shapes;
 mod start;
 mod sums;
+mod temperature_field;
 pub mod tpwl;
 mod traction;
 mod traction_curve;
 pub mod transient;
-mod warmth;
 
 pub use calibration::{
     Calibration, CalibrationParts, Evidence, FeatureSet, Features, LEAST_EVIDENCE, LEAST_OF_WINDOW, Measured,
@@ -59,6 +59,6 @@ pub use reduced_solution::ReducedSolution;
 pub(crate) use row_sizes::mean_diagonals;
 pub use sampling::{RowSnapshots, SampledRows, Sampling, TestSpace, all_rows, greedy, is_finite, q_deim};
 pub use shapes::Shapes;
+pub use temperature_field::TemperatureField;
 pub use traction::TractionRule;
 pub use traction_curve::{CurvePoint, traction_curve};
-pub use warmth::Warmth;

@@ -133,7 +133,7 @@ impl Online {
             Err(why @ ReducedError::NotConverged { .. }) => {
                 let next = self.model.next_anchor(point.moes(), index).ok_or(why.clone())?;
                 let solved = self.iterated(next, point, lubricant, &mut Watch::of(wish)).map_err(|_| why)?;
-                (ReducedSolution { error: None, stands_in: true, ..solved }, Vec::new())
+                (ReducedSolution { error: None, by_neighbour: true, ..solved }, Vec::new())
             }
             Err(why) => return Err(why),
         };
@@ -282,7 +282,7 @@ impl Online {
             point: problem.point,
             lubricant: problem.lubricant,
             window,
-            stands_in: false,
+            by_neighbour: false,
             coefficients,
             fronts,
             beside: Vec::new(),
@@ -304,7 +304,7 @@ impl Online {
         if let Some(estimate) = solved.error.as_mut().filter(|estimate| estimate.traction.is_some()) {
             // No error estimate for an unphysical traction, nor for one limited in a way that was not trained.
             let meant = problem.traction_warning().is_none()
-                && (knows_traction || !(domain.thins() && domain.space.varies_lubricant()));
+                && (knows_traction || !(domain.is_shear_thinning() && domain.space.varies_lubricant()));
             estimate.traction = estimate.traction.filter(|_| meant);
         }
         solved
@@ -340,7 +340,7 @@ fn operators_of(model: &ReducedModel, window: &Window, options: &ReducedOptions)
     let modes = options.pressure_modes.unwrap_or(usize::MAX);
     let flow = match &model.domain {
         domain if domain.heats() => Flow::Thermal,
-        domain if domain.thins() => Flow::Thinning,
+        domain if domain.is_shear_thinning() => Flow::Thinning,
         _ => Flow::Newtonian,
     };
     Operators::new(window, modes, options.deformation_modes, flow)

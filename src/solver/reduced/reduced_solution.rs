@@ -2,7 +2,7 @@
 
 use super::domain::Trust;
 use super::error_estimate::ErrorEstimate;
-use super::warmth::Warmth;
+use super::temperature_field::TemperatureField;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ pub struct ReducedSolution {
     /// Index of the local model used.
     pub window: usize,
     /// True if it is not the contact's own local model, which found no solution. Its errors were not measured there.
-    pub stands_in: bool,
+    pub by_neighbour: bool,
     /// Coefficients in the pressure basis.
     pub coefficients: Vec<f64>,
     /// With complementarity, the first cavitated column of each line along X, in node arrays; empty with a penalty.
@@ -36,7 +36,7 @@ pub struct ReducedSolution {
     /// without a traction quadrature.
     pub cut: Option<f64>,
     /// Temperatures; `None` if isothermal.
-    pub heat: Option<Warmth>,
+    pub heat: Option<TemperatureField>,
     /// Number of Newton steps.
     pub iterations: usize,
     /// Residual e_f^I, (3.15), in the L2 norm over X restricted to the sampled equations.

@@ -2,7 +2,7 @@
 //! always the same order, so that results do not depend on the machine.
 //!
 //! Code inside a dispatch must be inlined: each sum is a struct with a plain loop, without closures.
-#![allow(clippy::needless_range_loop, reason = "columns beside each other are read at the same place")]
+#![allow(clippy::needless_range_loop, reason = "neighbouring columns are read at the same place")]
 
 use pulp::{Arch, Simd, WithSimd};
 

@@ -126,7 +126,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     let refuse = |field: &str, problem: &str| Err(Refused::new(field, problem));
     let (range, laws) = (&spec.range, &spec.lubricant);
     laws.check().map_err(|problem| Refused::new("lubricant", format!("is refused: {problem}")))?;
-    let (heat, thins) = (spec.heats(), laws.shear != ShearLaw::Newtonian);
+    let (heat, shear_thinning) = (spec.heats(), laws.shear != ShearLaw::Newtonian);
     let eyring = matches!(laws.shear, ShearLaw::Eyring { .. });
     match laws.cavitation {
         Cavitation::Complementarity if heat => {
@@ -146,7 +146,7 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     if range.of_ellipses() && spec.contact() != ContactKind::Point {
         return refuse("range", "is of elliptical contacts, but the windows' grids are of line contacts");
     }
-    if range.of_ellipses() && thins && !heat {
+    if range.of_ellipses() && shear_thinning && !heat {
         return refuse("range.axes.RadiusRatio", "must be left out for a shear-thinning lubricant");
     }
     if range.varies_lubricant() {
@@ -159,10 +159,10 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
         if !matches!(spec.windows, Windows::Anchored { .. }) {
             return refuse("windows", "must be `Anchored(…)` for a range that varies the viscosity");
         }
-        if thins && !heat && !eyring {
+        if shear_thinning && !heat && !eyring {
             return refuse("range", "varies the viscosity, but shear-thinning by another law than Eyring’s fixes it");
         }
-        if thins && !heat && !range.knows(Quantity::GradientStress) {
+        if shear_thinning && !heat && !range.knows(Quantity::GradientStress) {
             return refuse("range", "needs a limit of `GradientStress` for Eyring lubricants whose viscosity varies");
         }
     }
@@ -171,8 +171,8 @@ fn lubricant(spec: &TrainingSpec) -> Result<(), Refused> {
     }
     let (slides, plateau) = (range.slides(), range.varies(Quantity::NewtonianPlateauRatio));
     let modulus = range.gives(Quantity::Modulus);
-    match (slides, thins) {
-        _ if plateau && !thins => refuse("range", "varies NPR, but the lubricant has no shear constants"),
+    match (slides, shear_thinning) {
+        _ if plateau && !shear_thinning => refuse("range", "varies NPR, but the lubricant has no shear constants"),
         (true, false) => refuse("range", "varies SRR, but the lubricant is Newtonian and isothermal"),
         (false, true) => refuse("range", "must vary SlideToRollRatio for a shear-thinning lubricant"),
         (true, true) if !modulus => refuse("range", "must vary or fix Modulus for a shear-thinning lubricant"),

@@ -194,7 +194,7 @@ pub fn with_rows(
         if let Some(place) = other.windows.get_mut(window) {
             place.set_rows(spec.sampling, rows);
         }
-        other.title = format!("{}, rows sampled anew", model.title);
+        other.title = format!("{}, equations sampled again", model.title);
         other
     };
     Ok(sampled.into_iter().map(|rows| rows.map(with)).collect())

@@ -178,7 +178,7 @@ fn what_lies_outside_is_told_by_the_number_that_does() {
     let spec = sliding_oils(Sampling::QDeim, 60);
     let domain = spec.domain();
     assert_eq!(domain.space, spec.range);
-    assert!(domain.thins() && domain.srr() == Some((0.0, 0.6)));
+    assert!(domain.is_shear_thinning() && domain.srr() == Some((0.0, 0.6)));
     let told = |modulus, srr, laws| {
         let problem = Problem::new(&contact(ContactKind::Line, (25.0, 8.0), (0.01, modulus), srr), laws).unwrap();
         match domain.trust(&problem) {

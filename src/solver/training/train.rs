@@ -119,7 +119,10 @@ fn go(state: &mut TrainingState, ended: bool, observer: &dyn TrainingObserver) -
         let cost = |snapshot: &Snapshot| trained.grid.spec().expected_cost(&snapshot.point);
         let worst = trained.snapshots.iter().map(cost).fold(0.0, f64::max);
         if worst > TOO_COSTLY {
-            log.push(format!("this grid costs H_c up to some {:.0} %: take a longer or a finer one", 100.0 * worst));
+            log.push(format!(
+                "the discretisation error of H_c reaches about {:.0} %: choose a longer domain or a finer grid",
+                100.0 * worst
+            ));
         }
         log.extend(state.windows[k].search.describe(&spec.plan));
         if let Some(rule) = &trained.traction {

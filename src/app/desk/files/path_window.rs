@@ -168,7 +168,7 @@ impl Desk {
                 .read_inputs(&path)
                 .map(|()| self.files.notice = Some(Notice::Done(format!("Read {}", path.display())))),
             Purpose::Cases => self.load_cases.read(&path),
-            Purpose::Beside => self.tabs.training.work.add_beside(self.answers.store(), &path),
+            Purpose::ComparedModel => self.tabs.training.work.add_beside(self.answers.store(), &path),
             Purpose::Notes(sheet) => atomic_file::replace_all(&sheet.notes(&path)).map_err(Refusal::from).map(|()| {
                 self.files.notice = Some(Notice::Done(format!("Exported {} and its figures", path.display())))
             }),

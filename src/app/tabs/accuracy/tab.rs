@@ -66,7 +66,7 @@ impl Accuracy {
 }
 
 const ABOUT: About = About {
-    keywords: "error failure map residuals bound",
+    keywords: "error failure map residuals bound validation trust check",
     page: "trust.md",
     has_units: false,
     why: "A reduced model has errors from its limited number of modes, from its sampled equations and from its grid, \

@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_at_the_edge_of_the_field_only_and_saddles_do_not_cross() {
+    fn contour_lines_end_at_edges_and_do_not_cross() {
         let (x, y, values) = sampled(|x, y| x * y);
         let lines = Field { x: &x, y: &y, values: &values }.contours(0.1);
         assert_eq!(lines.len(), 2);

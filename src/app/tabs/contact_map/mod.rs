@@ -7,5 +7,6 @@ mod map_view;
 mod optics;
 mod scale;
 mod tab;
+mod why;
 
 pub use tab::ContactMap;

@@ -3,6 +3,7 @@
 
 use super::images::Images;
 use super::map_view::{MapView, Shown};
+use super::why::explain;
 use super::{export, optics, scale};
 use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::command::Command;
@@ -98,7 +99,7 @@ impl ContactMap {
 }
 
 const ABOUT: About = About {
-    keywords: "interferogram fringes contours horseshoe side lobes",
+    keywords: "interferogram fringes contours horseshoe side lobes film thickness temperature cavitation starvation",
     page: "tour.md",
     has_units: true,
     why: "Seen from above, the film is flat in the middle and thin in a horseshoe around the sides and the outlet, \
@@ -109,6 +110,11 @@ const ABOUT: About = About {
 impl View for ContactMap {
     fn about(&self) -> &'static About {
         &ABOUT
+    }
+
+    fn why(&self, context: &Context<'_>) -> String {
+        let present = context.answers.current_picture().filter(|picture| picture.has_plane());
+        present.map_or_else(|| ABOUT.why.to_owned(), |picture| explain(&picture.solution))
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {

@@ -200,7 +200,7 @@ mod tests {
     use crate::solver::physics::contact::{ContactKind, OperatingPoint, Sliding};
 
     #[test]
-    fn stress_is_linear_across_the_film_and_its_mean_is_the_traction() {
+    fn stress_across_the_film_averages_to_the_traction() {
         let squalane = by_name("squalane-pip").unwrap();
         let sliding = Sliding { slide_to_roll_ratio: 0.5, newtonian_plateau_ratio: None };
         let point = OperatingPoint { sliding, ..squalane.studied_contact(ContactKind::Line).unwrap() };

@@ -5,5 +5,6 @@ mod film_shear;
 mod plots;
 mod tab;
 mod temperatures;
+mod why;
 
 pub use tab::{Profiles, with_difference};

@@ -5,6 +5,7 @@ use super::curves::{Scene, key_ui};
 use super::film_shear::{self, FilmShear, FilmShearImage};
 use super::plots::{difference_plot, film_plot, pressure_plot};
 use super::temperatures::{self, TemperatureImage};
+use super::why::Facts;
 use crate::app::answers::Answers;
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::command::Command;
@@ -50,7 +51,7 @@ impl Default for Choices {
 }
 
 const ABOUT: About = About {
-    keywords: "pressure film spike shear",
+    keywords: "pressure film thickness spike shear Hertz Hertzian temperature inlet outlet cavitation starvation",
     page: "tour.md",
     has_units: true,
     why: "The surfaces drag oil into the narrowing gap, where it builds up pressure; in a heavily loaded contact the \
@@ -63,6 +64,11 @@ const ABOUT: About = About {
 impl View for Profiles {
     fn about(&self) -> &'static About {
         &ABOUT
+    }
+
+    fn why(&self, context: &Context<'_>) -> String {
+        let present = context.answers.current_picture();
+        present.map_or_else(|| ABOUT.why.to_owned(), |picture| Facts::of(picture).explain())
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {

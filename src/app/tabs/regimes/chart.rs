@@ -4,7 +4,8 @@
 use crate::app::export;
 use crate::app::theme::Palette;
 use crate::scene::names;
-use crate::scene::regimes::{L_AXIS, M_AXIS, Regime, SAMPLES, boundaries, names, spread};
+use crate::scene::regime::{Regime, RegimeMap};
+use crate::scene::regimes::{L_AXIS, M_AXIS, SAMPLES, boundaries, names, spread};
 use crate::solver::parameters::ParameterSpace;
 use crate::solver::physics::contact::{
     ContactKind, FilmShape, Moes, MoesRequest, OperatingPoint, PLAUSIBLE_HERTZ_PRESSURE_PA, si_from_moes,
@@ -71,8 +72,8 @@ impl ChartLines {
                 add(Kind::Contour, Some(film), points);
             }
         }
-        for (k, ends) in boundaries(shape).into_iter().enumerate() {
-            add(Kind::Boundary, Some(k as f64), ends.map(|[m, l]| point(m, l)).to_vec());
+        for (k, line) in boundaries(shape).into_iter().enumerate() {
+            add(Kind::Boundary, Some(k as f64), line.into_iter().map(|[m, l]| point(m, l)).collect());
         }
         // For wide elliptical contacts the limit is outside the chart.
         let limit = pressure_limit(shape);
@@ -200,11 +201,12 @@ fn trajectory(range: &ParameterSpace, kind: ContactKind) -> Vec<PlotPoint> {
 /// Returns the regimes as an image with smooth transitions.
 pub fn shading(shape: FilmShape, palette: &Palette) -> ColorImage {
     let (width, height) = (280, 180);
+    let map = RegimeMap::new(shape);
     let mut pixels = Vec::with_capacity(width * height);
     for j in 0..height {
         for i in 0..width {
             let moes = Moes { m: spread(M_AXIS, i, width), l: spread(L_AXIS, height - 1 - j, height) };
-            pixels.push(palette.regimes[Regime::of(shape, moes) as usize]);
+            pixels.push(palette.regimes[map.regime(moes) as usize]);
         }
     }
     ColorImage::new([width, height], pixels)
@@ -231,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn the_box_of_table_3_4_has_the_numbers_the_dissertation_states_and_holds_its_trajectory() {
+    fn table_3_4_contains_its_trajectory() {
         let lines = ChartLines::new(FilmShape::CIRCLE, None).lines;
         let of = |kind: Kind| &lines.iter().find(|line| line.kind == kind).unwrap().points;
         let table = of(Kind::Table);

@@ -12,7 +12,8 @@ use crate::app::tabs::regimes::trail::Trail;
 use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::{Palette, faded, rich};
 use crate::app::{formulas, numbers};
-use crate::scene::regimes::{L_AXIS, M_AXIS, Regime};
+use crate::scene::regime::RegimeMap;
+use crate::scene::regimes::{L_AXIS, M_AXIS};
 use crate::solver::physics::contact::{ContactKind, FilmShape, Moes};
 use crate::solver::reduced::ReducedModel;
 use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
@@ -84,11 +85,12 @@ impl Regimes {
             self.lines = Some((owner, lines));
         }
         let top = ui.cursor().top();
-        let regime = Regime::of(present, context.document.point.moes());
+        let (map, ratios) = (RegimeMap::new(shape), context.regime_ratios());
+        let regime = ratios.regime();
         ui.horizontal_wrapped(|ui| {
             let name = ui.label(RichText::new(regime.title()).size(LARGE).strong());
             spoken(ui, name, &format!("Regime: {}", regime.title()));
-            ui.label(regime.meaning());
+            ui.label(ratios.describe());
         });
         // If the hint needs more than one line, the button is below it.
         let beside = ui.available_width() > HINT;
@@ -145,7 +147,7 @@ impl Regimes {
                         "M {}   L {}\n{}",
                         numbers::significant(moes.m),
                         numbers::significant(moes.l),
-                        Regime::of(shape, moes).name().replace('\n', " ")
+                        map.regime(moes).name().replace('\n', " ")
                     ))
                 }),
             ui,
@@ -206,7 +208,7 @@ impl Regimes {
 }
 
 const ABOUT: About = About {
-    keywords: "chart film formulas Moes asymptotes",
+    keywords: "chart film thickness formulas Moes Hamrock Dowson Higginson isoviscous piezoviscous rigid elastic",
     page: "physics.md",
     has_units: false,
     why: "Load, speed, size and stiffness determine the film thickness only through two numbers: the load number M, \
@@ -233,13 +235,15 @@ impl View for Regimes {
                     self.chart(ui, context, commands, ui.available_height());
                 });
                 ui.add_space(6.0);
-                ui.vertical(|ui| formulas::ui(ui, context));
+                ui.vertical(|ui| {
+                    ScrollArea::vertical().id_salt("formulas").show(ui, |ui| formulas::ui(ui, context, commands));
+                });
             });
         } else {
             let room = ui.available_height();
             self.chart(ui, context, commands, (room - FORMULAS).max(0.7 * room));
             let table = ScrollArea::vertical().id_salt("formulas").auto_shrink(false);
-            table.show(ui, |ui| formulas::ui(ui, context));
+            table.show(ui, |ui| formulas::ui(ui, context, commands));
         }
     }
 

@@ -186,7 +186,7 @@ impl Results {
 }
 
 const ABOUT: About = About {
-    keywords: "study scene run expectations verdicts table",
+    keywords: "study scene run expectations verdicts table report",
     page: "scenes.md",
     has_units: false,
     why: "A scene is an experiment with a question, and this tab shows its results while they are computed. The values \

@@ -378,7 +378,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_curve_that_leaves_the_picture_ends_where_it_does_and_comes_back_where_it_does() {
+    fn curves_are_clipped_at_the_frame() {
         let steep = vec![[0.0, 0.0], [1.0, 0.02], [2.0, 4.22], [3.0, 8e5], [4.0, 0.01]];
         let kept = near(steep, (0.0, 0.1));
         assert_eq!((kept.len(), kept[0], kept[1], kept[4]), (5, [0.0, 0.0], [1.0, 0.02], [4.0, 0.01]));

@@ -36,7 +36,7 @@ pub struct Traction {
 }
 
 const ABOUT: About = About {
-    keywords: "friction Stribeck slide-to-roll fluid viscosity",
+    keywords: "friction coefficient Stribeck lambda power loss slide-to-roll fluid viscosity flow curve Eyring",
     page: "physics.md",
     has_units: false,
     why: "Sliding surfaces shear the film, and the shear stress integrated over the contact is the traction. High \
@@ -60,7 +60,9 @@ impl View for Traction {
             });
             ui.separator();
         }
-        why(ui, context.why && choices.shows_fluid, WHY_FLUID);
+        if context.why && choices.shows_fluid {
+            why(ui, WHY_FLUID);
+        }
         if choices.shows_fluid {
             fluid::ui(ui, &mut self.stress_met, context);
             return;

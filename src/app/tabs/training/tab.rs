@@ -29,7 +29,7 @@ pub struct TrainingTab {
 }
 
 const ABOUT: About = About {
-    keywords: "snapshots model plan range",
+    keywords: "snapshots model plan range train own reduced",
     page: "training.md",
     has_units: false,
     why: "A reduced model is trained from full solutions, its snapshots, of contacts all over a range. A plan that \
@@ -158,7 +158,7 @@ fn compare_ui(ui: &mut Ui, training: &Training, context: &Context<'_>, commands:
         };
         button(ui, commands, ready, ("Compare models", tip), Command::CompareModels);
         let tip = "Reads the model of a .rom file for the comparison alone: the picture stays with the one in use";
-        button(ui, commands, true, ("Add a model…", tip), Command::Ask(Purpose::Beside));
+        button(ui, commands, true, ("Add a model…", tip), Command::Ask(Purpose::ComparedModel));
         for (k, (name, model)) in training.beside.iter().enumerate() {
             let serves = context.document.training_spec().is_some_and(|spec| spec.is_of(model));
             ui.add_enabled(serves, Label::new(name))

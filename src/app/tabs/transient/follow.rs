@@ -20,7 +20,7 @@ const REST_S: f64 = 0.25;
 const LOADS: (f64, f64) = (0.7, 1.4);
 
 /// Models and the set-up they were trained with.
-type Kept = (Arc<Setup>, Vec<Model>);
+type LastModels = (Arc<Setup>, Vec<Model>);
 
 /// Followed set-up, and the models that replay it.
 #[derive(Default)]
@@ -34,7 +34,7 @@ pub struct Following {
     /// True if the user started the present runs. Only the user stops these.
     by_hand: bool,
     /// Models trained last, with their set-up.
-    kept: Option<Kept>,
+    kept: Option<LastModels>,
     pub(super) replay: Background<StudyRow>,
     /// True if the running study would train the same models as those replayed.
     last: bool,
@@ -246,7 +246,7 @@ impl TransientRuns {
 }
 
 /// Returns the model of a frame by which a run is computed.
-fn model(kept: Option<&Kept>, by: MarchedBy, frame: Frame) -> Option<&Model> {
+fn model(kept: Option<&LastModels>, by: MarchedBy, frame: Frame) -> Option<&Model> {
     let kind = |kind: &Kind| match kind {
         Kind::Reduced(_) => by == MarchedBy::Reduced,
         Kind::Linearised { .. } => matches!(by, MarchedBy::Linearised(_)),

@@ -320,7 +320,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_row_is_sampled_between_its_nodes_and_rows_are_joined_in_time() {
+    fn rows_are_interpolated_in_space_and_time() {
         let mut values = Vec::new();
         for slope in [1.0, 3.0] {
             resample((0..=60).map(|k| -4.0 + 0.1 * f64::from(k)).map(|x| (x, slope * x)), &mut values);

@@ -31,7 +31,7 @@ pub struct Transient {
 }
 
 const ABOUT: About = About {
-    keywords: "time load speed radius frames",
+    keywords: "time load speed radius frames cam gear harmonic",
     page: "transient.md",
     has_units: true,
     why: "When load, speed or curvature change quickly, the contact still contains oil that entered before the change. \

@@ -199,7 +199,7 @@ mod tests_of_rows {
     }
 
     #[test]
-    fn films_hotter_than_lubricants_endure_are_compared_with_nothing() {
+    fn overheated_films_are_not_compared() {
         let sliding = Sliding { slide_to_roll_ratio: 0.2, newtonian_plateau_ratio: None };
         let point = OperatingPoint { sliding, ..OperatingPoint::TABLE_2_1 };
         let grid = GridSpec::Graded { nodes: 200, domain: (-6.0, 2.5), registered: false };

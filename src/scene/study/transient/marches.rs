@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn trainings_are_marched_load_by_load_and_its_own_inputs_where_none_are_given() {
+    fn trainings_march_each_load_or_their_inputs() {
         let load = "inputs: (load: Harmonic(amplitude: 0.1, period: 2.0)), duration: 6.5, time_step: Fixed(0.001)";
         let linearised = "linearised: (modes: 10, selection: Step(tolerance: 0.001))";
         let (point, own) = study(&format!("{load}, {linearised}"));

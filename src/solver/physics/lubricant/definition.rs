@@ -122,8 +122,8 @@ impl Lubricant {
             heat.check(self.viscosity, matches!(self.density, DensityLaw::Tait(_)))?;
         }
         if self.shear != ShearLaw::Newtonian && self.limiting_stress.is_some_and(|limit| limit.eyring.is_some()) {
-            let twice = "the film thins under shear by its own law, so its traction takes no Eyring stress beside; leave one of \
-                both out";
+            let twice = "the shear-thinning law of the film determines the traction too, so an Eyring stress in \
+                         addition is refused; leave one of the two out";
             return Err(LubricantError(twice.to_owned()));
         }
         self.limiting_stress.iter().try_for_each(LimitingStress::check)

@@ -99,7 +99,7 @@ impl FeatureSet {
     pub fn of(domain: &Domain) -> Self {
         let (space, heat, slides) = (&domain.space, domain.heats(), domain.slides());
         let lubricants = space.varies_lubricant() && !heat;
-        let stresses = lubricants && domain.thins();
+        let stresses = lubricants && domain.is_shear_thinning();
         let warmth = heat && space.knows(Quantity::Speed);
         let first = [
             (slides, Feature::Sliding),

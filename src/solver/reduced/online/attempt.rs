@@ -8,7 +8,7 @@ use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::model::{Snapshot, Window};
 use crate::solver::reduced::operators::{Case, OnlineOutcome, Operators, RowObserver, RuleTraction, Start, Stop};
 use crate::solver::reduced::start::{Guess, film_number};
-use crate::solver::reduced::warmth::Warmth;
+use crate::solver::reduced::temperature_field::TemperatureField;
 
 /// Converged online iteration.
 pub(super) struct Found {
@@ -19,7 +19,7 @@ pub(super) struct Found {
     pub residual: f64,
     pub traction: Option<RuleTraction>,
     pub fronts: Vec<usize>,
-    pub heat: Option<Warmth>,
+    pub heat: Option<TemperatureField>,
 }
 
 impl Found {
@@ -97,7 +97,7 @@ pub(super) fn attempt(
     if outcome.converged && h_c > 0.0 {
         let OnlineOutcome { iterations, residual, .. } = outcome;
         let readings = operators.read(&case, &coefficients, h_0);
-        let (traction, heat) = (readings.traction, readings.warmth.take());
+        let (traction, heat) = (readings.traction, readings.temperatures.take());
         let fronts = readings.fronts.clone();
         Ok(Found { coefficients, h_0, h_c, iterations, residual, traction, fronts, heat })
     } else {

@@ -116,7 +116,7 @@ impl Operators {
         let Self { system, parts, readings, .. } = self;
         readings.fronts.clear();
         readings.cut.clear();
-        (readings.traction, readings.warmth) = (None, None);
+        (readings.traction, readings.temperatures) = (None, None);
         parts.iter_mut().for_each(|part| part.read(system, case, State { coefficients, h_0 }, readings));
         readings
     }

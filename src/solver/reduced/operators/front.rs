@@ -15,7 +15,7 @@ mod reach;
 
 pub(crate) use reach::{cut_off, fronts, passed_rows};
 
-use self::bending::{Bent, Kept};
+use self::bending::{Bent, StoredFront};
 use self::reach::{each_passed, passed};
 use super::case::{Case, Start, State};
 use super::part::{Centre, Kind, Moved, Part, Setting, Step};
@@ -74,7 +74,7 @@ struct Front {
     /// Number of places of the support that the sampled equations use; and the line of each further place.
     own: usize,
     asked: Vec<usize>,
-    kept: Vec<Kept>,
+    kept: Vec<StoredFront>,
     /// Pressure that counts as negative.
     negative: f64,
     /// Maximum number of direction changes of B per line.
@@ -225,7 +225,7 @@ impl Front {
             }
         }
         let apart = |line: (&Line, &usize)| line.0.front.abs_diff(*line.1);
-        let far = |kept: &Kept| self.lines.iter().zip(&kept.fronts).map(apart).sum::<usize>();
+        let far = |kept: &StoredFront| self.lines.iter().zip(&kept.fronts).map(apart).sum::<usize>();
         let loaded = (0..self.kept.len()).min_by_key(|k| far(&self.kept[*k])).unwrap_or(0);
         let in_use = &mut system.basis.deformations;
         std::mem::swap(in_use, &mut self.kept[self.loaded].deformation);

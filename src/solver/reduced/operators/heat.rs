@@ -15,7 +15,7 @@ use crate::solver::discrete::grid::{ContactGrid, stretched};
 use crate::solver::discrete::heat::{ACROSS, Lines, MovingSource, RULE, Spread, WarmFilm, apply};
 use crate::solver::discrete::reynolds::generalized::NodeState;
 use crate::solver::full::heat::{Mixing, Rises, mid_stress_pa, one_sided};
-use crate::solver::reduced::warmth::Warmth;
+use crate::solver::reduced::temperature_field::TemperatureField;
 use std::sync::Arc;
 
 /// Stopping tolerances of the coupled iteration, relative to that of Newton's method alone: for the relative step of
@@ -300,7 +300,7 @@ impl Part for Heated {
                 readings.traction = self.traction(case, state);
                 let theta = self.lines.stations().map(|station| station.theta).collect();
                 let central = Rises::central(&self.lines, laws.heat.inlet_temperature);
-                readings.warmth = Some(Warmth { theta, central });
+                readings.temperatures = Some(TemperatureField { theta, central });
             }
             None => self.rule.iter_mut().for_each(|(rule, _)| rule.read(system, case, state, readings)),
         }

@@ -1,6 +1,6 @@
 //! Results that reduced operators report for a solution.
 
-use crate::solver::reduced::warmth::Warmth;
+use crate::solver::reduced::temperature_field::TemperatureField;
 
 /// Results for the state that an iteration ended with.
 #[derive(Default)]
@@ -12,7 +12,7 @@ pub(crate) struct Readings {
     /// Traction (3.41); `None` for a local model without a traction quadrature.
     pub traction: Option<RuleTraction>,
     /// Temperatures; `None` for an isothermal contact.
-    pub warmth: Option<Warmth>,
+    pub temperatures: Option<TemperatureField>,
 }
 
 impl Readings {

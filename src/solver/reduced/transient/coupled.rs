@@ -1,7 +1,7 @@
 //! March with inputs that are given step by step: a contact as a component of a larger simulation.
 
 use super::model::TrajectoryModel;
-use super::steps::{Kept, ReducedMarch};
+use super::steps::{ReducedMarch, StepState};
 use crate::solver::full::transient::{
     Conditions, Effort, Ended, Frame, GREATEST_RATIO, Input, MOST_PARTS, Marching, Moment, ROUNDING, State, Step,
 };
@@ -37,7 +37,7 @@ pub struct MarchState {
     former: Input,
     /// Length of the previous step; infinite after a steady start.
     before: f64,
-    kept: Kept,
+    kept: StepState,
 }
 
 /// Error of an advance; the march keeps its previous state.
@@ -79,7 +79,7 @@ impl CoupledMarch {
             moment: march.moment(&at, 0.0, effort),
             former: input,
             before: f64::INFINITY,
-            kept: Kept::default(),
+            kept: StepState::default(),
         };
         let mut begun = Self { march, frame, reference, longest: model.domain.step, at, former: at, now };
         begun.march.keep(&mut begun.now.kept);

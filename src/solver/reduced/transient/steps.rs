@@ -64,14 +64,14 @@ pub struct ReducedMarch<'a> {
 
 /// Previous states in the basis with this number.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub(super) struct Kept {
+pub(super) struct StepState {
     pub history: History,
     fronts: [Vec<usize>; 2],
     number: usize,
     stayed: usize,
 }
 
-impl Kept {
+impl StepState {
     /// Copies another state without allocating, if the capacity suffices.
     pub fn copy_from(&mut self, other: &Self) {
         self.history.copy_from(&other.history);
@@ -126,14 +126,14 @@ impl<'a> ReducedMarch<'a> {
     }
 
     /// Copies the current state to `kept` without allocating, if the capacity suffices.
-    pub(super) fn keep(&self, kept: &mut Kept) {
+    pub(super) fn keep(&self, kept: &mut StepState) {
         kept.history.copy_from(&self.history);
         kept.fronts.iter_mut().zip(&self.fronts).for_each(|(kept, own)| kept.clone_from(own));
         (kept.number, kept.stayed) = (self.number, self.stayed);
     }
 
     /// Restores states stored by [`Self::keep`], with the conditions `at`, the nearer ones first.
-    pub(super) fn restore(&mut self, kept: &Kept, at: [Conditions; 2]) {
+    pub(super) fn restore(&mut self, kept: &StepState, at: [Conditions; 2]) {
         self.history.copy_from(&kept.history);
         self.fronts.iter_mut().zip(&kept.fronts).for_each(|(own, kept)| own.clone_from(kept));
         (self.number, self.stayed, self.at) = (kept.number, kept.stayed, Some(at));
@@ -144,7 +144,7 @@ impl<'a> ReducedMarch<'a> {
     }
 
     /// Returns true if these states can belong to this model.
-    pub(super) fn knows(&self, kept: &Kept) -> bool {
+    pub(super) fn knows(&self, kept: &StepState) -> bool {
         let Some(part) = self.parts.get(kept.number) else { return false };
         let between = if matches!(self.model.frame, Frame::Remeshed(_)) { self.grid.len() } else { 0 };
         let lines = if self.model.window.cavitation == Cavitation::Penalty { 0 } else { 1 };

@@ -167,7 +167,7 @@ impl Tpwl {
 }
 
 const ABOUT: About = About {
-    keywords: "linearised operating points weights",
+    keywords: "linearised operating points weights trajectory piecewise linear",
     page: "transient.md",
     has_units: true,
     why: "Near a trained state the response of the contact to a small change of load is nearly linear: its equations \

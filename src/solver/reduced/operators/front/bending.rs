@@ -17,7 +17,7 @@ const KEPT: usize = 8;
 const KEPT_BYTES: usize = 16 << 20;
 
 /// K V at one position of B.
-pub(super) struct Kept {
+pub(super) struct StoredFront {
     /// Number of nodes that carry pressure, for each line.
     pub fronts: Vec<usize>,
     /// K V at the support, row-major. For the position in use it is stored in the basis of the system.
@@ -91,7 +91,7 @@ impl Front {
                 load.iter_mut().zip(own).for_each(|(load, v)| *load -= self.nodes[k].weight * v);
             }
             let lift = (None, vec![0.0; modes]);
-            self.kept.push(Kept { fronts, deformation, behind, load, lift });
+            self.kept.push(StoredFront { fronts, deformation, behind, load, lift });
         }
     }
 

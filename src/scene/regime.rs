@@ -1,0 +1,179 @@
+//! Lubrication regime of a contact: its elastic deformation compared with its film thickness, and the viscosity in it
+//! compared with that at ambient pressure.
+
+use super::table::significant;
+use crate::solver::full::Solution;
+use crate::solver::physics::contact::{ContactKind, FilmShape, Moes, OperatingPoint};
+use std::f64::consts::PI;
+
+/// Lubrication regime.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regime {
+    /// Rigid bodies, constant viscosity.
+    RigidIsoviscous,
+    /// Elastic bodies, constant viscosity.
+    ElasticIsoviscous,
+    /// Rigid bodies, viscosity rising with pressure.
+    RigidPiezoviscous,
+    /// Elastic bodies, viscosity rising with pressure.
+    ElasticPiezoviscous,
+}
+
+impl Regime {
+    /// Returns the name on two lines, for the chart.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::RigidIsoviscous => "rigid,\nisoviscous",
+            Self::ElasticIsoviscous => "elastic,\nisoviscous",
+            Self::RigidPiezoviscous => "rigid,\npiezoviscous",
+            Self::ElasticPiezoviscous => "elastic,\npiezoviscous",
+        }
+    }
+
+    /// Returns the name on one line.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::RigidIsoviscous => "Rigid, isoviscous",
+            Self::ElasticIsoviscous => "Elastic, isoviscous",
+            Self::RigidPiezoviscous => "Rigid, piezoviscous",
+            Self::ElasticPiezoviscous => "Elastic, piezoviscous",
+        }
+    }
+
+    /// True if the elastic deformation exceeds the film thickness.
+    pub fn is_elastic(self) -> bool {
+        matches!(self, Self::ElasticIsoviscous | Self::ElasticPiezoviscous)
+    }
+
+    /// True if pressure more than doubles the viscosity.
+    pub fn is_piezoviscous(self) -> bool {
+        matches!(self, Self::RigidPiezoviscous | Self::ElasticPiezoviscous)
+    }
+}
+
+/// The two ratios that define the regime.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ratios {
+    /// Elastic deformation over central film thickness. The deformation is that of the centre relative to the ends of
+    /// the Hertzian contact, X = −1 and X = 1: a²/(2R) in a dry contact, less under a thick film. Above 1 the bodies
+    /// are elastic.
+    pub deformation: f64,
+    /// Highest viscosity in the film over that at ambient pressure. Above 2 the contact is piezoviscous.
+    pub viscosity: f64,
+}
+
+impl Ratios {
+    /// Returns the ratios of a computed solution, with its own lubricant.
+    pub fn of(solution: &Solution) -> Self {
+        let axis: Vec<(f64, f64)> = solution.profile().map(|(x, _, film)| (x, film)).collect();
+        let film = |x: f64| {
+            let after = axis.partition_point(|(at, _)| *at < x).clamp(1, axis.len().saturating_sub(1).max(1));
+            match (axis.get(after - 1), axis.get(after)) {
+                (Some((x0, h0)), Some((x1, h1))) => h0 + (h1 - h0) * (x - x0) / (x1 - x0),
+                _ => f64::NAN,
+            }
+        };
+        // H = H₀ + X²/2 + deformation on the axis.
+        let deformation = (0.5 + film(0.0) - 0.5 * (film(-1.0) + film(1.0))).max(0.0);
+        let viscosity = solution.problem.fluid.at(solution.scalars.p_max).viscosity;
+        Self { deformation: deformation / solution.scalars.h_c, viscosity }
+    }
+
+    /// Returns the regime.
+    pub fn regime(self) -> Regime {
+        match (self.deformation > 1.0, self.viscosity > 2.0) {
+            (false, false) => Regime::RigidIsoviscous,
+            (true, false) => Regime::ElasticIsoviscous,
+            (false, true) => Regime::RigidPiezoviscous,
+            (true, true) => Regime::ElasticPiezoviscous,
+        }
+    }
+
+    /// Returns both ratios in one line.
+    pub fn describe(self) -> String {
+        let bodies = if self.regime().is_elastic() { "The bodies flatten" } else { "The bodies hardly flatten" };
+        let flat = match self.deformation {
+            ..0.01 => "less than 0.01".to_owned(),
+            _ => whole(self.deformation),
+        };
+        let viscosity = match self.viscosity - 1.0 {
+            ..1.0 => format!("the viscosity rises by {:.0} % at most", 100.0 * (self.viscosity - 1.0)),
+            1.0..1e4 => format!("pressure raises the viscosity up to {} times", whole(self.viscosity)),
+            _ => "pressure raises the viscosity more than 10,000 times".to_owned(),
+        };
+        format!("{bodies}, by {flat} × the film thickness; {viscosity}")
+    }
+}
+
+/// Returns a number with two significant digits, or without decimals.
+fn whole(value: f64) -> String {
+    if value < 10.0 {
+        return significant(value, 2);
+    }
+    let unit = 10f64.powi(value.log10().floor() as i32 - 1);
+    let digits = format!("{:.0}", (value / unit).round() * unit);
+    match digits.len() {
+        4.. => format!("{},{}", &digits[..digits.len() - 3], &digits[digits.len() - 3..]),
+        _ => digits,
+    }
+}
+
+/// Estimate of the ratios everywhere on the chart of M and L, for contacts of one shape. It holds for fully flooded,
+/// isothermal contacts with an oil of Roelands' law.
+#[derive(Clone, Copy, Debug)]
+pub struct RegimeMap {
+    shape: FilmShape,
+    /// (a of a circular contact / a)² at the same R, load and modulus.
+    film: f64,
+    /// p_H over that of a circular contact.
+    pressure: f64,
+}
+
+impl RegimeMap {
+    /// Prepares the estimate for a shape.
+    pub fn new(shape: FilmShape) -> Self {
+        let (film, pressure) = match shape {
+            FilmShape::Line => (1.0, 1.0),
+            FilmShape::Ellipse(ratio) => {
+                let circle = OperatingPoint { kind: ContactKind::Point, ..OperatingPoint::TABLE_2_1 };
+                let radius_y_m = Some(ratio * circle.radius_m);
+                let (round, own) = (circle.hertz(), OperatingPoint { radius_y_m, ..circle }.hertz());
+                ((round.half_width_m / own.half_width_m).powi(2), own.pressure_pa / round.pressure_pa)
+            }
+        };
+        Self { shape, film, pressure }
+    }
+
+    /// Returns the estimated ratios at M and L.
+    pub fn at(&self, moes: Moes) -> Ratios {
+        let Moes { m, l } = moes;
+        // H_c in units of a²/R, and α p_H.
+        let (film, hertz) = match self.shape {
+            FilmShape::Line => (PI / (8.0 * m), l * (m / (2.0 * PI)).sqrt()),
+            FilmShape::Ellipse(_) => {
+                let circle = (1.5 * m).cbrt();
+                (self.film / circle.powi(2), self.pressure * l * circle / PI)
+            }
+        };
+        let film = film * self.shape.film(moes);
+        // A thick film spreads the pressure beyond the Hertzian contact, less so if the viscosity rises.
+        let spread = film / (1.0 + 0.4 * hertz);
+        let (flattening, pressure) = match self.shape {
+            FilmShape::Line => (0.5 * (-0.65 * spread).exp(), (1.0 + 0.7 * film).powf(-0.5)),
+            FilmShape::Ellipse(_) => {
+                (0.5 * (-1.1 * spread).exp(), (1.0 + 0.4 * film + 3.4 * film * film / (1.0 + film)).recip())
+            }
+        };
+        Ratios { deformation: flattening / (COMPRESSED * film), viscosity: (ROELANDS * hertz * pressure).exp() }
+    }
+
+    /// Returns the regime at M and L.
+    pub fn regime(&self, moes: Moes) -> Regime {
+        self.at(moes).regime()
+    }
+}
+
+/// Film thickness of compressible oils over that of Moes' formula.
+const COMPRESSED: f64 = 0.92;
+/// ln(η/η₀) of Roelands' law over α p at the pressures that double the viscosity of oils.
+const ROELANDS: f64 = 0.62;

@@ -1,0 +1,121 @@
+//! No text is cut off: on every tab and in every lesson, in small, usual and large windows, in both themes.
+//!
+//! The shapes of a frame contain each text with its size and its clip rectangle. A text is cut off if it was shortened
+//! with an ellipsis, or if a part of it lies outside its clip rectangle to the left or right. Above and below, texts of
+//! a list that scrolls may be cut.
+
+use crate::driver::{TABS, Window, click, window};
+use egui::epaint::{ClippedShape, Shape, TextShape};
+use egui::{Key, Modifiers, Rect};
+use ehl_explorer::app::Explorer;
+use std::collections::BTreeSet;
+
+const SIZES: [[f32; 2]; 3] = [[1024.0, 640.0], [1280.0, 800.0], [1920.0, 1080.0]];
+/// Width that may be cut off \[points\]: less than the margin around a letter.
+const SLACK: f32 = 2.0;
+
+/// Calls a function with every text of a shape.
+fn texts<'a>(shape: &'a Shape, visit: &mut impl FnMut(&'a TextShape)) {
+    match shape {
+        Shape::Text(text) => visit(text),
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| texts(shape, visit)),
+        _ => {}
+    }
+}
+
+/// Returns the texts of a frame that are cut off.
+fn cut_off(shapes: &[ClippedShape], screen: Rect) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for ClippedShape { clip_rect, shape } in shapes {
+        texts(shape, &mut |text| {
+            let (place, clip) = (text.visual_bounding_rect(), clip_rect.intersect(screen));
+            let words = text.galley.text().trim();
+            if words.is_empty() || text.override_text_color.is_some_and(|color| color.a() == 0) {
+                return;
+            }
+            // Text that is scrolled out of sight is not cut off.
+            let visible = place.intersect(clip);
+            if !visible.is_positive() || visible.height() < 0.5 * place.height().min(12.0) {
+                return;
+            }
+            let outside = (clip.left() - place.left()).max(place.right() - clip.right());
+            if text.galley.elided {
+                found.insert(format!("shortened: “{words}”"));
+            } else if outside > SLACK {
+                found.insert(format!("{outside:.0} points of “{words}” at {place:?} in {clip:?}"));
+            }
+        });
+    }
+    found
+}
+
+fn look(harness: &mut Window, place: &str, found: &mut Vec<String>) {
+    harness.run_steps(3);
+    let screen = harness.ctx.content_rect();
+    let cut = cut_off(&harness.output().shapes, screen);
+    found.extend(cut.into_iter().map(|text| format!("{place}: {text}")));
+}
+
+fn open(size: [f32; 2], theme: &str) -> Window {
+    let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), size);
+    harness.run_steps(3);
+    click(&mut harness, "View");
+    click(&mut harness, theme);
+    harness.run_steps(2);
+    harness
+}
+
+#[test]
+fn a_text_that_is_cut_off_is_noticed() {
+    let mut harness = egui_kittest::Harness::new_ui(|ui| {
+        ui.set_clip_rect(Rect::from_min_size([0.0, 0.0].into(), [60.0, 200.0].into()));
+        ui.add(egui::Label::new("a text that is wider than its clip rectangle").extend());
+        ui.add(egui::Label::new("short"));
+        ui.set_max_width(50.0);
+        ui.add(egui::Label::new("a text that is shortened").truncate());
+    });
+    harness.run_steps(2);
+    let found = cut_off(&harness.output().shapes, harness.ctx.content_rect());
+    assert_eq!(found.len(), 2, "{found:?}");
+}
+
+#[test]
+fn no_text_of_a_tab_is_cut_off() {
+    let mut found = Vec::new();
+    for size in SIZES {
+        for theme in ["Light theme", "Dark theme"] {
+            let mut harness = open(size, theme);
+            for tab in TABS {
+                click(&mut harness, tab);
+                look(&mut harness, &format!("{tab} at {size:?}, {theme}"), &mut found);
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn no_text_of_a_lesson_is_cut_off() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lessons");
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    let mut found = Vec::new();
+    for (size, theme) in SIZES.into_iter().zip(["Light theme", "Dark theme", "Light theme"]) {
+        let mut harness = open(size, theme);
+        click(&mut harness, "Help");
+        click(&mut harness, "Lessons");
+        look(&mut harness, &format!("list of lessons at {size:?}"), &mut found);
+        for (k, file) in files.iter().enumerate() {
+            let text = std::fs::read_to_string(file).unwrap();
+            let title = text.lines().next().unwrap().trim_start_matches("# ");
+            click(&mut harness, &format!("{}. {title}", k + 1));
+            let steps = text.matches("\n## ").count();
+            for step in 1..=steps {
+                look(&mut harness, &format!("{title}, step {step} at {size:?}"), &mut found);
+                click(&mut harness, if step == steps { "Finish" } else { "Next" });
+            }
+        }
+        harness.key_press_modifiers(Modifiers::NONE, Key::Escape);
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
