@@ -26,7 +26,7 @@ fn texts<'a>(shape: &'a Shape, visit: &mut impl FnMut(&'a TextShape)) {
 /// Returns the texts of a frame that are cut off.
 fn cut_off(shapes: &[ClippedShape], screen: Rect) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
-    for ClippedShape { clip_rect, shape } in shapes {
+    for ClippedShape { clip_rect, shape, .. } in shapes {
         texts(shape, &mut |text| {
             let (place, clip) = (text.visual_bounding_rect(), clip_rect.intersect(screen));
             let words = text.galley.text().trim();
