@@ -38,6 +38,7 @@ const INCOMPRESSIBLE: Lubricant = Lubricant {
     limiting_stress: None,
     cavitation: ehl_explorer::solver::physics::lubricant::Cavitation::Penalty,
     heat: None,
+    roughness: None,
 };
 
 /// M h/R (2U)^(−½) of a rigid cylinder in an isoviscous film with Reynolds' condition, Martin 1916: with

@@ -17,6 +17,7 @@ pub mod point;
 mod problem;
 mod report;
 mod rolling;
+mod rough;
 mod solution;
 mod solver;
 mod system;

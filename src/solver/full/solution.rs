@@ -65,6 +65,9 @@ pub struct Solution {
     pub multiplier: Vec<f64>,
     /// Film fraction θ at the nodes, the filled share of the gap; empty unless the cavitation model conserves mass.
     pub fraction: Vec<f64>,
+    /// Asperity pressure P_a at the nodes, a part of the pressure P; empty for smooth surfaces.
+    #[serde(default)]
+    pub asperity_pressure: Vec<f64>,
     /// Scalar results.
     pub scalars: Scalars,
     /// Account of how it was solved.

@@ -2,7 +2,7 @@
 //!
 //! The path is straight in (ln M, ln L) with the Moes numbers M and L. It begins at the nearest contact of the same
 //! shape in the middle of the map. For a starved inlet it begins at the same contact with a small inlet film
-//! thickness. It depends on the requested contact only. Each step starts from an extrapolation of the last two
+//! thickness. For rough surfaces it begins at the same contact with a small roughness. It depends on the requested contact only. Each step starts from an extrapolation of the last two
 //! contacts of the path. The step length is adapted to the number of Newton iterations. Point contacts use coarser
 //! grids along X as long as these resolve the film.
 
@@ -10,13 +10,18 @@ use super::newton_space::NewtonSpace;
 use super::problem::{Problem, SolveError};
 use super::report::{Report, Termination};
 use super::solution::Solution;
-use super::solver::{Beginning, Solver, formula_film};
+use super::solver::{Beginning, ColdStart, Solver, formula_film};
 use crate::solver::discrete::space::Grid;
 use crate::solver::observer::{Observer, WalkStep};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::surfaces::Roughness;
 
 /// Inlet film thickness, in units of the contact's film formula, that clearly starves the contact.
 const THIN: f64 = 0.3;
+
+/// Film thickness of the contact's film formula, in units of σ, at which asperities carry little.
+const APART: f64 = 5.0;
 
 /// Length of the first step in ln M; a third of it in ln L.
 const FIRST_STRIDE: f64 = 0.7;
@@ -48,6 +53,8 @@ enum Path {
     },
     /// ln of the small inlet film thickness over the requested one.
     Supply(f64),
+    /// ln of the small roughness over the requested one.
+    Roughness(f64),
 }
 
 impl Path {
@@ -56,6 +63,9 @@ impl Path {
     fn to<S: NewtonSpace>(problem: &Problem, continues: bool) -> Self {
         if let Some(supply) = problem.supply {
             return Self::Supply((supply.min(THIN * formula_film(problem)) / supply).ln());
+        }
+        if let Some(rough) = problem.rough.filter(|rough| formula_film(problem) < APART * rough.sigma) {
+            return Self::Roughness((formula_film(problem) / (APART * rough.sigma)).ln());
         }
         let (m, l) = (problem.load_as_a_circle(), problem.moes.l);
         let easy_m = if continues { m } else { m.clamp(S::EASY_M.0, S::EASY_M.1) };
@@ -67,7 +77,7 @@ impl Path {
     fn length(&self) -> f64 {
         match self {
             Self::Loads { m, l } => m.abs() + 3.0 * l.abs(),
-            Self::Supply(thin) => thin.abs(),
+            Self::Supply(share) | Self::Roughness(share) => share.abs(),
         }
     }
 
@@ -79,6 +89,11 @@ impl Path {
         match self {
             Self::Supply(thin) => {
                 Some(Problem { supply: problem.supply.map(|supply| supply * ((1.0 - t) * thin).exp()), ..*problem })
+            }
+            Self::Roughness(share) => {
+                let scaled = |rough: Roughness| Roughness { sigma: rough.sigma * ((1.0 - t) * share).exp(), ..rough };
+                let lubricant = Lubricant { roughness: problem.lubricant.roughness.map(scaled), ..problem.lubricant };
+                Problem::new(&problem.point, lubricant).ok()
             }
             Self::Loads { m, l } => {
                 // Speed and load change at the same α: L grows with the fourth root of the speed.
@@ -135,8 +150,7 @@ impl<S: NewtonSpace> Solver<S> {
         let most = report.newton_iterations + most_walked(S::unknowns(&self.reference));
         let mut levels: Vec<Self> = Vec::new();
         let mut begun = None;
-        for film in S::COLD_FILMS {
-            let beginning = Beginning::Cold(film, 1.0);
+        for beginning in ColdStart::all(S::COLD_FILMS).map(Beginning::Cold) {
             begun = self.step((&mut levels, false), &first, beginning, most, observer, report)?;
             if begun.is_some() || report.termination == Termination::Cancelled {
                 break;
