@@ -3,9 +3,9 @@
 use super::answer::Request;
 use super::names;
 use crate::solver::full::heat::{Rises, Temperatures};
-use crate::solver::full::{GridCost, Scalars, Solution};
+use crate::solver::full::{GridCost, Mixed, Scalars, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::{ErrorEstimate, ModelSize};
 use crate::solver::warning::Warning;
 use serde::ser::{SerializeMap, Serializer};
@@ -58,6 +58,9 @@ pub struct ContactResult {
     pub linear_iterations: Option<usize>,
     /// Time of the solve alone \[s\].
     pub wall_s: f64,
+    /// Values of rough surfaces.
+    #[serde(default)]
+    pub mixed: Option<Mixed>,
     /// Temperatures, if heat was computed.
     pub heat: Option<HeatFacts>,
     /// Values that only a reduced solve has.
@@ -142,6 +145,8 @@ enum In {
     Contact,
     /// Columns of its result.
     Result,
+    /// Columns of a result with rough surfaces.
+    Mixed,
     /// Columns of a thermal result.
     Heat,
 }
@@ -199,6 +204,13 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::RESIDUAL_NORM, In::Result, |r| number(r.residual_norm?)),
     (names::NEWTON_ITERATIONS, In::Result, |r| Some(Value::Count(r.newton_iterations))),
     (names::LINEAR_ITERATIONS, In::Result, |r| r.linear_iterations.map(Value::Count)),
+    (names::MIXED_FILM_RATIO_C, In::Mixed, |r| number(r.mixed?.film_ratio_c)),
+    (names::MIXED_FILM_RATIO_MIN, In::Mixed, |r| number(r.mixed?.film_ratio_min)),
+    (names::MIXED_MEAN_GAP_C, In::Mixed, |r| number(r.mixed?.mean_gap_c)),
+    (names::MIXED_LOAD_SHARE, In::Mixed, |r| number(r.mixed?.asperity_load_share)),
+    (names::MIXED_P_A_C, In::Mixed, |r| number(r.mixed?.p_a_c)),
+    (names::MIXED_BOUNDARY_TRACTION, In::Mixed, |r| number(r.mixed?.boundary_traction)),
+    (names::MIXED_FLUID_TRACTION, In::Mixed, |r| number(r.mixed?.fluid_traction)),
     (names::MID_FILM_RISE, In::Heat, |r| number(r.heat?.central.mid_film_k)),
     (names::SURFACE_1_RISE, In::Heat, |r| number(r.heat?.central.surfaces_k[0])),
     (names::SURFACE_2_RISE, In::Heat, |r| number(r.heat?.central.surfaces_k[1])),
@@ -241,9 +253,38 @@ pub(super) fn contact_columns_after(varied: &[String]) -> Vec<&'static str> {
     contact_columns().into_iter().filter(|column| !varied.iter().any(|name| name == column)).collect()
 }
 
-/// Returns the names of the result columns, with or without the thermal ones.
-pub fn result_columns(heat: bool) -> Vec<&'static str> {
-    columns(if heat { &[In::Result, In::Heat] } else { &[In::Result] })
+/// Groups of result columns that only some contacts have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Extras {
+    /// Temperatures of thermal contacts.
+    pub heat: bool,
+    /// Values of contacts with rough surfaces.
+    pub mixed: bool,
+}
+
+impl Extras {
+    /// Returns the groups that at least one contact with these lubricants has.
+    pub fn of<'a>(lubricants: impl IntoIterator<Item = &'a Lubricant>) -> Self {
+        lubricants.into_iter().fold(Self::default(), |all, lubricant| Self {
+            heat: all.heat || lubricant.heat.is_some(),
+            mixed: all.mixed || lubricant.is_rough(),
+        })
+    }
+
+    /// Returns the groups that at least one of these results has.
+    pub fn of_results<'a>(results: impl IntoIterator<Item = &'a ContactResult>) -> Self {
+        results.into_iter().fold(Self::default(), |all, result| Self {
+            heat: all.heat || result.heat.is_some(),
+            mixed: all.mixed || result.mixed.is_some(),
+        })
+    }
+}
+
+/// Returns the names of the result columns.
+pub fn result_columns(extras: Extras) -> Vec<&'static str> {
+    let Extras { heat, mixed } = extras;
+    let groups = [(true, In::Result), (mixed, In::Mixed), (heat, In::Heat)];
+    columns(&groups.into_iter().filter(|(wanted, _)| *wanted).map(|(_, group)| group).collect::<Vec<_>>())
 }
 
 fn columns(of: &[In]) -> Vec<&'static str> {
@@ -299,6 +340,7 @@ impl ContactResult {
             newton_iterations,
             linear_iterations,
             wall_s,
+            mixed: converged.and_then(Solution::mixed),
             heat: converged.and_then(|solution| solution.heat.as_deref()).map(HeatFacts::from),
             reduced: reduced.map(|(facts, ..)| facts),
         }

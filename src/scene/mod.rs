@@ -52,7 +52,9 @@ pub use axis::{Axis, GradingError, Steps};
 pub use bench::{Bench, answer_or_full};
 pub use chart::{Band, Chart, ChartAxis, ColorScale, Map, Marks, Note, Series};
 pub use chart_page::{Page, drawn};
-pub use contact_result::{ContactResult, Effort, HeatFacts, ReducedFacts, ResultJson, contact_columns, result_columns};
+pub use contact_result::{
+    ContactResult, Effort, Extras, HeatFacts, ReducedFacts, ResultJson, contact_columns, result_columns,
+};
 pub use contact_row::{ByMethods, ContactRow, RefusedContact, RowStatus};
 pub use contact_spec::{
     ContactSpec, Domain, Facts, Field, Measure, MethodName, NotVaried, OilGrade, Refusal, ShearName, ValueError, Words,

@@ -4,7 +4,7 @@
 use crate::solver::full::Problem;
 use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw, WholeLubricant};
+use crate::solver::physics::lubricant::{Lubricant, ShearLaw, LubricantOfModel};
 use serde::{Deserialize, Serialize};
 
 /// Contacts that a reduced model covers.
@@ -15,7 +15,7 @@ pub struct Domain {
     /// Varied and fixed quantities.
     pub space: ParameterSpace,
     /// Laws of the lubricant.
-    #[serde(with = "WholeLubricant")]
+    #[serde(with = "LubricantOfModel")]
     pub lubricant: Lubricant,
 }
 

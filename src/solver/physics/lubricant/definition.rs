@@ -49,7 +49,21 @@ pub(crate) struct WholeLubricant {
     limiting_stress: Option<LimitingStress>,
     cavitation: Cavitation,
     heat: Option<Heat>,
-    #[serde(default)]
+    roughness: Option<Roughness>,
+}
+
+/// Serialised form of the lubricant of a reduced model, which supports smooth surfaces only: `#[serde(with =
+/// "LubricantOfModel")]`.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Lubricant", deny_unknown_fields)]
+pub(crate) struct LubricantOfModel {
+    density: DensityLaw,
+    viscosity: ViscosityLaw,
+    shear: ShearLaw,
+    limiting_stress: Option<LimitingStress>,
+    cavitation: Cavitation,
+    heat: Option<Heat>,
+    #[serde(skip)]
     roughness: Option<Roughness>,
 }
 

@@ -1,6 +1,6 @@
 //! Laws of the mean pressure that touching asperities carry, as a function of the separation l = h/σ.
 
-use super::roughness::SurfaceError;
+use super::roughness::{SurfaceConstant, SurfaceError};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, SQRT_2};
 
@@ -68,7 +68,7 @@ impl AsperityLaw {
     /// # Errors
     /// With the name of the constant and its range.
     pub fn check(self) -> Result<(), SurfaceError> {
-        let within = SurfaceError::check;
+        let within = |name, value, range| SurfaceError::check(SurfaceConstant::Asperities(name), value, range);
         match self {
             Self::GreenwoodTripp { eta_beta_sigma, sigma_over_beta } => {
                 within("ηβσ of Greenwood-Tripp", eta_beta_sigma, (1e-4, 1.0))?;

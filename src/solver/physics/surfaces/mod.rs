@@ -16,5 +16,5 @@ pub use asperity_laws::AsperityLaw;
 pub use asperity_table::AsperityTable;
 pub use flow_factors::{FlowFactors, PEKLENIK};
 pub use mean_gap::mean_gap;
-pub use roughness::{Roughness, SurfaceError};
+pub use roughness::{Roughness, SurfaceConstant, SurfaceError};
 pub use scaled::ScaledRoughness;

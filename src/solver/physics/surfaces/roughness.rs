@@ -26,19 +26,39 @@ pub struct Roughness {
     pub boundary_friction: f64,
 }
 
+/// Constant of rough surfaces. `Display` writes its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SurfaceConstant {
+    /// σ.
+    #[error("the roughness in m")]
+    Roughness,
+    /// Constant of an asperity law, with its name.
+    #[error("{0}")]
+    Asperities(&'static str),
+    /// γ.
+    #[error("the Peklenik number")]
+    Peklenik,
+    /// (σ₁² − σ₂²)/σ².
+    #[error("the relative difference of both variances")]
+    ShearFlow,
+    /// μ_b.
+    #[error("the boundary friction coefficient")]
+    BoundaryFriction,
+}
+
 /// Reason for refusing a roughness: a constant that is not finite or outside its range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{constant} is {}, but must be a finite number between {} and {}", Number(*value), Number(range.0), Number(range.1))]
 pub struct SurfaceError {
-    /// Name of the constant.
-    pub constant: &'static str,
+    /// The constant.
+    pub constant: SurfaceConstant,
     value: f64,
     range: (f64, f64),
 }
 
 impl SurfaceError {
     /// Refuses a constant outside its range.
-    pub(super) fn check(constant: &'static str, value: f64, range: (f64, f64)) -> Result<(), Self> {
+    pub(super) fn check(constant: SurfaceConstant, value: f64, range: (f64, f64)) -> Result<(), Self> {
         if (range.0..=range.1).contains(&value) { Ok(()) } else { Err(Self { constant, value, range }) }
     }
 }
@@ -73,13 +93,14 @@ impl Roughness {
     /// # Errors
     /// With the name of the first such constant and its range.
     pub fn check(&self) -> Result<(), SurfaceError> {
-        SurfaceError::check("the roughness in m", self.sigma, (0.0, 1e-3))?;
+        use SurfaceConstant::{BoundaryFriction, Peklenik, ShearFlow};
+        SurfaceError::check(SurfaceConstant::Roughness, self.sigma, (0.0, 1e-3))?;
         self.asperities.check()?;
         if !((1.0 - ROUNDED) * PEKLENIK.0..=(1.0 + ROUNDED) * PEKLENIK.1).contains(&self.peklenik) {
-            return SurfaceError::check("the Peklenik number", self.peklenik, PEKLENIK);
+            return SurfaceError::check(Peklenik, self.peklenik, PEKLENIK);
         }
-        SurfaceError::check("the difference of both variances", self.shear_flow, (-1.0, 1.0))?;
-        SurfaceError::check("the boundary friction coefficient", self.boundary_friction, (0.0, 2.0))
+        SurfaceError::check(ShearFlow, self.shear_flow, (-1.0, 1.0))?;
+        SurfaceError::check(BoundaryFriction, self.boundary_friction, (0.0, 2.0))
     }
 
     /// Returns all constants in SI units as text.
