@@ -34,7 +34,9 @@ impl Scene {
         if self.roughness.is_some() {
             self.laws().check().map_err(|problem| refuse("roughness", format!("is refused: {problem}")))?;
             if matches!(self.study, Study::Training(_)) {
-                return Err(refuse("roughness", "must be left out: reduced models are trained for smooth surfaces").into());
+                return Err(
+                    refuse("roughness", "must be left out: reduced models are trained for smooth surfaces").into()
+                );
             }
         }
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)

@@ -22,6 +22,7 @@ mod point_reference;
 mod random_solves;
 mod reach;
 mod rebuilt;
+mod rough;
 mod shear_models;
 mod shear_thinning;
 mod stored_answers;

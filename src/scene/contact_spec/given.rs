@@ -285,7 +285,8 @@ impl Given for LimitingStress {
 impl Given for AsperityLaw {
     fn read(text: &str) -> Result<Self, ValueError> {
         let (word, constants) = text.split_once(',').unwrap_or((text, ""));
-        let constants = if constants.is_empty() { Vec::new() } else { numbers(constants).ok_or(ValueError::Asperities)? };
+        let constants =
+            if constants.is_empty() { Vec::new() } else { numbers(constants).ok_or(ValueError::Asperities)? };
         match (word.trim(), constants.as_slice()) {
             ("greenwood-tripp", []) => Ok(Self::default()),
             ("greenwood-tripp", &[eta_beta_sigma, sigma_over_beta]) => {

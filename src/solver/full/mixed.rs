@@ -106,7 +106,8 @@ impl Solution {
         let ny = self.y.len();
         let (first, last) = (self.first() + 1, self.x.len() - 2);
         let at_end = |k: usize| k / ny == first || k / ny == last || ny > 1 && k % ny == 1;
-        let carried = self.asperity_pressure.iter().enumerate().filter(|(k, _)| at_end(*k)).map(|(_, carried)| *carried);
+        let carried =
+            self.asperity_pressure.iter().enumerate().filter(|(k, _)| at_end(*k)).map(|(_, carried)| *carried);
         let largest = carried.fold(0.0, f64::max);
         (largest > AT_ENDS).then_some(Warning::AsperitiesAtEnds { pressure: largest })
     }

@@ -12,6 +12,9 @@ use crate::solver::discrete::reynolds::{CENTER, Row};
 use crate::solver::discrete::rough::{Asperities, RoughNodes};
 use crate::solver::discrete::space::Grid;
 
+#[cfg(test)]
+mod tests;
+
 /// Film pressure below which a node behind the contact counts as cavitated in an initial state.
 const NO_FILM_PRESSURE: f64 = 1e-6;
 /// Largest changes of P and of P_h in one step.
@@ -109,7 +112,8 @@ impl<S: NewtonSpace> System<S> {
     /// Sets the central film thickness of an initial state, at least that at which the asperity pressure is `pressure`.
     pub(super) fn set_central_film_above_asperities(&mut self, problem: &Problem, film: f64, pressure: f64) {
         self.begin_rough(problem);
-        let touching = self.rough.as_ref().zip(problem.rough).map(|(nodes, rough)| rough.film_at(nodes.table(), pressure));
+        let touching =
+            self.rough.as_ref().zip(problem.rough).map(|(nodes, rough)| rough.film_at(nodes.table(), pressure));
         self.set_central_film(touching.map_or(film, |touching| film.max(touching)));
     }
 

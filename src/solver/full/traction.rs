@@ -122,8 +122,8 @@ impl Solution {
             let rate_per_s = stress[0] * fluidity / film.viscosity_pa_s;
             Shear { stress_pa: film.limited(stress)[0], rate_per_s }
         };
-        let films =
-            (self.first()..self.x.len()).map(|i| FilmStress::new(&self.problem, self.state(&fields, &gradient, i, axis)));
+        let films = (self.first()..self.x.len())
+            .map(|i| FilmStress::new(&self.problem, self.state(&fields, &gradient, i, axis)));
         films.flat_map(|film| heights.iter().map(move |height| shear(&film, *height))).collect()
     }
 

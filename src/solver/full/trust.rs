@@ -96,12 +96,7 @@ impl<S: NewtonSpace> System<S> {
     }
 
     /// Returns the relative response of H_c to the values of the equations and to an additional load on the nodes.
-    fn central_response(
-        &mut self,
-        problem: &Problem,
-        options: &super::SolveOptions<S::Control>,
-        load: f64,
-    ) -> f64 {
+    fn central_response(&mut self, problem: &Problem, options: &super::SolveOptions<S::Control>, load: f64) -> f64 {
         let options = super::SolveOptions { max_krylov: LINEAR.1, ..*options };
         self.solve_linear(&options, LINEAR.0, load, &());
         let shift = self.update[self.rows.len()];

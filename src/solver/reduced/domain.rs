@@ -4,7 +4,7 @@
 use crate::solver::full::Problem;
 use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw, LubricantOfModel};
+use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel, ShearLaw};
 use serde::{Deserialize, Serialize};
 
 /// Contacts that a reduced model covers.

@@ -47,7 +47,11 @@ impl AsperityTable {
         let Some([[left, left_slope], [right, right_slope]]) =
             self.logarithms.get(cell..cell + 2).and_then(|cell| <[[f64; 2]; 2]>::try_from(cell).ok())
         else {
-            return if self.logarithms.is_empty() { self.law.pressure(self.modulus_pa, separation) } else { (0.0, 0.0) };
+            return if self.logarithms.is_empty() {
+                self.law.pressure(self.modulus_pa, separation)
+            } else {
+                (0.0, 0.0)
+            };
         };
         let (logarithm, slope) = if at < 0.0 {
             (left + at * left_slope, left_slope)
