@@ -177,6 +177,9 @@ impl Domain {
 
     /// Returns a sentence if a problem has laws that the model was not trained with.
     fn other_laws(&self, problem: &Problem) -> Option<&'static str> {
+        if problem.rough.is_some() {
+            return Some("the model was trained for smooth surfaces");
+        }
         let (asked, own) = (self.with_own_constants(problem.lubricant), self.lubricant);
         match (asked.heat, own.heat) {
             (Some(_), None) => return Some("the model was trained for isothermal contacts"),

@@ -22,7 +22,7 @@ pub enum ReducedError {
     )]
     Heat,
     /// The surfaces are rough, and the model was trained for smooth ones.
-    #[error("the reduced model was trained for smooth surfaces; use the full solver, or leave the roughness out")]
+    #[error("reduced models do not cover rough surfaces; use the full solver, or leave the roughness out")]
     Roughness,
     /// The model is of the other kind of contact.
     #[error("the reduced model is of {} contacts, but the operating point is that of a {} contact", model.name(), given.name())]
