@@ -156,12 +156,11 @@ impl Solution {
     /// Returns the position of the cavitation boundary on the axis: the first node behind the contact with P ≤ 0.
     pub fn rupture(&self) -> Option<f64> {
         let axis: Vec<(f64, f64)> = self.profile().map(|(x, p, _)| (x, p)).collect();
-        let behind = match self.problem.rough {
+        match self.problem.rough {
             // Asperities carry pressure behind the boundary, too.
             Some(_) => self.axis_multiplier().next().map(|(x, _)| x),
             None => axis.get(axis.iter().rposition(|&(_, p)| p > 0.0)? + 1).map(|&(x, _)| x),
-        };
-        behind
+        }
     }
 
     /// Returns the position of the inlet meniscus on the axis: the first node in front of the contact with a full
