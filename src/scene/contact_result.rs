@@ -1,11 +1,12 @@
 //! Result of one contact, for users, tables, expectations and other programs.
 
 use super::answer::Request;
+use super::extras::Extras;
 use super::names;
 use crate::solver::full::heat::{Rises, Temperatures};
 use crate::solver::full::{GridCost, Mixed, Scalars, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::lubricant::{Cavitation, Lubricant};
+use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{ErrorEstimate, ModelSize};
 use crate::solver::warning::Warning;
 use serde::ser::{SerializeMap, Serializer};
@@ -251,33 +252,6 @@ pub fn contact_columns() -> Vec<&'static str> {
 /// Returns the contact columns of a table whose first columns are the varied values, without repeating those.
 pub(super) fn contact_columns_after(varied: &[String]) -> Vec<&'static str> {
     contact_columns().into_iter().filter(|column| !varied.iter().any(|name| name == column)).collect()
-}
-
-/// Groups of result columns that only some contacts have.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Extras {
-    /// Temperatures of thermal contacts.
-    pub heat: bool,
-    /// Values of contacts with rough surfaces.
-    pub mixed: bool,
-}
-
-impl Extras {
-    /// Returns the groups that at least one contact with these lubricants has.
-    pub fn of<'a>(lubricants: impl IntoIterator<Item = &'a Lubricant>) -> Self {
-        lubricants.into_iter().fold(Self::default(), |all, lubricant| Self {
-            heat: all.heat || lubricant.heat.is_some(),
-            mixed: all.mixed || lubricant.is_rough(),
-        })
-    }
-
-    /// Returns the groups that at least one of these results has.
-    pub fn of_results<'a>(results: impl IntoIterator<Item = &'a ContactResult>) -> Self {
-        results.into_iter().fold(Self::default(), |all, result| Self {
-            heat: all.heat || result.heat.is_some(),
-            mixed: all.mixed || result.mixed.is_some(),
-        })
-    }
 }
 
 /// Returns the names of the result columns.

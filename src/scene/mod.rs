@@ -25,6 +25,7 @@ mod error;
 pub mod examples;
 mod expectation;
 mod experiment;
+mod extras;
 mod field_tables;
 mod grid;
 mod load_cases;
@@ -52,9 +53,7 @@ pub use axis::{Axis, GradingError, Steps};
 pub use bench::{Bench, answer_or_full};
 pub use chart::{Band, Chart, ChartAxis, ColorScale, Map, Marks, Note, Series};
 pub use chart_page::{Page, drawn};
-pub use contact_result::{
-    ContactResult, Effort, Extras, HeatFacts, ReducedFacts, ResultJson, contact_columns, result_columns,
-};
+pub use contact_result::{ContactResult, Effort, HeatFacts, ReducedFacts, ResultJson, contact_columns, result_columns};
 pub use contact_row::{ByMethods, ContactRow, RefusedContact, RowStatus};
 pub use contact_spec::{
     ContactSpec, Domain, Facts, Field, Measure, MethodName, NotVaried, OilGrade, Refusal, ShearName, ValueError, Words,
@@ -64,6 +63,7 @@ pub use document::{Scene, TrainedModel};
 pub use error::{Reason, RunError, SceneError, SceneFileError, VERSION};
 pub use expectation::{Expectation, Within};
 pub use experiment::Experiment;
+pub use extras::Extras;
 pub use field_tables::{film_shear_table, profile_table};
 pub use grid::Grid;
 pub use load_cases::{CaseTable, CasesError, LineError, LoadCase};

@@ -7,8 +7,9 @@ use super::question::{
 use crate::scene::answer::Request;
 use crate::scene::bench::answer_or_full;
 use crate::scene::check;
-use crate::scene::contact_result::{ContactResult, Extras, contact_columns, result_columns};
+use crate::scene::contact_result::{ContactResult, contact_columns, result_columns};
 use crate::scene::contact_row::{ByMethods, RefusedContact, remarks};
+use crate::scene::extras::Extras;
 use crate::scene::load_cases::{CaseTable, LoadCase};
 use crate::scene::method::Method;
 use crate::scene::names;

@@ -2,8 +2,9 @@
 
 use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, Notice, RunError, Setting, Table, Tell};
 use crate::scene::answer::Request;
-use crate::scene::contact_result::{ContactResult, Extras, contact_columns_after, result_columns};
+use crate::scene::contact_result::{ContactResult, contact_columns_after, result_columns};
 use crate::scene::contact_row::{ByMethods, RefusedContact, remarks};
+use crate::scene::extras::Extras;
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
 use crate::scene::names;

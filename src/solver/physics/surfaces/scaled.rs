@@ -57,11 +57,6 @@ impl ScaledRoughness {
         self.across.is_some()
     }
 
-    /// True if sliding changes the film.
-    pub fn depends_on_sliding(&self) -> bool {
-        self.roughness.shear_flow != 0.0
-    }
-
     /// Returns the asperity pressure P_a and dP_a/dH at the film thickness H.
     #[inline]
     pub fn asperity_pressure(&self, table: &AsperityTable, film: f64) -> (f64, f64) {
