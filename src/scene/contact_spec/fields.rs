@@ -190,7 +190,7 @@ contact_fields! {
     peklenik: f64, Peklenik, "peklenik", "Peklenik number γ of the roughness, above 1 for ridges along the flow",
         { note: ", 1/9 to 9 (default: 1)", titles: &["γ"] };
     shear_flow: f64, ShearFlow, "shear-flow", "Difference (σ₁² − σ₂²)/σ² of the roughness of both surfaces",
-        { note: ", where σ₁ is that of the surface that is faster for SRR > 0 (default: 0)" };
+        { note: ", where σ₁ is that of the surface that is faster at a positive SRR (default: 0)" };
     boundary_friction: f64, BoundaryFriction, "boundary-friction", "Friction coefficient μ_b of touching asperities",
         { note: " (default: 0.12)", titles: &["mu_b", "μ_b"] };
     heat: bool, Heat, "heat", "Compute temperatures of film and bodies, and their effect on film thickness and traction",

@@ -248,7 +248,8 @@ fn a_roughness_is_stated_by_its_fields_and_brings_complementarity() {
     assert!(without.in_words(Words::Keywords).contains("has no effect without roughness="), "{without:?}");
     assert!(ContactSpec::default().read(Field::Asperities, "cones,1", "").is_err());
     // A scene states the same, and a line of a table replaces its roughness.
-    let scene = Scene { roughness: Some(wanted), ..Scene::at_moes(40.0, 10.0) };
+    let at = OperatingPoint::TABLE_2_1.into();
+    let scene = Scene { roughness: Some(wanted), at, ..Scene::at_moes(40.0, 10.0) };
     let again = Scene::from_ron(&scene.to_ron().unwrap()).unwrap();
     assert_eq!((again.laws(), again.roughness), (scene.laws(), Some(wanted)));
     let base = ContactSpec::from(&scene.experiment());
