@@ -31,6 +31,7 @@ const PAGES: &[Page] = pages![
     "friction.md",
     "heat.md",
     "starvation.md",
+    "rough.md",
     "transient.md",
     "trust.md",
     "export.md",

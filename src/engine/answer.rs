@@ -32,10 +32,12 @@ pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) ->
         Solver::Full(solver, start) => in_full(request, solver, start, observer)?,
         Solver::Reduced(online) => by_model(request, &problem, online, observer)?,
     };
-    let ContactResult { warnings, traction, scalars, reduced, .. } = &mut answer.result;
+    let ContactResult { warnings, traction, scalars, reduced, mixed, .. } = &mut answer.result;
     if let Some(solution) = answer.solution.as_ref().filter(|_| scalars.is_some()) {
         warnings.extend(solution.grid_warning());
         warnings.extend(resolution_warning(solution));
+        warnings.extend(mixed.and_then(|mixed| mixed.warning()));
+        warnings.extend(solution.warning_of_ends());
         let peclet = problem.heat.as_ref().map(|heat| heat.smallest_peclet(&problem.point));
         warnings.extend(peclet.and_then(Warning::of_peclet));
         warnings.extend(solution.heat.as_deref().and_then(Temperatures::too_hot));
@@ -45,6 +47,7 @@ pub fn answer(request: &Request, solver: Solver<'_>, observer: &dyn Observer) ->
     let hertz_pressure = request.point.hertz().pressure_pa;
     warnings.extend(Warning::of_hertz_pressure(hertz_pressure));
     warnings.extend(Warning::of_strain(hertz_pressure, request.point.modulus_pa));
+    let traction = mixed.map_or(*traction, |mixed| Some(mixed.fluid_traction));
     let doubt = traction.zip(*scalars).and_then(|(traction, scalars)| problem.doubts_traction(traction, &scalars));
     warnings.extend(doubt.map(Warning::from));
     Ok(answer)

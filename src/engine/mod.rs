@@ -38,8 +38,8 @@ pub use store::{Held, Store};
 pub use workbench::Workbench;
 
 pub use crate::scene::{
-    Answer, ContactResult, NamedValue, ReducedFacts, Request, RunError as EngineError, SceneOutcome, Table, Verdict,
-    contact_columns, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns, run_scene,
-    table,
+    Answer, ContactResult, Extras, NamedValue, ReducedFacts, Request, RunError as EngineError, SceneOutcome, Table,
+    Verdict, contact_columns, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns,
+    run_scene, table,
 };
 pub use crate::solver::warning::Warning;

@@ -1,9 +1,10 @@
 //! Result of one contact, for users, tables, expectations and other programs.
 
 use super::answer::Request;
+use super::extras::Extras;
 use super::names;
 use crate::solver::full::heat::{Rises, Temperatures};
-use crate::solver::full::{GridCost, Scalars, Solution};
+use crate::solver::full::{GridCost, Mixed, Scalars, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{ErrorEstimate, ModelSize};
@@ -58,6 +59,9 @@ pub struct ContactResult {
     pub linear_iterations: Option<usize>,
     /// Time of the solve alone \[s\].
     pub wall_s: f64,
+    /// Values of rough surfaces.
+    #[serde(default)]
+    pub mixed: Option<Mixed>,
     /// Temperatures, if heat was computed.
     pub heat: Option<HeatFacts>,
     /// Values that only a reduced solve has.
@@ -142,6 +146,8 @@ enum In {
     Contact,
     /// Columns of its result.
     Result,
+    /// Columns of a result with rough surfaces.
+    Mixed,
     /// Columns of a thermal result.
     Heat,
 }
@@ -199,6 +205,13 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::RESIDUAL_NORM, In::Result, |r| number(r.residual_norm?)),
     (names::NEWTON_ITERATIONS, In::Result, |r| Some(Value::Count(r.newton_iterations))),
     (names::LINEAR_ITERATIONS, In::Result, |r| r.linear_iterations.map(Value::Count)),
+    (names::MIXED_FILM_RATIO_C, In::Mixed, |r| number(r.mixed?.film_ratio_c)),
+    (names::MIXED_FILM_RATIO_MIN, In::Mixed, |r| number(r.mixed?.film_ratio_min)),
+    (names::MIXED_MEAN_GAP_C, In::Mixed, |r| number(r.mixed?.mean_gap_c)),
+    (names::MIXED_LOAD_SHARE, In::Mixed, |r| number(r.mixed?.asperity_load_share)),
+    (names::MIXED_P_A_C, In::Mixed, |r| number(r.mixed?.p_a_c)),
+    (names::MIXED_BOUNDARY_TRACTION, In::Mixed, |r| number(r.mixed?.boundary_traction)),
+    (names::MIXED_FLUID_TRACTION, In::Mixed, |r| number(r.mixed?.fluid_traction)),
     (names::MID_FILM_RISE, In::Heat, |r| number(r.heat?.central.mid_film_k)),
     (names::SURFACE_1_RISE, In::Heat, |r| number(r.heat?.central.surfaces_k[0])),
     (names::SURFACE_2_RISE, In::Heat, |r| number(r.heat?.central.surfaces_k[1])),
@@ -241,9 +254,11 @@ pub(super) fn contact_columns_after(varied: &[String]) -> Vec<&'static str> {
     contact_columns().into_iter().filter(|column| !varied.iter().any(|name| name == column)).collect()
 }
 
-/// Returns the names of the result columns, with or without the thermal ones.
-pub fn result_columns(heat: bool) -> Vec<&'static str> {
-    columns(if heat { &[In::Result, In::Heat] } else { &[In::Result] })
+/// Returns the names of the result columns.
+pub fn result_columns(extras: Extras) -> Vec<&'static str> {
+    let Extras { heat, mixed } = extras;
+    let groups = [(true, In::Result), (mixed, In::Mixed), (heat, In::Heat)];
+    columns(&groups.into_iter().filter(|(wanted, _)| *wanted).map(|(_, group)| group).collect::<Vec<_>>())
 }
 
 fn columns(of: &[In]) -> Vec<&'static str> {
@@ -299,6 +314,7 @@ impl ContactResult {
             newton_iterations,
             linear_iterations,
             wall_s,
+            mixed: converged.and_then(Solution::mixed),
             heat: converged.and_then(|solution| solution.heat.as_deref()).map(HeatFacts::from),
             reduced: reduced.map(|(facts, ..)| facts),
         }

@@ -8,6 +8,7 @@ use super::contact_result::{ContactResult, contact_columns_after, result_columns
 use super::contact_row::{ContactRow, RefusedContact, RowStatus};
 use super::contact_spec::{ContactSpec, Field, NotVaried, Refusal, Words};
 use super::error::RunError;
+use super::extras::Extras;
 use super::names;
 use super::table::Table;
 use crate::solver::observer::Progress;
@@ -173,9 +174,8 @@ impl ContactSweep {
         observer: &dyn TrainingObserver,
         mut tell: impl FnMut(SweptContact<'_>) -> Result<(), E>,
     ) -> Result<Swept, E> {
-        let warm = |request: &Request| request.lubricant.heat.is_some();
-        let heat = self.points.iter().any(|(_, request)| request.as_ref().is_ok_and(warm));
-        let columns = [contact_columns_after(&self.names), result_columns(heat)].concat();
+        let lubricants = self.points.iter().filter_map(|(_, request)| Some(&request.as_ref().ok()?.lubricant));
+        let columns = [contact_columns_after(&self.names), result_columns(Extras::of(lubricants))].concat();
         let titles: Vec<&str> = self.names.iter().map(String::as_str).chain(columns.iter().copied()).collect();
         let mut table = Table::new("sweep", &titles);
         let (mut former, mut results, total) = (None, Vec::<ContactResult>::new(), self.points.len());

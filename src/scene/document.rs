@@ -13,6 +13,7 @@ use super::{atomic_file, examples};
 use crate::host::files;
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, Sliding};
+use crate::solver::physics::surfaces::Roughness;
 use crate::solver::training::TrainingSpec;
 use ron::Options;
 use ron::extensions::Extensions;
@@ -60,6 +61,9 @@ pub struct Scene {
     /// temperature.
     #[serde(default, skip_serializing_if = "is_default")]
     pub heat: Option<Heat>,
+    /// Roughness of both surfaces. Without it they are smooth.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub roughness: Option<Roughness>,
     /// Operating point. Not used by studies that bring their own points (trajectory, random validation, training).
     #[serde(default)]
     pub at: At,
@@ -104,6 +108,7 @@ impl Scene {
             lubricant: Lubricant::default(),
             cavitation: Cavitation::default(),
             heat: None,
+            roughness: None,
             at: At::moes(m, l),
             srr: 0.0,
             npr: None,
@@ -162,15 +167,16 @@ impl Scene {
         }
     }
 
-    /// Returns the laws of the lubricant, including cavitation model and heat.
+    /// Returns the laws of the lubricant, including cavitation model, heat and roughness. Rough surfaces replace the
+    /// penalty, which is the default cavitation model, by complementarity.
     pub fn laws(&self) -> Lubricant {
-        Lubricant { cavitation: self.cavitation, heat: self.heat, ..self.lubricant }
+        Lubricant { cavitation: self.cavitation, heat: self.heat, ..self.lubricant }.on_rough_surfaces(self.roughness)
     }
 
-    /// Sets the laws of the lubricant, including cavitation model and heat.
+    /// Sets the laws of the lubricant, including cavitation model, heat and roughness.
     pub fn set_laws(&mut self, laws: Lubricant) {
-        (self.cavitation, self.heat) = (laws.cavitation, laws.heat);
-        self.lubricant = Lubricant { cavitation: Cavitation::default(), heat: None, ..laws };
+        (self.cavitation, self.heat, self.roughness) = (laws.cavitation, laws.heat, laws.roughness);
+        self.lubricant = Lubricant { cavitation: Cavitation::default(), heat: None, roughness: None, ..laws };
     }
 
     /// Returns the sliding and the plateau ratio.

@@ -3,8 +3,8 @@
 use super::table::Table;
 use crate::solver::full::{Shear, Solution};
 
-/// Returns the fields of a solution at its nodes: X, Y, P, H, the same in SI units, and λ or θ of the cavitation model
-/// if the solution has one. For a thermal solution also the temperature rises at mid-film and of both surfaces.
+/// Returns the fields of a solution at its nodes: X, Y, P, H, the same in SI units, λ or θ of the cavitation model if
+/// the solution has one, and the asperity pressure P_a of rough surfaces, which is a part of P. For a thermal solution also the temperature rises at mid-film and of both surfaces.
 pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     let mut columns = vec!["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"];
     if !solution.multiplier.is_empty() {
@@ -12,6 +12,9 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     }
     if !solution.fraction.is_empty() {
         columns.push("theta");
+    }
+    if !solution.asperity_pressure.is_empty() {
+        columns.extend(["P_a", "p_a_pa"]);
     }
     let heat = solution.heat.as_deref();
     if heat.is_some() {
@@ -24,6 +27,9 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     table.rows.extend(solution.nodes().map(row));
     for (row, value) in table.rows.iter_mut().zip(solution.multipliers().chain(solution.fractions())) {
         row.push(value);
+    }
+    for (row, carried) in table.rows.iter_mut().zip(solution.asperity_pressures()) {
+        row.extend([carried, carried * hertz.pressure_pa]);
     }
     for (row, at) in table.rows.iter_mut().zip(heat.iter().flat_map(|heat| heat.rises())) {
         row.push(at.mid_film_k);

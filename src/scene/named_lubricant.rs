@@ -50,6 +50,7 @@ const NEWTONIAN: Lubricant = Lubricant {
     limiting_stress: None,
     cavitation: Cavitation::Penalty,
     heat: None,
+    roughness: None,
 };
 
 /// Thermal constants of a synthetic hydrocarbon whose viscosity follows from its free volume.
@@ -72,6 +73,7 @@ pub const SQUALANE_PIP: Lubricant = Lubricant {
     limiting_stress: None,
     cavitation: Cavitation::Penalty,
     heat: None,
+    roughness: None,
 };
 
 /// The dissertation's lubricant with typical friction constants: an Eyring stress of 5 MPa and a limiting shear stress
@@ -148,6 +150,7 @@ pub static NAMED: [NamedLubricant; 13] = [
             limiting_stress: None,
             cavitation: Cavitation::Penalty,
             heat: None,
+            roughness: None,
         },
         viscosity_pa_s: Some(1.42),
         alpha_per_pa: None,

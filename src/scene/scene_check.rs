@@ -31,6 +31,14 @@ impl Scene {
             self.laws().scaled_heat(&fluid, &sliding).map_err(refused)?;
             self.study.check_heat()?;
         }
+        if self.roughness.is_some() {
+            self.laws().check().map_err(|problem| refuse("roughness", format!("is refused: {problem}")))?;
+            if matches!(self.study, Study::Training(_)) {
+                return Err(
+                    refuse("roughness", "must be left out: reduced models are trained for smooth surfaces").into()
+                );
+            }
+        }
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
             .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
         grid::check(&self.grid, self.contact)?;

@@ -27,6 +27,9 @@ const NOTABLE_STEP_ERROR: f64 = 0.03;
 /// Relative discretisation error above which the estimate is likely to be too small.
 const SATURATED: f64 = 0.1;
 
+/// Film ratio h_c/σ below which the fitted flow factors leave their range and their continuation decides.
+const SMALLEST_FILM_RATIO: f64 = 0.5;
+
 /// Warning that accompanies an answer. `Display` writes its sentence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[serde(rename_all = "snake_case")]
@@ -101,6 +104,23 @@ pub enum Warning {
         spacing: f64,
         /// A spacing that is sufficient.
         wanted: f64,
+    },
+    /// The surfaces are so close that the results depend on how the flow factors are continued.
+    #[error(
+        "the film ratio h_c/σ is {film_ratio:.2}: below {SMALLEST_FILM_RATIO} the flow factors are extrapolated, and asperity \
+         load share and film thickness depend on how"
+    )]
+    SmallFilmRatio {
+        /// h_c/σ.
+        film_ratio: f64,
+    },
+    /// Asperities touch at the ends of the domain.
+    #[error(
+        "asperities touch at the ends of the domain, with {pressure:.1e} of the Hertzian pressure; choose a wider domain"
+    )]
+    AsperitiesAtEnds {
+        /// Largest asperity pressure there, in units of the Hertzian pressure.
+        pressure: f64,
     },
     /// Heat flows upstream within a slowly moving body.
     #[error(
@@ -243,6 +263,11 @@ impl Warning {
     pub fn of_time_step(relative: f64, tolerance: Option<f64>) -> Option<Self> {
         let tolerance = tolerance.filter(|tolerance| relative > *tolerance);
         (relative > NOTABLE_STEP_ERROR || tolerance.is_some()).then_some(Self::TimeStepError { relative, tolerance })
+    }
+
+    /// Returns a warning if the film ratio h_c/σ is below the range of the flow factors.
+    pub fn of_film_ratio(film_ratio: f64) -> Option<Self> {
+        (film_ratio < SMALLEST_FILM_RATIO).then_some(Self::SmallFilmRatio { film_ratio })
     }
 
     /// Returns true for the two warnings about the discretisation error. Tables of many contacts summarise these in a

@@ -23,6 +23,7 @@ mod random_solves;
 mod reach;
 mod rebuilt;
 mod regimes;
+mod rough;
 mod shear_models;
 mod shear_thinning;
 mod stored_answers;

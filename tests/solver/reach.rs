@@ -1,14 +1,17 @@
 //! Contacts at the edges of the map: slow, soft, light, long and reversing ones, against formulas that know nothing of the
 //! solver, and random ones, of which nearly all must converge. A share of the random ones is solved in the ordinary run,
-//! 1,000 lines, 150 circles and 60 ellipses where the environment has `EHL_LONG`.
+//! 1,000 lines, 150 circles, 60 ellipses, 1,000 rough lines and 200 rough circles where the environment has `EHL_LONG`.
 
 use crate::common::cases::{cases, long};
 use ehl_explorer::solver::discrete::grid::{GridSpec, PointGridSpec};
 use ehl_explorer::solver::full::transient::{self, Inputs, Keep, Moment, Signal, Transient};
 use ehl_explorer::solver::full::{ContactSolver, Problem, Solution, Start};
 use ehl_explorer::solver::observer::{Observer, WalkStep};
-use ehl_explorer::solver::physics::contact::{ContactKind, FilmShape, Moes, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::physics::contact::{
+    ContactKind, FilmFormula, FilmShape, Moes, MoesRequest, OperatingPoint, moes_film, si_from_moes,
+};
 use ehl_explorer::solver::physics::lubricant::{DensityLaw, Lubricant, Sliding};
+use ehl_explorer::solver::physics::surfaces::{AsperityLaw, Roughness};
 use fastrand::Rng;
 use std::f64::consts::PI;
 use std::sync::Mutex;
@@ -39,6 +42,7 @@ const INCOMPRESSIBLE: Lubricant = Lubricant {
     limiting_stress: None,
     cavitation: ehl_explorer::solver::physics::lubricant::Cavitation::Penalty,
     heat: None,
+    roughness: None,
 };
 
 /// M h/R (2U)^(−½) of a rigid cylinder in an isoviscous film with Reynolds' condition, Martin 1916: with
@@ -254,4 +258,63 @@ fn random_ellipses_that_exist_converge() {
         let ratio = 0.05 * 4000f64.powf(rng.f64());
         Some(OperatingPoint { radius_y_m: Some(ratio * point.radius_m), ..point })
     });
+}
+
+/// A contact with rough surfaces, M 5…300, L 2…15, film ratio 0.1…5, of a random law and Peklenik number.
+fn drawn_rough(rng: &mut Rng, kind: ContactKind, k: usize) -> (OperatingPoint, Lubricant) {
+    let mut between = |low: f64, high: f64| low * (high / low).powf(rng.f64());
+    let (m, ratio, peklenik) = (between(5.0, 300.0), between(0.1, 5.0), between(1.0 / 3.0, 6.0));
+    let (summits, curvature) = (between(0.03, 0.06), between(1e-3, 2e-2));
+    let asperities = match k % 3 {
+        0 => AsperityLaw::GreenwoodTripp { eta_beta_sigma: summits, sigma_over_beta: curvature },
+        1 => AsperityLaw::ZhaoMaiettaChang {
+            n_beta_sigma: summits,
+            sigma_over_beta: curvature,
+            hardness: between(2e9, 8e9),
+        },
+        _ => AsperityLaw::Exponential { pressure: between(1e8, 1e10), decay: between(0.2, 0.6) },
+    };
+    let mut point = contact(kind, m, 2.0 + 13.0 * rng.f64());
+    point.sliding.slide_to_roll_ratio = 2.0 * rng.f64() - 1.0;
+    let film = match kind {
+        ContactKind::Line => point.radius_m * point.speed_group().sqrt() * moes_film(kind, point.moes()),
+        ContactKind::Point => FilmFormula::NijenbanningVennerMoes.predict(&point).film_m,
+    };
+    let shear_flow = 2.0 * rng.f64() - 1.0;
+    let roughness = Roughness { asperities, peklenik, shear_flow, ..Roughness::new(film / ratio) };
+    (point, Lubricant::default().on_rough_surfaces(Some(roughness)))
+}
+
+/// Solves random rough contacts. At least these shares converge from the first cold start, and at all.
+fn rough_contacts_converge(spec: GridSpec, count: usize, cold: f64, all: f64) {
+    let mut solver = ContactSolver::on(&spec.build().unwrap());
+    let mut rng = Rng::with_seed(62);
+    let (mut first, mut converged, mut steps) = (0, 0, Vec::new());
+    for k in 0..count {
+        let (point, lubricant) = drawn_rough(&mut rng, spec.kind(), k);
+        let solution = solver.solve(&point, lubricant, Start::Cold, &()).unwrap();
+        if solution.converged() {
+            converged += 1;
+            first += usize::from(solution.report.attempts == 1);
+            steps.push(solution.report.newton_iterations);
+        } else {
+            println!("{:?} {lubricant:?}: {}", point.moes(), solution.report.describe());
+        }
+    }
+    steps.sort_unstable();
+    println!("{count}: {first} cold, {converged} in all, median {} Newton steps", steps[steps.len() / 2]);
+    let share = |part: usize| part as f64 / count as f64;
+    assert!(share(first) >= cold && share(converged) >= all, "{first} cold, {converged} in all of {count}");
+}
+
+#[test]
+fn random_rough_lines_converge() {
+    let spec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
+    rough_contacts_converge(spec, cases(45, 1000), 0.93, 0.99);
+}
+
+#[test]
+fn random_rough_circles_converge() {
+    let spec = GridSpec::Plane(PointGridSpec::uniform(0.06, 0.1, (-4.0, 2.0, -2.0)));
+    rough_contacts_converge(spec, cases(6, 200), 0.95, 0.99);
 }

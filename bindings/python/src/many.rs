@@ -3,7 +3,7 @@
 use crate::contact::{Asked, Contact, bench_with};
 use crate::tables::structured;
 use crate::work::{Watch, long, refused, stated};
-use ehl_explorer::engine::{EngineError, Workbench, contact_columns, result_columns};
+use ehl_explorer::engine::{EngineError, Extras, Workbench, contact_columns, result_columns};
 use ehl_explorer::host::clock::Stopwatch;
 use ehl_explorer::host::pool::on_all_cores;
 use ehl_explorer::scene::{Bench, ContactRow, ContactSpec, Field, RowStatus, Words, names};
@@ -76,8 +76,9 @@ pub fn solve_many<'py>(
         let name = Words::Keywords.of(*field);
         return Err(refused(format!("{name} has {} values, but another option has {total}", values.len())));
     }
-    let heat = asked.spec.heat == Some(true);
-    let columns_of_rows = [contact_columns(), result_columns(heat)].concat();
+    let mixed = asked.spec.roughness.is_some() || columns.iter().any(|(field, _)| *field == Field::Roughness);
+    let extras = Extras { heat: asked.spec.heat == Some(true), mixed };
+    let columns_of_rows = [contact_columns(), result_columns(extras)].concat();
     let Asked { spec, model } = asked;
     let width = columns_of_rows.len();
     let (numbers, said) = long(py, progress, |watch| {

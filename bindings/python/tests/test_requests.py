@@ -34,7 +34,7 @@ WRONG = [
 WORDS = [
     "moes_m", "moes_l", "radius", "radius_y", "speed", "load", "modulus", "e1", "nu1", "viscosity", "alpha", "srr", "npr",
     "contact", "method", "rom", "grid", "dx", "dy", "domain", "cavitation", "supply_film", "lubricant", "density", "shear",
-    "shear_stress", "limiting_stress", "heat", "body1", "oil", "temperature", "colour", "", "moes-m", "M",
+    "shear_stress", "limiting_stress", "roughness", "asperities", "heat", "body1", "oil", "temperature", "colour", "", "moes-m", "M",
 ]
 
 

@@ -19,6 +19,7 @@ impl Key {
     pub fn exchanged(mut self) -> Self {
         self.point.sliding.slide_to_roll_ratio *= -1.0;
         self.lubricant.heat.iter_mut().for_each(|heat| heat.bodies.reverse());
+        self.lubricant.roughness.iter_mut().for_each(|roughness| roughness.shear_flow *= -1.0);
         self
     }
 
@@ -34,7 +35,8 @@ impl Key {
         let film = |key: &Self| {
             let (mut point, law) = (key.point, key.lubricant.shear);
             let plateau = point.sliding.newtonian_plateau_ratio.unwrap_or(law.plateau());
-            if (law == ShearLaw::Newtonian || plateau == 1.0) && key.lubricant.heat.is_none() {
+            let slides = key.lubricant.roughness.is_some_and(|roughness| roughness.shear_flow != 0.0);
+            if (law == ShearLaw::Newtonian || plateau == 1.0) && key.lubricant.heat.is_none() && !slides {
                 point.sliding.slide_to_roll_ratio = 0.0;
             }
             // In a thermal contact a limiting stress reduces the shear heating and thereby changes the film

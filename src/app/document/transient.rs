@@ -35,6 +35,7 @@ impl Document {
                 "Transient runs cover Newtonian lubricants only, not shear-thinning ones; choose one without shear constants",
             ),
             Unsupported::Heat => Some("Transient runs cover isothermal contacts only; switch heat off"),
+            Unsupported::Roughness => Some("Transient runs cover smooth surfaces only; set the roughness to zero"),
             Unsupported::MassConservingModel => None,
         })
     }

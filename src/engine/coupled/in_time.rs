@@ -254,6 +254,7 @@ impl InTime {
             film: fields.film,
             multiplier: Vec::new(),
             fraction: Vec::new(),
+            asperity_pressure: Vec::new(),
             scalars,
             report: Report { termination: Termination::Converged, ..Report::empty() },
             grid_cost: None,

@@ -11,6 +11,7 @@ use crate::solver::physics::bodies::BodyHeat;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::Dimension;
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Heat, LimitingStress, Lubricant, ViscosityLaw};
+use crate::solver::physics::surfaces::AsperityLaw;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -180,6 +181,18 @@ contact_fields! {
     limiting_stress: LimitingStress, LimitingStress, "limiting-stress",
         "Limiting shear stress τ_L0 + Λ p: τ_L0 in Pa and the slope Λ",
         { note: ", and optionally an Eyring stress in Pa that affects only the traction", placeholder: Some("TAU0,SLOPE[,TAU_E]") };
+    roughness: f64, Roughness, "roughness", "Composite rms roughness σ of both surfaces",
+        { measure: Measure::In(Dimension::Length), note: " (default: smooth surfaces)", placeholder: Some("METRES"),
+          titles: &["sigma", "σ", "rq", "sq"] };
+    asperities: AsperityLaw, Asperities, "asperities",
+        "Law of the asperity pressure: greenwood-tripp,ETA_BETA_SIGMA,SIGMA/BETA, zhao-maietta-chang,N_BETA_SIGMA,SIGMA/BETA,HARDNESS in Pa, or exponential,P0 in Pa,C",
+        { note: " (default: greenwood-tripp,0.05,0.01)", placeholder: Some("LAW,CONSTANTS") };
+    peklenik: f64, Peklenik, "peklenik", "Peklenik number γ of the roughness, above 1 for ridges along the flow",
+        { note: ", 1/9 to 9 (default: 1)", titles: &["γ"] };
+    shear_flow: f64, ShearFlow, "shear-flow", "Difference (σ₁² − σ₂²)/σ² of the roughness of both surfaces",
+        { note: ", where σ₁ is that of the surface that is faster at a positive SRR (default: 0)" };
+    boundary_friction: f64, BoundaryFriction, "boundary-friction", "Friction coefficient μ_b of touching asperities",
+        { note: " (default: 0.12)", titles: &["mu_b", "μ_b"] };
     heat: bool, Heat, "heat", "Compute temperatures of film and bodies, and their effect on film thickness and traction",
         { note: " (with <method=reduced>: line and circular contacts by the embedded thermal models, or the model of <rom>)" };
     inlet_temperature: f64, InletTemperature, "inlet-temperature",

@@ -5,6 +5,7 @@ use crate::scene::named_lubricant::{NamedLubricant, UnknownLubricant, by_name};
 use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, LimitingStress, ViscosityLaw};
+use crate::solver::physics::surfaces::AsperityLaw;
 use serde::{Deserialize, Serialize};
 use std::num::ParseFloatError;
 use std::path::PathBuf;
@@ -47,6 +48,13 @@ pub enum ValueError {
          stress that affects only the traction of a Newtonian lubricant, as in 5e6,0.05,5e6"
     )]
     LimitingStress,
+    /// Not an asperity law.
+    #[error(
+        "accepted are greenwood-tripp with ηβσ and σ/β, as in greenwood-tripp,0.05,0.01; zhao-maietta-chang with nβσ, σ/β \
+         and the hardness in Pa, as in zhao-maietta-chang,0.05,0.01,5e9; and exponential with the pressure at h = 0 in Pa and \
+         the decay length in units of σ, as in exponential,6e9,0.4"
+    )]
+    Asperities,
     /// Not three numbers.
     #[error("accepted are three numbers with commas between them, as in 2000,0.14,870")]
     ThreeNumbers,
@@ -270,6 +278,25 @@ impl Given for LimitingStress {
             Some(&[ambient, slope]) => Ok(Self { ambient, slope, eyring: None }),
             Some(&[ambient, slope, eyring]) => Ok(Self { ambient, slope, eyring: Some(eyring) }),
             _ => Err(ValueError::LimitingStress),
+        }
+    }
+}
+
+impl Given for AsperityLaw {
+    fn read(text: &str) -> Result<Self, ValueError> {
+        let (word, constants) = text.split_once(',').unwrap_or((text, ""));
+        let constants =
+            if constants.is_empty() { Vec::new() } else { numbers(constants).ok_or(ValueError::Asperities)? };
+        match (word.trim(), constants.as_slice()) {
+            ("greenwood-tripp", []) => Ok(Self::default()),
+            ("greenwood-tripp", &[eta_beta_sigma, sigma_over_beta]) => {
+                Ok(Self::GreenwoodTripp { eta_beta_sigma, sigma_over_beta })
+            }
+            ("zhao-maietta-chang", &[n_beta_sigma, sigma_over_beta, hardness]) => {
+                Ok(Self::ZhaoMaiettaChang { n_beta_sigma, sigma_over_beta, hardness })
+            }
+            ("exponential", &[pressure, decay]) => Ok(Self::Exponential { pressure, decay }),
+            _ => Err(ValueError::Asperities),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Lubricant laws of a contact specification: density, viscosity, shear thinning, cavitation, heat.
+//! Lubricant laws of a contact specification: density, viscosity, shear thinning, cavitation, heat, roughness.
 
 use super::fields::{ContactSpec, Field};
 use super::given::ShearName;
@@ -32,7 +32,9 @@ impl ContactSpec {
         }
         lubricant.density = self.density.unwrap_or(lubricant.density);
         lubricant.viscosity = self.pressure_viscosity.unwrap_or_else(|| self.usual_viscosity_law(lubricant.viscosity));
-        lubricant.cavitation = match (self.cavitation.unwrap_or_default(), self.supply_film) {
+        lubricant.roughness = self.stated_roughness()?;
+        let usual = if lubricant.is_rough() { Cavitation::Complementarity } else { Cavitation::default() };
+        lubricant.cavitation = match (self.cavitation.unwrap_or(usual), self.supply_film) {
             (Cavitation::MassConserving { .. }, Some(film)) => Cavitation::MassConserving { supply_film_m: Some(film) },
             (cavitation, None) => cavitation,
             (_, Some(_)) => {
@@ -43,6 +45,7 @@ impl ContactSpec {
                 );
             }
         };
+        self.check_beside_roughness(&lubricant)?;
         Ok(lubricant)
     }
 

@@ -4,6 +4,7 @@ use super::fields::{ContactSpec, Field};
 use crate::scene::at::At;
 use crate::scene::experiment::Experiment;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::lubricant::Cavitation;
 
 /// Fields of [`At`].
 const NUMBERS: [Field; 9] = [
@@ -91,12 +92,19 @@ impl From<At> for ContactSpec {
 impl From<&Experiment> for ContactSpec {
     fn from(experiment: &Experiment) -> Self {
         let Experiment { contact, lubricant, at, sliding, grid, .. } = *experiment;
+        let rough = lubricant.roughness;
         Self {
             contact: Some(contact),
             laws: Some(lubricant),
-            cavitation: Some(lubricant.cavitation),
+            // Stated only if it is not the default, which a roughness changes.
+            cavitation: Some(lubricant.cavitation).filter(|cavitation| *cavitation != Cavitation::default()),
             heat: Some(lubricant.heat.is_some()),
             thermal: lubricant.heat,
+            roughness: rough.map(|rough| rough.sigma),
+            asperities: rough.map(|rough| rough.asperities),
+            peklenik: rough.map(|rough| rough.peklenik),
+            shear_flow: rough.map(|rough| rough.shear_flow),
+            boundary_friction: rough.map(|rough| rough.boundary_friction),
             srr: Some(sliding.slide_to_roll_ratio),
             npr: sliding.newtonian_plateau_ratio,
             grid: Some(grid),

@@ -16,6 +16,7 @@ mod reading;
 mod refusal;
 mod request;
 mod spelling;
+mod surfaces;
 #[cfg(test)]
 mod tests;
 mod words;

@@ -4,6 +4,7 @@ use super::*;
 use crate::scene::{At, Grid, Scene, names};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, Heat, Lubricant, ShearLaw};
+use crate::solver::physics::surfaces::{AsperityLaw, Roughness};
 
 const INTERFACES: [Words; 3] = [Words::Flags, Words::Keywords, Words::Columns];
 
@@ -200,4 +201,59 @@ fn link_omits_what_equals_the_scene() {
         OperatingPoint { sliding: scene.sliding(), ..At::moes(40.0, 10.0).point(ContactKind::Line).unwrap() }
     );
     assert_eq!(ContactSpec::default().lubricant().unwrap(), Lubricant::default());
+}
+
+#[test]
+fn a_roughness_is_stated_by_its_fields_and_brings_complementarity() {
+    let rough = moes(&[
+        (Field::Roughness, "0.4 µm"),
+        (Field::Asperities, "zhao-maietta-chang,0.05,0.01,5e9"),
+        (Field::Peklenik, "3"),
+        (Field::ShearFlow, "-0.5"),
+        (Field::BoundaryFriction, "0.1"),
+    ]);
+    let lubricant = rough.request().unwrap().lubricant;
+    let wanted = Roughness {
+        sigma: 4e-7,
+        asperities: AsperityLaw::ZhaoMaiettaChang { n_beta_sigma: 0.05, sigma_over_beta: 0.01, hardness: 5e9 },
+        peklenik: 3.0,
+        shear_flow: -0.5,
+        boundary_friction: 0.1,
+    };
+    assert_eq!(lubricant.cavitation, Cavitation::Complementarity);
+    let stated = lubricant.roughness.unwrap();
+    assert!((stated.sigma / wanted.sigma - 1.0).abs() < 1e-14);
+    assert_eq!(Roughness { sigma: wanted.sigma, ..stated }, wanted);
+    let with = |field: Field, text: &'static str| {
+        let mut spec = rough.clone();
+        spec.read(field, text, "").unwrap();
+        spec.request().unwrap_err()
+    };
+    for (field, text, said) in [
+        (Field::Heat, "yes", "--heat"),
+        (Field::Cavitation, "penalty", "--cavitation complementarity"),
+        (Field::Cavitation, "mass-conserving", "--cavitation complementarity"),
+        (Field::Roughness, "-1e-7", "between 0 and 0.001"),
+        (Field::Peklenik, "12", "between 0.111"),
+        (Field::Asperities, "zhao-maietta-chang,0.05,0.01,0", "the hardness in Pa is 0"),
+        (Field::ShearFlow, "2", "between -1 and 1"),
+        (Field::BoundaryFriction, "-1", "between 0 and 2"),
+    ] {
+        let refusal = with(field, text);
+        assert!(refusal.field == field && refusal.in_words(Words::Flags).contains(said), "{refusal:?}");
+    }
+    let smooth = ContactSpec { roughness: Some(0.0), ..rough.clone() }.request().unwrap().lubricant;
+    assert!(!smooth.is_rough() && smooth.cavitation == Cavitation::Penalty);
+    let without = ContactSpec { roughness: None, ..rough.clone() }.request().unwrap_err();
+    assert!(without.in_words(Words::Keywords).contains("has no effect without roughness="), "{without:?}");
+    assert!(ContactSpec::default().read(Field::Asperities, "cones,1", "").is_err());
+    // A scene states the same, and a line of a table replaces its roughness.
+    let at = OperatingPoint::TABLE_2_1.into();
+    let scene = Scene { roughness: Some(wanted), at, ..Scene::at_moes(40.0, 10.0) };
+    let again = Scene::from_ron(&scene.to_ron().unwrap()).unwrap();
+    assert_eq!((again.laws(), again.roughness), (scene.laws(), Some(wanted)));
+    let base = ContactSpec::from(&scene.experiment());
+    assert_eq!(base.request().unwrap().lubricant, scene.laws());
+    let other = ContactSpec::read_over(&base, [(Field::Roughness, "1e-7", "")]).unwrap().request().unwrap().lubricant;
+    assert_eq!(other.roughness, Some(Roughness { sigma: 1e-7, ..wanted }));
 }

@@ -9,6 +9,7 @@ use crate::scene::bench::answer_or_full;
 use crate::scene::check;
 use crate::scene::contact_result::{ContactResult, contact_columns, result_columns};
 use crate::scene::contact_row::{ByMethods, RefusedContact, remarks};
+use crate::scene::extras::Extras;
 use crate::scene::load_cases::{CaseTable, LoadCase};
 use crate::scene::method::Method;
 use crate::scene::names;
@@ -186,8 +187,8 @@ impl Question for LoadCases {
     }
 
     fn tables(&self, rows: &[&Row]) -> Vec<Table> {
-        let heat = rows.iter().flat_map(|row| row.results()).any(|result| result.heat.is_some());
-        let (of_contact, of_result) = (contact_columns(), result_columns(heat));
+        let extras = Extras::of_results(rows.iter().flat_map(|row| row.results()));
+        let (of_contact, of_result) = (contact_columns(), result_columns(extras));
         let results = (0..self.methods.len()).map(|k| tag(&self.methods, k));
         let results = results.flat_map(|tag| of_result.iter().map(move |column| names::by(&tag, column)));
         let measured = rows.iter().any(|row| row.measured_m.is_some()).then_some(&"measured_h_c_m");

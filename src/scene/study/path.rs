@@ -4,6 +4,7 @@ use super::question::{Chart, ChartAxis, Experiment, Findings, Marks, Notice, Run
 use crate::scene::answer::Request;
 use crate::scene::contact_result::{ContactResult, contact_columns_after, result_columns};
 use crate::scene::contact_row::{ByMethods, RefusedContact, remarks};
+use crate::scene::extras::Extras;
 use crate::scene::grid::Grid;
 use crate::scene::method::Method;
 use crate::scene::names;
@@ -223,7 +224,7 @@ pub(super) fn table(name: &str, varied: &[String], methods: &[Method], rows: &[&
     let of_contact = contact_columns_after(varied);
     let mut columns: Vec<String> =
         varied.iter().map(String::as_str).chain(of_contact.iter().copied()).map(str::to_owned).collect();
-    let of_result = result_columns(has_heat(rows));
+    let of_result = result_columns(Extras::of_results(rows.iter().flat_map(|row| row.results())));
     let tags = (0..methods.len()).map(|k| tag(methods, k));
     columns.extend(tags.flat_map(|tag| of_result.iter().map(move |column| names::by(&tag, column))));
     let width = columns.len();

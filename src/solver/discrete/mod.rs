@@ -5,4 +5,5 @@ pub mod grid;
 pub mod heat;
 pub mod nodes;
 pub mod reynolds;
+pub mod rough;
 pub mod space;

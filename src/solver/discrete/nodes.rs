@@ -244,6 +244,12 @@ impl Nodes {
         (node.flow, node.flow_p, node.flow_h) = (flow, 0.0, 0.0);
     }
 
+    /// Takes over nodes that were evaluated elsewhere.
+    pub fn set(&mut self, nodes: impl Iterator<Item = Node>) {
+        self.thinning.clear();
+        self.nodes.iter_mut().zip(nodes).for_each(|(own, node)| *own = node);
+    }
+
     /// Evaluates a row at these nodes.
     #[inline]
     pub fn row(&self, geometry: &RowGeometry, penalty: f64, stencil: [usize; STENCIL]) -> Row {

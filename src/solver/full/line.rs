@@ -166,10 +166,11 @@ impl System<LineSpace> {
         let dh_0 = self.update[self.rows.len()];
         self.spread_update();
         let Backtracking { largest_step, film_loss, .. } = options.control;
-        let mut longest: f64 = 1.0;
+        let rough = self.longest_rough_step(problem, dh_0);
+        let mut longest = rough.unwrap_or(1.0);
         for (h, d) in self.film.iter().zip(&self.step_deformation) {
             let change = d + dh_0;
-            if *h > 0.0 && change < -film_loss * h {
+            if rough.is_none() && *h > 0.0 && change < -film_loss * h {
                 longest = longest.min(-film_loss * h / change);
             }
         }

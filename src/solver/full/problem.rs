@@ -4,10 +4,12 @@ use crate::solver::discrete::grid::GridError;
 use crate::solver::discrete::heat::{Course, StressLaw, WarmLaws};
 use crate::solver::discrete::nodes::Laws;
 use crate::solver::discrete::reynolds::generalized::NodeState;
+use crate::solver::discrete::rough::RoughLaws;
 use crate::solver::physics::contact::{ContactError, ContactKind, Moes, OperatingPoint};
 use crate::solver::physics::lubricant::{
     Lubricant, LubricantError, ScaledFluid, ScaledHeat, ScaledShear, ShearLaw, Sliding, WholeLubricant,
 };
+use crate::solver::physics::surfaces::ScaledRoughness;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -48,6 +50,8 @@ pub struct Problem {
     pub shear: Option<ScaledShear>,
     /// Scaled thermal properties; `None` for an isothermal problem at the inlet temperature.
     pub heat: Option<ScaledHeat>,
+    /// Scaled roughness; `None` for smooth surfaces.
+    pub rough: Option<ScaledRoughness>,
     /// Moes numbers M and L.
     pub moes: Moes,
     /// 1/λ̄ of (2.23).
@@ -114,6 +118,7 @@ impl Problem {
             fluid,
             shear,
             heat: lubricant.scaled_heat(&fluid, &point)?,
+            rough: ScaledRoughness::new(lubricant.roughness, &point),
             moes: point.moes(),
             inverse_lambda: 1.0 / point.lambda_bar(),
             supply: lubricant.cavitation.supply_film_m().map(|film| film / point.film_scale_m()),
@@ -133,6 +138,12 @@ impl Problem {
     pub fn warm_laws(&self) -> Option<WarmLaws<'_>> {
         let heat = self.heat.as_ref()?;
         Some(WarmLaws { heat, shear: self.shear.as_ref().map(|shear| StressLaw::new(shear, heat)) })
+    }
+
+    /// Returns the laws of a rough contact, or `None` for smooth surfaces.
+    pub fn rough_laws(&self) -> Option<RoughLaws<'_>> {
+        let rough = self.rough.as_ref()?;
+        Some(RoughLaws { fluid: &self.fluid, rough, inverse_lambda: self.inverse_lambda })
     }
 
     /// Returns the data for marching through a thermal film, given P, P_X and H at the stations, or `None` for an

@@ -9,13 +9,13 @@ impl Solution {
     pub fn rolling_resistance(&self) -> f64 {
         let point = &self.problem.point;
         let hertz = point.hertz();
-        let ny = self.y.len();
+        let (ny, fields) = (self.y.len(), self.film_fields());
         // ∫H dP along one line of nodes in X.
         let along = |j: usize| -> f64 {
             let at = |values: &[f64], i: usize| values[i * ny + j];
             let step = |i: usize| {
-                let film = at(&self.film, i) + at(&self.film, i - 1);
-                0.5 * film * (at(&self.pressure, i) - at(&self.pressure, i - 1))
+                let film = at(&fields.thickness, i) + at(&fields.thickness, i - 1);
+                0.5 * film * (at(&fields.pressure, i) - at(&fields.pressure, i - 1))
             };
             (self.first() + 1..self.x.len()).map(step).sum()
         };

@@ -65,6 +65,9 @@ pub struct Solution {
     pub multiplier: Vec<f64>,
     /// Film fraction θ at the nodes, the filled share of the gap; empty unless the cavitation model conserves mass.
     pub fraction: Vec<f64>,
+    /// Asperity pressure P_a at the nodes, a part of the pressure P; empty for smooth surfaces.
+    #[serde(default)]
+    pub asperity_pressure: Vec<f64>,
     /// Scalar results.
     pub scalars: Scalars,
     /// Account of how it was solved.
@@ -153,8 +156,11 @@ impl Solution {
     /// Returns the position of the cavitation boundary on the axis: the first node behind the contact with P ≤ 0.
     pub fn rupture(&self) -> Option<f64> {
         let axis: Vec<(f64, f64)> = self.profile().map(|(x, p, _)| (x, p)).collect();
-        let last = axis.iter().rposition(|&(_, p)| p > 0.0)?;
-        axis.get(last + 1).map(|&(x, _)| x)
+        match self.problem.rough {
+            // Asperities carry pressure behind the boundary, too.
+            Some(_) => self.axis_multiplier().next().map(|(x, _)| x),
+            None => axis.get(axis.iter().rposition(|&(_, p)| p > 0.0)? + 1).map(|&(x, _)| x),
+        }
     }
 
     /// Returns the position of the inlet meniscus on the axis: the first node in front of the contact with a full
@@ -183,12 +189,12 @@ impl Solution {
     pub fn traction(&self) -> Traction {
         // τ = η u_s / h with u_s = SRR u_m, and friction = ∫τ dx / w. The Poiseuille part cancels in the mean of both
         // surfaces.
-        let point = &self.problem.point;
+        let (point, fields) = (&self.problem.point, self.film_fields());
         let stress_scale = point.viscosity_pa_s * point.speed_m_per_s / point.film_scale_m();
         let stress = |k: usize| {
-            let viscosity =
-                if self.pressure[k] > 0.0 { self.problem.fluid.at(self.pressure[k]).viscosity } else { 1.0 };
-            stress_scale * viscosity / self.film[k]
+            let pressure = fields.pressure[k];
+            let viscosity = if pressure > 0.0 { self.problem.fluid.at(pressure).viscosity } else { 1.0 };
+            stress_scale * viscosity / fields.thickness[k]
         };
         Traction { per_srr: self.force_per_load(stress) }
     }

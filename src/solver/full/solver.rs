@@ -8,9 +8,11 @@ use super::heat;
 use super::newton_space::NewtonSpace;
 use super::problem::{Problem, SolveError, expect_kind};
 use super::report::{Report, Termination};
+use super::rough;
 use super::solution::{Solution, scalars_of};
 use super::system::{SolveOptions, System};
 use crate::solver::discrete::grid::{ContactGrid, GridSpec};
+use crate::solver::discrete::rough::RoughNodes;
 use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};
 use crate::solver::observer::Observer;
 use crate::solver::physics::contact::{ContactKind, FilmFormula, OperatingPoint, moes_film};
@@ -51,13 +53,30 @@ const STARVED_NEWTON: usize = 40;
 /// Initial state of one attempt.
 #[derive(Clone, Copy)]
 pub(super) enum Beginning<'a> {
-    /// Hertzian pressure; a central film thickness in units of the contact's film formula; and, for a starved inlet,
-    /// the pressure rise to the meniscus in units of the estimated one.
-    Cold(f64, f64),
+    /// Hertzian pressure.
+    Cold(ColdStart),
     /// A solution of the same kind of contact.
     Warm(&'a Solution),
     /// A neighbouring solution on a continuation path, with the extrapolated central film thickness if there is one.
     Along(&'a Solution, Option<f64>),
+}
+
+/// Film of a cold start.
+#[derive(Clone, Copy)]
+pub(super) struct ColdStart {
+    /// Central film thickness in units of the contact's film formula.
+    pub film: f64,
+    /// For a starved inlet, pressure rise to the meniscus in units of the estimated one.
+    pub rise: f64,
+    /// For rough surfaces, largest central asperity pressure P_a.
+    pub asperity_pressure: f64,
+}
+
+impl ColdStart {
+    /// Cold starts with the given film thicknesses.
+    pub(super) fn all(films: [f64; 3]) -> [Self; 3] {
+        std::array::from_fn(|k| Self { film: films[k], rise: 1.0, asperity_pressure: rough::COLD_PRESSURES[k] })
+    }
 }
 
 /// Returns the maximum number of Newton steps of all starts of a solve together, without its continuation. The
@@ -131,15 +150,16 @@ impl<S: NewtonSpace> Solver<S> {
         }
         let former = start.former(&problem);
         let mut report = Report::empty();
+        let all = ColdStart::all(S::COLD_FILMS);
         let cold = match problem.supply {
-            None => S::COLD_FILMS.map(|film| Beginning::Cold(film, 1.0)),
-            Some(_) => MENISCI.map(|rise| Beginning::Cold(S::COLD_FILMS[0], rise)),
+            None => all.map(Beginning::Cold),
+            Some(_) => MENISCI.map(|rise| Beginning::Cold(ColdStart { rise, ..all[0] })),
         };
         // Far from the middle of the map, a second cold start fails like the first one. Farther out, every cold start
         // fails.
         let load = problem.load_as_a_circle();
         let cold_starts = match load {
-            _ if problem.supply.is_some() || load <= S::COLD_M.0 => cold.len(),
+            _ if problem.supply.is_some() || problem.rough.is_some() || load <= S::COLD_M.0 => cold.len(),
             _ if load <= S::COLD_M.1 => 1,
             _ => 0,
         };
@@ -188,7 +208,7 @@ impl<S: NewtonSpace> Solver<S> {
         expect_kind(S::KIND, point)?;
         let problem = Problem::new(point, lubricant)?;
         let mut system = System::new(S::on(&self.reference, S::form_of(&self.reference, &problem))?);
-        cold_state(&mut system, &problem, S::COLD_FILMS[0], 1.0);
+        cold_state(&mut system, &problem, ColdStart::all(S::COLD_FILMS)[0]);
         Ok((system, problem))
     }
 
@@ -218,7 +238,7 @@ impl<S: NewtonSpace> Solver<S> {
         report.attempts += 1;
         let mut system = self.system_for(problem)?;
         match beginning {
-            Beginning::Cold(film, rise) => cold_state(&mut system, problem, film, rise),
+            Beginning::Cold(start) => cold_state(&mut system, problem, start),
             Beginning::Warm(former) => warm_state(&mut system, problem, former, None),
             Beginning::Along(former, film) => warm_state(&mut system, problem, former, film),
         }
@@ -260,7 +280,7 @@ impl<S: NewtonSpace> Solver<S> {
     /// Returns the current state as a solution.
     pub(super) fn solution(&mut self, problem: Problem, report: Report) -> Result<Solution, SolveError> {
         let system = self.system_for(&problem)?;
-        let System { space, pressure, film, h_0, active, fraction, .. } = self.system.insert(system);
+        let System { space, pressure, film, h_0, active, fraction, rough, .. } = self.system.insert(system);
         let (x, y) = space.grid().abscissae();
         Ok(Solution {
             problem,
@@ -271,6 +291,7 @@ impl<S: NewtonSpace> Solver<S> {
             film: film.clone(),
             multiplier: active.field(space.grid()),
             fraction: fraction.clone(),
+            asperity_pressure: rough.as_ref().map_or_else(Vec::new, RoughNodes::asperity_pressure),
             scalars: scalars_of(space.grid(), &problem, pressure, film, *h_0),
             report,
             grid_cost: None,
@@ -297,8 +318,9 @@ pub(super) fn formula_film(problem: &Problem) -> f64 {
     }
 }
 
-/// Sets the Hertzian pressure and a central film thickness of `film` times the formula.
-fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f64, rise: f64) {
+/// Sets the Hertzian pressure and the central film thickness of a cold start.
+fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, start: ColdStart) {
+    let ColdStart { film, rise, asperity_pressure } = start;
     let (x, y) = system.space.grid().abscissae();
     let hertz = x.iter().flat_map(|x| y.iter().map(move |y| (1.0 - (x * x + y * y)).max(0.0).sqrt()));
     let film = film * formula_film(problem);
@@ -312,7 +334,8 @@ fn cold_state<S: NewtonSpace>(system: &mut System<S>, problem: &Problem, film: f
         hertz.collect()
     };
     system.set_pressure(problem, &pressure);
-    system.set_central_film(problem.supply.map_or(film, |supply| film.min(supply)));
+    let film = problem.supply.map_or(film, |supply| film.min(supply));
+    system.set_central_film_above_asperities(problem, film, asperity_pressure);
     system.guess_meniscus(problem, rise);
 }
 
@@ -337,7 +360,11 @@ pub(super) fn warm_state<S: NewtonSpace>(
     match film {
         Some(film) => system.set_central_film(film),
         None if same_grid && former.problem == *problem => system.set_h_0(former.scalars.h_0),
+        None if problem.rough.is_some() => system.set_film_of_rough_start(problem, former, ratio),
         None => system.set_central_film(former.scalars.h_c * ratio),
+    }
+    if problem.rough.is_some() {
+        return;
     }
     // The initial film thickness must be positive everywhere.
     let floor = 0.2 * former.scalars.h_min * ratio;

@@ -17,6 +17,7 @@ use crate::solver::discrete::heat::WarmFilm;
 use crate::solver::discrete::nodes::{Nodes, Order};
 use crate::solver::discrete::reynolds::generalized::FilmTreatment;
 use crate::solver::discrete::reynolds::{CENTER, Row};
+use crate::solver::discrete::rough::RoughNodes;
 use crate::solver::discrete::space::Grid;
 use crate::solver::observer::{NewtonStep, Observer};
 use crate::solver::physics::lubricant::Cavitation;
@@ -57,6 +58,8 @@ pub struct System<S: NewtonSpace> {
     treatment: FilmTreatment,
     /// Temperatures of a thermal film.
     pub(super) warm: Option<WarmFilm>,
+    /// Nodes of rough surfaces.
+    pub(super) rough: Option<RoughNodes>,
     /// Equations of the unknowns at the last evaluation.
     pub rows: Vec<Row>,
     /// Cavitated set; empty for cavitation by the penalty.
@@ -111,6 +114,7 @@ impl<S: NewtonSpace> System<S> {
             thinning: None,
             treatment: FilmTreatment::default(),
             warm: None,
+            rough: None,
             rows: vec![Row::default(); u],
             active: ActiveSet::default(),
             fraction: Vec::new(),
@@ -177,6 +181,10 @@ impl<S: NewtonSpace> System<S> {
         if self.space.grid().continues() {
             far_field::write_ends(self.space.grid(), problem, &self.film, &mut self.pressure);
         }
+        if problem.rough.is_some() {
+            self.evaluate_rough(problem);
+            return self.evaluate_rows(problem, penalty);
+        }
         let Self { space, nodes, pressure, film, .. } = self;
         let laws = problem.laws();
         let order = if S::PARALLEL { Order::Parallel } else { Order::Alone };
@@ -196,18 +204,22 @@ impl<S: NewtonSpace> System<S> {
         if self.active.fills() {
             self.active.fill(self.space.grid(), &mut self.nodes);
         }
-        self.evaluate_rows(penalty)
+        self.evaluate_rows(problem, penalty)
     }
 
     /// Evaluates all equations from the nodes of the last evaluation. Returns the residual norm.
-    fn evaluate_rows(&mut self, penalty: f64) -> f64 {
-        let Self { space, nodes, rows, active, thinning, .. } = self;
+    fn evaluate_rows(&mut self, problem: &Problem, penalty: f64) -> f64 {
+        let Self { space, nodes, rows, active, thinning, pressure, .. } = self;
+        let rough = self.rough.as_ref().zip(problem.rough.as_ref());
         let nodes = &*nodes;
         let penalty = if active.holds() { 0.0 } else { penalty * far_field::stiffening(space.grid()) };
         let fills = active.fills();
         space.each_row(rows, |k, _, row| {
             let (stencil, geometry) = space.row(k);
-            *row = nodes.row(&geometry, penalty, stencil);
+            *row = match rough {
+                None => nodes.row(&geometry, penalty, stencil),
+                Some((nodes, rough)) => nodes.row(rough, &geometry, stencil),
+            };
             if fills {
                 active.by_fraction(row, &geometry, nodes, stencil);
             }
@@ -218,6 +230,9 @@ impl<S: NewtonSpace> System<S> {
         }
         if active.holds() && !fills {
             active.hold(rows, thinning);
+            if let Some((nodes, _)) = rough {
+                active.hold_on_asperities(rows, space.grid(), pressure, nodes);
+            }
         }
         let (grid, weights) = (space.grid(), space.grid().weights());
         let square = |(k, row): (usize, &Row)| weights[grid.node(k)] * row.value * row.value;
@@ -306,7 +321,8 @@ impl<S: NewtonSpace> System<S> {
             }
             let solved = linear.relative_residual < 0.5;
             if size < options.tolerance && shift.abs() < 0.1 * options.tolerance && solved && still {
-                let separated = self.film.iter().all(|&h| h > 0.0);
+                // The mean planes of rough surfaces may pass each other.
+                let separated = problem.rough.is_some() || self.film.iter().all(|&h| h > 0.0);
                 report.termination = if separated { Termination::Converged } else { Termination::Diverged };
                 break;
             }
@@ -336,6 +352,11 @@ impl<S: NewtonSpace> System<S> {
     /// Initialises the cavitated set from the pressures: nodes with negative pressure, and nodes without pressure in
     /// the outlet half. Negative pressures become zero.
     pub(super) fn begin_rupture(&mut self, problem: &Problem) {
+        if problem.rough.is_some() {
+            self.begin_rough_rupture(problem);
+            return;
+        }
+        self.rough = None;
         let Self { space, pressure, active, fraction, rows, .. } = self;
         let grid = space.grid();
         let (x, y) = grid.abscissae();
@@ -397,11 +418,8 @@ impl<S: NewtonSpace> System<S> {
         }
         let mut residual = residual;
         self.active.remember();
-        let Self { space, pressure, active, .. } = &mut *self;
-        for (k, ruptured) in active.ruptured.iter_mut().enumerate() {
-            *ruptured |= pressure[space.grid().node(k)] < 0.0;
-        }
-        let (lines, rose) = (self.space.grid().column_unknowns(), self.rise_to_zero());
+        let rose = if problem.rough.is_some() { self.join_rough_rupture() } else { self.join_rupture() };
+        let lines = self.space.grid().column_unknowns();
         if self.active.fills() {
             if self.active.release_filled(lines) || rose {
                 residual = self.evaluate(problem, penalty);
@@ -412,9 +430,18 @@ impl<S: NewtonSpace> System<S> {
             residual = self.evaluate(problem, penalty);
         }
         if self.active.release(&self.widths, lines) {
-            residual = self.evaluate_rows(penalty);
+            residual = self.evaluate_rows(problem, penalty);
         }
         (self.active.is_still(), residual)
+    }
+
+    /// Adds nodes with negative pressure to the cavitated set and raises them to zero. Returns `false` if there were none.
+    fn join_rupture(&mut self) -> bool {
+        let Self { space, pressure, active, .. } = &mut *self;
+        for (k, ruptured) in active.ruptured.iter_mut().enumerate() {
+            *ruptured |= pressure[space.grid().node(k)] < 0.0;
+        }
+        self.rise_to_zero()
     }
 
     /// Expands `update` to the node array `step` without film fractions, and computes its deformation.

@@ -1,5 +1,6 @@
 //! Shear stress in the film, and the traction (3.41) that results from it.
 
+use super::mixed::FilmFields;
 use super::problem::Problem;
 use super::solution::{Scalars, Solution};
 use crate::host::pool;
@@ -82,12 +83,12 @@ impl Solution {
     /// Thermal version of [`Self::shear_field`]; `None` for an isothermal solution.
     fn warm_shear_field(&self, heights: &[f64]) -> Option<Vec<Shear>> {
         let (heat, laws) = (self.heat.as_ref()?, self.problem.warm_laws()?);
-        let gradient = self.gradient();
+        let (gradient, fields) = (self.gradient(), self.film_fields());
         let scale = laws.heat.stress_scale_pa;
         let mut field = Vec::new();
         let axis = self.y.len() - 1;
         for (i, rise_k) in (self.first()..self.x.len()).zip(heat.along_axis()) {
-            let (state, k) = (self.state(&gradient, i, axis), i * self.y.len() + axis);
+            let (state, k) = (self.state(&fields, &gradient, i, axis), i * self.y.len() + axis);
             for &height in heights {
                 let stress =
                     heat.shear_stress[k] + laws.heat.gradient * state.film * state.gradient[0] * (height - 0.5);
@@ -110,7 +111,7 @@ impl Solution {
         if let Some(field) = self.warm_shear_field(heights) {
             return field;
         }
-        let gradient = self.gradient();
+        let (gradient, fields) = (self.gradient(), self.film_fields());
         let axis = self.y.len() - 1;
         let shear = |film: &FilmStress, height: f64| {
             let stress = film.at(height);
@@ -121,15 +122,21 @@ impl Solution {
             let rate_per_s = stress[0] * fluidity / film.viscosity_pa_s;
             Shear { stress_pa: film.limited(stress)[0], rate_per_s }
         };
-        let films =
-            (self.first()..self.x.len()).map(|i| FilmStress::new(&self.problem, self.state(&gradient, i, axis)));
+        let films = (self.first()..self.x.len())
+            .map(|i| FilmStress::new(&self.problem, self.state(&fields, &gradient, i, axis)));
         films.flat_map(|film| heights.iter().map(move |height| shear(&film, *height))).collect()
     }
 
     /// Returns the traction coefficient (3.41): the integral of the mid-film shear stress over the whole domain,
     /// divided by the load. It uses the trapezoidal rule and includes both halves of a point contact. Positive for
-    /// SRR > 0. An integral over the area with P > 0 alone would be about 0.1 to 2 % smaller.
+    /// SRR > 0. An integral over the area with P > 0 alone would be about 0.1 to 2 % smaller. The friction of touching
+    /// asperities is included.
     pub fn traction_coefficient(&self) -> f64 {
+        self.fluid_traction() + self.boundary_traction()
+    }
+
+    /// Returns the part of the traction coefficient due to the film.
+    pub fn fluid_traction(&self) -> f64 {
         if self.problem.point.sliding.slide_to_roll_ratio == 0.0 {
             return 0.0;
         }
@@ -143,19 +150,19 @@ impl Solution {
         if let Some(heat) = &self.heat {
             return heat.mid_stress_pa.clone();
         }
-        let gradient = self.gradient();
+        let (gradient, fields) = (self.gradient(), self.film_fields());
         let ny = self.y.len();
         let mut stress = vec![0.0; self.pressure.len()];
         pool::each(&mut stress, 256, |k, stress| {
-            *stress = mid_film_stress(&self.problem, self.state(&gradient, k / ny, k % ny));
+            *stress = mid_film_stress(&self.problem, self.state(&fields, &gradient, k / ny, k % ny));
         });
         stress
     }
 
-    /// Returns the pressure, its gradient and the film thickness at node (i, j).
-    fn state(&self, gradient: &PlaneGradient, i: usize, j: usize) -> NodeState {
-        let k = i * self.y.len() + j;
-        NodeState { pressure: self.pressure[k], gradient: gradient.at(&self.pressure, i, j), film: self.film[k] }
+    /// Returns the pressure, its gradient and the thickness of the film at node (i, j).
+    fn state(&self, fields: &FilmFields<'_>, gradient: &PlaneGradient, i: usize, j: usize) -> NodeState {
+        let (k, FilmFields { pressure, thickness }) = (i * self.y.len() + j, fields);
+        NodeState { pressure: pressure[k], gradient: gradient.at(pressure, i, j), film: thickness[k] }
     }
 
     /// Returns a message if every traction of its problem is unphysical. `None` in pure rolling, where there is no
@@ -198,7 +205,8 @@ impl Problem {
 
     /// Checks the shear stress at the maximum pressure, where the film is nearly parallel.
     fn doubts_stress(&self, scalars: &Scalars) -> Option<TractionDoubt> {
-        let state = NodeState { pressure: scalars.p_max, gradient: [0.0; 2], film: scalars.h_c };
+        let film = self.rough.map_or(scalars.h_c, |rough| rough.mean_gap(scalars.h_c).0);
+        let state = NodeState { pressure: scalars.p_max, gradient: [0.0; 2], film };
         let pressure_pa = scalars.p_max * self.point.hertz().pressure_pa;
         let stress_pa = mid_film_stress(self, state).abs();
         let above = stress_pa > CARRIED_PA + PLAUSIBLE_TRACTION * pressure_pa;

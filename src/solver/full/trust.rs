@@ -81,7 +81,7 @@ impl<S: NewtonSpace> System<S> {
             let row = &mut self.rows[k];
             row.value = [WEST, EAST, SOUTH, NORTH].iter().map(|&at| row.d_p[at] * missing[stencil[at]]).sum();
         }
-        let truncation = self.central_response(options, -load);
+        let truncation = self.central_response(problem, options, -load);
         let ruptured = self.active.nodes(self.space.grid());
         for k in 0..self.rows.len() {
             let coarse = self.space.wide_row(k).filter(|(stencil, _)| {
@@ -91,18 +91,21 @@ impl<S: NewtonSpace> System<S> {
             self.rows[k].value = coarse
                 .map_or(0.0, |(stencil, geometry)| -self.nodes.row(&geometry, options.penalty, stencil).value / 3.0);
         }
-        let resolution = self.central_response(options, 0.0);
+        let resolution = self.central_response(problem, options, 0.0);
         GridCost { truncation, resolution }
     }
 
     /// Returns the relative response of H_c to the values of the equations and to an additional load on the nodes.
-    fn central_response(&mut self, options: &super::SolveOptions<S::Control>, load: f64) -> f64 {
+    fn central_response(&mut self, problem: &Problem, options: &super::SolveOptions<S::Control>, load: f64) -> f64 {
         let options = super::SolveOptions { max_krylov: LINEAR.1, ..*options };
         self.solve_linear(&options, LINEAR.0, load, &());
         let shift = self.update[self.rows.len()];
         self.spread_update();
         let grid = self.space.grid();
-        (grid.central(&self.step_deformation) + shift) / grid.central(&self.film)
+        let film = grid.central(&self.film);
+        // The film thickness between rough surfaces may vanish.
+        let scale = problem.rough.map_or(film, |rough| film.abs().max(0.5 * rough.sigma));
+        (grid.central(&self.step_deformation) + shift) / scale
     }
 
     /// Returns the pressure of an endless film at the ends of the domain, node array. It is zero inside the domain

@@ -2,7 +2,8 @@
 //!
 //! The path is straight in (ln M, ln L) with the Moes numbers M and L. It begins at the nearest contact of the same
 //! shape in the middle of the map. For a starved inlet it begins at the same contact with a small inlet film
-//! thickness. It depends on the requested contact only. Each step starts from an extrapolation of the last two
+//! thickness. For rough surfaces it begins at the same contact with a high speed or, in the middle of
+//! the map, with a small roughness. It depends on the requested contact only. Each step starts from an extrapolation of the last two
 //! contacts of the path. The step length is adapted to the number of Newton iterations. Point contacts use coarser
 //! grids along X as long as these resolve the film.
 
@@ -10,13 +11,18 @@ use super::newton_space::NewtonSpace;
 use super::problem::{Problem, SolveError};
 use super::report::{Report, Termination};
 use super::solution::Solution;
-use super::solver::{Beginning, Solver, formula_film};
+use super::solver::{Beginning, ColdStart, Solver, formula_film};
 use crate::solver::discrete::space::Grid;
 use crate::solver::observer::{Observer, WalkStep};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::surfaces::Roughness;
 
 /// Inlet film thickness, in units of the contact's film formula, that clearly starves the contact.
 const THIN: f64 = 0.3;
+
+/// Film thickness of the contact's film formula, in units of σ, at which asperities carry little.
+const APART: f64 = 5.0;
 
 /// Length of the first step in ln M; a third of it in ln L.
 const FIRST_STRIDE: f64 = 0.7;
@@ -50,6 +56,10 @@ enum Path {
     },
     /// ln of the small inlet film thickness over the requested one.
     Supply(f64),
+    /// ln of the small roughness over the requested one.
+    Roughness(f64),
+    /// ln of the high speed over the requested one.
+    Speed(f64),
 }
 
 impl Path {
@@ -60,6 +70,13 @@ impl Path {
             return Self::Supply((supply.min(THIN * formula_film(problem)) / supply).ln());
         }
         let (m, l) = (problem.load_as_a_circle(), problem.moes.l);
+        if let Some(rough) = problem.rough.filter(|rough| formula_film(problem) < APART * rough.sigma) {
+            // Asperities that carry most of the load leave a film that smooth surfaces would not have.
+            return match m / S::EASY_M.1 {
+                heavier if heavier > 1.0 => Self::Speed(heavier.ln() / speed_power(problem)),
+                _ => Self::Roughness((formula_film(problem) / (APART * rough.sigma)).ln()),
+            };
+        }
         let easy_m = if continues { m } else { m.clamp(S::EASY_M.0, S::EASY_M.1) };
         let easy_l = if continues { 0.25 * S::EASY_L } else { S::EASY_L };
         Self::Loads { m: (easy_m / m).ln(), l: if l > easy_l { (easy_l / l).ln() } else { 0.0 } }
@@ -69,7 +86,8 @@ impl Path {
     fn length(&self) -> f64 {
         match self {
             Self::Loads { m, l } => m.abs() + 3.0 * l.abs(),
-            Self::Supply(thin) => thin.abs(),
+            Self::Supply(share) | Self::Roughness(share) => share.abs(),
+            Self::Speed(share) => 0.5 * share.abs(),
         }
     }
 
@@ -82,10 +100,19 @@ impl Path {
             Self::Supply(thin) => {
                 Some(Problem { supply: problem.supply.map(|supply| supply * ((1.0 - t) * thin).exp()), ..*problem })
             }
+            Self::Roughness(share) => {
+                let scaled = |rough: Roughness| Roughness { sigma: rough.sigma * ((1.0 - t) * share).exp(), ..rough };
+                let lubricant = Lubricant { roughness: problem.lubricant.roughness.map(scaled), ..problem.lubricant };
+                Problem::new(&problem.point, lubricant).ok()
+            }
+            Self::Speed(share) => {
+                let speed_m_per_s = problem.point.speed_m_per_s * ((1.0 - t) * share).exp();
+                Problem::new(&OperatingPoint { speed_m_per_s, ..problem.point }, problem.lubricant).ok()
+            }
             Self::Loads { m, l } => {
                 // Speed and load change at the same α: L grows with the fourth root of the speed.
                 let point = &problem.point;
-                let (speed, power) = (4.0 * (1.0 - t) * l, if point.kind == ContactKind::Line { 0.5 } else { 0.75 });
+                let (speed, power) = (4.0 * (1.0 - t) * l, speed_power(problem));
                 let easier = OperatingPoint {
                     speed_m_per_s: point.speed_m_per_s * speed.exp(),
                     load: point.load * ((1.0 - t) * m + power * speed).exp(),
@@ -95,6 +122,11 @@ impl Path {
             }
         }
     }
+}
+
+/// Power of 1/u_m, the speed, in the load number M.
+fn speed_power(problem: &Problem) -> f64 {
+    if problem.point.kind == ContactKind::Line { 0.5 } else { 0.75 }
 }
 
 /// Solved contact of the path.
@@ -139,8 +171,7 @@ impl<S: NewtonSpace> Solver<S> {
         let mut levels: Vec<Self> = Vec::new();
         let mut begun = None;
         let level = self.coarsening(&mut levels, &first)?;
-        for film in S::COLD_FILMS {
-            let beginning = Beginning::Cold(film, 1.0);
+        for beginning in ColdStart::all(S::COLD_FILMS).map(Beginning::Cold) {
             begun = self.step((&mut levels, level, length > 0.0), &first, beginning, most, observer, report)?;
             if begun.is_some() || report.termination == Termination::Cancelled {
                 break;

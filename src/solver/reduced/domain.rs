@@ -4,7 +4,7 @@
 use crate::solver::full::Problem;
 use crate::solver::parameters::{CIRCLES, Outside, ParameterSpace, Quantity};
 use crate::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
-use crate::solver::physics::lubricant::{Lubricant, ShearLaw, WholeLubricant};
+use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel, ShearLaw};
 use serde::{Deserialize, Serialize};
 
 /// Contacts that a reduced model covers.
@@ -15,7 +15,7 @@ pub struct Domain {
     /// Varied and fixed quantities.
     pub space: ParameterSpace,
     /// Laws of the lubricant.
-    #[serde(with = "WholeLubricant")]
+    #[serde(with = "LubricantOfModel")]
     pub lubricant: Lubricant,
 }
 
@@ -177,6 +177,9 @@ impl Domain {
 
     /// Returns a sentence if a problem has laws that the model was not trained with.
     fn other_laws(&self, problem: &Problem) -> Option<&'static str> {
+        if problem.rough.is_some() {
+            return Some("the model was trained for smooth surfaces");
+        }
         let (asked, own) = (self.with_own_constants(problem.lubricant), self.lubricant);
         match (asked.heat, own.heat) {
             (Some(_), None) => return Some("the model was trained for isothermal contacts"),

@@ -180,6 +180,9 @@ impl Online {
         if problem.heat.is_some() && !self.model.domain.heats() {
             return Err(ReducedError::Heat);
         }
+        if problem.rough.is_some() {
+            return Err(ReducedError::Roughness);
+        }
         if problem.shear.is_some() && !self.model.slides() {
             return Err(ReducedError::ShearThinning);
         }

@@ -17,6 +17,7 @@ fn refused(why: Unsupported) -> Refused {
         Unsupported::PointContact => ("contact", "must be Line"),
         Unsupported::ShearThinning => ("lubricant.shear", "must be Newtonian"),
         Unsupported::Heat => ("heat", "must be left out"),
+        Unsupported::Roughness => ("roughness", "must be left out"),
         Unsupported::MassConservingModel => ("cavitation", "must be Penalty or Complementarity"),
     };
     refuse(field, format!("{wanted}: {why}"))
@@ -48,6 +49,7 @@ pub fn check_request(request: &Request) -> Result<(), Refusal> {
             Unsupported::PointContact => (Field::Contact, "<contact> must be line"),
             Unsupported::ShearThinning => (Field::Shear, "<shear> must be newtonian"),
             Unsupported::Heat => (Field::Heat, "<heat> must be left out"),
+            Unsupported::Roughness => (Field::Roughness, "<roughness> must be left out"),
             Unsupported::MassConservingModel => (Field::Cavitation, "<cavitation> must be penalty or complementarity"),
         };
         Refusal::new(field, format!("{wanted}: {why}"))

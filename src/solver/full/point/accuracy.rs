@@ -82,7 +82,8 @@ impl Accuracy {
 }
 
 /// Returns the second difference of the film across the side lobe relative to its minimum: (H_s + H_n − 2
-/// H_min)/H_min, with the film thicknesses H_s and H_n at the neighbouring nodes across. Zero for a line contact.
+/// H_min)/H_min, with the film thicknesses H_s and H_n at the neighbouring nodes across. Zero for a line contact. For rough
+/// surfaces it is relative to half of σ at least.
 pub fn side_lobe_curvature(solution: &Solution) -> f64 {
     let ny = solution.y.len();
     let (x, y) = (solution.scalars.x_h_min, solution.scalars.y_h_min);
@@ -92,8 +93,11 @@ pub fn side_lobe_curvature(solution: &Solution) -> f64 {
     let south = j.checked_sub(1).and_then(film);
     // On the axis, the mirror image is the northern neighbour.
     let north = if j + 1 < ny { film(j + 1) } else { south };
+    let least = solution.problem.rough.map_or(0.0, |rough| 0.5 * rough.sigma);
     match (south, film(j), north) {
-        (Some(south), Some(lowest), Some(north)) if ny > 1 && lowest > 0.0 => (south + north - 2.0 * lowest) / lowest,
+        (Some(south), Some(lowest), Some(north)) if ny > 1 && lowest.max(least) > 0.0 => {
+            (south + north - 2.0 * lowest) / lowest.max(least)
+        }
         _ => 0.0,
     }
 }

@@ -137,13 +137,15 @@ impl NewtonSpace for PlaneSpace {
         let LimitedSteps { largest_step, film_loss, .. } = options.control;
         let penalised = !system.active.holds();
         system.spread_update();
+        let rough = system.longest_rough_step(problem, system.update[system.rows.len()]);
         let System { space, update, step, step_deformation, pressure, film, deformation, active, .. } = system;
         let shift = update[space.grid.unknowns()];
         let size = step.iter().fold(0.0f64, |largest, s| if s.is_nan() { *s } else { largest.max(s.abs()) });
         let mut factor = (largest_step / size).min(if penalised { memory.share(size) } else { 1.0 });
+        factor = rough.unwrap_or(factor);
         for (h, d) in film.iter().zip(&*step_deformation) {
             let change = d + shift;
-            if change < -film_loss * h {
+            if rough.is_none() && change < -film_loss * h {
                 factor = factor.min(-film_loss * h / change);
             }
         }

@@ -12,7 +12,7 @@ use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::limits::Number;
 use crate::solver::observer::{Observer, Progress};
 use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
+use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel};
 use serde::{Deserialize, Serialize};
 
 /// Definition of a transient simulation.
@@ -21,7 +21,7 @@ pub struct Transient {
     /// Reference contact.
     pub point: OperatingPoint,
     /// Lubricant of the contact.
-    #[serde(with = "WholeLubricant")]
+    #[serde(with = "LubricantOfModel")]
     pub lubricant: Lubricant,
     /// Inputs that vary in time.
     pub inputs: Inputs,

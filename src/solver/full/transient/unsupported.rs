@@ -15,6 +15,9 @@ pub enum Unsupported {
     /// Thermal contact.
     #[error("transient runs cover isothermal contacts only")]
     Heat,
+    /// Rough surfaces.
+    #[error("transient runs cover smooth surfaces only")]
+    Roughness,
     /// Mass-conserving cavitation in a reduced or linearised model.
     #[error("transient models cover cavitation by the penalty and by complementarity, not mass-conserving cavitation")]
     MassConservingModel,
@@ -32,6 +35,8 @@ impl Unsupported {
             Err(Self::ShearThinning)
         } else if lubricant.heat.is_some() {
             Err(Self::Heat)
+        } else if lubricant.is_rough() {
+            Err(Self::Roughness)
         } else {
             Ok(())
         }

@@ -7,6 +7,7 @@ use super::laws::{DensityLaw, ViscosityLaw};
 use super::scaled::{ScaledFluid, roelands_exponent, roelands_log};
 use super::shear_thinning::{LimitingStress, ShearLaw};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::surfaces::Roughness;
 use serde::{Deserialize, Serialize};
 
 /// Laws of a lubricant. The constants η₀ and α belong to the operating point.
@@ -32,9 +33,12 @@ pub struct Lubricant {
     /// field.
     #[serde(skip)]
     pub heat: Option<Heat>,
+    /// Roughness of both surfaces; `None` for smooth surfaces. Scenes give it in a separate field.
+    #[serde(skip)]
+    pub roughness: Option<Roughness>,
 }
 
-/// Serialised form of a lubricant that includes cavitation and heat, which scenes give in separate fields:
+/// Serialised form of a lubricant that includes cavitation, heat and roughness, which scenes give in separate fields:
 /// `#[serde(with = "WholeLubricant")]`.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Lubricant", deny_unknown_fields)]
@@ -45,6 +49,22 @@ pub(crate) struct WholeLubricant {
     limiting_stress: Option<LimitingStress>,
     cavitation: Cavitation,
     heat: Option<Heat>,
+    roughness: Option<Roughness>,
+}
+
+/// Serialised form of the lubricant of a reduced model, which supports smooth surfaces only: `#[serde(with =
+/// "LubricantOfModel")]`.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Lubricant", deny_unknown_fields)]
+pub(crate) struct LubricantOfModel {
+    density: DensityLaw,
+    viscosity: ViscosityLaw,
+    shear: ShearLaw,
+    limiting_stress: Option<LimitingStress>,
+    cavitation: Cavitation,
+    heat: Option<Heat>,
+    #[serde(skip)]
+    roughness: Option<Roughness>,
 }
 
 impl Lubricant {
@@ -118,6 +138,10 @@ impl Lubricant {
         }
         self.shear.check()?;
         self.cavitation.check()?;
+        if let Some(roughness) = self.roughness {
+            roughness.check()?;
+            self.check_beside_roughness()?;
+        }
         if let Some(heat) = self.heat {
             heat.check(self.viscosity, matches!(self.density, DensityLaw::Tait(_)))?;
         }
@@ -127,6 +151,40 @@ impl Lubricant {
             return Err(LubricantError(twice.to_owned()));
         }
         self.limiting_stress.iter().try_for_each(LimitingStress::check)
+    }
+
+    /// Refuses what is not supported together with rough surfaces.
+    fn check_beside_roughness(&self) -> Result<(), LubricantError> {
+        if !self.is_rough() {
+            return Ok(());
+        }
+        let refused = if self.cavitation == Cavitation::Penalty {
+            "rough surfaces need cavitation by complementarity, and not by a penalty"
+        } else if self.cavitation != Cavitation::Complementarity {
+            "rough surfaces need a flooded inlet and cavitation by complementarity; mass-conserving cavitation supports \
+             smooth surfaces only"
+        } else if self.heat.is_some() {
+            "rough surfaces are computed without heat only; leave out the heat or the roughness"
+        } else if self.shear != ShearLaw::Newtonian {
+            "rough surfaces need a Newtonian lubricant; a limiting stress with an Eyring stress limits its traction"
+        } else {
+            return Ok(());
+        };
+        Err(LubricantError(refused.to_owned()))
+    }
+
+    /// Returns true if the surfaces are rough.
+    pub fn is_rough(&self) -> bool {
+        self.roughness.is_some_and(|roughness| roughness.sigma > 0.0)
+    }
+
+    /// Returns the same laws for rough surfaces, for which the penalty is replaced by complementarity.
+    pub fn on_rough_surfaces(self, roughness: Option<Roughness>) -> Self {
+        let rough = Self { roughness, ..self };
+        match self.cavitation {
+            Cavitation::Penalty if rough.is_rough() => Self { cavitation: Cavitation::Complementarity, ..rough },
+            _ => rough,
+        }
     }
 
     /// Returns the laws that affect pressure and film thickness: all but the limiting stress, which limits traction

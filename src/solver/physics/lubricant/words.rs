@@ -34,7 +34,8 @@ impl Lubricant {
             let bent = eyring.map_or_else(String::new, |eyring| format!(", Eyring traction (tau_E {eyring:e} Pa)"));
             format!("limiting stress {ambient:e} Pa + {slope:e} p{bent}")
         });
-        [Some(viscosity), Some(density), shear, limit].into_iter().flatten().collect::<Vec<_>>().join("; ")
+        let roughness = self.roughness.filter(|_| self.is_rough()).map(|roughness| roughness.describe());
+        [Some(viscosity), Some(density), shear, limit, roughness].into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 }
 

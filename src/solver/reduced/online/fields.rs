@@ -40,6 +40,7 @@ impl Online {
             film,
             multiplier,
             fraction: Vec::new(),
+            asperity_pressure: Vec::new(),
             report: Report {
                 termination: Termination::Converged,
                 newton_iterations: solution.iterations,

@@ -1,0 +1,66 @@
+//! Rough surfaces of a contact specification.
+
+use super::fields::{ContactSpec, Field};
+use super::refusal::{Refusal, refuse};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
+use crate::solver::physics::surfaces::{Roughness, SurfaceConstant};
+
+/// Fields that have no effect on smooth surfaces.
+const OF_ROUGHNESS: [Field; 4] = [Field::Asperities, Field::Peklenik, Field::ShearFlow, Field::BoundaryFriction];
+
+impl ContactSpec {
+    /// Returns the roughness; `None` if it is not stated.
+    pub(super) fn stated_roughness(&self) -> Result<Option<Roughness>, Refusal> {
+        let Some(sigma) = self.roughness else {
+            let without = |field: Field| format!("<{}> has no effect without <roughness>; add it", field.facts().name);
+            let useless = OF_ROUGHNESS.into_iter().find(|field| self.states(*field));
+            return useless.map_or(Ok(None), |field| refuse(field, without(field)));
+        };
+        let usual = Roughness::new(sigma);
+        let roughness = Roughness {
+            sigma,
+            asperities: self.asperities.unwrap_or(usual.asperities),
+            peklenik: self.peklenik.unwrap_or(usual.peklenik),
+            shear_flow: self.shear_flow.unwrap_or(usual.shear_flow),
+            boundary_friction: self.boundary_friction.unwrap_or(usual.boundary_friction),
+        };
+        roughness.check().map_err(|error| {
+            let field = match error.constant {
+                SurfaceConstant::Roughness => Field::Roughness,
+                SurfaceConstant::Asperities(_) => Field::Asperities,
+                SurfaceConstant::Peklenik => Field::Peklenik,
+                SurfaceConstant::ShearFlow => Field::ShearFlow,
+                SurfaceConstant::BoundaryFriction => Field::BoundaryFriction,
+            };
+            Refusal::new(field, format!("<{}>: {error}", field.facts().name))
+        })?;
+        Ok(Some(roughness))
+    }
+
+    /// Refuses laws that are not supported together with rough surfaces.
+    pub(super) fn check_beside_roughness(&self, lubricant: &Lubricant) -> Result<(), Refusal> {
+        if !lubricant.is_rough() {
+            return Ok(());
+        }
+        if self.supply_film.is_some() {
+            return refuse(
+                Field::SupplyFilm,
+                "rough surfaces need a flooded inlet; leave out <supply-film> or <roughness>",
+            );
+        }
+        if lubricant.cavitation != Cavitation::Complementarity {
+            let sentence = "rough surfaces need <cavitation=complementarity>; leave <cavitation> out";
+            return refuse(Field::Cavitation, sentence);
+        }
+        if lubricant.heat.is_some() {
+            return refuse(Field::Heat, "rough surfaces are isothermal; leave out <heat> or <roughness>");
+        }
+        if lubricant.shear != ShearLaw::Newtonian {
+            let field = if self.shear.is_some() { Field::Shear } else { Field::Lubricant };
+            let sentence = "rough surfaces need a Newtonian lubricant, whose traction <limiting-stress> may limit; leave out \
+                            the shear-thinning law or <roughness>";
+            return refuse(field, sentence);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,20 @@
+//! Rough surfaces: composite roughness, flow between two rough surfaces, and pressure of their asperities.
+//!
+//! All laws depend on the separation l = h/σ. h is the distance of the mean planes of both surfaces, and σ the composite
+//! rms roughness. h is negative if the asperities are compressed below the mean planes.
+
+mod asperity_laws;
+mod asperity_table;
+mod flow_factors;
+mod mean_gap;
+mod roughness;
+mod scaled;
+#[cfg(test)]
+mod tests;
+
+pub use asperity_laws::AsperityLaw;
+pub use asperity_table::AsperityTable;
+pub use flow_factors::{FlowFactors, PEKLENIK};
+pub use mean_gap::mean_gap;
+pub use roughness::{Roughness, SurfaceConstant, SurfaceError};
+pub use scaled::ScaledRoughness;
