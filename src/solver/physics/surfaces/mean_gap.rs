@@ -25,7 +25,7 @@ pub fn mean_gap(separation: f64) -> (f64, f64) {
         term *= l * l / odd;
         sum += term;
     }
-    let share = 0.5 + density * sum;
+    let share = (0.5 + density * sum).min(1.0);
     (l * share + density, share)
 }
 
