@@ -54,7 +54,7 @@ pub fn names(shape: FilmShape) -> Vec<(Regime, [f64; 2])> {
     let places: [(Regime, &[[f64; 2]]); 4] = [
         (RigidIsoviscous, &[[0.43, 0.3], [0.43, 0.1]]),
         (ElasticIsoviscous, &[[25.0, 0.08], [60.0, 0.08], [120.0, 0.07], [300.0, 0.07]]),
-        (RigidPiezoviscous, &[[0.43, 15.0], [0.43, 25.0], [5.0, 20.0]]),
+        (RigidPiezoviscous, &[[0.43, 15.0], [0.43, 25.0], [5.0, 20.0], [40.0, 25.0]]),
         (ElasticPiezoviscous, &[[1100.0, 22.0], [1100.0, 13.5], [1100.0, 5.0], [1100.0, 2.5]]),
     ];
     let first =
