@@ -66,7 +66,7 @@ impl Lesson {
                 "<div class=\"answer\"></div>\n".repeat(LINES)
             );
         }
-        let _ = write!(text, "<h1 class=\"solutions\">{title}: solutions</h1>\n");
+        let _ = writeln!(text, "<h1 class=\"solutions\">{title}: solutions</h1>");
         for (k, step) in self.steps.iter().enumerate() {
             let (number, title) = (k + 1, escaped(&step.title));
             let _ = write!(text, "<section>\n<h2>{number}. {title}</h2>\n{}\n", paragraphs(&step.seen));

@@ -8,7 +8,7 @@ use crate::solver::physics::contact::{FilmShape, Moes};
 /// Deformation over film thickness from which the film is nearly parallel.
 const PARALLEL: f64 = 3.0;
 /// Thinning of the film by twice the load from which load matters.
-const MATTERS: f64 = 0.2;
+const MATTERS: f64 = 0.15;
 
 /// Properties of a contact that its explanation uses.
 #[derive(Clone, Copy, Debug)]

