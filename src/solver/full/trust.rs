@@ -25,6 +25,8 @@ use crate::solver::warning::{NearEnds, Warning, WideSpacing};
 
 /// Accuracy of the linear solves, and their maximum number of iterations.
 const LINEAR: (f64, usize) = (1e-4, 60);
+/// Residual of such a solve, relative to its right-hand side, above which its result is not used.
+const UNSOLVED: f64 = 0.05;
 
 impl Solution {
     /// Returns a warning if the error of the central film thickness exceeds the limit, with a sufficient grid.
@@ -81,7 +83,8 @@ impl<S: NewtonSpace> System<S> {
             let row = &mut self.rows[k];
             row.value = [WEST, EAST, SOUTH, NORTH].iter().map(|&at| row.d_p[at] * missing[stencil[at]]).sum();
         }
-        let truncation = self.central_response(problem, options, -load);
+        let [expected_truncation, expected_resolution] = self.space.mesh().spec.expected_errors(&problem.point);
+        let truncation = self.central_response(problem, options, -load).unwrap_or(expected_truncation);
         let ruptured = self.active.nodes(self.space.grid());
         for k in 0..self.rows.len() {
             let coarse = self.space.wide_row(k).filter(|(stencil, _)| {
@@ -91,21 +94,30 @@ impl<S: NewtonSpace> System<S> {
             self.rows[k].value = coarse
                 .map_or(0.0, |(stencil, geometry)| -self.nodes.row(&geometry, options.penalty, stencil).value / 3.0);
         }
-        let resolution = self.central_response(problem, options, 0.0);
+        let resolution = self.central_response(problem, options, 0.0).unwrap_or(expected_resolution);
         GridCost { truncation, resolution }
     }
 
     /// Returns the relative response of H_c to the values of the equations and to an additional load on the nodes.
-    fn central_response(&mut self, problem: &Problem, options: &super::SolveOptions<S::Control>, load: f64) -> f64 {
+    /// `None` if the linear solver does not converge, as on the finest grids of point contacts.
+    fn central_response(
+        &mut self,
+        problem: &Problem,
+        options: &super::SolveOptions<S::Control>,
+        load: f64,
+    ) -> Option<f64> {
         let options = super::SolveOptions { max_krylov: LINEAR.1, ..*options };
-        self.solve_linear(&options, LINEAR.0, load, &());
+        let solved = self.solve_linear(&options, LINEAR.0, load, &());
+        if solved.relative_residual > UNSOLVED {
+            return None;
+        }
         let shift = self.update[self.rows.len()];
         self.spread_update();
         let grid = self.space.grid();
         let film = grid.central(&self.film);
         // The film thickness between rough surfaces may vanish.
         let scale = problem.rough.map_or(film, |rough| film.abs().max(0.5 * rough.sigma));
-        (grid.central(&self.step_deformation) + shift) / scale
+        Some((grid.central(&self.step_deformation) + shift) / scale)
     }
 
     /// Returns the pressure of an endless film at the ends of the domain, node array. It is zero inside the domain

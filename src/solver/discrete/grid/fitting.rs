@@ -25,9 +25,10 @@ const RESOLUTION: f64 = 0.02;
 /// Accepted error of a grid whose solution is only an initial guess for another one.
 const ROUGH: f64 = 0.08;
 /// Length of the inlet zone below which the side lobes are narrower than those of [`PointGridSpec::EXPLORER`], and
-/// their spacing across relative to it. The error of H_min is about the square of the latter.
+/// their spacing across relative to it. The error of H_min is the square of the latter in isoviscous films, and about
+/// three times that in piezoviscous ones.
 const THIN_ZONE: f64 = 0.055;
-const LOBE: f64 = 0.2;
+const LOBE: f64 = 0.12;
 /// Minimum number of nodes along X of such a grid.
 const FEWEST_ROUGH: usize = 150;
 /// Maximum error of a graded grid due to its number of nodes or its inlet, if a better grid is available.
@@ -345,8 +346,14 @@ struct Stretched {
 }
 
 impl GridSpec {
-    /// Returns the expected relative error of H_c on this grid, by the ends of its domain and by its spacing.
+    /// Returns the expected relative error of H_c on this grid, by the ends of its domain and by its spacing together.
     pub fn expected_cost(&self, point: &OperatingPoint) -> f64 {
+        let [truncation, resolution] = self.expected_errors(point);
+        truncation + resolution
+    }
+
+    /// Returns the expected relative errors of H_c on this grid by the ends of its domain and by its spacing.
+    pub fn expected_errors(&self, point: &OperatingPoint) -> [f64; 2] {
         let (fit, moes) = (Fit::of(point), point.moes());
         let (reach, spacing) = match *self {
             Self::Uniform { dx, domain } => (-domain.0, dx),
@@ -359,7 +366,7 @@ impl GridSpec {
             Self::Plane(PointGridSpec { dx, .. }) if self.continues() => (LONGEST_INLET, dx),
             Self::Plane(PointGridSpec { dx, domain, .. }) => (f64::min(-domain.0, -2.0 * domain.2), dx),
         };
-        fit.truncation(reach) + fit.resolution(spacing)
+        [fit.truncation(reach), fit.resolution(spacing)]
     }
 
     /// True if the pressure continues beyond the ends of the domain.
