@@ -326,7 +326,7 @@ fn what_is_not_supported_is_refused_in_one_sentence() {
     };
     let starved = Cavitation::MassConserving { supply_film_m: Some(1e-7) };
     for (sentence, said) in [
-        (with(&|laws, _| laws.cavitation = Cavitation::Penalty), "not by a penalty"),
+        (with(&|laws, _| laws.cavitation = Cavitation::Penalty), "not penalty"),
         (with(&|laws, _| laws.cavitation = starved), "flooded inlet"),
         (with(&|laws, _| laws.heat = Some(Heat::default())), "without heat"),
         (with(&|laws, _| laws.shear = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }), "Newtonian"),

@@ -159,7 +159,7 @@ impl Lubricant {
             return Ok(());
         }
         let refused = if self.cavitation == Cavitation::Penalty {
-            "rough surfaces need cavitation by complementarity, and not by a penalty"
+            "rough surfaces need the cavitation model complementarity, not penalty"
         } else if self.cavitation != Cavitation::Complementarity {
             "rough surfaces need a flooded inlet and cavitation by complementarity; mass-conserving cavitation supports \
              smooth surfaces only"
