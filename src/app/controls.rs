@@ -224,6 +224,8 @@ pub fn choice<T: Copy + PartialEq>(
     let response = ComboBox::from_id_salt(label.id)
         .selected_text(chosen)
         .width(CHOICE_WIDTH)
+        // Long lists show all options on usual screens.
+        .height(0.6 * ui.ctx().content_rect().height())
         .show_ui(ui, |ui| {
             for &option in options {
                 let (name, meaning) = describe(option);

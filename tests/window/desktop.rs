@@ -63,7 +63,7 @@ fn what_is_typed_is_found_and_done() {
     assert!(harness.state().is_point() && (after.m / before.m - 1.0).abs() < 1e-9);
     ask(&mut harness, "line");
     enter(&mut harness);
-    ask(&mut harness, "squalane");
+    ask(&mut harness, "squalane with pip");
     enter(&mut harness);
     assert_eq!((harness.state().sliding().1, harness.state().point().viscosity_pa_s), (0.2227, 0.0705));
     ask(&mut harness, "run transient");

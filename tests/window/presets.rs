@@ -180,7 +180,9 @@ fn presentation_names_regimes_and_shows_all_controls() {
             let zoom = harness.ctx.zoom_factor();
             let screen = Rect::from_min_max([0.0, 0.0].into(), [size[0] / zoom, size[1] / zoom].into());
             let place = harness.get_by_label("Chart of M and L").rect();
-            assert_eq!(*chart.get_or_insert(place), place, "the axes stand still");
+            let first = *chart.get_or_insert(place);
+            let moved = (place.min - first.min).length().max((place.max - first.max).length());
+            assert!(moved < 0.1, "the axes stand still: {first} and {place}");
             let switches = ["Lock axes", "Lock the axes of Profiles"];
             let needed = ["Pressure profile", "Film profile", "Load number M", "Pin", "Undo", "End the presentation"];
             for name in needed.into_iter().chain(switches) {

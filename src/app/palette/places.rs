@@ -14,7 +14,7 @@ pub struct Place {
 pub const PLACES: [Place; 8] = [
     Place {
         name: "Load, speed and radius",
-        keywords: "contact operating point Hertz Hertzian pressure force bearing gear cam Moes M L E’ modulus viscosity",
+        keywords: "Hertz Hertzian pressure force bearing gear cam Moes M L E’ modulus viscosity",
         control: "Load number M",
     },
     Place {
