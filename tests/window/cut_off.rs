@@ -50,7 +50,7 @@ fn cut_off(shapes: &[ClippedShape], screen: Rect, fields: &[Rect]) -> BTreeSet<S
             }
             let outside = (clip.left() - place.left()).max(place.right() - clip.right());
             if text.galley.elided {
-                found.insert(format!("shortened: “{words}”"));
+                found.insert(format!("shortened: “{words}” at {place:?}"));
             } else if outside > SLACK {
                 found.insert(format!("{outside:.0} points of “{words}” at {place:?} in {clip:?}"));
             }

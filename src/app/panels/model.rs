@@ -66,7 +66,8 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
     });
 }
 
-/// Draws the title of the model, or that there is none, in two lines. The full text is shown on hover.
+/// Draws the title of the model, or that there is none, in two lines, or in three if it is long. The full text is shown
+/// on hover.
 fn title_ui(ui: &mut Ui, model: Option<&ReducedModel>, shear: ShearLaw) {
     let (text, tip) = match (model, shear) {
         (Some(model), _) => (model.title.as_str(), format!("{}\n{}", model.title, model.log.join("\n"))),
@@ -78,7 +79,7 @@ fn title_ui(ui: &mut Ui, model: Option<&ReducedModel>, shear: ShearLaw) {
     let two_lines = ui.painter().layout_no_wrap("M\nM".to_owned(), font_id.clone(), color);
     let height = two_lines.size().y.ceil() + 1.0;
     let mut job = LayoutJob::single_section(text.to_owned(), TextFormat { font_id, color, ..TextFormat::default() });
-    job.wrap.max_rows = 2;
+    job.wrap.max_rows = 3;
     ui.allocate_ui_with_layout(vec2(ui.available_width(), height), Layout::top_down(Align::LEFT), |ui| {
         ui.set_min_height(height);
         ui.label(job).on_hover_text(tip);
