@@ -51,19 +51,24 @@ const FITTED: &str = "barus-oil";
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     ui.strong("Film thickness by published formulas");
     table(ui, context);
-    ui.add_space(4.0);
-    let picture = context.answers.current_picture();
-    for reason in picture.map(|picture| reasons(&picture.solution)).unwrap_or_default() {
-        ui.label(RichText::new(reason).small());
-    }
-    let Some(fitted) = NAMED.iter().find(|named| named.name == FITTED) else { return };
-    let (own, theirs) = (context.document.lubricant, fitted.laws);
-    if own.density != theirs.density || own.viscosity != theirs.viscosity || own.shear != theirs.shear {
+    // Above the sentences, so that it does not move when a result changes them.
+    let fitted = NAMED.iter().find(|named| named.name == FITTED);
+    let own = context.document.lubricant;
+    let other = fitted.filter(|named| {
+        let laws = named.laws;
+        own.density != laws.density || own.viscosity != laws.viscosity || own.shear != laws.shear
+    });
+    if let Some(fitted) = other {
         let tip = "Selects an incompressible oil with Barus’ law, to which Moes’ formula was fitted, for this contact. \
                    Undo restores your oil";
         if ui.button("Use the fluid of the formulas").on_hover_text(tip).clicked() {
             commands.edit(Edit::Named(fitted), GROUP);
         }
+    }
+    ui.add_space(4.0);
+    let picture = context.answers.current_picture();
+    for reason in picture.map(|picture| reasons(&picture.solution)).unwrap_or_default() {
+        ui.label(RichText::new(reason).small());
     }
 }
 
