@@ -4,7 +4,8 @@ use super::table::Table;
 use crate::solver::full::{Shear, Solution};
 
 /// Returns the fields of a solution at its nodes: X, Y, P, H, the same in SI units, λ or θ of the cavitation model if
-/// the solution has one, and the asperity pressure P_a of rough surfaces, which is a part of P. For a thermal solution also the temperature rises at mid-film and of both surfaces.
+/// the solution has one, and the asperity pressure P_a of rough surfaces, which is a part of P. For a thermal solution
+/// also the temperature rises at mid-film and of both surfaces.
 pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     let mut columns = vec!["X", "Y", "P", "H", "x_m", "y_m", "p_pa", "h_m"];
     if !solution.multiplier.is_empty() {

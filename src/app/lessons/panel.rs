@@ -132,10 +132,11 @@ impl Lessons {
                 let steps = lesson.steps.len();
                 let width = vec2(ui.available_width(), 0.0);
                 let title = format!("{}. {}", k + 1, lesson.title);
-                let state = if finished.contains(&lesson.title) { "done".to_owned() } else { format!("{steps} steps") };
+                let done = finished.contains(&lesson.title);
+                let state = if done { "done".to_owned() } else { format!("{steps} steps") };
                 let button = Button::new(&title).wrap().min_size(width).shortcut_text(state);
                 let response = ui.add(button);
-                let response = described(ui, response, if finished.contains(&lesson.title) { "done" } else { "" });
+                let response = described(ui, response, if done { "done" } else { "" });
                 if named(ui, response, &title).on_hover_text(&lesson.about).clicked() {
                     chosen = Some(lesson.clone());
                 }

@@ -24,13 +24,13 @@ const TRUNCATION: f64 = 0.035;
 const RESOLUTION: f64 = 0.02;
 /// Accepted error of a grid whose solution is only an initial guess for another one.
 const ROUGH: f64 = 0.08;
+/// Minimum number of nodes along X of such a grid.
+const FEWEST_ROUGH: usize = 150;
 /// Length of the inlet zone below which the side lobes are narrower than those of [`PointGridSpec::EXPLORER`], and
 /// their spacing across relative to it. The error of H_min is the square of the latter in isoviscous films, and about
 /// three times that in piezoviscous ones.
 const THIN_ZONE: f64 = 0.055;
 const LOBE: f64 = 0.12;
-/// Minimum number of nodes along X of such a grid.
-const FEWEST_ROUGH: usize = 150;
 /// Maximum error of a graded grid due to its number of nodes or its inlet, if a better grid is available.
 const GRADED: f64 = 0.012;
 /// Spacing in front of the contact of [`GridSpec::EXPLORER`].

@@ -24,8 +24,9 @@ pub struct PointGridSpec {
     /// Inlet, outlet and outer edge (Y₀ < 0) of the half domain.
     pub domain: (f64, f64, f64),
     /// Factor by which the spacing across is finer in the side lobes, in which H_min lies; 1 is equidistant. Above 8,
-    /// the finest spacing lies close to the edge of the contact, for thin films. For a value below 1, the spacing grows from the axis to the outer edge by the inverse of this factor. Then the
-    /// pressure continues beyond the ends of the domain, for lightly loaded contacts.
+    /// the finest spacing lies close to the edge of the contact, for thin films. For a value below 1, the spacing grows
+    /// from the axis to the outer edge by the inverse of this factor. Then the pressure continues beyond the ends of the
+    /// domain, for lightly loaded contacts.
     #[serde(default = "equidistant")]
     pub refinement: f64,
 }
