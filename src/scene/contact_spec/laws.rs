@@ -45,7 +45,7 @@ impl ContactSpec {
                 );
             }
         };
-        self.check_beside_roughness(&lubricant)?;
+        self.check_with_roughness(&lubricant)?;
         Ok(lubricant)
     }
 

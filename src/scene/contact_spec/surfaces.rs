@@ -2,7 +2,7 @@
 
 use super::fields::{ContactSpec, Field};
 use super::refusal::{Refusal, refuse};
-use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
+use crate::solver::physics::lubricant::{Lubricant, RoughnessConflict};
 use crate::solver::physics::surfaces::{Roughness, SurfaceConstant};
 
 /// Fields that have no effect on smooth surfaces.
@@ -38,29 +38,27 @@ impl ContactSpec {
     }
 
     /// Refuses laws that are not supported together with rough surfaces.
-    pub(super) fn check_beside_roughness(&self, lubricant: &Lubricant) -> Result<(), Refusal> {
-        if !lubricant.is_rough() {
-            return Ok(());
-        }
-        if self.supply_film.is_some() {
+    pub(super) fn check_with_roughness(&self, lubricant: &Lubricant) -> Result<(), Refusal> {
+        if self.supply_film.is_some() && lubricant.is_rough() {
             return refuse(
                 Field::SupplyFilm,
                 "rough surfaces need a flooded inlet; leave out <supply-film> or <roughness>",
             );
         }
-        if lubricant.cavitation != Cavitation::Complementarity {
-            let sentence = "rough surfaces need <cavitation=complementarity>; leave <cavitation> out";
-            return refuse(Field::Cavitation, sentence);
-        }
-        if lubricant.heat.is_some() {
-            return refuse(Field::Heat, "rough surfaces are isothermal; leave out <heat> or <roughness>");
-        }
-        if lubricant.shear != ShearLaw::Newtonian {
-            let field = if self.shear.is_some() { Field::Shear } else { Field::Lubricant };
-            let sentence = "rough surfaces need a Newtonian lubricant, whose traction <limiting-stress> may limit; leave out \
-                            the shear-thinning law or <roughness>";
-            return refuse(field, sentence);
-        }
-        Ok(())
+        let (field, sentence) = match lubricant.conflict_with_roughness() {
+            None => return Ok(()),
+            Some(RoughnessConflict::Cavitation) => {
+                (Field::Cavitation, "rough surfaces need <cavitation=complementarity>; leave <cavitation> out")
+            }
+            Some(RoughnessConflict::Heat) => {
+                (Field::Heat, "rough surfaces are isothermal; leave out <heat> or <roughness>")
+            }
+            Some(RoughnessConflict::Shear) => (
+                if self.shear.is_some() { Field::Shear } else { Field::Lubricant },
+                "rough surfaces need a Newtonian lubricant, whose traction <limiting-stress> may limit; leave out the \
+                 shear-thinning law or <roughness>",
+            ),
+        };
+        refuse(field, sentence)
     }
 }

@@ -67,6 +67,17 @@ pub(crate) struct LubricantOfModel {
     roughness: Option<Roughness>,
 }
 
+/// Law that is not supported together with rough surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum RoughnessConflict {
+    /// Cavitation other than by complementarity.
+    Cavitation,
+    /// Temperatures.
+    Heat,
+    /// A shear-thinning law of the film.
+    Shear,
+}
+
 impl Lubricant {
     /// Computes the constants of the laws at an operating point.
     ///
@@ -140,7 +151,7 @@ impl Lubricant {
         self.cavitation.check()?;
         if let Some(roughness) = self.roughness {
             roughness.check()?;
-            self.check_beside_roughness()?;
+            self.check_with_roughness()?;
         }
         if let Some(heat) = self.heat {
             heat.check(self.viscosity, matches!(self.density, DensityLaw::Tait(_)))?;
@@ -153,24 +164,37 @@ impl Lubricant {
         self.limiting_stress.iter().try_for_each(LimitingStress::check)
     }
 
-    /// Refuses what is not supported together with rough surfaces.
-    fn check_beside_roughness(&self) -> Result<(), LubricantError> {
-        if !self.is_rough() {
-            return Ok(());
-        }
-        let refused = if self.cavitation == Cavitation::Penalty {
-            "rough surfaces need the cavitation model complementarity, not penalty"
-        } else if self.cavitation != Cavitation::Complementarity {
-            "rough surfaces need a flooded inlet and cavitation by complementarity; mass-conserving cavitation supports \
-             smooth surfaces only"
-        } else if self.heat.is_some() {
-            "rough surfaces are computed without heat only; leave out the heat or the roughness"
-        } else if self.shear != ShearLaw::Newtonian {
-            "rough surfaces need a Newtonian lubricant; a limiting stress with an Eyring stress limits its traction"
-        } else {
-            return Ok(());
+    /// Refuses laws that are not supported together with rough surfaces.
+    fn check_with_roughness(&self) -> Result<(), LubricantError> {
+        let refused = match self.conflict_with_roughness() {
+            None => return Ok(()),
+            Some(RoughnessConflict::Cavitation) if self.cavitation == Cavitation::Penalty => {
+                "rough surfaces need the cavitation model complementarity, not penalty"
+            }
+            Some(RoughnessConflict::Cavitation) => {
+                "rough surfaces need a flooded inlet and cavitation by complementarity; mass-conserving cavitation \
+                 supports smooth surfaces only"
+            }
+            Some(RoughnessConflict::Heat) => {
+                "rough surfaces are computed without heat only; leave out the heat or the roughness"
+            }
+            Some(RoughnessConflict::Shear) => {
+                "rough surfaces need a Newtonian lubricant; a limiting stress with an Eyring stress limits its traction"
+            }
         };
         Err(LubricantError(refused.to_owned()))
+    }
+
+    /// Returns the first law that is not supported together with the roughness. `None` if all are, and for smooth
+    /// surfaces.
+    pub(crate) fn conflict_with_roughness(&self) -> Option<RoughnessConflict> {
+        match () {
+            () if !self.is_rough() => None,
+            () if self.cavitation != Cavitation::Complementarity => Some(RoughnessConflict::Cavitation),
+            () if self.heat.is_some() => Some(RoughnessConflict::Heat),
+            () if self.shear != ShearLaw::Newtonian => Some(RoughnessConflict::Shear),
+            () => None,
+        }
     }
 
     /// Returns true if the surfaces are rough.
