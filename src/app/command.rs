@@ -5,6 +5,7 @@ use super::display::Thresholds;
 use super::document::Edit;
 use super::in_use::InUse;
 use super::layouts::Layout;
+use super::panels::sliders::ChosenSliders;
 use super::purpose::{Purpose, Written};
 use super::sheets::Form;
 use super::tab::Tab;
@@ -67,6 +68,8 @@ pub enum Command {
     Palette,
     /// Switches the presentation mode, which shows only plots and sliders, enlarged.
     Presentation,
+    /// Sets the sliders of presentations.
+    PresentSliders(ChosenSliders),
     /// Shows or hides the full solution over the reduced one.
     Overlay,
     /// Shows or hides the difference between reduced and full solution.

@@ -3,6 +3,7 @@
 use super::answers::picture::Cuts;
 use super::numbers;
 use super::units::Units;
+use crate::app::panels::sliders::ChosenSliders;
 use crate::app::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 
@@ -66,6 +67,8 @@ pub struct Display {
     pub light_presentation: bool,
     /// Units of plots and exports.
     pub units: Units,
+    /// Sliders of presentations.
+    pub sliders: ChosenSliders,
 }
 
 impl Display {
@@ -84,6 +87,7 @@ impl Default for Display {
             why: false,
             light_presentation: true,
             units: Units::default(),
+            sliders: ChosenSliders::default(),
         }
     }
 }

@@ -102,6 +102,7 @@ impl Explorer {
             }
             Command::Arrange(layout) => {
                 self.tree = layout.tree(ctx.content_rect().width());
+                desk.tabs.regimes.choices.training_points = layout == Layout::ModelReduction;
                 if layout == Layout::Engineer {
                     self.desk.display.units = Units::Si;
                 }
@@ -125,6 +126,7 @@ impl Explorer {
                 desk.display.theme = theme;
                 ctx.set_theme(theme);
             }
+            Command::PresentSliders(chosen) => desk.display.sliders = chosen,
             Command::LightPresentation => desk.display.light_presentation = !desk.display.light_presentation,
             Command::LargerText => self.set_zoom(self.desk.display.zoom * 1.1),
             Command::SmallerText => self.set_zoom(self.desk.display.zoom / 1.1),

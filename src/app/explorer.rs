@@ -36,11 +36,14 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Screen height up to which a presentation shows no read-outs \[points\].
-const LOW: f32 = 500.0;
+const LOW: f32 = 460.0;
 /// Width of all tabs below which their titles are closely spaced.
 const NARROW: f32 = 900.0;
-/// Minimum height of the read-outs.
+/// Height of a row of read-outs. Two rows are reserved in windows that are narrower than the one and at least as high as
+/// the other.
 const READOUTS: f32 = 24.0;
+const ONE_ROW: f32 = 1400.0;
+const TWO_ROWS: f32 = 700.0;
 
 /// Window of the program.
 pub struct Explorer {
@@ -195,7 +198,10 @@ impl Explorer {
     fn readouts_ui(&self, ui: &mut Ui, in_time: bool) {
         Panel::bottom("readouts").show(ui, |ui| {
             // The height is constant, so that nothing above moves.
-            ui.set_min_height(READOUTS);
+            let screen = ui.ctx().content_rect();
+            let one = self.desk.presentation.is_some() || screen.width() >= ONE_ROW || screen.height() < TWO_ROWS;
+            let rows = if one { 1.0 } else { 2.0 };
+            ui.set_min_height(rows * READOUTS);
             let context = self.desk.context();
             if !in_time || !panels::moment::ui(ui, &context) {
                 panels::readouts::ui(ui, &context);
@@ -222,6 +228,7 @@ impl Explorer {
             point: self.desk.document.point,
             plateau_ratio: self.desk.document.plateau_ratio(),
             lubricant: self.desk.document.lubricant,
+            composite_roughness_m: self.desk.document.composite_roughness_m(),
             tabs: layouts::seen(&self.tree),
             pins: self.desk.answers.pins().len(),
             checked: self.desk.answers.comparison().is_some() && self.desk.answers.picture_is_current(),
@@ -327,9 +334,9 @@ impl Explorer {
                 panels::sliders::side_by_side(ui, &context, (&chosen, &free), &mut entries, commands);
             });
         } else if context.presenting {
-            let locked = !desk.locked.is_empty();
+            let bar = (!desk.locked.is_empty(), desk.display.sliders);
             Panel::bottom("presentation").show(ui, |ui| {
-                panels::presentation::ui(ui, &context, locked, &mut entries, commands);
+                panels::presentation::ui(ui, &context, bar, &mut entries, commands);
             });
         } else {
             Panel::top("menu").show(ui, |ui| panels::menu::ui(ui, desk, commands));
@@ -339,6 +346,7 @@ impl Explorer {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     panels::operating_point::ui(ui, &context, &mut entries, commands);
                     panels::bodies::ui(ui, context.document, &mut entries, commands);
+                    panels::surfaces::ui(ui, &context, &mut entries, commands);
                     panels::lubricant::ui(ui, context.document, &mut own_laws, &mut entries, commands);
                     panels::model::ui(ui, &context, commands);
                     panels::plane::ui(ui, &context, commands);

@@ -72,7 +72,8 @@ impl Bench for Workbench {
         observer: &dyn TrainingObserver,
     ) -> Result<Answer, EngineError> {
         let point = Problem::new(&request.point, request.lubricant)?.point;
-        let grid = request.grid.for_contact(&point).map_err(SolveError::from)?;
+        let fitted = request.lubricant.grid_contact(&point);
+        let grid = request.grid.for_contact(&fitted).map_err(SolveError::from)?;
         let request = &Request { grid, ..request.clone() };
         if observer.cancelled() {
             return Err(EngineError::Cancelled);
@@ -139,9 +140,10 @@ impl Bench for Workbench {
 
     fn grid(&mut self, request: &Request, observer: &dyn TrainingObserver) -> Result<ContactGrid, EngineError> {
         let kind = request.point.kind;
-        let grid = request.grid.for_contact(&request.point).map_err(SolveError::from)?;
+        let fitted = request.lubricant.grid_contact(&request.point);
+        let grid = request.grid.for_contact(&fitted).map_err(SolveError::from)?;
         let spec = match kind {
-            _ if grid == Grid::Graded => Some(GridSpec::explorer_for(&request.point).map_err(SolveError::from)?),
+            _ if grid == Grid::Graded => Some(GridSpec::explorer_for(&fitted).map_err(SolveError::from)?),
             ContactKind::Line => grid.spec(),
             ContactKind::Point => grid.point_spec().map(GridSpec::Plane),
         };

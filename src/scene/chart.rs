@@ -18,6 +18,8 @@ pub struct Chart {
     pub map: Option<Map>,
     /// Filled areas behind the series.
     pub bands: Vec<Band>,
+    /// Filled polygons behind the series.
+    pub areas: Vec<Area>,
     /// Text notes inside the axes.
     pub notes: Vec<Note>,
     /// True if both axes have the same scale.
@@ -89,6 +91,17 @@ pub struct Band {
     pub opacity: f64,
 }
 
+/// Filled polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Area {
+    /// Corners in order, always finite.
+    pub corners: Vec<[f64; 2]>,
+    /// Its colour.
+    pub color: Rgb,
+    /// Opacity, 0 to 1.
+    pub opacity: f64,
+}
+
 /// Text at a position in the axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
@@ -127,6 +140,7 @@ impl Chart {
             series: Vec::new(),
             map: None,
             bands: Vec::new(),
+            areas: Vec::new(),
             notes: Vec::new(),
             equal: false,
             marked: false,

@@ -212,6 +212,8 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::MIXED_P_A_C, In::Mixed, |r| number(r.mixed?.p_a_c)),
     (names::MIXED_BOUNDARY_TRACTION, In::Mixed, |r| number(r.mixed?.boundary_traction)),
     (names::MIXED_FLUID_TRACTION, In::Mixed, |r| number(r.mixed?.fluid_traction)),
+    (names::MIXED_REAL_CONTACT_AREA, In::Mixed, |r| number(r.mixed?.real_contact_area?)),
+    (names::MIXED_WEAR, In::Mixed, |r| number(r.mixed?.wear_m_per_s?)),
     (names::MID_FILM_RISE, In::Heat, |r| number(r.heat?.central.mid_film_k)),
     (names::SURFACE_1_RISE, In::Heat, |r| number(r.heat?.central.surfaces_k[0])),
     (names::SURFACE_2_RISE, In::Heat, |r| number(r.heat?.central.surfaces_k[1])),

@@ -17,6 +17,10 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     if !solution.asperity_pressure.is_empty() {
         columns.extend(["P_a", "p_a_pa"]);
     }
+    let wear: Option<Vec<f64>> = solution.wear_rates().map(Iterator::collect);
+    if wear.is_some() {
+        columns.push("wear_m_per_s");
+    }
     let heat = solution.heat.as_deref();
     if heat.is_some() {
         columns.extend(["mid_film_rise_k", "surface_1_rise_k", "surface_2_rise_k"]);
@@ -31,6 +35,9 @@ pub fn profile_table(name: impl Into<String>, solution: &Solution) -> Table {
     }
     for (row, carried) in table.rows.iter_mut().zip(solution.asperity_pressures()) {
         row.extend([carried, carried * hertz.pressure_pa]);
+    }
+    for (row, rate) in table.rows.iter_mut().zip(wear.into_iter().flatten()) {
+        row.push(rate);
     }
     for (row, at) in table.rows.iter_mut().zip(heat.iter().flat_map(|heat| heat.rises())) {
         row.push(at.mid_film_k);

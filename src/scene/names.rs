@@ -70,6 +70,8 @@ names! {
     MIXED_P_A_C "mixed.P_a_c"
     MIXED_BOUNDARY_TRACTION "mixed.boundary_traction"
     MIXED_FLUID_TRACTION "mixed.fluid_traction"
+    MIXED_REAL_CONTACT_AREA "mixed.real_contact_area"
+    MIXED_WEAR "mixed.wear_m_per_s"
     MID_FILM_RISE "heat.mid_film_rise_k"
     SURFACE_1_RISE "heat.surface_1_rise_k"
     SURFACE_2_RISE "heat.surface_2_rise_k"

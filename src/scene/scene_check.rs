@@ -11,6 +11,7 @@ use crate::solver::limits::plain;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
+use crate::solver::physics::surfaces::LARGEST_RMS;
 
 impl Scene {
     /// Refuses values that are not finite or out of range, and names the field.
@@ -58,6 +59,9 @@ fn view(view: &View) -> Checked {
         loss.iter().try_for_each(|&loss| number(&format!("view.{field}"), loss, 1e-16, 0.99))?;
     }
     let (low, high) = Quantity::RadiusY.range();
+    for rms in view.surfaces.iter().flatten() {
+        number("view.surfaces", *rms, 0.0, LARGEST_RMS)?;
+    }
     view.radius_y_m.iter().try_for_each(|&radius_y| number("view.radius_y_m", radius_y, low, high))?;
     if !view.when_m_moves.partners().contains(&view.when_l_moves) {
         let partners = view.when_m_moves.partners().iter().map(|p| format!("{p:?}")).collect::<Vec<_>>().join(", ");

@@ -4,6 +4,7 @@ use super::written::is_default;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::Bodies;
 use crate::solver::physics::engineering::Oil;
+use crate::solver::physics::surfaces::HeightMeasure;
 use serde::{Deserialize, Serialize};
 
 /// Explorer settings of a scene: which quantities follow when a slider moves, and how the reduced model is truncated.
@@ -17,6 +18,9 @@ pub struct View {
     /// Quantity that follows when L moves; must be one of [`LoadFollower::partners`].
     #[serde(skip_serializing_if = "is_default")]
     pub when_l_moves: LubricantFollower,
+    /// Quantity that stays constant when a line contact becomes a point contact, or the reverse.
+    #[serde(skip_serializing_if = "is_default")]
+    pub new_shape_keeps: ShapeKeeps,
     /// SI quantities that stay constant when M or L moves.
     #[serde(skip_serializing_if = "is_default")]
     pub held: Held,
@@ -26,6 +30,12 @@ pub struct View {
     /// Bodies from which R, E′, u_m and SRR were entered.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bodies: Option<Bodies>,
+    /// Rms roughness \[m\] of body 1 and body 2 for the film ratio, if no bodies were entered.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surfaces: Option<[f64; 2]>,
+    /// Measure in which roughness is displayed and typed.
+    #[serde(skip_serializing_if = "is_default")]
+    pub height_measure: HeightMeasure,
     /// R_y \[m\] of the last elliptical contact, stored while a line or circular contact is selected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_y_m: Option<f64>,
@@ -38,6 +48,30 @@ pub struct View {
     /// True to compute the deformation of the reduced model through V_δ, as in the dissertation, and not exactly.
     #[serde(skip_serializing_if = "is_default")]
     pub projected_deformation: bool,
+}
+
+/// Quantity that determines the load when a line contact becomes a point contact, or the reverse. The load itself has
+/// another unit then.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum ShapeKeeps {
+    /// M.
+    #[default]
+    LoadNumber,
+    /// p_H.
+    HertzPressure,
+}
+
+impl ShapeKeeps {
+    /// All choices.
+    pub const ALL: [Self; 2] = [Self::LoadNumber, Self::HertzPressure];
+
+    /// Returns the name shown to users.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LoadNumber => "load number M",
+            Self::HertzPressure => "Hertz pressure",
+        }
+    }
 }
 
 /// Set of SI quantities. In files, a list of their names.
@@ -161,9 +195,12 @@ mod tests {
         let view = View {
             when_m_moves: LoadFollower::Radius,
             when_l_moves: LubricantFollower::Speed,
+            new_shape_keeps: ShapeKeeps::HertzPressure,
             held: vec![Quantity::Radius, Quantity::RadiusY].into(),
             oil: None,
             bodies: Some(Bodies::on_plane(0.01, 1.0, 0.1)),
+            surfaces: Some([1e-7, 2e-7]),
+            height_measure: HeightMeasure::Ra,
             radius_y_m: Some(0.02),
             pressure_loss: Some(1.25e-7),
             deformation_loss: Some(3e-9),

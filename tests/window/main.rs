@@ -24,6 +24,7 @@ mod lessons;
 mod presets;
 mod results_tab;
 mod rupture;
+mod surfaces;
 mod tpwl_tab;
 mod traction_tab;
 mod training_tab;

@@ -214,3 +214,27 @@ fn presentation_names_regimes_and_shows_all_controls() {
         assert!(!locked(&harness), "and the axes follow the contact again");
     }
 }
+
+#[test]
+fn sliders_of_a_presentation_are_chosen() {
+    let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), [1280.0, 800.0]);
+    wait(&mut harness, "the picture", |app| !app.busy() && app.central_film().is_some());
+    let film = harness.state().central_film().unwrap();
+    press(&mut harness, Modifiers::NONE, Key::F11);
+    assert!(harness.query_by_label("Slider of the speed").is_none());
+    for name in ["Entrainment speed u_m [m/s]", "Load w [N/m or N]"] {
+        click(&mut harness, "Sliders");
+        click(&mut harness, name);
+        press(&mut harness, Modifiers::NONE, Key::Escape);
+    }
+    assert!(harness.query_by_label("Load number M").is_none(), "only what was chosen");
+    crate::driver::set(&mut harness, Role::Slider, "Slider of the speed", 10.0);
+    wait(&mut harness, "the faster contact", |app| app.central_film().is_some_and(|other| other > 1.5 * film));
+    crate::driver::set(&mut harness, Role::Slider, "Slider of the load", 100.0);
+    // The read-outs stay in view.
+    let place = harness.query_all_by_label("µ").next().expect("read-outs").rect();
+    assert!(place.bottom() <= 800.0, "{place:?}");
+    click(&mut harness, "Sliders");
+    click(&mut harness, "Usual sliders");
+    assert!(harness.query_by_label("Load number M").is_some());
+}

@@ -5,7 +5,7 @@ use crate::app::document::Key;
 use crate::app::numbers;
 use crate::engine::{Answer, ContactResult, Warning};
 use crate::solver::full::point::side_lobe_error;
-use crate::solver::full::{Problem, Solution, TractionDoubt};
+use crate::solver::full::{Mixed, Problem, Solution, TractionDoubt};
 use crate::solver::reduced::ErrorEstimate;
 use egui_plot::PlotPoint;
 use serde::{Deserialize, Serialize};
@@ -28,6 +28,8 @@ pub struct Across {
     pub pressure: Vec<PlotPoint>,
     /// H against Y.
     pub film: Vec<PlotPoint>,
+    /// P_a against Y; empty for smooth surfaces.
+    pub asperities: Vec<PlotPoint>,
 }
 
 /// Method that computed a picture.
@@ -104,6 +106,10 @@ pub struct Picture {
     pub traction: f64,
     /// Reason why the traction coefficient is not physical, if it is not.
     pub unphysical: Option<TractionDoubt>,
+    /// Results of rough surfaces; `None` for smooth ones.
+    pub mixed: Option<Mixed>,
+    /// Asperity pressure P_a against X; empty for smooth surfaces.
+    pub asperities: Vec<PlotPoint>,
     /// X at which cavitation begins. `None` without cavitation.
     pub rupture: Option<f64>,
     /// X of the inlet meniscus of a starved contact.
@@ -140,6 +146,8 @@ impl Picture {
             across: Across::default(),
             traction,
             unphysical: solution.problem.doubts_traction(traction, &solution.scalars),
+            mixed: solution.mixed(),
+            asperities: Vec::new(),
             rupture: solution.rupture(),
             meniscus: solution.meniscus(),
             spike: solution.spike(),
@@ -161,6 +169,7 @@ impl Picture {
         self.solution = of_contact(Arc::clone(&self.solution), &key);
         self.key = key;
         self.traction = self.solution.traction_coefficient();
+        self.mixed = self.solution.mixed();
         let former = self.unphysical.map(Warning::from);
         self.unphysical = self.solution.problem.doubts_traction(self.traction, &self.solution.scalars);
         self.warnings.retain(|warning| Some(warning) != former.as_ref());
@@ -208,7 +217,17 @@ impl Picture {
         };
         let (along, across) = (self.solution.along(self.cuts.y), self.solution.across(self.cuts.x));
         (self.pressure, self.film) = (curve(&along, |node| node.1), curve(&along, |node| node.2));
-        self.across = Across { pressure: curve(&across, |node| node.1), film: curve(&across, |node| node.2) };
+        let problem = self.solution.problem;
+        let asperities = |nodes: &[(f64, f64, f64)]| match self.mixed {
+            Some(_) => nodes.iter().map(|node| PlotPoint::new(node.0, problem.asperity_pressure(node.2))).collect(),
+            None => Vec::new(),
+        };
+        self.asperities = asperities(&along);
+        self.across = Across {
+            pressure: curve(&across, |node| node.1),
+            film: curve(&across, |node| node.2),
+            asperities: asperities(&across),
+        };
     }
 
     /// Returns true if a solution of the same contact uses the same grid.

@@ -44,8 +44,14 @@ impl Answers {
         let ask = Ask::of(document, &self.work.models);
         if self.asked() != Some(ask) {
             let line = document.chosen_plane().is_none();
-            let grid =
-                line.then(|| GridChoice::of(self.model(document).map(Arc::as_ref), None, &document.point).spec());
+            let grid = line.then(|| {
+                GridChoice::of(
+                    self.model(document).map(Arc::as_ref),
+                    None,
+                    &document.lubricant.grid_contact(&document.point),
+                )
+                .spec()
+            });
             self.on(Event::LineGrid(grid));
             self.follow(ctx, document, Event::Asked(ask, self.untried(document), ctx.input(|i| i.time)));
         }
@@ -113,7 +119,7 @@ impl Answers {
         let own = self.passed_over().is_none() || chosen.is_none();
         let plane = chosen.map(|plane| if kind == JobKind::Live { quick(plane) } else { plane });
         let model = self.model(document).filter(|_| own).map(Arc::as_ref);
-        let grid = GridChoice::of(model, plane, &key.point);
+        let grid = GridChoice::of(model, plane, &key.lubricant.grid_contact(&key.point));
         // A final solution must depend on its request alone. A sketch is soon replaced and may therefore start from
         // the picture.
         let sketch = kind == JobKind::Live && plane != chosen;

@@ -27,6 +27,10 @@ pub enum Edit {
     Oil(Option<Oil>),
     /// Sets the bodies that determine R, E′, u_m and SRR.
     Bodies(Bodies),
+    /// Sets the rms roughness of body 1 and body 2 \[m\].
+    Surfaces([f64; 2]),
+    /// Sets whether asperities carry load.
+    Mixed(bool),
     /// Sets whether temperatures are computed.
     Heat(bool),
     /// Sets the material of a body, 0 or 1.
@@ -67,6 +71,8 @@ impl Document {
             Edit::Oil(Some(oil)) => return self.set_oil(oil),
             Edit::Oil(None) => self.view.oil = None,
             Edit::Bodies(bodies) => return self.set_bodies(bodies),
+            Edit::Surfaces(rms_m) => return self.set_surfaces(rms_m),
+            Edit::Mixed(on) => return self.switch_mixed(on),
             Edit::Heat(on) => return self.switch_heat(on),
             Edit::Material(body, material) => return self.set_material(body, material),
             Edit::Shape(shape) => return self.set_shape(shape),

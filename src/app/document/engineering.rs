@@ -61,7 +61,11 @@ impl Document {
             // An elliptical contact with a plane needs a body with both radii.
             let first = point.radius_y_m.map_or(first, |radius_y| first.with_transverse_radius_m(Some(radius_y)));
             let [own, other] = self.lubricant.heat.unwrap_or_default().bodies;
-            Bodies([first.conducting(own), second.conducting(other)])
+            let mut bodies = [first.conducting(own), second.conducting(other)];
+            if let Some(surfaces) = self.view.surfaces {
+                bodies.iter_mut().zip(surfaces).for_each(|(body, rms)| body.roughness_m = rms);
+            }
+            Bodies(bodies)
         })
     }
 

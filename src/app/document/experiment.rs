@@ -73,7 +73,8 @@ impl Document {
     /// Returns the chosen grid of a point contact. If none was chosen, returns a graded grid that is sufficient for
     /// the contact. `None` for a line contact.
     pub fn chosen_plane(&self) -> Option<PointGridSpec> {
-        let fitted = |graded: PointGridSpec| graded.for_contact(&self.point).unwrap_or(graded);
+        let fitted =
+            |graded: PointGridSpec| graded.for_contact(&self.lubricant.grid_contact(&self.point)).unwrap_or(graded);
         let own = self.plane();
         (self.point.kind == ContactKind::Point).then(|| if own == PointGridSpec::EXPLORER { fitted(own) } else { own })
     }
@@ -235,8 +236,9 @@ impl Document {
         let alpha_per_pa = named.alpha_per_pa.unwrap_or(self.point.alpha_per_pa);
         let sliding = Sliding { newtonian_plateau_ratio: None, ..self.point.sliding };
         let point = OperatingPoint { sliding, viscosity_pa_s, alpha_per_pa, ..self.point };
+        let Lubricant { cavitation, roughness, .. } = self.lubricant;
         let heat = self.lubricant.heat.map(|heat| Heat { oil: named.heat, ..heat });
-        self.set_contact(point, Lubricant { cavitation: self.lubricant.cavitation, heat, ..named.laws })?;
+        self.set_contact(point, Lubricant { cavitation, roughness, heat, ..named.laws })?;
         if named.viscosity_pa_s.is_some() {
             self.view.held.set(Quantity::Viscosity, false);
             self.view.held.set(Quantity::Alpha, false);
@@ -318,23 +320,26 @@ impl Document {
             Some("it supports Newtonian lubricants only")
         } else if unsupported == Some(Unsupported::MassConservingModel) {
             Some("its models support cavitation by penalty or complementarity only, not mass-conserving cavitation")
-        } else if unsupported.is_some() || !self.keeps_with_heat(scene) {
+        } else if unsupported == Some(Unsupported::Roughness) || self.lubricant.is_rough() && !self.keeps(scene) {
+            Some("it supports smooth surfaces only")
+        } else if unsupported.is_some() || !self.keeps(scene) {
             Some("it supports isothermal contacts only")
         } else {
             None
         }
     }
 
-    /// Returns true if the study of an isothermal scene is also possible with the heat of the present contact. True
-    /// for an isothermal contact.
-    fn keeps_with_heat(&self, scene: &Scene) -> bool {
-        if self.lubricant.heat.is_none() || scene.heat.is_some() {
+    /// Returns true if the study of a scene is also possible with the heat and the roughness of the present contact.
+    fn keeps(&self, scene: &Scene) -> bool {
+        let Lubricant { heat, .. } = self.lubricant;
+        let (warm, rough) = (heat.is_some() && scene.heat.is_none(), self.lubricant.is_rough());
+        if !warm && (!rough || scene.roughness.is_some()) {
             return true;
         }
         let Sliding { slide_to_roll_ratio: srr, newtonian_plateau_ratio: npr } = self.point.sliding;
-        let mut warm = Scene { at: At::from(self.point), srr, npr, ..scene.clone() };
-        warm.set_laws(self.lubricant);
-        warm.check().is_ok()
+        let mut present = Scene { at: At::from(self.point), srr, npr, ..scene.clone() };
+        present.set_laws(self.lubricant);
+        present.check().is_ok()
     }
 
     /// Returns the document as a scene. An opened and unchanged document is written as it was. A study that no
@@ -376,11 +381,19 @@ impl Document {
             default_title(self.point.kind).clone_into(&mut scene.title);
         }
         scene.contact = self.point.kind;
-        scene.study = Study::Point(Point { methods: methods_of(self.point.kind) });
+        scene.study = Study::Point(Point { methods: self.methods() });
         scene.training = TrainedModel::default();
         (scene.quick, scene.failures_expected) = (false, false);
         scene.expect.clear();
         scene.source.clear();
+    }
+
+    /// Returns the methods of a scene without a study: all methods in the program for the contact.
+    fn methods(&self) -> Vec<Method> {
+        match self.point.kind {
+            ContactKind::Line if !self.lubricant.is_rough() => vec![Method::Full, Method::EMBEDDED],
+            ContactKind::Line | ContactKind::Point => vec![Method::Full],
+        }
     }
 
     /// Reads a document from the text of a scene.
@@ -402,14 +415,6 @@ impl Document {
 
 /// Quantities that may follow M if the lubricant determines α.
 const FIXED_ALPHA: [LoadFollower; 2] = [LoadFollower::Load, LoadFollower::Radius];
-
-/// Returns the default methods of a contact without a study: all methods in the program.
-fn methods_of(kind: ContactKind) -> Vec<Method> {
-    match kind {
-        ContactKind::Line => vec![Method::Full, Method::EMBEDDED],
-        ContactKind::Point => vec![Method::Full],
-    }
-}
 
 #[cfg(test)]
 #[path = "tests.rs"]

@@ -8,6 +8,7 @@ mod history;
 pub mod input;
 mod key;
 mod shape;
+mod surfaces;
 mod transient;
 
 pub use edit::Edit;

@@ -2,6 +2,7 @@
 
 use super::experiment::Document;
 use crate::app::refusal::Refusal;
+use crate::scene::ShapeKeeps;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 
@@ -41,6 +42,15 @@ impl Shape {
         }
     }
 
+    /// Returns the field's name of the contact.
+    pub fn contact(self) -> &'static str {
+        match self {
+            Self::Roller => "line contact",
+            Self::Ball => "circular contact",
+            Self::Ellipse => "elliptical contact",
+        }
+    }
+
     /// Returns keywords for the search.
     pub fn synonyms(self) -> &'static str {
         match self {
@@ -52,8 +62,8 @@ impl Shape {
 }
 
 impl Document {
-    /// Changes the shape. M, L, R, u_m, E′, η₀ and α keep their values. The load, which has another unit for a line
-    /// contact, follows M and is no longer held. R_y of an elliptical contact is stored until the next one.
+    /// Changes the shape. L, R, u_m, E′, η₀ and α keep their values. The load, which has another unit for a line contact,
+    /// follows M or p_H, as chosen in the view, and is no longer held. R_y of an elliptical contact is stored until the next one.
     ///
     /// # Errors
     /// A sentence if the point is refused. The document is then unchanged.
@@ -63,7 +73,11 @@ impl Document {
         let former = here.radius_y_m.or(self.view.radius_y_m);
         let ellipse = here.radius_y_m.unwrap_or_else(|| former.unwrap_or(USUAL_RATIO * here.radius_m));
         let other = OperatingPoint { kind, radius_y_m: Some(ellipse).filter(|_| shape == Shape::Ellipse), ..here };
-        let other = if kind == here.kind { other } else { Quantity::M.at(&other, here.moes().m) };
+        let other = match self.view.new_shape_keeps {
+            _ if kind == here.kind => other,
+            ShapeKeeps::LoadNumber => Quantity::M.at(&other, here.moes().m),
+            ShapeKeeps::HertzPressure => other.at_hertz_pressure(here.hertz().pressure_pa),
+        };
         self.accept(other)?;
         self.view.radius_y_m = former.filter(|_| shape != Shape::Ellipse);
         Ok(())
@@ -97,6 +111,25 @@ mod tests {
         assert!((document.point.load / ellipse.load - 1.0).abs() < 1e-12);
         assert_eq!(OperatingPoint { load: ellipse.load, ..document.point }, ellipse);
         assert_eq!(document.view.radius_y_m, None);
+    }
+
+    #[test]
+    fn another_shape_keeps_the_load_number_or_the_hertz_pressure() {
+        for (keeps, of) in [
+            (ShapeKeeps::LoadNumber, (|point| point.moes().m) as fn(&OperatingPoint) -> f64),
+            (ShapeKeeps::HertzPressure, |point| point.hertz().pressure_pa),
+        ] {
+            let mut document = Document::default();
+            document.view.new_shape_keeps = keeps;
+            let before = document.point;
+            for shape in [Shape::Ball, Shape::Ellipse, Shape::Roller] {
+                document.set_shape(shape).unwrap();
+                let ball = shape == Shape::Ellipse;
+                // An ellipse has the load of the ball before it.
+                assert!(ball || (of(&document.point) / of(&before) - 1.0).abs() < 1e-12, "{keeps:?} {shape:?}");
+            }
+            assert!((document.point.load / before.load - 1.0).abs() < 1e-12 || keeps == ShapeKeeps::HertzPressure);
+        }
     }
 
     #[test]

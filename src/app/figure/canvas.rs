@@ -4,12 +4,12 @@
 use super::sitting::{pixels, rgb, with_sitting};
 use super::texture::known;
 use crate::scene::drawing::{Pen, Rgb, TextAnchor, Words};
-use crate::scene::{Band, Chart, ChartAxis, Map, Marks, Note, Series};
+use crate::scene::{Area, Band, Chart, ChartAxis, Map, Marks, Note, Series};
 use egui::epaint::{ColorMode, TextShape};
 use egui::{Align, Color32, Context, Id, Shape, TextureId, Ui, UiBuilder, pos2};
 use egui_plot::{
-    BarChart, HLine, Line, LineStyle, PlotBounds, PlotGeometry, PlotImage, PlotItem, PlotPoint, PlotUi, Points, Span,
-    Text, VLine,
+    BarChart, FilledArea, HLine, Line, LineStyle, PlotBounds, PlotGeometry, PlotImage, PlotItem, PlotPoint, PlotUi,
+    Points, Span, Text, VLine,
 };
 use std::ops::{Deref, DerefMut};
 
@@ -316,6 +316,23 @@ impl<'p, 'a> Canvas<'p, 'a> {
             let pen = pen(&recording.shapes(self.plot, line));
             recording.rules.extend(pen.map(rule));
         }
+    }
+
+    /// Fills the area between two curves with the same abscissas.
+    pub fn between(&mut self, id: &str, lower: &[PlotPoint], upper: &[PlotPoint], fill: Color32) {
+        let (x, upper_y): (Vec<f64>, Vec<f64>) = upper.iter().map(|point| (point.x, point.y)).unzip();
+        let lower_y: Vec<f64> = lower.iter().map(|point| point.y).collect();
+        if x.is_empty() || lower_y.len() != x.len() {
+            return;
+        }
+        if let Some(recording) = &mut self.recording {
+            let corners = upper.iter().chain(lower.iter().rev()).map(|point| recording.value(*point));
+            let corners = corners.filter(|corner| corner.iter().all(|value| value.is_finite())).collect();
+            let (color, opacity) = rgb(fill);
+            recording.chart.areas.push(Area { corners, color, opacity });
+        }
+        let area = FilledArea::new("", &x, &lower_y, &upper_y).fill_color(fill);
+        self.plot.add(area.id(id).allow_hover(false));
     }
 
     /// Draws a filled strip.

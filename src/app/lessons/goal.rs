@@ -23,6 +23,10 @@ pub enum Goal {
     Starved(f64, f64),
     /// Temperatures are computed.
     Heat,
+    /// Asperities carry load.
+    Mixed,
+    /// The composite roughness lies between two values \[µm\].
+    Roughness(f64, f64),
     /// This number of curves is pinned.
     Pins(usize),
     /// A full solution has checked the picture.
@@ -37,6 +41,8 @@ pub struct OnScreen {
     /// Its NPR, or that of the lubricant if the contact has none.
     pub plateau_ratio: f64,
     pub lubricant: Lubricant,
+    /// σ \[m\] of both surfaces.
+    pub composite_roughness_m: f64,
     /// Visible tabs.
     pub tabs: Vec<Tab>,
     /// Number of pinned curves.
@@ -46,8 +52,9 @@ pub struct OnScreen {
 }
 
 /// Accepted forms of a condition.
-const ACCEPTED: &str = "accepted are `M between 2 and 3` (likewise L, R_y/R, SRR, NPR), `contact point`, `tab Regimes`, \
-    `lubricant mineral-oil`, `starved`, `inlet film between 70 and 90` (nm), `heat`, `pin 1`, `checked` and `read`";
+const ACCEPTED: &str = "accepted are `M between 2 and 3` (likewise L, R_y/R, SRR, NPR, u_m in m/s), `contact point`, `tab Regimes`, \
+    `lubricant mineral-oil`, `starved`, `inlet film between 70 and 90` (nm), `heat`, `mixed`, `roughness between 0.1 and \
+    0.2` (composite, µm), `pin 1`, `checked` and `read`";
 
 impl Goal {
     /// Parses the conditions of a line, separated by commas. Empty for a step that is only read.
@@ -65,11 +72,15 @@ impl Goal {
         match words {
             "checked" => return Some(Self::Checked),
             "heat" => return Some(Self::Heat),
+            "mixed" => return Some(Self::Mixed),
             "starved" => return Some(Self::Starved(0.0, f64::INFINITY)),
             _ => {}
         }
         if let Some(range) = words.strip_prefix("inlet film ") {
             return between(range).map(|(from, to)| Self::Starved(from, to));
+        }
+        if let Some(range) = words.strip_prefix("roughness ") {
+            return between(range).map(|(from, to)| Self::Roughness(from, to));
         }
         let (first, rest) = words.split_once(' ')?;
         match first {
@@ -103,6 +114,11 @@ impl Goal {
             Self::Between(quantity, from, to) => document.edit(Edit::Quantity(*quantity, 0.5 * (from + to))),
             Self::Lubricant(named) => document.edit(Edit::Named(named)),
             Self::Heat => document.edit(Edit::Heat(true)),
+            Self::Mixed => document.edit(Edit::Mixed(true)),
+            Self::Roughness(from, to) => {
+                let composite_m = 0.5 * (from + to) * MICRO;
+                document.edit(Edit::Surfaces([composite_m / std::f64::consts::SQRT_2; 2]))
+            }
             Self::Starved(from, to) => {
                 let film = 0.5 * (from + to);
                 let film = if film.is_finite() { film } else { SUPPLY_NM };
@@ -127,6 +143,8 @@ impl Goal {
                 film.is_some_and(|film| (*from..=*to).contains(&(1e9 * film)))
             }
             Self::Heat => screen.lubricant.heat.is_some(),
+            Self::Mixed => screen.lubricant.is_rough(),
+            Self::Roughness(from, to) => (*from..=*to).contains(&(screen.composite_roughness_m / MICRO)),
             Self::Pins(count) => screen.pins >= *count,
             Self::Checked => screen.checked,
         }
@@ -140,6 +158,8 @@ fn between(words: &str) -> Option<(f64, f64)> {
     (from < to).then_some((from, to))
 }
 
+/// Metres per micrometre.
+const MICRO: f64 = 1e-6;
 /// Inlet film thickness of the switch \[nm\].
 const SUPPLY_NM: f64 = 200.0;
 
@@ -150,6 +170,7 @@ fn quantity(name: &str) -> Option<Quantity> {
         "R_y/R" => Some(Quantity::RadiusRatio),
         "SRR" => Some(Quantity::SlideToRollRatio),
         "NPR" => Some(Quantity::NewtonianPlateauRatio),
+        "u_m" => Some(Quantity::Speed),
         _ => None,
     }
 }

@@ -14,7 +14,7 @@ use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use std::sync::LazyLock;
 
 /// Source texts of the built-in lessons.
-const TEXTS: [&str; 13] = [
+const TEXTS: [&str; 14] = [
     include_str!("../../../assets/lessons/01_rigid_to_hertz.md"),
     include_str!("../../../assets/lessons/02_the_spike.md"),
     include_str!("../../../assets/lessons/03_four_regimes.md"),
@@ -28,6 +28,7 @@ const TEXTS: [&str; 13] = [
     include_str!("../../../assets/lessons/11_when_to_trust.md"),
     include_str!("../../../assets/lessons/12_starvation.md"),
     include_str!("../../../assets/lessons/13_heat.md"),
+    include_str!("../../../assets/lessons/14_boundary_to_full_film.md"),
 ];
 
 /// A test checks that none of them is refused.

@@ -11,7 +11,7 @@ pub struct Place {
 }
 
 /// All places, in the order of the panels.
-pub const PLACES: [Place; 8] = [
+pub const PLACES: [Place; 9] = [
     Place {
         name: "Load, speed and radius",
         keywords: "Hertz Hertzian pressure force bearing gear cam Moes M L E’ modulus viscosity",
@@ -23,10 +23,15 @@ pub const PLACES: [Place; 8] = [
         control: "Slide-to-roll ratio SRR",
     },
     Place {
-        name: "Two bodies: materials, speeds, roughness",
-        keywords: "rough roughness surface finish Rq lambda film ratio bearing gear cam ring ball roller steel ceramic \
-                   glass rpm",
+        name: "Two bodies: materials, radii, speeds",
+        keywords: "bearing gear cam ring ball roller steel ceramic glass rpm",
         control: "Two bodies",
+    },
+    Place {
+        name: "Surfaces: roughness, film ratio, mixed lubrication",
+        keywords: "rough roughness surface finish Rq Ra Sq Sa lambda film ratio asperities asperity boundary friction \
+                   Stribeck Greenwood Tripp Patir Cheng Peklenik hardness ground honed superfinished",
+        control: "Surfaces",
     },
     Place {
         name: "Lubricant",

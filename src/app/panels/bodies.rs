@@ -1,5 +1,5 @@
-//! Panel of the two bodies: materials, radii, surface speeds and roughness. They determine R, R_y, E′, u_m, SRR,
-//! the film ratio and, for a thermal contact, the thermal constants.
+//! Panel of the two bodies: materials, radii and surface speeds. They determine R, R_y, E′, u_m, SRR and, for a
+//! thermal contact, the thermal constants.
 
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, named, ringed, row_name, typed_field, warning_ui};
@@ -25,7 +25,7 @@ struct Field {
     set: fn(&mut Body, Option<f64>),
 }
 
-const ROWS: [Field; 4] = [
+const ROWS: [Field; 3] = [
     Field {
         names: ["Radius of body 1", "Radius of body 2"],
         row: "Radius",
@@ -53,15 +53,6 @@ const ROWS: [Field; 4] = [
         dimension: |body| Dimension::Speed { radius_m: body.radius_m.map(f64::abs) },
         get: |body| Some(body.speed_m_per_s),
         set: |body, speed| body.speed_m_per_s = speed.unwrap_or(body.speed_m_per_s),
-    },
-    Field {
-        names: ["Roughness of body 1", "Roughness of body 2"],
-        row: "Roughness Rq",
-        unit: ("µm", 1e-6),
-        tip: "Root-mean-square roughness, for the film ratio λ = h_min/√(Rq₁² + Rq₂²)",
-        dimension: |_| Dimension::Length,
-        get: |body| Some(body.roughness_m),
-        set: |body, roughness| body.roughness_m = roughness.unwrap_or(body.roughness_m),
     },
 ];
 

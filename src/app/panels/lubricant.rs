@@ -111,6 +111,13 @@ pub(super) struct Constant {
     of: fn(&mut Lubricant) -> Option<&mut f64>,
 }
 
+impl Constant {
+    /// Returns the accessible name of its field.
+    pub(super) fn name(&self) -> &'static str {
+        self.name
+    }
+}
+
 pub(super) const fn constant(
     name: &'static str,
     row: (&'static str, &'static str, &'static str),

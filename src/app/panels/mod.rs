@@ -16,3 +16,4 @@ pub mod readouts;
 pub mod settings;
 pub mod sliders;
 pub mod strip;
+pub mod surfaces;

@@ -11,6 +11,7 @@ use crate::app::numbers;
 use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
 use crate::engine::Warning;
+use crate::scene::{ShapeKeeps, View};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering;
@@ -21,12 +22,12 @@ const SHAPES: [(Shape, &str); 3] = [
     (
         Shape::Roller,
         "Line contact: a long roller on a raceway with its load per unit length, the same at every Y. All quantities \
-         are kept except the load, which follows M",
+         are kept except the load, which follows M or the Hertz pressure",
     ),
     (
         Shape::Ball,
         "Circular contact: a ball on a disc; its film has a horseshoe and side lobes. All quantities are kept except \
-         the load of a line contact, which follows M",
+         the load of a line contact, which follows M or the Hertz pressure",
     ),
     (
         Shape::Ellipse,
@@ -78,6 +79,14 @@ fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
             }
         };
         choice(ui, "When L moves", tip, &mut lubricant, lubricants, |f| (f.name(), ""));
+        let tip = "A roller has a load per length, a ball a load. This quantity stays constant when the shape changes";
+        let keeps_before = document.view.new_shape_keeps;
+        let mut keeps = keeps_before;
+        choice(ui, "New shape keeps", tip, &mut keeps, &ShapeKeeps::ALL, |keeps| (keeps.name(), ""));
+        if keeps != keeps_before {
+            let view = View { new_shape_keeps: keeps, ..document.view };
+            commands.edit(Edit::View(Box::new(view)), "New shape keeps");
+        }
         if load != load_before {
             commands.edit(Edit::LoadFollower(load), "When M moves");
         } else if lubricant != lubricant_before {

@@ -1,17 +1,25 @@
 //! Bar of a presentation: the regime in large letters, a few commands, the sliders in use, and a button to end it.
 
+use super::sliders::{ChosenSliders, PRESENTED};
 use super::{operating_point, sliders};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, named};
 use crate::app::document::Shape;
+use crate::solver::parameters::Quantity;
 use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 
 /// Text size of the regime.
 const LARGE: f32 = 20.0;
 
 /// Draws the bar.
-pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entries, commands: &mut Commands) {
+pub fn ui(
+    ui: &mut Ui,
+    context: &Context<'_>,
+    (locked, chosen): (bool, ChosenSliders),
+    entries: &mut Entries,
+    commands: &mut Commands,
+) {
     Frame::new().inner_margin(Margin::symmetric(6, 5)).show(ui, |ui| {
         ui.horizontal(|ui| {
             let point = &context.document.point;
@@ -35,6 +43,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entrie
                         commands.push(command);
                     }
                 }
+                sliders_ui(ui, context, chosen, commands);
                 let lock = ui.selectable_label(locked, Command::LockAxes.name());
                 if lock
                     .on_hover_text("Locks the axes, so that changes are visible (F8). F2 fits the axes once")
@@ -45,6 +54,29 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, locked: bool, entries: &mut Entrie
                 ui.add(Label::new(RichText::new("Drag a slider; Esc ends").weak()).truncate());
             });
         });
-        sliders::in_use(ui, context, entries, commands);
+        sliders::in_use(ui, context, chosen, entries, commands);
     });
+}
+
+/// Draws the menu that chooses the sliders.
+fn sliders_ui(ui: &mut Ui, context: &Context<'_>, chosen: ChosenSliders, commands: &mut Commands) {
+    let menu = ui.menu_button("Sliders", |ui| {
+        for quantity in PRESENTED {
+            let name = match quantity {
+                Quantity::InletTemperature => "Oil temperature",
+                other => other.label(),
+            };
+            if ui.checkbox(&mut chosen.contains(quantity), name).clicked() {
+                commands.push(Command::PresentSliders(chosen.toggled(quantity)));
+            }
+        }
+        if ui.add_enabled(!chosen.is_empty(), Button::new("Usual sliders")).clicked() {
+            commands.push(Command::PresentSliders(ChosenSliders::default()));
+        }
+    });
+    let tip = match context.document.view.oil {
+        Some(_) => "Chooses the sliders of presentations",
+        None => "Chooses the sliders of presentations. The temperature needs an oil by its grade, or Heat",
+    };
+    menu.response.on_hover_text(tip);
 }

@@ -9,10 +9,11 @@ use crate::app::refusal::Refusal;
 use crate::app::theme::{name_and_symbol, rich};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::{self, Dimension};
-use crate::solver::physics::lubricant::ShearLaw;
+use crate::solver::physics::engineering::{self, Dimension, KELVIN, Oil};
+use crate::solver::physics::lubricant::{Heat, Lubricant, ShearLaw};
 use crate::solver::reduced::Domain;
 use egui::{Grid, Slider, TextStyle, Ui};
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
@@ -39,9 +40,42 @@ const RATIO_TIP: &str = "R_y/R, radius across over radius along the rolling dire
 /// Quantities with a slider.
 pub const SLIDERS: [Quantity; 5] =
     [Quantity::M, Quantity::L, Quantity::RadiusRatio, Quantity::SlideToRollRatio, Quantity::NewtonianPlateauRatio];
+/// Quantities that a presentation may show as sliders.
+pub const PRESENTED: [Quantity; 10] = [
+    Quantity::M,
+    Quantity::L,
+    Quantity::RadiusRatio,
+    Quantity::SlideToRollRatio,
+    Quantity::NewtonianPlateauRatio,
+    Quantity::Speed,
+    Quantity::Load,
+    Quantity::Radius,
+    Quantity::Viscosity,
+    Quantity::InletTemperature,
+];
 /// Names under which refusals are stored.
-pub const FIELDS: [&str; 10] =
-    ["M", "L", "R_y/R", "SRR", "NPR", "M value", "L value", "R_y/R value", "SRR value", "NPR value"];
+pub const FIELDS: [&str; 20] = [
+    "M",
+    "L",
+    "R_y/R",
+    "SRR",
+    "NPR",
+    "u",
+    "w",
+    "R",
+    "η",
+    "T",
+    "M value",
+    "L value",
+    "R_y/R value",
+    "SRR value",
+    "NPR value",
+    "u_m value",
+    "w value",
+    "R value",
+    "η₀ value",
+    "T value",
+];
 /// Widths of a name, a number field, and the gaps.
 const NAME_WIDTH: f32 = 84.0;
 /// Width of the symbol alone, and minimum width of a slider in a row with its whole name.
@@ -49,14 +83,22 @@ const SYMBOL_WIDTH: f32 = 34.0;
 const ROOM_FOR_NAME: f32 = 270.0;
 const ENTRY_WIDTH: f32 = 70.0;
 const GAPS: f32 = 24.0;
+/// Width of a unit.
+const UNIT_WIDTH: f32 = 44.0;
 
 /// Slider with its name and number field.
 struct Row {
     quantity: Quantity,
     entry: &'static str,
     slider: RangeSlider<'static>,
+    /// Value in the unit of the slider.
     value: f64,
+    /// Unit of the slider, with its zero and its size in SI units.
+    unit: (&'static str, f64, f64),
 }
+
+/// Unit of a slider of a number.
+const NUMBER: (&str, f64, f64) = ("", 0.0, 1.0);
 
 /// Requested value, and the field of the request.
 type Wanted = (Quantity, &'static str, f64);
@@ -101,17 +143,73 @@ fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
         entry: "R_y/R value",
         slider: slider(Quantity::RadiusRatio, ratio, 1.0, RATIO_TIP),
         value: document.point.radius_ratio(),
+        unit: NUMBER,
     });
     let mut rows = vec![
-        Row { quantity: Quantity::M, entry: "M value", slider: m, value: moes.m },
-        Row { quantity: Quantity::L, entry: "L value", slider: l, value: moes.l },
+        Row { quantity: Quantity::M, entry: "M value", slider: m, value: moes.m, unit: NUMBER },
+        Row { quantity: Quantity::L, entry: "L value", slider: l, value: moes.l, unit: NUMBER },
     ];
     rows.extend(ellipse);
     rows.extend([
-        Row { quantity: Quantity::SlideToRollRatio, entry: "SRR value", slider: slide, value: srr },
-        Row { quantity: Quantity::NewtonianPlateauRatio, entry: "NPR value", slider: plateau, value: npr },
+        Row { quantity: Quantity::SlideToRollRatio, entry: "SRR value", slider: slide, value: srr, unit: NUMBER },
+        Row {
+            quantity: Quantity::NewtonianPlateauRatio,
+            entry: "NPR value",
+            slider: plateau,
+            value: npr,
+            unit: NUMBER,
+        },
     ]);
     rows
+}
+
+/// Returns the sliders of SI quantities and of the oil's temperature, as far as the contact has them.
+fn si_rows(document: &Document) -> Vec<Row> {
+    let kind = document.point.kind;
+    let row = |quantity: Quantity, entry, (name, ends): (&'static str, (f64, f64))| {
+        let (unit, scale) = quantity.reading_unit(kind);
+        let value = quantity.of(&document.point)? / scale;
+        let slider = RangeSlider {
+            name,
+            range: ends.0..=ends.1,
+            marked: None,
+            home: value,
+            tooltip: quantity.meaning(kind),
+            logarithmic: true,
+        };
+        Some(Row { quantity, entry, slider, value, unit: (unit, 0.0, scale) })
+    };
+    let loads = if kind == ContactKind::Line { (1.0, 5000.0) } else { (0.1, 5000.0) };
+    let temperature = temperature_k(document).map(|kelvin| Row {
+        quantity: Quantity::InletTemperature,
+        entry: "T value",
+        slider: RangeSlider {
+            name: "Slider of the oil temperature",
+            range: 0.0..=150.0,
+            marked: None,
+            home: 40.0,
+            tooltip: "Temperature of the oil as it enters the contact",
+            logarithmic: false,
+        },
+        value: kelvin - KELVIN,
+        unit: ("°C", KELVIN, 1.0),
+    });
+    [
+        row(Quantity::Speed, "u_m value", ("Slider of the speed", (1e-3, 100.0))),
+        row(Quantity::Load, "w value", ("Slider of the load", loads)),
+        row(Quantity::Radius, "R value", ("Slider of the radius", (0.5, 500.0))),
+        row(Quantity::Viscosity, "η₀ value", ("Slider of the viscosity", (1.0, 2000.0))),
+        temperature,
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// Returns the temperature of the oil \[K\], or that of the inlet of a thermal contact; `None` if the contact has neither.
+fn temperature_k(document: &Document) -> Option<f64> {
+    let oil = document.view.oil.filter(|_| document.lubricant.own_coefficient().is_none());
+    oil.map(|oil| oil.temperature_k).or(document.lubricant.heat.map(|heat| heat.inlet_temperature))
 }
 
 /// Draws all sliders, one below the other.
@@ -123,23 +221,34 @@ pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, command
             if row.quantity == Quantity::NewtonianPlateauRatio && !is_shear_thinning(context.document) {
                 disabled_plateau(ui, width);
             } else {
-                wanted = row.ui(ui, entries, width, true).or(wanted);
+                wanted = row.ui(ui, context.document.point.kind, entries, (width, true)).or(wanted);
             }
             ui.end_row();
         }
     });
-    take(commands, wanted);
+    take(context.document, commands, wanted);
 }
 
-/// Draws the sliders that change the picture, side by side.
-pub fn in_use(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+/// Draws the chosen sliders side by side. If none was chosen, draws those of M, L, SRR, NPR and R_y/R that change the
+/// picture.
+pub fn in_use(
+    ui: &mut Ui,
+    context: &Context<'_>,
+    chosen: ChosenSliders,
+    entries: &mut Entries,
+    commands: &mut Commands,
+) {
     let document = context.document;
+    if !chosen.is_empty() {
+        return side_by_side(ui, context, (&|quantity| chosen.contains(quantity), &|_| true), entries, commands);
+    }
     let slides = is_shear_thinning(document) || document.point.sliding.slide_to_roll_ratio != 0.0;
     let used = |quantity: Quantity| match quantity {
         Quantity::SlideToRollRatio => slides,
         Quantity::NewtonianPlateauRatio => is_shear_thinning(document),
         Quantity::RadiusRatio => Shape::of(&document.point) == Shape::Ellipse,
-        _ => true,
+        Quantity::M | Quantity::L => true,
+        _ => false,
     };
     side_by_side(ui, context, (&used, &|_| true), entries, commands);
 }
@@ -152,20 +261,23 @@ pub fn side_by_side(
     entries: &mut Entries,
     commands: &mut Commands,
 ) {
-    let rows: Vec<Row> = rows(context).into_iter().filter(|row| chosen(row.quantity)).collect();
+    let rows = rows(context).into_iter().chain(si_rows(context.document));
+    let rows: Vec<Row> = rows.filter(|row| chosen(row.quantity)).collect();
     let each = ui.available_width() / rows.len() as f32;
     let named = each >= ROOM_FOR_NAME;
     let name = if named { NAME_WIDTH } else { SYMBOL_WIDTH };
-    let width = (each - name - ENTRY_WIDTH - GAPS).max(40.0);
+    let unit = if rows.iter().any(|row| !row.unit.0.is_empty()) { UNIT_WIDTH } else { 0.0 };
+    let width = (each - name - ENTRY_WIDTH - GAPS - unit).max(40.0);
+    let kind = context.document.point.kind;
     let mut wanted = None;
     ui.horizontal(|ui| {
         for row in rows {
-            let moved = ui.add_enabled_ui(free(row.quantity), |ui| row.ui(ui, entries, width, named)).inner;
+            let moved = ui.add_enabled_ui(free(row.quantity), |ui| row.ui(ui, kind, entries, (width, named))).inner;
             wanted = moved.or(wanted);
             ui.add_space(8.0);
         }
     });
-    take(commands, wanted);
+    take(context.document, commands, wanted);
     for field in FIELDS {
         entries.message_ui(ui, field);
     }
@@ -173,9 +285,9 @@ pub fn side_by_side(
 
 impl Row {
     /// Draws the name or only its symbol, the slider and the number field. Returns the requested value.
-    fn ui(&self, ui: &mut Ui, entries: &mut Entries, width: f32, named: bool) -> Option<Wanted> {
+    fn ui(&self, ui: &mut Ui, kind: ContactKind, entries: &mut Entries, (width, named): (f32, bool)) -> Option<Wanted> {
         let tip = self.slider.tooltip;
-        let (sign, _) = self.quantity.symbol();
+        let (sign, subscript) = self.quantity.symbol();
         let name = if named { word(self.quantity) } else { "" };
         let name = match self.quantity {
             Quantity::RadiusRatio => rich(
@@ -183,18 +295,30 @@ impl Row {
                 TextStyle::Body.resolve(ui.style()).size,
                 ui.visuals().text_color(),
             ),
-            _ => name_and_symbol(ui, name, sign, ""),
+            _ => name_and_symbol(ui, name, sign, subscript),
         };
         explained(ui, name, tip);
         let moved = self.slider.show(ui, self.value, width).map(|value| (sign, value));
         let ratio = matches!(self.quantity, Quantity::SlideToRollRatio | Quantity::RadiusRatio);
         let read = |text: &str| match ratio {
             true => engineering::parse(text, Dimension::Ratio, "").map_err(Refusal::from),
+            false if !self.unit.0.is_empty() => self.read(text, kind),
             false => numbers::parse(text),
         };
         let entered = typed_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip, read);
+        let (unit, zero, size) = self.unit;
+        if !unit.is_empty() {
+            ui.label(unit);
+        }
         let (field, value) = moved.or(entered.map(|value| (self.entry, value)))?;
-        Some((self.quantity, field, value))
+        Some((self.quantity, field, value * size + zero))
+    }
+
+    /// Reads a text with a unit. Returns the number in the unit of the slider.
+    fn read(&self, text: &str, kind: ContactKind) -> Result<f64, Refusal> {
+        let (unit, zero, size) = self.unit;
+        let si = engineering::parse(text, self.quantity.dimension(kind), unit)?;
+        Ok((si - zero) / size)
     }
 }
 
@@ -205,14 +329,64 @@ fn word(quantity: Quantity) -> &'static str {
         Quantity::L => "Lubricant",
         Quantity::RadiusRatio => "Ellipse",
         Quantity::SlideToRollRatio => "Sliding",
-        _ => "Plateau",
+        Quantity::NewtonianPlateauRatio => "Plateau",
+        Quantity::Speed => "Speed",
+        Quantity::Load => "Load",
+        Quantity::Radius => "Radius",
+        Quantity::Viscosity => "Viscosity",
+        _ => "Oil",
     }
 }
 
-/// Submits the requested value.
-fn take(commands: &mut Commands, wanted: Option<Wanted>) {
-    if let Some((quantity, field, value)) = wanted {
-        commands.edit(Edit::Quantity(quantity, value), field);
+/// Submits the requested value in SI units.
+fn take(document: &Document, commands: &mut Commands, wanted: Option<Wanted>) {
+    let Some((quantity, field, value)) = wanted else { return };
+    let edit = match (quantity, document.view.oil, document.lubricant.heat) {
+        (Quantity::InletTemperature, Some(oil), _) => Edit::Oil(Some(Oil { temperature_k: value, ..oil })),
+        (Quantity::InletTemperature, None, Some(heat)) => {
+            let heat = Some(Heat { inlet_temperature: value, ..heat });
+            Edit::Laws(Box::new(Lubricant { heat, ..document.lubricant }))
+        }
+        _ => Edit::Quantity(quantity, value),
+    };
+    commands.edit(edit, field);
+}
+
+/// Sliders that a presentation shows. In files, a list of the names of their quantities; empty for the usual ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Default)]
+#[serde(from = "Vec<Quantity>", into = "Vec<Quantity>")]
+pub struct ChosenSliders([bool; PRESENTED.len()]);
+
+impl ChosenSliders {
+    /// Returns true if a quantity was chosen.
+    pub fn contains(self, quantity: Quantity) -> bool {
+        PRESENTED.iter().zip(self.0).any(|(own, chosen)| chosen && *own == quantity)
+    }
+
+    /// Returns true if none was chosen.
+    pub fn is_empty(self) -> bool {
+        !self.0.contains(&true)
+    }
+
+    /// Returns the list with a quantity added or removed.
+    pub fn toggled(mut self, quantity: Quantity) -> Self {
+        for (own, chosen) in PRESENTED.iter().zip(&mut self.0) {
+            *chosen ^= *own == quantity;
+        }
+        self
+    }
+}
+
+impl From<Vec<Quantity>> for ChosenSliders {
+    fn from(quantities: Vec<Quantity>) -> Self {
+        let fresh = |list: Self, quantity| if list.contains(quantity) { list } else { list.toggled(quantity) };
+        quantities.into_iter().fold(Self::default(), fresh)
+    }
+}
+
+impl From<ChosenSliders> for Vec<Quantity> {
+    fn from(chosen: ChosenSliders) -> Self {
+        PRESENTED.into_iter().filter(|quantity| chosen.contains(*quantity)).collect()
     }
 }
 

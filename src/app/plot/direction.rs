@@ -32,6 +32,11 @@ impl Direction {
         self.either(&picture.film, &picture.across.film)
     }
 
+    /// Returns P_a along it; empty for smooth surfaces.
+    pub fn asperities(self, picture: &Picture) -> &[PlotPoint] {
+        self.either(&picture.asperities, &picture.across.asperities)
+    }
+
     /// Returns the scale of lengths along it \[mm\]: a, or b across a point contact.
     pub fn length_mm(self, scales: Scales) -> f64 {
         self.either(scales.length_mm, scales.across_mm)

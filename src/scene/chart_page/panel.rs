@@ -114,6 +114,10 @@ impl Panel<'_> {
         for band in &chart.bands {
             self.marks.push(Mark::Area(axes.between(band.x, band.y), band.color, band.opacity));
         }
+        for area in &chart.areas {
+            let corners = area.corners.iter().map(|corner| axes.at(*corner)).collect();
+            self.marks.push(Mark::Polygon(corners, area.color, area.opacity));
+        }
         for (k, series) in chart.series.iter().enumerate() {
             self.series(&axes, series, &series.pen.clone().unwrap_or_else(|| pen(k)));
         }

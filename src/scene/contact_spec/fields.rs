@@ -193,6 +193,8 @@ contact_fields! {
         { note: ", where σ₁ is that of the surface that is faster at a positive SRR (default: 0)" };
     boundary_friction: f64, BoundaryFriction, "boundary-friction", "Friction coefficient μ_b of touching asperities",
         { note: " (default: 0.12)", titles: &["mu_b", "μ_b"] };
+    wear_rate: f64, WearRate, "wear-rate", "Specific wear rate of Archard's law in m²/N, for the wear of rough surfaces",
+        { note: " (default: 0)", placeholder: Some("M2/N") };
     heat: bool, Heat, "heat", "Compute temperatures of film and bodies, and their effect on film thickness and traction",
         { note: " (with <method=reduced>: line and circular contacts by the embedded thermal models, or the model of <rom>)" };
     inlet_temperature: f64, InletTemperature, "inlet-temperature",

@@ -105,6 +105,7 @@ impl From<&Experiment> for ContactSpec {
             peklenik: rough.map(|rough| rough.peklenik),
             shear_flow: rough.map(|rough| rough.shear_flow),
             boundary_friction: rough.map(|rough| rough.boundary_friction),
+            wear_rate: rough.map(|rough| rough.wear_rate).filter(|rate| *rate > 0.0),
             srr: Some(sliding.slide_to_roll_ratio),
             npr: sliding.newtonian_plateau_ratio,
             grid: Some(grid),

@@ -37,7 +37,7 @@ impl ContactSpec {
             );
         }
         let point = self.operating_point(&lubricant)?;
-        let grid = self.grid_for(full, &point)?;
+        let grid = self.grid_for(full, &lubricant.grid_contact(&point))?;
         let method = if full { Method::Full } else { Method::reduced(grid_model.clone()) };
         Ok(Request { point, lubricant, grid, grid_model, method })
     }

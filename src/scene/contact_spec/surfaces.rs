@@ -6,7 +6,8 @@ use crate::solver::physics::lubricant::{Lubricant, RoughnessConflict};
 use crate::solver::physics::surfaces::{Roughness, SurfaceConstant};
 
 /// Fields that have no effect on smooth surfaces.
-const OF_ROUGHNESS: [Field; 4] = [Field::Asperities, Field::Peklenik, Field::ShearFlow, Field::BoundaryFriction];
+const OF_ROUGHNESS: [Field; 5] =
+    [Field::Asperities, Field::Peklenik, Field::ShearFlow, Field::BoundaryFriction, Field::WearRate];
 
 impl ContactSpec {
     /// Returns the roughness; `None` if it is not stated.
@@ -23,6 +24,7 @@ impl ContactSpec {
             peklenik: self.peklenik.unwrap_or(usual.peklenik),
             shear_flow: self.shear_flow.unwrap_or(usual.shear_flow),
             boundary_friction: self.boundary_friction.unwrap_or(usual.boundary_friction),
+            wear_rate: self.wear_rate.unwrap_or(usual.wear_rate),
         };
         roughness.check().map_err(|error| {
             let field = match error.constant {
@@ -31,6 +33,7 @@ impl ContactSpec {
                 SurfaceConstant::Peklenik => Field::Peklenik,
                 SurfaceConstant::ShearFlow => Field::ShearFlow,
                 SurfaceConstant::BoundaryFriction => Field::BoundaryFriction,
+                SurfaceConstant::WearRate => Field::WearRate,
             };
             Refusal::new(field, format!("<{}>: {error}", field.facts().name))
         })?;

@@ -211,6 +211,7 @@ fn a_roughness_is_stated_by_its_fields_and_brings_complementarity() {
         (Field::Peklenik, "3"),
         (Field::ShearFlow, "-0.5"),
         (Field::BoundaryFriction, "0.1"),
+        (Field::WearRate, "1e-16"),
     ]);
     let lubricant = rough.request().unwrap().lubricant;
     let wanted = Roughness {
@@ -219,6 +220,7 @@ fn a_roughness_is_stated_by_its_fields_and_brings_complementarity() {
         peklenik: 3.0,
         shear_flow: -0.5,
         boundary_friction: 0.1,
+        wear_rate: 1e-16,
     };
     assert_eq!(lubricant.cavitation, Cavitation::Complementarity);
     let stated = lubricant.roughness.unwrap();
@@ -238,6 +240,7 @@ fn a_roughness_is_stated_by_its_fields_and_brings_complementarity() {
         (Field::Asperities, "zhao-maietta-chang,0.05,0.01,0", "the hardness in Pa is 0"),
         (Field::ShearFlow, "2", "between -1 and 1"),
         (Field::BoundaryFriction, "-1", "between 0 and 2"),
+        (Field::WearRate, "-1", "the specific wear rate in m²/N is -1"),
     ] {
         let refusal = with(field, text);
         assert!(refusal.field == field && refusal.in_words(Words::Flags).contains(said), "{refusal:?}");

@@ -79,6 +79,8 @@ pub enum Mark {
     Line(Vec<[f64; 2]>, Pen),
     /// Filled rectangle: rectangle, colour, opacity.
     Area([f64; 4], Rgb, f64),
+    /// Filled polygon: corners in order, colour, opacity.
+    Polygon(Vec<[f64; 2]>, Rgb, f64),
     /// Outline of a rectangle.
     Frame([f64; 4], Pen),
     /// Filled circle: centre, radius, colour.

@@ -108,16 +108,29 @@ fn rect([x, y, width, height]: [f64; 4]) -> Rect {
     Rect::new(x, y, x + width, y + height)
 }
 
+/// Returns the path through points.
+fn through(points: &[[f64; 2]]) -> BezPath {
+    let mut path = BezPath::new();
+    for (k, [x, y]) in points.iter().enumerate() {
+        if k == 0 { path.move_to((*x, *y)) } else { path.line_to((*x, *y)) }
+    }
+    path
+}
+
 impl Canvas {
     fn mark(&mut self, mark: &Mark, scale: f64) {
         match mark {
             Mark::Line(points, pen) => {
-                let mut path = BezPath::new();
-                for (k, [x, y]) in points.iter().enumerate() {
-                    if k == 0 { path.move_to((*x, *y)) } else { path.line_to((*x, *y)) }
-                }
                 if points.len() > 1 {
-                    self.stroke(&path, pen);
+                    self.stroke(&through(points), pen);
+                }
+            }
+            Mark::Polygon(corners, fill, opacity) => {
+                if corners.len() > 2 {
+                    let mut path = through(corners);
+                    path.close_path();
+                    self.context.set_paint(color(*fill, *opacity));
+                    self.context.fill_path(&path);
                 }
             }
             Mark::Area(area, fill, opacity) => {

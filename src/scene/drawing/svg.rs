@@ -76,6 +76,11 @@ fn element(mark: &Mark) -> String {
             "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\" fill=\"{}\" fill-opacity=\"{opacity:.3}\"/>",
             hex(*color)
         ),
+        Mark::Polygon(corners, color, opacity) => {
+            let corners: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.3},{y:.3}")).collect();
+            let (corners, color) = (corners.join(" "), hex(*color));
+            format!("<polygon points=\"{corners}\" fill=\"{color}\" fill-opacity=\"{opacity:.3}\"/>")
+        }
         Mark::Frame([x, y, w, h], pen) => format!(
             "<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\" fill=\"none\" {}/>",
             stroke(pen)

@@ -2,6 +2,7 @@
 
 use super::problem::Problem;
 use super::solution::{Scalars, Solution};
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::surfaces::{ScaledRoughness, mean_gap};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -9,6 +10,51 @@ use std::borrow::Cow;
 
 /// Asperity pressure next to an end of the domain, in units of p_H, that is too large to be neglected beyond it.
 const AT_ENDS: f64 = 1e-4;
+
+/// Share of the load carried by asperities below which the film is full, and above which the lubrication is by boundary
+/// films.
+const FULL_FILM: f64 = 0.01;
+const BOUNDARY: f64 = 0.9;
+
+/// Lubrication of rough surfaces by the share of the load that asperities carry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lubrication {
+    /// Asperities carry more than 90 % of the load.
+    Boundary,
+    /// Asperities and film carry the load together.
+    Mixed,
+    /// Asperities carry less than 1 % of the load.
+    FullFilm,
+}
+
+impl Lubrication {
+    /// Returns the lubrication at a load share of the asperities, 0…1.
+    pub fn of(asperity_load_share: f64) -> Self {
+        match asperity_load_share {
+            share if share < FULL_FILM => Self::FullFilm,
+            share if share > BOUNDARY => Self::Boundary,
+            _ => Self::Mixed,
+        }
+    }
+
+    /// Returns the load shares at its lower and upper end.
+    pub fn shares(self) -> (f64, f64) {
+        match self {
+            Self::FullFilm => (0.0, FULL_FILM),
+            Self::Mixed => (FULL_FILM, BOUNDARY),
+            Self::Boundary => (BOUNDARY, 1.0),
+        }
+    }
+
+    /// Returns the name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Boundary => "boundary",
+            Self::Mixed => "mixed",
+            Self::FullFilm => "full film",
+        }
+    }
+}
 
 /// Results of a contact with rough surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +73,10 @@ pub struct Mixed {
     pub boundary_traction: f64,
     /// Part of the traction coefficient due to the film.
     pub fluid_traction: f64,
+    /// Real contact area of the asperities over the Hertzian contact area; `None` if the law does not define it.
+    pub real_contact_area: Option<f64>,
+    /// Largest rate of wear \[m/s\] by Archard's law, k p_a |u₂ − u₁|; `None` without a specific wear rate.
+    pub wear_m_per_s: Option<f64>,
 }
 
 impl Mixed {
@@ -85,6 +135,33 @@ impl Solution {
         }
     }
 
+    /// Returns the real contact area of the asperities over the Hertzian contact area; `None` for smooth surfaces and if
+    /// the law does not define it.
+    fn real_contact_area(&self) -> Option<f64> {
+        let rough = self.problem.rough?;
+        let point = &self.problem.point;
+        let touched = |k: usize| {
+            let separation = self.film.get(k)? / rough.sigma;
+            rough.roughness.asperities.contact_area(point.modulus_pa, separation)
+        };
+        touched(0)?;
+        let hertz = match point.kind {
+            ContactKind::Line => 2.0,
+            ContactKind::Point => std::f64::consts::PI,
+        };
+        Some(self.force_per_load(|k| touched(k).unwrap_or(0.0)) / (point.area_per_load() * hertz))
+    }
+
+    /// Returns the rate of wear \[m/s\] by Archard's law, k p_a |u₂ − u₁|, at the nodes of [`nodes`](Self::nodes); `None`
+    /// without a specific wear rate.
+    pub fn wear_rates(&self) -> Option<impl Iterator<Item = f64> + '_> {
+        let rate = self.problem.rough?.roughness.wear_rate;
+        let point = &self.problem.point;
+        let sliding = point.speed_m_per_s * point.sliding.slide_to_roll_ratio.abs();
+        let per_pressure = rate * point.hertz().pressure_pa * sliding;
+        (rate > 0.0).then(|| self.asperity_pressures().map(move |carried| per_pressure * carried))
+    }
+
     /// Returns the results of rough surfaces; `None` for smooth ones.
     pub fn mixed(&self) -> Option<Mixed> {
         let rough = self.problem.rough?;
@@ -95,9 +172,11 @@ impl Solution {
             film_ratio_min: h_min / rough.sigma,
             mean_gap_c: mean_gap(film_ratio_c).0,
             asperity_load_share: self.asperity_load_share(),
-            p_a_c: self.problem.asperity_pressure(film_ratio_c),
+            p_a_c: self.problem.asperity_pressure(h_c),
             boundary_traction: self.boundary_traction(),
             fluid_traction: self.fluid_traction(),
+            real_contact_area: self.real_contact_area(),
+            wear_m_per_s: self.wear_rates().map(|rates| rates.fold(0.0, f64::max)),
         })
     }
 
@@ -114,9 +193,10 @@ impl Solution {
 }
 
 impl Problem {
-    /// Returns the asperity pressure P_a at a film ratio h/σ; 0 for smooth surfaces.
-    fn asperity_pressure(&self, film_ratio: f64) -> f64 {
-        let (point, law) = (&self.point, self.rough.map(|rough| rough.roughness.asperities));
-        law.map_or(0.0, |law| law.pressure(point.modulus_pa, film_ratio).0 / point.hertz().pressure_pa)
+    /// Returns the asperity pressure P_a at a film thickness H; 0 for smooth surfaces.
+    pub fn asperity_pressure(&self, film: f64) -> f64 {
+        let Some(rough) = self.rough else { return 0.0 };
+        let law = rough.roughness.asperities;
+        law.pressure(self.point.modulus_pa, film / rough.sigma).0 / self.point.hertz().pressure_pa
     }
 }

@@ -34,7 +34,7 @@ pub use crate::solver::warning::PLAUSIBLE_TRACTION;
 pub use grid_cost::{GridCost, grid_doubts};
 pub use line::Backtracking;
 pub use mesh::Mesh;
-pub use mixed::Mixed;
+pub use mixed::{Lubrication, Mixed};
 pub use newton_space::Turn;
 pub use point::LimitedSteps;
 pub use problem::{Problem, SolveError};

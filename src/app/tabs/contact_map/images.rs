@@ -31,6 +31,9 @@ pub struct Images {
 /// Minimum upper end of a temperature scale \[K\].
 const LEAST_K: f64 = 0.1;
 
+/// Minimum upper end of a scale of asperity pressures.
+const LEAST_ASPERITIES: f64 = 1e-4;
+
 /// Approximate number of contour lines between the ends of the scale.
 const LINES: f64 = 8.0;
 impl Images {
@@ -73,17 +76,27 @@ impl Images {
     }
 }
 
+/// Returns the film thickness at the centre, or the composite roughness if it is larger: the mean planes of rough surfaces
+/// may touch.
+fn usual_film(solution: &Solution) -> f64 {
+    solution.scalars.h_c.max(solution.problem.rough.map_or(0.0, |rough| rough.sigma))
+}
+
 /// Returns the ends of the scale. They are round, so that colours stay fixed while the contact changes.
 fn range(solution: &Solution, shown: Shown) -> (f64, f64) {
     match shown {
         // The scale ends just above the film thickness of the contact, so that the colours resolve the side lobes.
         Shown::Film => {
-            let high = numbers::round_up(1.5 * solution.scalars.h_c);
+            let high = numbers::round_up(1.5 * usual_film(solution));
             let unit = high / UNITS;
             (unit * (solution.scalars.h_min / unit).floor().clamp(0.0, UNITS - 2.0), high)
         }
-        Shown::Interferogram => (0.0, numbers::round_up(2.5 * solution.scalars.h_c)),
+        Shown::Interferogram => (0.0, numbers::round_up(2.5 * usual_film(solution))),
         Shown::Pressure => (0.0, numbers::round_up(solution.scalars.p_max)),
+        Shown::Asperities => {
+            let largest = solution.asperity_pressure.iter().copied().fold(0.0, f64::max);
+            (0.0, numbers::round_up(largest.max(LEAST_ASPERITIES)))
+        }
         Shown::Temperature => {
             let largest = solution.heat.as_deref().map_or(0.0, |heat| heat.largest.mid_film_k);
             (0.0, numbers::round_up(largest.max(LEAST_K)))
@@ -100,6 +113,9 @@ pub fn table(shown: Shown) -> Vec<Color32> {
 fn values(solution: &Solution, shown: Shown) -> Cow<'_, [f64]> {
     match (shown, solution.heat.as_deref()) {
         (Shown::Temperature, Some(heat)) => Cow::Owned(mid_film_rises(heat)),
+        (Shown::Asperities, _) if solution.asperity_pressure.len() == solution.pressure.len() => {
+            Cow::Borrowed(&solution.asperity_pressure)
+        }
         (Shown::Pressure, _) => Cow::Borrowed(&solution.pressure),
         _ => Cow::Borrowed(&solution.film),
     }
@@ -113,7 +129,7 @@ fn draw(picture: &Picture, view: &MapView, range: (f64, f64)) -> ColorImage {
     };
     match view.shown {
         Shown::Film => raster(&solution.film, 1.0).colored(&table(view.shown), range),
-        Shown::Pressure | Shown::Temperature => {
+        Shown::Pressure | Shown::Asperities | Shown::Temperature => {
             raster(&values(solution, view.shown), 1.0).colored(&table(view.shown), range)
         }
         Shown::Interferogram => {

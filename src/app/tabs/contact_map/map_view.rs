@@ -1,6 +1,7 @@
 //! Settings of the map.
 
 use crate::solver::full::heat::Temperatures;
+use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::physics::optics::Interferometer;
 use serde::{Deserialize, Serialize};
 
@@ -13,19 +14,31 @@ pub enum Shown {
     Pressure,
     /// Interference of light in the film.
     Interferogram,
+    /// Asperity pressure, for rough surfaces.
+    Asperities,
     /// Temperature rise at mid-film, for a thermal contact.
     Temperature,
 }
 
 impl Shown {
     /// All fields in their order.
-    pub const ALL: [Self; 4] = [Self::Film, Self::Pressure, Self::Interferogram, Self::Temperature];
+    pub const ALL: [Self; 5] = [Self::Film, Self::Pressure, Self::Interferogram, Self::Asperities, Self::Temperature];
+
+    /// Returns true if contacts with these laws have the field.
+    pub fn is_of(self, laws: &Lubricant) -> bool {
+        match self {
+            Self::Film | Self::Pressure | Self::Interferogram => true,
+            Self::Asperities => laws.is_rough(),
+            Self::Temperature => laws.heat.is_some(),
+        }
+    }
 
     pub fn name(self) -> &'static str {
         match self {
             Self::Film => "Film map",
             Self::Pressure => "Pressure map",
             Self::Interferogram => "Interferogram",
+            Self::Asperities => "Asperity pressure",
             Self::Temperature => "Temperature map",
         }
     }
@@ -39,6 +52,7 @@ impl Shown {
                 "Image of an optical rig: a glass disc replaces one body, and light is reflected at both sides of the \
                  film"
             }
+            Self::Asperities => "P_a over the plane, the part of the pressure that asperities carry",
             Self::Temperature => "The temperature rise at mid-film over the plane",
         }
     }

@@ -13,6 +13,9 @@ pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, heigh
     let scales = Scales::of(&picture.key.point);
     let (title, name, in_si) = match view.shown {
         Shown::Pressure => ("{P}", "Pressure {P}", (scales.pressure_gpa, "Pressure {p} / GPa")),
+        Shown::Asperities => {
+            ("{P_a}", "Asperity pressure {P_a}", (scales.pressure_gpa, "Asperity pressure {p_a} / GPa"))
+        }
         Shown::Temperature => ("K", "Rise at mid-film / K", (1.0, "Rise at mid-film / K")),
         _ => ("{H}", "Film {H}", (scales.film_um, "Film {h} / µm")),
     };
@@ -25,7 +28,7 @@ pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, heigh
 pub fn si(picture: &Picture, view: &MapView, value: f64) -> String {
     let point = &picture.key.point;
     match view.shown {
-        Shown::Pressure => in_gigapascals(value * point.hertz().pressure_pa),
+        Shown::Pressure | Shown::Asperities => in_gigapascals(value * point.hertz().pressure_pa),
         // The numbers of the scale are in kelvin already.
         Shown::Temperature => String::new(),
         _ => in_nanometres(value * point.film_scale_m()),

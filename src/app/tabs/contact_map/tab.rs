@@ -82,8 +82,8 @@ impl ContactMap {
 
     fn toolbar(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
-            let heat = context.document.lubricant.heat.is_some();
-            for shown in Shown::ALL.into_iter().filter(|shown| heat || *shown != Shown::Temperature) {
+            let laws = &context.document.lubricant;
+            for shown in Shown::ALL.into_iter().filter(|shown| shown.is_of(laws)) {
                 ui.selectable_value(&mut self.view.shown, shown, shown.name()).on_hover_text(shown.tip());
             }
             if context.presenting {
@@ -123,7 +123,7 @@ impl View for ContactMap {
             return;
         }
         badge::ui(ui, context);
-        if self.view.shown == Shown::Temperature && context.document.lubricant.heat.is_none() {
+        if !self.view.shown.is_of(&context.document.lubricant) {
             self.view.shown = Shown::Film;
         }
         self.toolbar(ui, context, commands);
@@ -135,10 +135,10 @@ impl View for ContactMap {
             return;
         };
         let stale = drawn::is_grey(ui.ctx(), "map", Owner::Contact(picture.key), context);
-        let view = match (self.view.shown, &picture.solution.heat) {
-            // Show the last isothermal picture until the first thermal one is available.
-            (Shown::Temperature, None) => MapView { shown: Shown::Film, ..self.view },
-            _ => self.view,
+        // The last picture may not have the field yet.
+        let view = match self.view.shown.is_of(&picture.key.lubricant) {
+            true => self.view,
+            false => MapView { shown: Shown::Film, ..self.view },
         };
         self.images.follow(ui.ctx(), picture, &view);
         let framed = self.framed.replace(picture.kappa()).unwrap_or(1.0) == picture.kappa();
@@ -317,6 +317,11 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
     let more = match view.shown {
         Shown::Interferogram if !view.three_colors => {
             format!("\norder {}", numbers::digits(view.rig.order(h * scale, view.rig.wavelength_m), 3))
+        }
+        Shown::Asperities => {
+            let carried = solution.problem.asperity_pressure(h);
+            let pascal = carried * hertz.pressure_pa;
+            format!("\nP_a = {}   ({})", numbers::significant(carried), numbers::pressure(pascal))
         }
         Shown::Temperature => solution
             .heat

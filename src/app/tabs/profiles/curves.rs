@@ -2,6 +2,7 @@
 
 use crate::app::answers::Pin;
 use crate::app::answers::picture::{Cuts, Origin, Picture, value_at};
+use crate::app::document::Shape;
 use crate::app::figure::Canvas;
 use crate::app::numbers;
 use crate::app::plot::axes;
@@ -9,7 +10,7 @@ use crate::app::plot::cut_line::CutLine;
 use crate::app::plot::direction::Direction;
 use crate::app::plot::frame::PlotFrame;
 use crate::app::plot::key::{self, Entry, Sample};
-use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, rich};
+use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
 use crate::app::units::{Scales, Units};
 use crate::solver::physics::lubricant::Cavitation;
 use egui::{Align2, Color32, Id, Ui, Vec2b};
@@ -19,7 +20,8 @@ use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoin
 const PIN_LABELS: (f64, f64) = (-0.92, 0.1);
 
 fn pin_name(pin: &Pin) -> String {
-    format!("Pin {}: {}", pin.number, numbers::contact(&pin.picture.key.point))
+    let point = &pin.picture.key.point;
+    format!("Pin {}: {}, {}", pin.number, Shape::of(point).contact(), numbers::contact(point))
 }
 
 /// Content of the plots of the tab.
@@ -44,6 +46,11 @@ impl<'a> Scene<'a> {
     /// Returns the line where the other profile cuts a point contact, in the plot of one quantity.
     pub fn cut_line(&self, direction: Direction, plot: &str) -> Option<CutLine> {
         self.picture.has_plane().then(|| CutLine::new(&direction.id(plot), direction.other(self.cuts)))
+    }
+
+    /// Returns the colour of a live curve: grey if it belongs to a previous contact.
+    fn hue(&self, palette: &Palette, color: Color32) -> Color32 {
+        if self.stale { palette.reference } else { color }
     }
 
     /// Draws pinned, live and full curves of one quantity. Returns the colour of the live one.
@@ -81,7 +88,7 @@ impl<'a> Scene<'a> {
                 plot.text(text.anchor(Align2::RIGHT_BOTTOM).id(("pin", pin.number)).allow_hover(false));
             }
         }
-        let live = if self.stale { palette.reference } else { color };
+        let live = self.hue(palette, color);
         let name = if self.picture.origin == Origin::Full { "Full solution" } else { "Reduced model" };
         plot.line(curve(name.to_owned(), fitted(self.picture), live, LIVE_WIDTH).id("live"));
         if let Some(full) = self.full {
@@ -92,10 +99,30 @@ impl<'a> Scene<'a> {
     }
 }
 
+/// Opacity of the asperities' share below the pressure, and of the band of the roughness around the film.
+const ASPERITIES: f32 = 0.35;
+const ROUGHNESS: f32 = 0.2;
+
+/// Fills the share of the asperities below the pressure of a rough contact.
+pub fn asperities(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, direction: Direction, palette: &Palette) {
+    let upper = direction.asperities(scene.picture);
+    let lower: Vec<PlotPoint> = upper.iter().map(|point| PlotPoint::new(point.x, 0.0)).collect();
+    plot.between("asperities", &lower, upper, faded(scene.hue(palette, palette.pressure), ASPERITIES));
+}
+
+/// Fills the band of the composite roughness around the film of a rough contact, H ± σ.
+pub fn roughness(plot: &mut Canvas<'_, '_>, scene: &Scene<'_>, direction: Direction, palette: &Palette) {
+    let Some(rough) = scene.picture.solution.problem.rough else { return };
+    let film = direction.film(scene.picture);
+    let moved = |by: f64| -> Vec<PlotPoint> { film.iter().map(|at| PlotPoint::new(at.x, at.y + by)).collect() };
+    let fill = faded(scene.hue(palette, palette.film), ROUGHNESS);
+    plot.between("roughness", &moved(-rough.sigma), &moved(rough.sigma), fill);
+}
+
 /// Draws the key above the plots, where it covers nothing.
 pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
     let palette = Palette::of(ui);
-    let live = if scene.stale { palette.reference } else { palette.pressure };
+    let live = scene.hue(&palette, palette.pressure);
     let name = if scene.picture.origin == Origin::Full { "full solution" } else { "reduced model" };
     let mut entries = vec![Entry::new(name, live, Sample::Line(LIVE_WIDTH))];
     if scene.full.is_some() {
@@ -103,6 +130,11 @@ pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
         entries.push(Entry::new(full_name(scene), color, Sample::Line(FULL_WIDTH)));
     }
     entries.push(Entry::new("dry contact (Hertz)", palette.reference, Sample::Dashed(THIN_WIDTH)));
+    if scene.picture.mixed.is_some() {
+        entries.push(Entry::new("carried by asperities", faded(live, ASPERITIES), Sample::Area));
+        let film = scene.hue(&palette, palette.film);
+        entries.push(Entry::new("film ± σ", faded(film, ROUGHNESS), Sample::Area));
+    }
     key::ui(ui, entries);
 }
 

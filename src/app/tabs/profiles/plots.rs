@@ -1,6 +1,6 @@
 //! Plots of pressure, film thickness, and the difference between reduced and full solution.
 
-use super::curves::{Scene, cavitated, curve, hover, mark, mark_lifted, rupture, stacked};
+use super::curves::{Scene, asperities, cavitated, curve, hover, mark, mark_lifted, roughness, rupture, stacked};
 use crate::app::answers::picture::Comparison;
 use crate::app::numbers;
 use crate::app::plot::axes;
@@ -39,6 +39,7 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
             if on_axis {
                 cavitated(plot, picture, &palette);
             }
+            asperities(plot, scene, direction, &palette);
             let hertz: PlotPoints<'_> =
                 PlotPoints::from_explicit_callback(move |x| (height_here - x * x).max(0.0).sqrt(), -1.0..=1.0, 201);
             plot.line(
@@ -73,7 +74,10 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     let palette = Palette::of(ui);
     let picture = scene.picture;
     let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point));
-    let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c, f64::max);
+    // The mean planes of rough surfaces may touch.
+    let sigma = picture.solution.problem.rough.map_or(0.0, |rough| rough.sigma);
+    let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c.max(sigma), f64::max);
+    let bottom = if sigma > 0.0 { (scalars.h_min - 1.5 * sigma).min(0.0) } else { 0.0 };
     let (from, to) = direction.range();
     let elsewhere = direction.elsewhere(scene.cuts);
     let x_title = direction.x_title(picture, scene.cuts);
@@ -85,7 +89,7 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
             .si_y(scales.film_um, "Film {h} / µm")
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
             .default_x_bounds(from, to)
-            .default_y_bounds(0.0, numbers::round_up(4.0 * top))
+            .default_y_bounds(bottom, numbers::round_up(4.0 * top))
             .label_formatter(hover(picture, direction)),
         ui,
         &direction.profile_name("Film"),
@@ -94,6 +98,7 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
             if direction == Direction::Along && elsewhere == 0.0 {
                 cavitated(plot, picture, &palette);
             }
+            roughness(plot, scene, direction, &palette);
             let live =
                 scene.curves(plot, (&palette, palette.film), direction, move |of| direction.film(of), |of| of.film_um);
             if elsewhere == 0.0 {

@@ -11,6 +11,7 @@ use crate::app::answers::picture::{Origin, Picture};
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::named;
+use crate::app::document::Shape;
 use crate::app::drawn::{self, Owner};
 use crate::app::plot::cut_line;
 use crate::app::plot::direction::Direction;
@@ -280,8 +281,9 @@ fn pins_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
                 format!(", {{R_y}}/{{R}} {}", numbers::significant(point.radius_ratio()))
             });
             let text = format!(
-                "Pin {}: {{M}} {}, {{L}} {}{ratio}, {{H_c}} {}",
+                "Pin {}, {}: {{M}} {}, {{L}} {}{ratio}, {{H_c}} {}",
                 pin.number,
+                Shape::of(point).contact(),
                 numbers::significant(moes.m),
                 numbers::significant(moes.l),
                 numbers::significant(pin.picture.solution.scalars.h_c)

@@ -7,9 +7,10 @@ use crate::app::document::Edit;
 use crate::app::figure::{Canvas, Texture};
 use crate::app::plot::axes;
 use crate::app::plot::grip::Grip;
+use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::tabs::regimes::chart::{ChartLine, ChartLines, Kind, point, shading};
 use crate::app::tabs::regimes::trail::Trail;
-use crate::app::tabs::{About, Offer, View};
+use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, faded, rich};
 use crate::app::{formulas, numbers};
 use crate::scene::regime::RegimeMap;
@@ -18,6 +19,7 @@ use crate::solver::physics::contact::{ContactKind, FilmShape, Moes};
 use crate::solver::reduced::ReducedModel;
 use egui::{Align2, RichText, ScrollArea, Ui, WidgetText};
 use egui_plot::{Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Text};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Distance in screen points within which the pointer can grab the contact.
@@ -33,9 +35,20 @@ impl PartialEq for Owner {
     }
 }
 
-/// Data kept between frames: the shading as an image, all lines, and the trail of the contact.
+/// Settings of the chart, stored with the session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Choices {
+    /// True if the training points of the reduced model are drawn.
+    pub training_points: bool,
+}
+
+/// Regimes tab: its settings and the data kept between frames: the shading as an image, all lines, and the trail of the
+/// contact.
 #[derive(Default)]
 pub struct Regimes {
+    /// Settings of the chart.
+    pub choices: Choices,
     texture: Option<(FilmShape, bool, Texture)>,
     lines: Option<(Owner, ChartLines)>,
     trail: Trail,
@@ -84,6 +97,9 @@ impl Regimes {
             let lines = ChartLines::new(shape, owner.1.as_deref());
             self.lines = Some((owner, lines));
         }
+        let lines = self.lines.iter().flat_map(|(_, lines)| &lines.lines);
+        let model_points =
+            lines.filter(|line| line.kind == Kind::Snapshots).map(|line| line.points.len()).sum::<usize>();
         let top = ui.cursor().top();
         let (map, ratios) = (RegimeMap::new(shape), context.regime_ratios());
         let regime = ratios.regime();
@@ -108,6 +124,11 @@ impl Regimes {
                 None if context.presenting => {}
                 None => _ = ui.label(rich(hint, 12.5, palette.quiet)),
             }
+            if !context.presenting && model_points > 0 {
+                let tip =
+                    format!("Contacts of the {model_points} full solutions that the reduced model was trained with");
+                ui.checkbox(&mut self.choices.training_points, "Training points").on_hover_text(tip);
+            }
             let clear = ui.add_enabled(self.trail.points().len() > 1, egui::Button::new("Clear the trail"));
             if clear.on_hover_text("Removes the path of the contact from the chart").clicked() {
                 self.trail.clear();
@@ -125,6 +146,11 @@ impl Regimes {
             .map(|p| at(p.picture.key.point.moes()))
             .map(|p| [p.x, p.y])
             .collect();
+        let points_shown = self.choices.training_points;
+        if points_shown && model_points > 0 {
+            let dots = Entry::new("training points of the reduced model", faded(palette.accent, 0.7), Sample::Dot(2.5));
+            key::ui(ui, vec![dots]);
+        }
         let chart_height = (height - (ui.cursor().top() - top) - ui.spacing().item_spacing.y).max(160.0);
         let trail = &self.trail;
         let Some((_, lines)) = &self.lines else { return };
@@ -159,6 +185,7 @@ impl Regimes {
                 }
                 // Draw dots over lines.
                 let (dots, all): (Vec<_>, Vec<_>) = lines.lines.iter().partition(|l| l.kind == Kind::Snapshots);
+                let dots = dots.into_iter().filter(|_| points_shown);
                 for (k, line) in all.into_iter().chain(dots).enumerate() {
                     draw(plot, line, k, &palette);
                 }
@@ -245,6 +272,14 @@ impl View for Regimes {
             let table = ScrollArea::vertical().id_salt("formulas").auto_shrink(false);
             table.show(ui, |ui| formulas::ui(ui, context, commands));
         }
+    }
+
+    fn kept(&self) -> Option<String> {
+        view::kept(&self.choices)
+    }
+
+    fn restore(&mut self, text: &str) -> bool {
+        view::restore(&mut self.choices, text, |_| true)
     }
 
     fn offers<'a>(&'a self, context: &Context<'a>) -> Vec<Offer<'a>> {

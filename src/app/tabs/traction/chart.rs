@@ -1,4 +1,4 @@
-//! Plots of traction and film thickness with a common axis. A click in a plot moves the contact to that place.
+//! Plots of traction, film thickness and, for rough surfaces, the load share of asperities with a common axis. A click in a plot moves the contact to that place.
 
 use super::sweeps::{Choices, Markers, SlideView};
 use super::tab::ShownSweep;
@@ -10,15 +10,19 @@ use crate::app::plot::axes;
 use crate::app::plot::frame::PlotFrame;
 use crate::app::tabs::traction::{Against, Companion, Curve, Sample, Sweep};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
-use crate::solver::full::{PLAUSIBLE_TRACTION, TractionDoubt};
+use crate::solver::full::{Lubrication, Mixed, PLAUSIBLE_TRACTION, TractionDoubt};
 use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
-use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, Points, Text, VLine};
+use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, Points, Span, Text, VLine};
 
 /// Minimum height of a readable plot.
 const LEAST_HEIGHT: f32 = 110.0;
 /// Metres per micrometre, the unit of the film thickness axis.
 const MICRO: f64 = 1e-6;
 
+/// Height of the plot of the load share relative to the others.
+const SHARE_HEIGHT: f32 = 0.7;
+/// Share of the axis that a range needs for its name.
+const NAMED: f64 = 0.1;
 /// Opacity of a curve outside the trained range, and of the companion curve.
 const SKETCH: f32 = 0.7;
 const COMPANION: f32 = 0.55;
@@ -135,6 +139,18 @@ const TRACTION: Quantity = |sample| Some(sample.traction);
 const OF_COMPANION: Quantity = |sample| sample.companion;
 const CENTRAL: Quantity = |sample| Some(sample.h_c_m / MICRO);
 const SMALLEST: Quantity = |sample| Some(sample.h_min_m / MICRO);
+/// Mean gap of rough surfaces at the centre in µm.
+const GAP: Quantity = |sample| gap_um(&sample.mixed?, sample.h_c_m);
+/// Parts of the traction of rough surfaces, and the share of the load that asperities carry in percent.
+const BOUNDARY: Quantity = |sample| Some(sample.mixed?.boundary_traction.abs());
+const FLUID: Quantity = |sample| Some(sample.mixed?.fluid_traction.abs());
+const CARRIED: Quantity = |sample| Some(100.0 * sample.mixed?.asperity_load_share);
+
+/// Returns the mean gap at the centre \[µm\] of a contact with a central film thickness \[m\].
+fn gap_um(mixed: &Mixed, h_c_m: f64) -> Option<f64> {
+    let sigma_m = h_c_m / mixed.film_ratio_c;
+    sigma_m.is_finite().then_some(mixed.mean_gap_c * sigma_m / MICRO)
+}
 
 /// Returns the maximum differences between full solutions and their curve: of the traction coefficient, and of H_c
 /// relative.
@@ -164,30 +180,58 @@ pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64
 pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, shown: &ShownSweep<'_>) -> Option<f64> {
     let palette = Palette::of(ui);
     let axes = Axes::new(choices, sweep);
-    let unit = ((ui.available_height() - 6.0) / 2.0).max(LEAST_HEIGHT);
+    let rough = sweep.base.lubricant.is_rough();
+    let parts = if rough { 2.0 + SHARE_HEIGHT } else { 2.0 };
+    let unit = ((ui.available_height() - 6.0) / parts).max(LEAST_HEIGHT);
     let here = context.answers.current_picture();
     let below = axes.against.axis(sweep.base.point.kind);
+    let drawn = |name, of, color, width| Drawn { name, of, color, width, named_at_start: false };
+    let total = drawn("traction", TRACTION, palette.traction, LIVE_WIDTH);
+    let parts = [
+        drawn("of the film", FLUID, palette.film, 1.6),
+        Drawn { named_at_start: true, ..drawn("of asperities", BOUNDARY, palette.pressure, 1.6) },
+    ];
+    let curves: Vec<Drawn> = std::iter::once(total).chain(parts.into_iter().filter(|_| rough)).collect();
     let traction = LinkedPlot {
         below,
         name: "Traction along the quantity",
         id: "traction",
         titles: ("", "Traction coefficient µ"),
-        curves: &[Drawn { name: "traction", of: TRACTION, color: palette.traction, width: LIVE_WIDTH }],
+        curves: &curves,
         here: here.map(|picture| (picture.traction.abs(), picture.unphysical.is_some())),
     };
     let film = LinkedPlot {
         below,
         name: "Film along the quantity",
         id: "film",
-        titles: (below, "Film in µm"),
+        titles: (if rough { "" } else { below }, "Film in µm"),
         curves: &[
-            Drawn { name: "central film thickness", of: CENTRAL, color: palette.film, width: LIVE_WIDTH },
-            Drawn { name: "minimum film thickness", of: SMALLEST, color: palette.film, width: 1.6 },
+            match rough {
+                true => drawn("mean gap at the centre", GAP, palette.film, LIVE_WIDTH),
+                false => drawn("central film thickness", CENTRAL, palette.film, LIVE_WIDTH),
+            },
+            drawn("minimum film thickness", SMALLEST, palette.film, 1.6),
         ],
-        here: here.map(|picture| (picture.central_film_m() / MICRO, false)),
+        here: here.and_then(|picture| match &picture.mixed {
+            Some(mixed) => Some((gap_um(mixed, picture.central_film_m())?, false)),
+            None => Some((picture.central_film_m() / MICRO, false)),
+        }),
     };
-    let pressed = traction.show(ui, context, &axes, shown, unit);
-    film.show(ui, context, &axes, shown, unit).or(pressed).map(|place| axes.value(place))
+    let share = LinkedPlot {
+        below,
+        name: "Load share of asperities along the quantity",
+        id: "share",
+        titles: (below, "On asperities, %"),
+        curves: &[drawn("load share of asperities", CARRIED, palette.pressure, LIVE_WIDTH)],
+        here: here.and_then(|picture| Some((100.0 * picture.mixed?.asperity_load_share, false))),
+    };
+    let mut pressed = traction.show(ui, context, &axes, shown, unit);
+    pressed = film.show(ui, context, &axes, shown, unit).or(pressed);
+    if rough {
+        let linear = Axes { logarithmic: (axes.logarithmic.0, false), ..axes };
+        pressed = share.show(ui, context, &linear, shown, SHARE_HEIGHT * unit).or(pressed);
+    }
+    pressed.map(|place| axes.value(place))
 }
 
 /// Curve of a plot.
@@ -196,6 +240,8 @@ struct Drawn {
     of: Quantity,
     color: Color32,
     width: f32,
+    /// True if the name is at the start of the curve, otherwise at its end.
+    named_at_start: bool,
 }
 
 /// One of the two plots.
@@ -230,6 +276,7 @@ impl LinkedPlot<'_> {
                 plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
             }
             let samples = shown.samples();
+            regimes(plot, axes, samples, &palette, (up, self.id == "traction"));
             if self.id == "traction" {
                 let color = if shown.line_stale() { palette.reference } else { palette.traction };
                 companion(plot, axes, samples, faded(color, COMPANION), up);
@@ -306,16 +353,21 @@ impl LinkedPlot<'_> {
             let line = Line::new(name, points).color(color).width(width);
             plot.line(line.style(style).id((self.id, k, part)).allow_band(false));
         }
-        let last = axes.points(samples.iter().filter(|sample| mark(sample).is_none()), curve.of);
-        if let Some([x, y]) = last.into_iter().rfind(|point| axes.shows(point[0])) {
+        let points = axes.points(samples.iter().filter(|sample| mark(sample).is_none()), curve.of);
+        let mut seen = points.into_iter().filter(|point| axes.shows(point[0]));
+        if let Some([x, y]) = if curve.named_at_start { seen.next() } else { seen.last() } {
             let name = if sketch {
                 format!("{}, outside the trained range  ", curve.name)
             } else {
-                format!("{}  ", curve.name)
+                format!("  {}  ", curve.name)
             };
             let text = Text::new("", PlotPoint::new(x, y), rich(&name, axes::TITLE_SIZE, palette.ink(color)));
             // The name of the lower curve is placed below it.
-            let anchor = if k == 0 { Align2::RIGHT_BOTTOM } else { Align2::RIGHT_TOP };
+            let anchor = match (k, curve.named_at_start) {
+                (0, _) => Align2::RIGHT_BOTTOM,
+                (_, false) => Align2::RIGHT_TOP,
+                (_, true) => Align2::LEFT_TOP,
+            };
             plot.text(text.anchor(anchor).id((self.id, k, "name")).allow_hover(false));
         }
     }
@@ -345,6 +397,41 @@ impl LinkedPlot<'_> {
             });
         let plot = if along { plot.log_x() } else { plot.marks_x(marks) };
         if logarithmic { plot.log_y() } else { plot }
+    }
+}
+
+/// Shades the ranges of boundary and mixed lubrication of rough surfaces, and names them in one of the plots.
+fn regimes(
+    plot: &mut Canvas<'_, '_>,
+    axes: &Axes<'_>,
+    samples: &[Sample],
+    palette: &Palette,
+    (up, named): ((f64, f64), bool),
+) {
+    let carried = |sample: &Sample| Some((axes.place(sample)?, Lubrication::of(sample.mixed?.asperity_load_share)));
+    let places: Vec<(f64, Lubrication)> = samples.iter().filter_map(carried).collect();
+    let mut from = places.first().map_or(0.0, |(place, _)| *place);
+    let mut end = 0;
+    for run in places.chunk_by(|a, b| a.1 == b.1) {
+        end += run.len();
+        let (Some((last, regime)), next) = (run.last(), places.get(end)) else { continue };
+        let to = next.map_or(*last, |(next, _)| 0.5 * (last + next));
+        let (left, right) = (from.max(axes.ends.0), to.min(axes.ends.1));
+        let strength = match regime {
+            Lubrication::Boundary => 0.22,
+            Lubrication::Mixed => 0.1,
+            Lubrication::FullFilm => 0.0,
+        };
+        if strength > 0.0 {
+            let fill = faded(palette.pressure, strength);
+            plot.span(Span::new("", from..=to).fill(fill).border_width(0.0));
+        }
+        if named && right - left > NAMED * (axes.ends.1 - axes.ends.0) {
+            let at = PlotPoint::new(0.5 * (left + right), up.1);
+            let text = Text::new("", at, rich(&format!("\n{}", regime.name()), axes::TITLE_SIZE, palette.quiet));
+            plot.text(text.anchor(Align2::CENTER_TOP).id(("regime", end)).allow_hover(false));
+        }
+        from = to;
     }
 }
 

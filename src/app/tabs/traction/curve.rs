@@ -1,12 +1,14 @@
-//! Live curve: a sweep by the reduced model. One curve is computed at a time, and the latest request replaces
+//! Live curve: a sweep by the reduced model, or by fast full solutions. One curve is computed at a time, and the latest request replaces
 //! earlier ones.
 
-use super::sweeps::CURVE;
+use super::sweeps::{CURVE, STRIBECK};
+use crate::app::in_use::InUse;
 use crate::app::refusal::Refusal;
-use crate::app::tabs::traction::{Sample, Served, Sweep};
-use crate::engine::Store;
+use crate::app::tabs::traction::{Sample, Served, Sweep, Varied};
+use crate::app::wake::wake;
 use crate::engine::job::{Ending, Job, Standing};
-use crate::scene::{Grid, StudyRow};
+use crate::engine::{Store, Workbench};
+use crate::scene::{Grid, Method, StudyRow};
 use egui::Context;
 use std::time::Duration;
 
@@ -14,14 +16,14 @@ use std::time::Duration;
 /// would appear while a slider moves.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Sweep by the reduced model.
+/// Sweep by the reduced model or by fast full solutions.
 pub struct Curve {
     pub sweep: Sweep,
-    /// Model that computed it.
+    /// Method that computed it.
     pub served: Served,
     /// Contacts in their order.
     pub samples: Vec<Sample>,
-    /// Number of contacts where the reduced model did not converge, or the reason why there is no curve.
+    /// Number of contacts without convergence, or the reason why there is no curve.
     pub left_out: Result<usize, Refusal>,
     /// Contacts of the companion.
     companions: Vec<Sample>,
@@ -33,6 +35,8 @@ pub struct Curve {
 struct Running {
     curve: Curve,
     contacts: usize,
+    /// Number of contacts of the curve.
+    wanted: usize,
     job: Job<StudyRow>,
     ending: Option<Ending>,
     companion: Option<Job<StudyRow>>,
@@ -61,13 +65,20 @@ impl LiveCurve {
     fn start_next(&mut self) {
         let Some((ctx, store, sweep, served)) = self.next.take() else { return };
         let ask = |title: &str, sweep: &Sweep, count: usize| {
-            served.by.ask(&ctx, &store, sweep.question(title, Grid::Graded, count, served.by.method()))
+            let method = served.by.as_ref().map_or(Method::Full, InUse::method);
+            let question = sweep.question(title, Grid::Graded, count, method);
+            match &served.by {
+                Some(by) => by.ask(&ctx, &store, question),
+                None => question.ask(Workbench::on(&store, ""), wake(&ctx)),
+            }
         };
-        let job = ask("Traction curve", &sweep, CURVE);
-        let companion = sweep.accompanied().map(|(companion, by)| ask(companion.title(), &by, sweep.companions(CURVE)));
+        let wanted = if served.by.is_none() && sweep.varied == Varied::Speed { STRIBECK } else { CURVE };
+        let job = ask("Traction curve", &sweep, wanted);
+        let companion =
+            sweep.accompanied().map(|(companion, by)| ask(companion.title(), &by, sweep.companions(wanted)));
         let (samples, companions, left_out) = (Vec::new(), Vec::new(), Ok(0));
         let curve = Curve { sweep, served, samples, companions, left_out, wall_s: 0.0 };
-        self.running = Some(Running { curve, contacts: 0, job, ending: None, companion });
+        self.running = Some(Running { curve, contacts: 0, wanted, job, ending: None, companion });
     }
 
     /// Returns the progress.
@@ -77,7 +88,7 @@ impl LiveCurve {
 
     /// Returns a curve that has been completed since the last call.
     pub fn finished(&mut self) -> Option<Curve> {
-        let Running { curve, contacts, job, ending, companion } = self.running.as_mut()?;
+        let Running { curve, contacts, job, ending, companion, .. } = self.running.as_mut()?;
         if ending.is_none() {
             *ending = job.poll(|row| {
                 *contacts += 1;
@@ -94,12 +105,12 @@ impl LiveCurve {
         if companion.is_some() || ending.is_none() {
             return None;
         }
-        let Running { mut curve, contacts, ending, .. } = self.running.take()?;
+        let Running { mut curve, contacts, wanted, ending, .. } = self.running.take()?;
         self.start_next();
         curve.sweep.note_companions(&mut curve.samples, &curve.companions);
         match ending? {
             // The curve was ended for a newer request.
-            Ok(()) if contacts < CURVE => None,
+            Ok(()) if contacts < wanted => None,
             Ok(()) => Some(curve),
             Err(why) => Some(Curve { samples: Vec::new(), left_out: Err(Refusal::new(why.to_string())), ..curve }),
         }

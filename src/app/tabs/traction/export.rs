@@ -3,8 +3,10 @@
 use super::sweeps::Sweeps;
 use crate::app::document::Key;
 use crate::app::export as tables;
+use crate::app::in_use::InUse;
 use crate::app::tabs::traction::{Companion, Sample, Served, Sweep};
 use crate::scene::names;
+use crate::solver::full::Mixed;
 
 /// Returns the description of a sweep as lines above a table.
 pub fn describe(sweep: &Sweep) -> Vec<String> {
@@ -56,6 +58,10 @@ pub fn csv(view: &Sweeps) -> Option<String> {
         names::H_MIN_M,
         companion.column(),
         "unphysical",
+        names::MIXED_FILM_RATIO_C,
+        names::MIXED_LOAD_SHARE,
+        names::MIXED_BOUNDARY_TRACTION,
+        names::MIXED_FLUID_TRACTION,
     ];
     let curve = view.curve.iter().map(|curve| (0.0, &curve.sweep, curve.samples.as_slice()));
     let markers = view.markers.iter().map(|markers| (1.0, &markers.sweep, markers.samples.as_slice()));
@@ -63,7 +69,8 @@ pub fn csv(view: &Sweeps) -> Option<String> {
     let (_, first, _) = blocks.iter().find(|block| !block.2.is_empty())?;
     let mut comments = describe(first);
     for served in view.curve.iter().map(|curve| &curve.served) {
-        comments.push(format!("full 0: {}", served.by.describe()));
+        let by = served.by.as_ref().map_or_else(|| "full solutions".to_owned(), InUse::describe);
+        comments.push(format!("full 0: {by}"));
         comments.extend(untrained(served));
     }
     if let Some(markers) = view.markers.as_ref().filter(|markers| markers.sweep != **first) {
@@ -82,5 +89,12 @@ fn row(full: f64, sweep: &Sweep, sample: &Sample) -> Vec<Option<f64>> {
     let srr = point.sliding.slide_to_roll_ratio;
     let unphysical = f64::from(u8::from(sample.unphysical.is_some()));
     let values = [full, srr, npr, point.speed_m_per_s, moes.m, moes.l, sample.traction, sample.h_c_m, sample.h_min_m];
-    values.map(Some).into_iter().chain([sample.companion, Some(unphysical)]).collect()
+    let mixed = |of: fn(&Mixed) -> f64| sample.mixed.as_ref().map(of);
+    let rough = [
+        mixed(|mixed| mixed.film_ratio_c),
+        mixed(|mixed| mixed.asperity_load_share),
+        mixed(|mixed| mixed.boundary_traction.abs()),
+        mixed(|mixed| mixed.fluid_traction.abs()),
+    ];
+    values.map(Some).into_iter().chain([sample.companion, Some(unphysical)]).chain(rough).collect()
 }

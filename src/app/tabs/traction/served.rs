@@ -7,17 +7,18 @@ use crate::app::in_use::InUse;
 use crate::app::refusal::Refusal;
 use crate::app::tabs::traction::{Sweep, Varied};
 use crate::solver::full::Problem;
+use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::{LARGEST_HEATED_SRR, ShearLaw};
 use crate::solver::reduced::{Domain, Trust};
 
 /// Minimum lower end of a logarithmic axis of NPR.
 const LOG_NPR: f64 = 1e-2;
 
-/// Reduced model of a curve.
+/// Method that computes a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Served {
-    /// Model with its truncation.
-    pub by: InUse,
+    /// Reduced model with its truncation; `None` for full solutions that are fast enough.
+    pub by: Option<InUse>,
     /// Reason why the curve is outside the trained range, such as another fluid. The model solves the equations of
     /// these contacts, but its errors have not been calibrated for them.
     pub untrained: Option<String>,
@@ -34,13 +35,20 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
     if varied == Varied::Plateau && key.lubricant.shear == ShearLaw::Newtonian || !choices.against.is_of(point.kind) {
         return None;
     }
-    let (ends, served) = match answers.in_use(document) {
-        None => (varied.everywhere(&point), Err(Refusal::new("there is no reduced model of this contact"))),
+    // Reduced models are trained for smooth surfaces.
+    let rough = key.lubricant.is_rough();
+    let (ends, served) = match answers.in_use(document).filter(|_| !rough) {
+        // Each full solution of a rough line contact takes some 15 ms from its neighbour.
+        None if rough && point.kind == ContactKind::Line => {
+            (varied.everywhere(&key), Ok(Served { by: None, untrained: None }))
+        }
+        None if rough => (varied.everywhere(&key), Err(Refusal::new("reduced models are trained for smooth surfaces"))),
+        None => (varied.everywhere(&key), Err(Refusal::new("there is no reduced model of this contact"))),
         Some(by) => match varied.trained(&by.model.domain, &point) {
             Some(ends) => match untrained(&by.model.domain, &key, varied, ends) {
                 Ok(untrained) => {
                     let ends = if untrained.is_some() { varied.around(&key, ends) } else { ends };
-                    (ends, Ok(Served { by, untrained }))
+                    (ends, Ok(Served { by: Some(by), untrained }))
                 }
                 Err(why) => (ends, Err(why)),
             },
@@ -50,7 +58,7 @@ pub fn sweep(document: &Document, answers: &Answers, choices: &Choices) -> Optio
                     Varied::Plateau => "one plateau ratio only",
                     Varied::SlideToRoll | Varied::Speed => "other speeds",
                 };
-                (varied.everywhere(&point), Err(Refusal::new(format!("the reduced model was trained for {what}"))))
+                (varied.everywhere(&key), Err(Refusal::new(format!("the reduced model was trained for {what}"))))
             }
         },
     };

@@ -4,7 +4,7 @@ use crate::app::document::Key;
 use crate::app::in_use::question;
 use crate::scene::study::{PathRow, sweep as scene};
 use crate::scene::{Axis, Grid, Method, Scene, Steps, Study, StudyRow};
-use crate::solver::full::{Problem, TractionDoubt};
+use crate::solver::full::{Mixed, Problem, TractionDoubt};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
@@ -90,6 +90,8 @@ pub struct Sample {
     pub companion: Option<f64>,
     /// Reason why its traction is not physical, if it is not.
     pub unphysical: Option<TractionDoubt>,
+    /// Results of rough surfaces; `None` for smooth ones.
+    pub mixed: Option<Mixed>,
 }
 
 impl Companion {
@@ -179,9 +181,12 @@ impl Varied {
         }
     }
 
-    /// Returns the range of values if no model sets it. For the speed these are the decades around the present one.
-    pub(super) fn everywhere(self, point: &OperatingPoint) -> (f64, f64) {
+    /// Returns the range of values if no model sets it. For the speed these are the decades around the present one, or
+    /// those of the Stribeck curve of rough surfaces.
+    pub(super) fn everywhere(self, key: &Key) -> (f64, f64) {
+        let point = &key.point;
         match self {
+            Self::Speed if key.lubricant.is_rough() => stribeck(key),
             Self::SlideToRoll => SRR,
             Self::Plateau => NPR,
             Self::RadiusRatio => RADIUS_RATIO,
@@ -191,6 +196,15 @@ impl Varied {
             }
         }
     }
+}
+
+/// Returns the speeds of a Stribeck curve: five decades below and two above the speed at which the film of smooth
+/// surfaces is as thick as the composite roughness, by the film formula. They include the present speed.
+fn stribeck(key: &Key) -> (f64, f64) {
+    let (point, sigma) = (&key.point, key.lubricant.roughness.map_or(0.0, |roughness| roughness.sigma));
+    let decade = point.at_film_m(sigma).speed_m_per_s.log10().round();
+    let (from, to) = (10f64.powf(decade - 5.0), 10f64.powf(decade + 2.0));
+    (from.min(point.speed_m_per_s), to.max(point.speed_m_per_s))
 }
 
 impl Against {
@@ -313,9 +327,12 @@ impl Sweep {
     }
 
     /// Returns the companion: the isothermal contact for a thermal sweep, otherwise the Newtonian contact. `None`
-    /// if the lubricant is Newtonian already or if NPR is varied.
+    /// if the lubricant is Newtonian already, if NPR is varied, and for rough surfaces.
     pub fn companion(&self) -> Option<Companion> {
         let Lubricant { shear, limiting_stress, heat, .. } = self.base.lubricant;
+        if self.base.lubricant.is_rough() {
+            return None;
+        }
         let bends = shear != ShearLaw::Newtonian || limiting_stress.is_some();
         match heat {
             Some(_) => Some(Companion::WithoutHeat),
@@ -387,6 +404,7 @@ impl Sample {
             traction,
             companion: None,
             unphysical: problem.doubts_traction(traction, &scalars),
+            mixed: result.mixed,
         })
     }
 }
@@ -451,7 +469,7 @@ mod tests {
         assert_eq!((newtonian.companion(), sweep.companions(41)), (None, 2));
         let sample = |srr: f64, traction| {
             let point = Varied::SlideToRoll.at(&base.point, srr);
-            Sample { point, h_c_m: 1.0, h_min_m: 1.0, traction, companion: None, unphysical: None }
+            Sample { point, h_c_m: 1.0, h_min_m: 1.0, traction, companion: None, unphysical: None, mixed: None }
         };
         let mut samples = [sample(0.0, 0.0), sample(0.1, 0.05)];
         sweep.note_companions(&mut samples, &[sample(0.0, 0.0), sample(1.0, 8.0)]);

@@ -18,6 +18,8 @@ use serde::{Deserialize, Serialize};
 
 /// Number of contacts of a curve by the reduced model.
 pub const CURVE: usize = 41;
+/// Number of contacts of a Stribeck curve: eight per decade of speed.
+pub const STRIBECK: usize = 57;
 /// Number of full solutions on the curve: every fourth of its contacts.
 const MARKERS: usize = 11;
 /// Number of full solutions that form the curve of a line contact without a reduced model.
@@ -175,7 +177,7 @@ impl Sweeps {
         let Some((sweep, served)) = served::sweep(document, answers, choices) else { return };
         let plane = document.chosen_plane();
         let model = match &served {
-            Ok(served) => Some(&served.by.model),
+            Ok(served) => served.by.as_ref().map(|by| &by.model),
             Err(_) => answers.model(document).filter(|_| plane.is_none()),
         };
         let grid = match (model, plane) {

@@ -235,6 +235,9 @@ fn toolbar(
 ) {
     ui.horizontal_wrapped(|ui| {
         against_ui(ui, choices, context.document.point.kind, commands);
+        if context.document.lubricant.is_rough() {
+            stribeck_ui(ui, choices, commands);
+        }
         let (along, up) = &mut choices.logarithmic;
         let before = choices.slide;
         if choices.against == Against::SlideToRoll {
@@ -262,6 +265,16 @@ fn toolbar(
             }
         }
     });
+}
+
+/// Draws the button that shows the Stribeck curve.
+fn stribeck_ui(ui: &mut Ui, choices: &mut Choices, commands: &mut Commands) {
+    let shown = choices.against == Against::Speed && choices.logarithmic.0;
+    let tip = "Friction and load share of the asperities over five decades of speed, from boundary to full film";
+    if ui.selectable_label(shown, "Stribeck curve").on_hover_text(tip).clicked() && !shown {
+        (choices.against, choices.logarithmic.0) = (Against::Speed, true);
+        commands.push(Command::FitPlots);
+    }
 }
 
 fn against_ui(ui: &mut Ui, choices: &mut Choices, kind: ContactKind, commands: &mut Commands) {
@@ -355,7 +368,7 @@ fn said(
     context.entries.message_ui(ui, "traction");
     if let Some(curve) = view.curve.as_ref().filter(|curve| curve.sweep.varied == sweep.varied) {
         match &curve.left_out {
-            Ok(left_out) => left_out_ui(ui, *left_out),
+            Ok(left_out) => left_out_ui(ui, *left_out, &curve.served),
             Err(message) => message_ui(ui, message),
         }
     }
@@ -368,13 +381,14 @@ fn said(
 }
 
 /// Draws a warning if contacts of the curve are missing.
-fn left_out_ui(ui: &mut Ui, failed: usize) {
+fn left_out_ui(ui: &mut Ui, failed: usize, served: &Served) {
     let contacts = match failed {
         0 => return,
         1 => "1 contact, which is".to_owned(),
         _ => format!("{failed} contacts, which are"),
     };
-    warning_ui(ui, &format!("the reduced model did not converge at {contacts} left out"));
+    let solver = if served.by.is_some() { "reduced model" } else { "full solver" };
+    warning_ui(ui, &format!("the {solver} did not converge at {contacts} left out"));
 }
 
 /// Returns the traction of the contact, the maximum of the curve, and the difference to full solutions.

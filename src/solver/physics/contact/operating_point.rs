@@ -2,6 +2,7 @@
 
 use super::ellipse::Ellipse;
 use super::error::ContactError;
+use super::film_asymptotes::FilmShape;
 use super::kind::ContactKind;
 use super::limits::{self, Limit};
 use super::sliding::Sliding;
@@ -191,6 +192,31 @@ impl OperatingPoint {
         }
     }
 
+    /// Returns the central film thickness \[m\] by the film formula of all regimes, [`FilmShape::film`].
+    pub fn formula_film_m(&self) -> f64 {
+        // H = (h/R)(2U)^(−1/2)
+        FilmShape::of(self).film(self.moes()) * self.radius_m * self.speed_group().sqrt()
+    }
+
+    /// Returns the same contact under the load at which the Hertzian pressure is this one \[Pa\], above 0.
+    pub fn at_hertz_pressure(mut self, pressure_pa: f64) -> Self {
+        let ratio = pressure_pa / self.hertz().pressure_pa;
+        self.load *= match self.kind {
+            ContactKind::Line => ratio.powi(2),
+            ContactKind::Point => ratio.powi(3),
+        };
+        self
+    }
+
+    /// Returns the same contact at the speed at which the film formula gives a film thickness \[m\] above 0.
+    pub fn at_film_m(mut self, film_m: f64) -> Self {
+        // The film grows with a power of the speed between 0 and 2; half a step converges for all of them.
+        for _ in 0..200 {
+            self.speed_m_per_s *= (film_m / self.formula_film_m()).sqrt();
+        }
+        self
+    }
+
     /// Returns the dimensionless speed 2U = 2 η₀ u_m / (E′ R), a factor of both Moes numbers.
     pub fn speed_group(&self) -> f64 {
         2.0 * self.viscosity_pa_s * self.speed_m_per_s / (self.modulus_pa * self.radius_m)
@@ -270,6 +296,23 @@ mod tests {
         close(hertz.pressure_pa, 1146878557.184226, 1e-12);
         close(hertz.half_width_m, 0.0003586486106552479, 1e-12);
         close(OperatingPoint::TABLE_2_1.lambda_bar(), 0.002313184217737941, 1e-12);
+    }
+
+    #[test]
+    fn speed_for_a_film_gives_this_film() {
+        let point =
+            OperatingPoint { kind: ContactKind::Point, load: 50.0, radius_m: 0.01, ..OperatingPoint::TABLE_2_1 };
+        // From thin to thick films, in which the film grows with the square of the speed.
+        for (contact, film) in
+            [OperatingPoint::TABLE_2_1, point].into_iter().flat_map(|c| [1e-9, 1e-7, 1e-5, 1e-3].map(|h| (c, h)))
+        {
+            let moved = contact.at_film_m(film);
+            close(moved.formula_film_m(), film, 1e-9);
+            assert_eq!(OperatingPoint { speed_m_per_s: contact.speed_m_per_s, ..moved }, contact);
+        }
+        let moes = OperatingPoint::TABLE_2_1.moes();
+        let expected = crate::solver::physics::contact::expected_film(ContactKind::Line, moes);
+        close(OperatingPoint::TABLE_2_1.formula_film_m() / OperatingPoint::TABLE_2_1.film_scale_m(), expected, 1e-9);
     }
 
     #[test]

@@ -211,6 +211,13 @@ impl Lubricant {
         }
     }
 
+    /// Returns the contact that a grid for this one has to resolve: rough surfaces smooth the pressure over the film of
+    /// half the composite roughness, however thin a smooth film would be.
+    pub fn grid_contact(&self, point: &OperatingPoint) -> OperatingPoint {
+        let least = self.roughness.filter(|_| self.is_rough()).map(|roughness| 0.5 * roughness.sigma);
+        least.filter(|least| point.formula_film_m() < *least).map_or(*point, |least| point.at_film_m(least))
+    }
+
     /// Returns the laws that affect pressure and film thickness: all but the limiting stress, which limits traction
     /// only.
     pub fn of_the_film(self) -> Self {

@@ -1,5 +1,6 @@
 //! Laws of the mean pressure that touching asperities carry, as a function of the separation l = h/σ.
 
+use super::mean_gap::mean_gap;
 use super::roughness::{SurfaceConstant, SurfaceError};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, SQRT_2};
@@ -97,20 +98,30 @@ impl AsperityLaw {
                 (scale * five_halves, -2.5 * scale * three_halves)
             }
             Self::ZhaoMaiettaChang { n_beta_sigma, sigma_over_beta, hardness } => {
-                let first = 3.0 * PI * YIELD * hardness / (2.0 * modulus_pa);
-                Summits {
-                    contact_modulus: 0.5 * modulus_pa,
-                    hardness,
-                    density: n_beta_sigma,
-                    root: sigma_over_beta.sqrt(),
-                    yields_at: first * first / sigma_over_beta,
-                }
-                .pressure(separation)
+                let summits = Summits::new(n_beta_sigma, sigma_over_beta, hardness, modulus_pa);
+                let [pressure, slope] = summits.mean(separation, |w| summits.carried(w));
+                (pressure, slope)
             }
             Self::Exponential { pressure, decay } => {
                 let pressure = pressure * (-separation / decay).exp();
                 (pressure, -pressure / decay)
             }
+        }
+    }
+
+    /// Returns the real contact area over the nominal area at a separation l; `None` if the law does not define it.
+    pub fn contact_area(self, modulus_pa: f64, separation: f64) -> Option<f64> {
+        match self {
+            Self::GreenwoodTripp { eta_beta_sigma, .. } => {
+                // F_2 = (1 + l²)Φ(−l) − l φ(l), with F_1 = T(−l) of the mean gap.
+                let (first, share) = mean_gap(-separation);
+                Some((PI * eta_beta_sigma).powi(2) * (share - separation * first))
+            }
+            Self::ZhaoMaiettaChang { n_beta_sigma, sigma_over_beta, hardness } => {
+                let summits = Summits::new(n_beta_sigma, sigma_over_beta, hardness, modulus_pa);
+                Some(summits.mean(separation, |w| summits.touched(w))[0])
+            }
+            Self::Exponential { .. } => None,
         }
     }
 }
@@ -154,8 +165,19 @@ const GAUSS_8: [(f64, f64); 4] = [
 ];
 
 impl Summits {
-    /// Returns the mean pressure \[Pa\] and its derivative by l.
-    fn pressure(&self, l: f64) -> (f64, f64) {
+    fn new(density: f64, sigma_over_beta: f64, hardness: f64, modulus_pa: f64) -> Self {
+        let first = 3.0 * PI * YIELD * hardness / (2.0 * modulus_pa);
+        Self {
+            contact_modulus: 0.5 * modulus_pa,
+            hardness,
+            density,
+            root: sigma_over_beta.sqrt(),
+            yields_at: first * first / sigma_over_beta,
+        }
+    }
+
+    /// Returns the mean of a function of the interference of summits over their heights, and its derivative by l.
+    fn mean(&self, l: f64, of: impl Fn(f64) -> f64) -> [f64; 2] {
         const PANELS: f64 = 12.0;
         let distance = l - SUMMIT_PLANE / self.density;
         let variance = 1.0 - SUMMIT_VARIANCE / self.density.powi(2);
@@ -165,7 +187,7 @@ impl Summits {
         let to = if distance > 0.0 { distance.hypot(reach) - distance } else { reach - distance };
         let scale = (2.0 * PI * variance).sqrt().recip();
         let ends = [0.0, self.yields_at, PLASTIC * self.yields_at, f64::INFINITY];
-        let (mut pressure, mut slope) = (0.0, 0.0);
+        let (mut mean, mut slope) = (0.0, 0.0);
         for range in ends.windows(2) {
             let (low, high) = (range[0].max(from), range[1].min(to));
             if low >= high {
@@ -182,13 +204,20 @@ impl Summits {
                     let interference = root * root;
                     let height = distance + interference;
                     let density = scale * (-0.5 * height * height / variance).exp();
-                    let part = 2.0 * root * half * weight * self.carried(interference) * density;
-                    pressure += part;
+                    let part = 2.0 * root * half * weight * of(interference) * density;
+                    mean += part;
                     slope -= part * height / variance;
                 }
             }
         }
-        (pressure, slope)
+        [mean, slope]
+    }
+
+    /// Returns the contact area of a summit at an interference w, times the number of summits per area.
+    fn touched(&self, w: f64) -> f64 {
+        let (first, last) = (self.yields_at, PLASTIC * self.yields_at);
+        let u = ((w - first) / (last - first)).clamp(0.0, 1.0);
+        PI * self.density * w * (1.0 + u * u * (3.0 - 2.0 * u))
     }
 
     /// Returns the load of a summit at an interference w, times the number of summits per area \[Pa\].
@@ -197,11 +226,9 @@ impl Summits {
         if w < first {
             4.0 / 3.0 * self.contact_modulus * self.density * self.root * w * w.sqrt()
         } else if w < last {
-            let u = (w - first) / (last - first);
-            let mean = self.hardness * (1.0 - (1.0 - YIELD) * (last / w).ln() / PLASTIC.ln());
-            PI * self.density * mean * w * (1.0 + u * u * (3.0 - 2.0 * u))
+            self.hardness * (1.0 - (1.0 - YIELD) * (last / w).ln() / PLASTIC.ln()) * self.touched(w)
         } else {
-            2.0 * PI * self.density * self.hardness * w
+            self.hardness * self.touched(w)
         }
     }
 }

@@ -5,6 +5,7 @@
 
 mod asperity_laws;
 mod asperity_table;
+mod finish;
 mod flow_factors;
 mod mean_gap;
 mod roughness;
@@ -14,7 +15,8 @@ mod tests;
 
 pub use asperity_laws::AsperityLaw;
 pub use asperity_table::AsperityTable;
+pub use finish::{FINISHES, Finish, HeightMeasure};
 pub use flow_factors::{FlowFactors, PEKLENIK};
 pub use mean_gap::mean_gap;
-pub use roughness::{Roughness, SurfaceConstant, SurfaceError};
+pub use roughness::{LARGEST_RMS, Roughness, SurfaceConstant, SurfaceError};
 pub use scaled::ScaledRoughness;

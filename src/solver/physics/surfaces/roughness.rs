@@ -24,6 +24,14 @@ pub struct Roughness {
     /// Friction coefficient μ_b of touching asperities \[-\], 0…2.
     #[serde(default = "Roughness::usual_friction")]
     pub boundary_friction: f64,
+    /// Specific wear rate k of Archard's law \[m²/N\], 0…1e-9: worn volume per load and sliding distance.
+    #[serde(default, skip_serializing_if = "not_worn")]
+    pub wear_rate: f64,
+}
+
+/// Returns true for surfaces without a wear rate.
+fn not_worn(wear_rate: &f64) -> bool {
+    *wear_rate == 0.0
 }
 
 /// Constant of rough surfaces. `Display` writes its name.
@@ -44,6 +52,9 @@ pub enum SurfaceConstant {
     /// μ_b.
     #[error("the boundary friction coefficient")]
     BoundaryFriction,
+    /// k.
+    #[error("the specific wear rate in m²/N")]
+    WearRate,
 }
 
 /// Reason for refusing a roughness: a constant that is not finite or outside its range.
@@ -63,6 +74,8 @@ impl SurfaceError {
     }
 }
 
+/// Largest rms roughness \[m\].
+pub const LARGEST_RMS: f64 = 1e-3;
 /// Relative error up to which an end of the Peklenik numbers counts as rounded, as 0.1111 for 1/9.
 const ROUNDED: f64 = 1e-3;
 
@@ -75,7 +88,21 @@ impl Roughness {
             peklenik: Self::isotropic(),
             shear_flow: 0.0,
             boundary_friction: Self::usual_friction(),
+            wear_rate: 0.0,
         }
+    }
+
+    /// Returns the same surfaces with other rms roughness Rq \[m\] of body 1 and body 2. Body 2 is the faster one for
+    /// SRR > 0.
+    pub fn with_surfaces(self, [first, second]: [f64; 2]) -> Self {
+        let sigma = first.hypot(second);
+        let shear_flow = if sigma > 0.0 { (second - first) * (second + first) / (sigma * sigma) } else { 0.0 };
+        Self { sigma, shear_flow, ..self }
+    }
+
+    /// Returns the rms roughness Rq \[m\] of body 1 and body 2.
+    pub fn surfaces(&self) -> [f64; 2] {
+        [1.0 - self.shear_flow, 1.0 + self.shear_flow].map(|share| self.sigma * (0.5 * share).max(0.0).sqrt())
     }
 
     /// Default of the Peklenik number: 1, isotropic.
@@ -93,19 +120,20 @@ impl Roughness {
     /// # Errors
     /// With the name of the first such constant and its range.
     pub fn check(&self) -> Result<(), SurfaceError> {
-        use SurfaceConstant::{BoundaryFriction, Peklenik, ShearFlow};
-        SurfaceError::check(SurfaceConstant::Roughness, self.sigma, (0.0, 1e-3))?;
+        use SurfaceConstant::{BoundaryFriction, Peklenik, ShearFlow, WearRate};
+        SurfaceError::check(SurfaceConstant::Roughness, self.sigma, (0.0, LARGEST_RMS))?;
         self.asperities.check()?;
         if !((1.0 - ROUNDED) * PEKLENIK.0..=(1.0 + ROUNDED) * PEKLENIK.1).contains(&self.peklenik) {
             return SurfaceError::check(Peklenik, self.peklenik, PEKLENIK);
         }
         SurfaceError::check(ShearFlow, self.shear_flow, (-1.0, 1.0))?;
-        SurfaceError::check(BoundaryFriction, self.boundary_friction, (0.0, 2.0))
+        SurfaceError::check(BoundaryFriction, self.boundary_friction, (0.0, 2.0))?;
+        SurfaceError::check(WearRate, self.wear_rate, (0.0, 1e-9))
     }
 
     /// Returns all constants in SI units as text.
     pub fn describe(&self) -> String {
-        let Self { sigma, asperities, peklenik, shear_flow, boundary_friction } = self;
+        let Self { sigma, asperities, peklenik, shear_flow, boundary_friction, wear_rate } = self;
         let law = match asperities {
             AsperityLaw::GreenwoodTripp { eta_beta_sigma, sigma_over_beta } => {
                 format!("{eta_beta_sigma:e}, {sigma_over_beta:e}")
@@ -115,9 +143,10 @@ impl Roughness {
             }
             AsperityLaw::Exponential { pressure, decay } => format!("{pressure:e} Pa, {decay:e}"),
         };
+        let wear = if *wear_rate > 0.0 { format!(", specific wear rate {wear_rate:e} m²/N") } else { String::new() };
         format!(
             "roughness {sigma:e} m ({} {law}; Peklenik number {peklenik:e}, shear flow {shear_flow:e}, boundary friction \
-             {boundary_friction:e})",
+             {boundary_friction:e}{wear})",
             asperities.name()
         )
     }

@@ -148,3 +148,48 @@ fn a_rounded_peklenik_number_is_accepted() {
         "{refused}"
     );
 }
+
+#[test]
+fn real_contact_area_is_that_of_its_summits() {
+    // Elastic summits of Greenwood and Tripp: π²(ηβσ)² ∫ (s − l)² φ(s) ds by Simpson's rule.
+    let AsperityLaw::GreenwoodTripp { eta_beta_sigma, .. } = AsperityLaw::default() else { panic!() };
+    let density = |s: f64| (-0.5 * s * s).exp() / (2.0 * std::f64::consts::PI).sqrt();
+    for l in [-3.0, -1.0, 0.0, 1.0, 2.5] {
+        let (n, step) = (4000, 12.0 / 4000.0);
+        let weight = |k: i32| {
+            if k == 0 || k == n {
+                1.0
+            } else if k % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            }
+        };
+        let integral: f64 = (0..=n)
+            .map(|k| (weight(k), step * f64::from(k)))
+            .map(|(weight, w)| step / 3.0 * weight * w * w * density(l + w))
+            .sum();
+        let wanted = (std::f64::consts::PI * eta_beta_sigma).powi(2) * integral;
+        close(AsperityLaw::default().contact_area(MODULUS_PA, l).unwrap(), wanted, 1e-9);
+    }
+    // Fully plastic summits carry their hardness; elastic ones a mean pressure far below it.
+    let law = |hardness| AsperityLaw::ZhaoMaiettaChang { n_beta_sigma: 0.05, sigma_over_beta: 0.01, hardness };
+    let mean = |hardness: f64, l: f64| {
+        let law = law(hardness);
+        law.pressure(MODULUS_PA, l).0 / law.contact_area(MODULUS_PA, l).unwrap()
+    };
+    close(mean(1e7, 0.0), 1e7, 1e-3);
+    // Elastic summits: a load of (4/3)E*√β w^1.5 on an area of πβw; the ratio of both means is that of Gaussian moments.
+    let l = 0.3;
+    let law = law(1e12);
+    let (n, step) = (200_000, 10.0 / 200_000.0);
+    let distance = l - 0.045944 / 0.05;
+    let spread = 1.0 - 3.717e-4 / 0.05f64.powi(2);
+    let moment = |power: f64| -> f64 {
+        let of = |w: f64| w.powf(power) * (-0.5 * (distance + w).powi(2) / spread).exp();
+        (0..n).map(|k| step * of(step * (f64::from(k) + 0.5))).sum()
+    };
+    let wanted = 4.0 / 3.0 * 0.5 * MODULUS_PA * 0.1 * moment(1.5) / (std::f64::consts::PI * moment(1.0));
+    close(law.pressure(MODULUS_PA, l).0 / law.contact_area(MODULUS_PA, l).unwrap(), wanted, 1e-5);
+    assert_eq!(AsperityLaw::Exponential { pressure: 1e9, decay: 0.5 }.contact_area(MODULUS_PA, 0.0), None);
+}
