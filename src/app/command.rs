@@ -13,7 +13,7 @@ use crate::app::tabs::training::TrainingCommand;
 use crate::app::tabs::transient::TransientCommand;
 use crate::host::browser;
 use crate::scene::Scene;
-use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, ThemePreference};
+use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Popup, ThemePreference};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -332,8 +332,11 @@ impl Command {
         let before = ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or(Id::unique("typing"), now), now));
         let typing = now || before;
         let left_to_fields = [Self::Undo, Self::Redo, Self::Cancel];
+        // Escape closes an open menu or list first.
+        let listed = Popup::is_any_open(ctx);
         let keys = MENUS.iter().filter_map(|item| Some((&item.command, item.shortcut()?)));
         let keys = keys.filter(|(command, _)| !(typing && left_to_fields.contains(*command)));
+        let keys = keys.filter(|(command, _)| !(listed && **command == Self::Cancel));
         // Test shortcuts with Shift first, so that Ctrl+Shift+Z is not taken for Ctrl+Z.
         let (shifted, plain): (Vec<_>, Vec<_>) = keys.partition(|(_, shortcut)| shortcut.modifiers.shift);
         let pressed = |shortcut: &KeyboardShortcut| ctx.input_mut(|i| i.consume_shortcut(shortcut));

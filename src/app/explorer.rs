@@ -36,7 +36,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Screen height up to which a presentation shows no read-outs \[points\].
-const LOW: f32 = 460.0;
+const LOW: f32 = 480.0;
 /// Width of all tabs below which their titles are closely spaced.
 const NARROW: f32 = 900.0;
 /// Height of a row of read-outs. Two rows are reserved in windows that are narrower than the one and at least as high as
@@ -201,7 +201,7 @@ impl Explorer {
             let screen = ui.ctx().content_rect();
             let one = self.desk.presentation.is_some() || screen.width() >= ONE_ROW || screen.height() < TWO_ROWS;
             let rows = if one { 1.0 } else { 2.0 };
-            ui.set_min_height(rows * READOUTS);
+            ui.set_min_height(rows * READOUTS + (rows - 1.0) * ui.spacing().item_spacing.y);
             let context = self.desk.context();
             if !in_time || !panels::moment::ui(ui, &context) {
                 panels::readouts::ui(ui, &context);

@@ -210,3 +210,26 @@ fn a_presentation_keeps_maps_and_series_usable() {
         assert!(place.left() >= 0.0 && place.right() <= 760.0 && place.bottom() <= 475.0, "{name}: {place:?}");
     }
 }
+
+#[test]
+fn escape_closes_menus_and_lists_first() {
+    let mut harness = open();
+    press(&mut harness, Modifiers::NONE, Key::F11);
+    assert!(harness.query_by_label("End the presentation").is_some());
+    click(&mut harness, "Sliders");
+    assert!(harness.query_by_label("Usual sliders").is_some());
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(harness.query_by_label("Usual sliders").is_none());
+    assert!(harness.query_by_label("End the presentation").is_some(), "the presentation goes on");
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(harness.query_by_label("End the presentation").is_none());
+    // A list closes without a choice, and the settings below it stay open.
+    harness.get_by_role_and_label(Role::ComboBox, "When M moves").click();
+    harness.run_steps(3);
+    assert!(harness.query_by_label("radius R").is_some());
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(harness.query_by_label("radius R").is_none());
+    click(&mut harness, "View");
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(harness.query_by_label("Light theme").is_none());
+}

@@ -114,6 +114,7 @@ fn two_bodies_give_the_contact_and_say_when_they_no_longer_do() {
     enter(&mut harness, "Radius of body 1", "10 mm");
     enter(&mut harness, "Radius of body 2", "-50 mm");
     enter(&mut harness, "Speed of body 1", "1500 rpm");
+    click(&mut harness, "Surfaces");
     enter(&mut harness, "Roughness of body 1", "0.2");
     let point = harness.state().point();
     assert!((point.radius_m - 0.0125).abs() < 1e-12, "{}", point.radius_m);

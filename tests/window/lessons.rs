@@ -39,6 +39,22 @@ fn carry_out(harness: &mut Window, goal: &str) {
             harness.get_by_role_and_label(Role::CheckBox, "Heat").click();
             harness.run_steps(2);
         }
+        ["mixed"] => {
+            // The text of the lesson names the group too.
+            harness.query_all_by_label("Surfaces").next().unwrap().click();
+            harness.run_steps(3);
+            harness.get_by_role_and_label(Role::CheckBox, "Mixed lubrication").click();
+            harness.run_steps(2);
+        }
+        ["roughness", "between", from, "and", to] => {
+            let middle = 0.5 * (from.parse::<f64>().unwrap() + to.parse::<f64>().unwrap());
+            set(harness, Role::Slider, "Composite roughness", middle);
+        }
+        ["u_m", "between", from, "and", to] => {
+            let middle = 0.5 * (from.parse::<f64>().unwrap() + to.parse::<f64>().unwrap());
+            write(harness, "Speed u_m", &middle.to_string());
+            press(harness, Modifiers::NONE, Key::Enter);
+        }
         ["inlet", "film", "between", from, "and", to] => {
             let middle = 0.5 * (from.parse::<f64>().unwrap() + to.parse::<f64>().unwrap());
             write(harness, "Inlet film thickness", &middle.to_string());

@@ -222,11 +222,11 @@ fn sliders_of_a_presentation_are_chosen() {
     let film = harness.state().central_film().unwrap();
     press(&mut harness, Modifiers::NONE, Key::F11);
     assert!(harness.query_by_label("Slider of the speed").is_none());
+    click(&mut harness, "Sliders");
     for name in ["Entrainment speed u_m [m/s]", "Load w [N/m or N]"] {
-        click(&mut harness, "Sliders");
         click(&mut harness, name);
-        press(&mut harness, Modifiers::NONE, Key::Escape);
     }
+    press(&mut harness, Modifiers::NONE, Key::Escape);
     assert!(harness.query_by_label("Load number M").is_none(), "only what was chosen");
     crate::driver::set(&mut harness, Role::Slider, "Slider of the speed", 10.0);
     wait(&mut harness, "the faster contact", |app| app.central_film().is_some_and(|other| other > 1.5 * film));

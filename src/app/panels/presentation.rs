@@ -7,7 +7,8 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, named};
 use crate::app::document::Shape;
 use crate::solver::parameters::Quantity;
-use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Align, Button, Frame, Label, Layout, Margin, PopupCloseBehavior, RichText, Ui};
 
 /// Text size of the regime.
 const LARGE: f32 = 20.0;
@@ -60,7 +61,9 @@ pub fn ui(
 
 /// Draws the menu that chooses the sliders.
 fn sliders_ui(ui: &mut Ui, context: &Context<'_>, chosen: ChosenSliders, commands: &mut Commands) {
-    let menu = ui.menu_button("Sliders", |ui| {
+    // Several sliders are chosen one after the other.
+    let stays = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let (button, _) = MenuButton::new("Sliders").config(stays).ui(ui, |ui| {
         for quantity in PRESENTED {
             let name = match quantity {
                 Quantity::InletTemperature => "Oil temperature",
@@ -78,5 +81,5 @@ fn sliders_ui(ui: &mut Ui, context: &Context<'_>, chosen: ChosenSliders, command
         Some(_) => "Chooses the sliders of presentations",
         None => "Chooses the sliders of presentations. The temperature needs an oil by its grade, or Heat",
     };
-    menu.response.on_hover_text(tip);
+    button.on_hover_text(tip);
 }

@@ -58,8 +58,8 @@ pub struct Regimes {
 const FIELD: &str = "regimes";
 /// Height of the table of formulas below the chart.
 const FORMULAS: f32 = 212.0;
-/// Width of the hint with the button next to it.
-const HINT: f32 = 560.0;
+/// Width of the hint with the switch and the button next to it.
+const HINT: f32 = 700.0;
 /// Text size of the regime.
 const LARGE: f32 = 22.0;
 

@@ -315,7 +315,8 @@ impl LinkedPlot<'_> {
         let samples = samples.filter(seen).filter(|sample| !traction || sample.unphysical.is_none());
         let of_curves = samples.flat_map(|sample| self.curves.iter().filter_map(|curve| (curve.of)(sample)));
         let here = self.here.filter(|(_, unphysical)| here && !unphysical).map(|(value, _)| value);
-        axes.up(of_curves.chain(here))
+        let (from, to) = axes.up(of_curves.chain(here));
+        (from, if self.id == "share" { to.min(100.0) } else { to })
     }
 
     /// Draws one curve with its name at its end. Unphysical parts are grey and thin.
@@ -396,6 +397,7 @@ impl LinkedPlot<'_> {
                 Some(format!("{name}\n{} at {}{unit}", value(position.y, logarithmic), value(position.x, along)))
             });
         let plot = if along { plot.log_x() } else { plot.marks_x(marks) };
+        let plot = if self.id == "share" { plot.marks_y(3.0) } else { plot };
         if logarithmic { plot.log_y() } else { plot }
     }
 }
