@@ -21,6 +21,7 @@ mod contact_spec;
 mod contact_sweep;
 pub mod document;
 pub mod drawing;
+mod dynamics;
 mod error;
 pub mod examples;
 mod expectation;
@@ -61,6 +62,7 @@ pub use contact_spec::{
 };
 pub use contact_sweep::{ContactSweep, Swept, SweptContact, Varied, VariedError};
 pub use document::{Scene, TrainedModel};
+pub use dynamics::ContactDynamics;
 pub use error::{Reason, RunError, SceneError, SceneFileError, VERSION};
 pub use expectation::{Expectation, Within};
 pub use experiment::Experiment;

@@ -5,7 +5,7 @@
 //! solvers of real systems serve for them.
 
 use super::derivative::TimeDerivative;
-use super::unsupported;
+use super::unsupported::check_lubricant;
 use crate::solver::discrete::reynolds::{CENTER, Row, STENCIL};
 use crate::solver::discrete::space::{Grid, Space};
 use crate::solver::full::gmres::Gmres;
@@ -25,6 +25,28 @@ pub enum ResponseError {
     /// The steady solution has not converged.
     #[error("the linear response needs a steady solution that has converged")]
     NotConverged,
+    /// The grid does not resolve a wave.
+    #[error(
+        "the wavelength {wavelength} a is shorter than four spacings of the grid; accepted are wavelengths from \
+         {shortest:.4} a on, or a finer grid"
+    )]
+    ShortWave {
+        /// Wavelength λ/a.
+        wavelength: f64,
+        /// Shortest accepted wavelength.
+        shortest: f64,
+    },
+    /// The characteristic derivative does not fit the grid.
+    #[error(
+        "the derivative along characteristics needs a uniform grid whose spacing is the time step {step}, but the \
+         spacing is {spacing}"
+    )]
+    NoCharacteristics {
+        /// Time step ΔT.
+        step: f64,
+        /// Largest spacing ΔX in the contact.
+        spacing: f64,
+    },
     /// The linear solve stopped before its tolerance.
     #[error("the linear system at the frequency Ω = {omega:.4} did not converge: its residual is {residual:.1e}")]
     Stalled {
@@ -86,7 +108,10 @@ impl<S: ResponseSpace> LinearResponse<S> {
     /// # Errors
     /// If the solution has not converged, or if the contact is not supported.
     pub fn new(reference: &S::Reference, solution: &Solution) -> Result<Self, ResponseError> {
-        unsupported::check(solution)?;
+        check_lubricant(&solution.problem.lubricant)?;
+        if !solution.converged() {
+            return Err(ResponseError::NotConverged);
+        }
         let problem = solution.problem;
         let mut system = System::new(S::on(reference, S::form_of(reference, &problem))?);
         if system.space.grid().continues() {

@@ -7,6 +7,7 @@
 //! - the change of the film thickness by a wavy surface that moves through the contact, [`WaveResponse`];
 //! - stiffness and damping of the film, [`Dynamics`].
 
+mod contact;
 mod derivative;
 mod dynamics;
 mod line;
@@ -18,8 +19,12 @@ mod tests;
 mod unsupported;
 mod wave;
 
+pub use contact::ContactResponse;
 pub use derivative::TimeDerivative;
 pub use dynamics::{Dynamics, Stiffness};
 pub use linear::{LinearResponse, ResponseError, ResponseSpace};
 pub use maxwell::Maxwell;
-pub use wave::{PublishedReduction, WaveResponse, published_reduction, reduction_parameter};
+pub use unsupported::check_lubricant;
+pub use wave::{
+    PublishedReduction, WaveResponse, check_wavelength, published_reduction, reduction_parameter, widest_spacing,
+};

@@ -1,19 +1,15 @@
 //! Contacts whose linear response is not computed.
 
 use super::linear::ResponseError;
-use crate::solver::full::Solution;
-use crate::solver::physics::lubricant::{Cavitation, ShearLaw};
+use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 
-/// Checks that the linear response of a solution can be computed.
+/// Checks that the linear response of a contact with a lubricant can be computed.
 ///
 /// # Errors
 /// The first reason why it cannot.
-pub(super) fn check(solution: &Solution) -> Result<(), ResponseError> {
-    let lubricant = &solution.problem.lubricant;
+pub fn check_lubricant(lubricant: &Lubricant) -> Result<(), ResponseError> {
     let refuse = |what: &'static str| Err(ResponseError::Unsupported(what));
-    if !solution.converged() {
-        Err(ResponseError::NotConverged)
-    } else if lubricant.shear != ShearLaw::Newtonian {
+    if lubricant.shear != ShearLaw::Newtonian {
         refuse("Newtonian lubricants only, not shear-thinning ones")
     } else if lubricant.heat.is_some() {
         refuse("isothermal contacts only")

@@ -34,7 +34,7 @@ impl<S: ResponseSpace> LinearResponse<S> {
     /// surface. The crests lie across the direction of rolling.
     ///
     /// # Errors
-    /// If the linear solve stalls.
+    /// If the grid does not resolve the wave, if the derivative does not fit the grid, or if the linear solve stalls.
     pub fn wave(
         &mut self,
         wavelength: f64,
@@ -44,6 +44,8 @@ impl<S: ResponseSpace> LinearResponse<S> {
         let wave_number = TAU / wavelength;
         let omega = wave_number * speed;
         let (x, y) = self.grid().abscissae();
+        check_wavelength(wavelength, widest_spacing(x))?;
+        check_derivative(derivative, x)?;
         let across = y.len();
         // A bump makes the gap smaller.
         let waves: Vec<Complex64> = x.iter().map(|x| -Complex64::cis(-wave_number * x)).collect();
@@ -54,6 +56,38 @@ impl<S: ResponseSpace> LinearResponse<S> {
         let change: Complex64 = at_zero.iter().map(|(node, w)| w * (film[*node] + gap(*node))).sum();
         Ok(WaveResponse { wavelength, speed, amplitude: (-change.re, -change.im) })
     }
+}
+
+/// Returns the widest spacing of abscissae between X = −1 and X = 1.
+pub fn widest_spacing(x: &[f64]) -> f64 {
+    let inside = x.windows(2).filter(|pair| pair[1] > -1.0 && pair[0] < 1.0);
+    inside.map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+}
+
+/// Number of spacings in the shortest accepted wavelength.
+const FEWEST_SPACINGS: f64 = 4.0;
+/// Relative difference of spacings that counts as none.
+const UNIFORM: f64 = 1e-6;
+
+/// Checks that a grid with the given spacing in the contact resolves a wave.
+///
+/// # Errors
+/// [`ResponseError::ShortWave`].
+pub fn check_wavelength(wavelength: f64, spacing: f64) -> Result<(), ResponseError> {
+    let shortest = FEWEST_SPACINGS * spacing;
+    if wavelength >= shortest * (1.0 - UNIFORM) {
+        return Ok(());
+    }
+    Err(ResponseError::ShortWave { wavelength, shortest })
+}
+
+/// Checks that the nodes lie on characteristics, if the derivative follows them.
+fn check_derivative(derivative: TimeDerivative, x: &[f64]) -> Result<(), ResponseError> {
+    let TimeDerivative::Characteristic { step } = derivative else { return Ok(()) };
+    if x.windows(2).all(|pair| ((pair[1] - pair[0]) / step - 1.0).abs() < UNIFORM) {
+        return Ok(());
+    }
+    Err(ResponseError::NoCharacteristics { step, spacing: widest_spacing(x) })
 }
 
 /// Returns the parameter of the published curves, with the wavelength λ/a: ∇ = (λ/a) M^(3/4)/L^(1/2) of a line
