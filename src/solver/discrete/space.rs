@@ -167,6 +167,8 @@ pub struct LineSpace {
     pub grid: LineGrid,
     /// 1/R̄ of (2.24), with the relative radius R̄; 1 if the radius is constant.
     pub curvature: f64,
+    /// Height of the surfaces' features at every node, which makes the gap smaller; empty for smooth surfaces.
+    pub features: Vec<f64>,
     /// Coefficients of the rows; in a steady contact those of the grid.
     pub rows: Vec<RowGeometry>,
     /// Side from which the flow of each row comes.
@@ -177,7 +179,7 @@ impl LineSpace {
     /// Creates the space of a steady contact.
     pub fn new(grid: LineGrid) -> Self {
         let (rows, upstream) = (grid.rows.clone(), vec![Upstream::Inlet; grid.rows.len()]);
-        Self { grid, curvature: 1.0, rows, upstream }
+        Self { grid, curvature: 1.0, features: Vec::new(), rows, upstream }
     }
 }
 
@@ -215,6 +217,9 @@ impl Space for LineSpace {
     fn write_gap(&self, gap: &mut [f64]) {
         for (gap, x) in gap.iter_mut().zip(&self.grid.x) {
             *gap = 0.5 * self.curvature * x * x;
+        }
+        for (gap, height) in gap.iter_mut().zip(&self.features) {
+            *gap -= height;
         }
     }
 

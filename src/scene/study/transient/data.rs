@@ -3,12 +3,13 @@
 use super::coverage;
 use super::marches::training_contact;
 use super::published::{self, PublishedMarch};
+use super::surfaces::{self, SurfaceFeature};
 use crate::scene::check::{Checked, count, interval, number, refuse};
 use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::method::ModelSource;
 use crate::scene::written::is_default;
-use crate::solver::full::transient::{Frame, Inputs, TimeStep, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Scheme, TimeStep, Transient};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use crate::solver::training::{LocalBases, TrajectoryTraining};
@@ -32,6 +33,12 @@ pub struct TransientStudy {
     pub further: Vec<Drive>,
     /// Time step of all marches.
     pub time_step: TimeStep,
+    /// Features of the surfaces that move through the contact. They need the full solver.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub surfaces: Vec<SurfaceFeature>,
+    /// Time scheme of the full solver.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub scheme: Scheme,
     /// Frames of reference, each with its own march. The others are compared with the first.
     #[serde(default = "fixed", skip_serializing_if = "is_fixed")]
     pub frames: Vec<Frame>,
@@ -292,8 +299,17 @@ impl TransientStudy {
             interval("study.mass_between", places, -4.0, 1.0)?;
         }
         self.training_loads.iter().try_for_each(|&load| number("study.training_loads", load, 1e-6, 1e10))?;
+        surfaces::check(&self.surfaces)?;
         self.check_contacts(experiment)?;
         self.check_marches(experiment)?;
+        if (self.reduced.is_some() || self.linearised.is_some())
+            && (!self.surfaces.is_empty() || self.scheme == Scheme::Characteristic)
+        {
+            return Err(refuse(
+                "study.surfaces",
+                "and the scheme Characteristic need the full solver; leave them out, or leave out reduced and linearised",
+            ));
+        }
         let models = self.reduced.is_some() || self.linearised.is_some();
         if models {
             coverage::check_models(experiment)?;
@@ -354,7 +370,16 @@ impl TransientStudy {
             transient.check().map_err(|problem| refuse(field, format!("is refused: {problem}")))
         };
         let own = self.own_march(point, lubricant, Frame::Fixed);
-        check("study".to_owned(), &own)?;
+        let sliding = OperatingPoint { sliding: experiment.sliding, ..point };
+        // The run reads and checks profiles.
+        let stated = self.surfaces.iter().filter_map(|surface| surface.moving(&sliding, |_| Err(())).ok());
+        let frame = self.frames.iter().copied().find(|frame| *frame != Frame::Fixed).unwrap_or_default();
+        let own = Transient { surfaces: stated.collect(), ..own };
+        check("study".to_owned(), &Transient { frame, ..own.clone() })?;
+        if let Grid::Uniform { dx, .. } = experiment.grid {
+            let x: Vec<f64> = (-200..=200).map(|k| dx * f64::from(k)).collect();
+            own.check_on(&x).map_err(|problem| refuse("study", format!("is refused: {problem}")))?;
+        }
         for (i, drive) in self.further.iter().enumerate() {
             check(format!("study.further.{i}"), &self.march(drive, point, lubricant, Frame::Fixed))?;
         }

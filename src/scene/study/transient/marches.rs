@@ -39,7 +39,8 @@ impl TransientStudy {
     /// Returns the march along some inputs, without stored fields.
     pub fn march(&self, drive: &Drive, point: OperatingPoint, lubricant: Lubricant, frame: Frame) -> Transient {
         let Drive { inputs, duration, .. } = drive.clone();
-        Transient { point, lubricant, inputs, frame, duration, time_step: self.time_step, keep: Keep::Scalars }
+        let (surfaces, scheme, time_step) = (Vec::new(), self.scheme, self.time_step);
+        Transient { point, lubricant, inputs, surfaces, scheme, frame, duration, time_step, keep: Keep::Scalars }
     }
 
     /// Returns the march along the study's own inputs. It stores fields if models are trained from it.
@@ -49,6 +50,8 @@ impl TransientStudy {
             point,
             lubricant,
             inputs: self.inputs.clone(),
+            surfaces: Vec::new(),
+            scheme: self.scheme,
             frame,
             duration: self.duration,
             time_step: self.time_step,

@@ -7,6 +7,7 @@ mod march;
 mod marches;
 mod models;
 mod published;
+mod surfaces;
 mod timed_march;
 mod train;
 
@@ -15,6 +16,7 @@ pub use data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 pub use march::{By, March, MarchedBy, series};
 pub use models::{Kind, Model};
 pub use published::PublishedMarch;
+pub use surfaces::{SurfaceFeature, SurfaceShape};
 pub(crate) use timed_march::{Listener, Timed, timed_march};
 
 use super::{StudyObserver, StudyRow};
@@ -27,6 +29,7 @@ use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
 use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Trajectory, Transient};
 use crate::solver::reduced::transient::TrajectoryModel;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Row of a transient study.
@@ -105,6 +108,9 @@ impl Question for TransientStudy {
             return Err(RunError::Study("a transient contact needs the grid of a line contact".to_owned()));
         };
         let saved = study.saved_model(setting)?;
+        let profile = |path: &Path| surfaces::read_profile(&setting.bench.resolve(path));
+        let moving = study.surfaces.iter().map(|surface| surface.moving(&request.point, profile));
+        let moving = moving.collect::<Result<Vec<_>, _>>()?;
         let runner = Runner { study: &study, grid, saved, setting, tell };
         let drives = study.drives();
         for &frame in &study.frames {
@@ -115,6 +121,7 @@ impl Question for TransientStudy {
                 } else {
                     study.march(drive, request.point, request.lubricant, frame)
                 };
+                let transient = Transient { surfaces: moving.clone(), ..transient };
                 let (full, states) = runner.full(drive, transient)?;
                 tell(Row::Marched(Arc::clone(&full)));
                 if k == 0 {

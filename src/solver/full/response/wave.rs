@@ -64,6 +64,12 @@ pub fn widest_spacing(x: &[f64]) -> f64 {
     inside.map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
 }
 
+/// Returns true if all abscissae have the same distance.
+pub fn is_uniform(x: &[f64]) -> bool {
+    let spacing = widest_spacing(x);
+    x.windows(2).all(|pair| ((pair[1] - pair[0]) / spacing - 1.0).abs() < UNIFORM)
+}
+
 /// Number of spacings in the shortest accepted wavelength.
 const FEWEST_SPACINGS: f64 = 4.0;
 /// Relative difference of spacings that counts as none.
@@ -84,10 +90,11 @@ pub fn check_wavelength(wavelength: f64, spacing: f64) -> Result<(), ResponseErr
 /// Checks that the nodes lie on characteristics, if the derivative follows them.
 fn check_derivative(derivative: TimeDerivative, x: &[f64]) -> Result<(), ResponseError> {
     let TimeDerivative::Characteristic { step } = derivative else { return Ok(()) };
-    if x.windows(2).all(|pair| ((pair[1] - pair[0]) / step - 1.0).abs() < UNIFORM) {
+    let spacing = widest_spacing(x);
+    if is_uniform(x) && (spacing / step - 1.0).abs() < UNIFORM {
         return Ok(());
     }
-    Err(ResponseError::NoCharacteristics { step, spacing: widest_spacing(x) })
+    Err(ResponseError::NoCharacteristics { step, spacing })
 }
 
 /// Returns the parameter of the published curves, with the wavelength λ/a: ∇ = (λ/a) M^(3/4)/L^(1/2) of a line

@@ -2,12 +2,14 @@
 
 use super::difference::BackwardDifference;
 use super::frame::{Conditions, Frame, Scales};
-use super::pace::{Pace, Rule, TimeStep};
-use super::signal::{InputError, Inputs};
+use super::pace::{Pace, ROUNDING, Rule, TimeStep};
+use super::signal::{InputError, Inputs, Signal};
 use super::step_error::controlled;
+use super::surface::{MovingSurface, Scheme, SurfaceError};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use super::unsupported::Unsupported;
 use crate::solver::discrete::grid::LineGrid;
+use crate::solver::full::response::{is_uniform, widest_spacing};
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::limits::Number;
 use crate::solver::observer::{Observer, Progress};
@@ -25,6 +27,12 @@ pub struct Transient {
     pub lubricant: Lubricant,
     /// Inputs that vary in time.
     pub inputs: Inputs,
+    /// Features that move through the contact.
+    #[serde(default)]
+    pub surfaces: Vec<MovingSurface>,
+    /// Time scheme of the full system.
+    #[serde(default)]
+    pub scheme: Scheme,
     /// Motion of the domain.
     pub frame: Frame,
     /// Last dimensionless time T.
@@ -57,6 +65,9 @@ pub enum TransientError {
     /// The duration or a step is not a positive number, or there are too many steps. Contains a sentence.
     #[error("{0}")]
     Time(String),
+    /// A feature of the surfaces, or the time scheme, is refused.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
     /// Transient simulations do not support this contact.
     #[error(transparent)]
     Unsupported(#[from] Unsupported),
@@ -110,6 +121,8 @@ pub struct Step {
     pub former: [Scales; 2],
     /// Difference quotient.
     pub quotient: BackwardDifference,
+    /// Length of the step.
+    pub length: f64,
     /// Length of the step relative to the previous one.
     pub ratio: f64,
     /// ȧ/a of the moving nodes, by the same quotient as all other time derivatives, so that moving nodes alone change
@@ -159,7 +172,17 @@ impl Transient {
     /// Creates a march with the default lubricant, in the fixed frame and with equal steps; no fields are kept.
     pub fn new(point: OperatingPoint, inputs: Inputs, duration: f64, step: f64) -> Self {
         let (lubricant, time_step) = (Lubricant::default(), TimeStep::Fixed(step));
-        Self { point, lubricant, inputs, frame: Frame::Fixed, duration, time_step, keep: Keep::Scalars }
+        Self {
+            point,
+            lubricant,
+            inputs,
+            surfaces: Vec::new(),
+            scheme: Scheme::Default,
+            frame: Frame::Fixed,
+            duration,
+            time_step,
+            keep: Keep::Scalars,
+        }
     }
 
     /// Checks inputs, duration and time step.
@@ -191,7 +214,41 @@ impl Transient {
             let accepted = format!("between {:e} and the duration {}", self.duration / MOST_STEPS, self.duration);
             return refuse("time step", longest, &accepted);
         }
-        Ok(self.inputs.check(self.duration)?)
+        self.inputs.check(self.duration)?;
+        self.check_surfaces()
+    }
+
+    /// Checks that frame, inputs and steps suit the features and the scheme.
+    fn check_surfaces(&self) -> Result<(), TransientError> {
+        let refuse = |sentence: &str| Err(SurfaceError(sentence.to_owned()).into());
+        let steady = self.inputs.speed == Signal::Constant && self.inputs.radius == Signal::Constant;
+        if !self.surfaces.is_empty() && !(self.frame == Frame::Fixed && steady) {
+            return refuse("surfaces need the fixed frame, and a speed and a radius that are constant");
+        }
+        if self.scheme == Scheme::Characteristic {
+            let equal = matches!(self.time_step, TimeStep::Fixed(_));
+            if !(self.frame == Frame::Fixed && steady && equal) {
+                return refuse("the scheme Characteristic needs the fixed frame, a constant speed and radius, and fixed steps");
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks the features and the scheme on a grid with the abscissae `x`.
+    ///
+    /// # Errors
+    /// [`TransientError`] if the grid or the steps do not resolve a feature, or do not suit the scheme.
+    pub fn check_on(&self, x: &[f64]) -> Result<(), TransientError> {
+        let (spacing, step) = (widest_spacing(x), self.time_step.longest(self.duration));
+        self.surfaces.iter().try_for_each(|surface| surface.check(spacing, step))?;
+        if self.scheme == Scheme::Characteristic && !(is_uniform(x) && (step / spacing - 1.0).abs() < ROUNDING) {
+            let sentence = format!(
+                "the scheme Characteristic needs a uniform grid and time steps equal to its spacing; the spacing is \
+                 {spacing}, the step {step}"
+            );
+            return Err(SurfaceError(sentence).into());
+        }
+        Ok(())
     }
 
     /// Returns the reference problem.
@@ -216,7 +273,7 @@ impl Step {
             }
             Frame::Fixed | Frame::Remeshed(_) => 0.0,
         };
-        Self { now, former, quotient, ratio: step / step_before, growth }
+        Self { now, former, quotient, length: step, ratio: step / step_before, growth }
     }
 
     /// Returns the velocity of the flow relative to the node at X.

@@ -3,6 +3,7 @@
 use super::march::{Keep, MarchProgress, Marching, Transient, TransientError, TransientObserver, march_once};
 use super::pace::{Rule, TimeStep};
 use super::signal::Input;
+use super::surface::Scheme;
 use super::trajectory::{Ended, Quantity, Trajectory};
 use crate::solver::observer::Observer;
 use crate::solver::warning::Warning;
@@ -27,7 +28,9 @@ impl Trajectory {
     /// model. Its steps are twice as long if these still resolve the inputs, otherwise half as long. The state of the
     /// model is lost. An existing estimate is kept.
     pub fn estimate_step_error(&mut self, model: &mut dyn Marching, observer: &dyn Observer) {
-        if self.step_error.is_some() || self.moments.len() < 2 || observer.cancelled() {
+        // Along the characteristics, the spacing sets the time step.
+        let set_by_grid = self.transient.scheme == Scheme::Characteristic;
+        if set_by_grid || self.step_error.is_some() || self.moments.len() < 2 || observer.cancelled() {
             return;
         }
         if self.resolves_inputs_to(BENT) {

@@ -3,10 +3,13 @@
 use super::frame::{Conditions, Frame, point_at};
 use super::history::History;
 use super::march::{Marching, Step, Transient, TransientError, TransientObserver, march};
+use super::pace::ROUNDING;
+use super::surface::{MovingSurface, Scheme};
 use super::trajectory::{Effort, Moment, State, Trajectory};
 use crate::solver::discrete::grid::{FIRST_UNKNOWN, GridSpec, LineGrid, ReferenceGrid};
 use crate::solver::discrete::reynolds::line::Upstream;
 use crate::solver::discrete::space::LineSpace;
+use crate::solver::full::response::widest_spacing;
 use crate::solver::full::solver::interpolated;
 use crate::solver::full::{
     Backtracking, FullSolver, Problem, Report, SolveError, SolveOptions, Start, System, Termination,
@@ -22,12 +25,17 @@ pub struct FullMarch {
     solver: FullSolver,
     reference: Problem,
     frame: Frame,
+    surfaces: Vec<MovingSurface>,
+    /// Spacing ΔX if the scheme follows the characteristics.
+    characteristic: Option<f64>,
     history: History,
     start: Vec<f64>,
     /// Fill fraction θ of the nearer previous state; empty if cavitation does not conserve mass.
     fraction: Vec<f64>,
 }
 
+/// Number of steps in which features are raised where a steady solve with their full height fails.
+const RAISES: usize = 8;
 /// Stopping tolerance of a step's Newton iteration for ‖Δz‖/‖z‖, with the unknowns z. Convergence is quadratic, so
 /// the remaining error is far smaller.
 const STEP_TOLERANCE: f64 = 1e-6;
@@ -58,11 +66,15 @@ impl FullMarch {
         let problem = transient.problem()?;
         let grid = reference.for_contact(problem.moes);
         let length = grid.len();
+        transient.check_on(&grid.x)?;
+        let characteristic = (transient.scheme == Scheme::Characteristic).then(|| widest_spacing(&grid.x));
         Ok(Self {
             system: System::new(LineSpace::new(grid)),
             solver: FullSolver::on(reference),
             reference: problem,
             frame: transient.frame,
+            surfaces: transient.surfaces.clone(),
+            characteristic,
             history: History::default(),
             start: vec![0.0; length],
             fraction: Vec::new(),
@@ -73,6 +85,16 @@ impl FullMarch {
     fn set_rows(&mut self, step: &Step) {
         let LineSpace { grid, rows, upstream, .. } = &mut self.system.space;
         self.history.carry(self.frame, step, &grid.x, &grid.x);
+        // A step that had to be divided does not meet the nodes of the characteristics.
+        if self.characteristic.is_some_and(|spacing| (step.length / spacing - 1.0).abs() < ROUNDING && (step.ratio - 1.0).abs() < ROUNDING) {
+            let weight = 1.0 / step.length;
+            for (k, (row, geometry)) in rows.iter_mut().zip(&grid.rows).enumerate() {
+                let node = k + FIRST_UNKNOWN;
+                let former = 0.5 * self.history.flow(1, node - 2) - 2.0 * self.history.flow(0, node - 1);
+                *row = geometry.in_time(0.0, 1.5 * weight, weight * former);
+            }
+            return;
+        }
         let (unknowns, weights) = (grid.unknowns(), step.history_weights());
         for (k, (row, upstream)) in rows.iter_mut().zip(upstream).enumerate() {
             let node = k + FIRST_UNKNOWN;
@@ -94,10 +116,39 @@ impl FullMarch {
     }
 
     fn set_state(&mut self, at: &Conditions, h_0: f64) {
+        self.place_surfaces(at.time, 1.0);
         self.system.set_curvature(at.curvature);
         self.system.set_pressure(&at.problem, &self.start);
         self.system.set_h_0(h_0);
         self.system.fraction.clone_from(&self.fraction);
+    }
+
+    /// Sets the features where they are at a time, with a share of their height.
+    fn place_surfaces(&mut self, time: f64, share: f64) {
+        if self.surfaces.is_empty() {
+            return;
+        }
+        let LineSpace { grid, features, .. } = &mut self.system.space;
+        features.clear();
+        features.extend(grid.x.iter().map(|&x| share * self.surfaces.iter().map(|s| s.height(x, time)).sum::<f64>()));
+    }
+
+    /// Raises the features from smooth surfaces in several steps, each a solve from the one before.
+    fn raise_surfaces(&mut self, at: &Conditions, observer: &dyn Observer) -> Report {
+        let mut all = Report::empty();
+        for raised in 0..=RAISES {
+            self.place_surfaces(at.time, raised as f64 / RAISES as f64);
+            self.system.renew_gap();
+            self.system.set_h_0(self.system.h_0);
+            let report = self.newton(at, &SolveOptions::default(), observer);
+            let newton_iterations = all.newton_iterations + report.newton_iterations;
+            let linear_iterations = all.linear_iterations + report.linear_iterations;
+            all = Report { newton_iterations, linear_iterations, ..report };
+            if all.termination != Termination::Converged {
+                break;
+            }
+        }
+        all
     }
 
     /// Stores the current state as the nearer previous one.
@@ -147,8 +198,16 @@ impl Marching for FullMarch {
         }
         upstream.fill(Upstream::Inlet);
         self.set_state(at, 0.0);
-        self.system.set_central_film(solution.scalars.h_c * at.input.load / at.scales.film);
-        let report = self.newton(at, &SolveOptions::default(), observer);
+        let central = solution.scalars.h_c * at.input.load / at.scales.film;
+        self.system.set_central_film(central);
+        let mut report = self.newton(at, &SolveOptions::default(), observer);
+        if report.termination != Termination::Converged && !self.surfaces.is_empty() {
+            self.place_surfaces(at.time, 0.0);
+            self.system.set_curvature(at.curvature);
+            self.system.set_pressure(&at.problem, &self.start);
+            self.system.set_central_film(central);
+            report = self.raise_surfaces(at, observer);
+        }
         let effort = converged(&report)?;
         self.remember();
         self.history.rest();
