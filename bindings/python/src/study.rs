@@ -146,6 +146,7 @@ pub fn transient<'py>(
         duration,
         further: Vec::new(),
         time_step,
+        separation: None,
         surfaces: Vec::new(),
         scheme: Scheme::Default,
         frames: vec![Frame::Fixed],

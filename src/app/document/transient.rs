@@ -36,7 +36,7 @@ impl Document {
             ),
             Unsupported::Heat => Some("Transient runs cover isothermal contacts only; switch heat off"),
             Unsupported::Roughness => Some("Transient runs cover smooth surfaces only; set the roughness to zero"),
-            Unsupported::MassConservingModel => None,
+            Unsupported::MassConservingModel | Unsupported::PointFrame | Unsupported::PointInputs => None,
         })
     }
 
@@ -73,6 +73,7 @@ fn breathing() -> TransientStudy {
         duration: 8.0,
         further: Vec::new(),
         time_step: TimeStep::Fixed(0.05),
+        separation: None,
         surfaces: Vec::new(),
         scheme: Scheme::Default,
         frames: vec![Frame::Fixed],

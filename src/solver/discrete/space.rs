@@ -238,6 +238,30 @@ impl Space for LineSpace {
 pub struct PlaneSpace {
     /// Grid.
     pub grid: Arc<PointGrid>,
+    /// Transient terms of the rows, and features of the surfaces.
+    pub motion: Motion,
+}
+
+/// Transient terms of the rows of a point contact, and features of its surfaces. By default the contact is steady and
+/// its surfaces are smooth.
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    /// Speed of the flow along X, at least 0.
+    pub speed: f64,
+    /// Weight of ρ̄H in its time derivative.
+    pub storage: f64,
+    /// Contribution of the previous steps to the time derivative of each unknown's row. Empty for a steady contact, in
+    /// which speed and storage have no effect.
+    pub history: Vec<f64>,
+    /// Height of the features at every node, which makes the gap smaller; empty for smooth surfaces.
+    pub features: Vec<f64>,
+}
+
+impl PlaneSpace {
+    /// Creates the space of a steady contact.
+    pub fn new(grid: Arc<PointGrid>) -> Self {
+        Self { grid, motion: Motion::default() }
+    }
 }
 
 /// Rows handled by one task.
@@ -255,7 +279,12 @@ impl Space for PlaneSpace {
 
     #[inline]
     fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
-        self.grid.row(unknown)
+        let (stencil, geometry) = self.grid.row(unknown);
+        let Motion { speed, storage, history, .. } = &self.motion;
+        match history.get(unknown) {
+            None => (stencil, geometry),
+            Some(history) => (stencil, geometry.in_time(*speed, *storage, *history)),
+        }
     }
 
     fn wide_row(&self, unknown: usize) -> Option<([usize; STENCIL], RowGeometry)> {
@@ -289,6 +318,7 @@ impl Space for PlaneSpace {
 
     fn write_gap(&self, gap: &mut [f64]) {
         gap.iter_mut().enumerate().for_each(|(node, gap)| *gap = self.grid.parabola(node));
+        gap.iter_mut().zip(&self.motion.features).for_each(|(gap, height)| *gap -= height);
     }
 
     fn spread(&self, unknowns: &[f64], nodes: &mut [f64]) {

@@ -9,7 +9,7 @@ use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::method::ModelSource;
 use crate::scene::written::is_default;
-use crate::solver::full::transient::{Frame, Inputs, Scheme, TimeStep, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use crate::solver::training::{LocalBases, TrajectoryTraining};
@@ -33,6 +33,10 @@ pub struct TransientStudy {
     pub further: Vec<Drive>,
     /// Time step of all marches.
     pub time_step: TimeStep,
+    /// Prescribed rigid-body separation: H₀ of the start plus this signal minus 1, in units of a²/R. The load is then a
+    /// result, in the column `load` of the series. Needs the full solver.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub separation: Option<Signal>,
     /// Features of the surfaces that move through the contact. They need the full solver.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub surfaces: Vec<SurfaceFeature>,
@@ -274,7 +278,8 @@ impl TransientStudy {
     /// # Errors
     /// With the first invalid field.
     pub(super) fn check_with(&self, experiment: &Experiment) -> Checked {
-        coverage::check(experiment)?;
+        let by_model = self.reduced.is_some() || self.linearised.is_some();
+        coverage::check_full(experiment, by_model, self.mass_between.is_some())?;
         count("study.frames (how many)", self.frames.len(), 1, 4)?;
         if (1..self.frames.len()).any(|i| self.frames[..i].contains(&self.frames[i])) {
             return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
@@ -302,16 +307,15 @@ impl TransientStudy {
         surfaces::check(&self.surfaces)?;
         self.check_contacts(experiment)?;
         self.check_marches(experiment)?;
-        if (self.reduced.is_some() || self.linearised.is_some())
-            && (!self.surfaces.is_empty() || self.scheme == Scheme::Characteristic)
-        {
-            return Err(refuse(
-                "study.surfaces",
-                "and the scheme Characteristic need the full solver; leave them out, or leave out reduced and linearised",
-            ));
+        let full_only = [
+            ("study.surfaces", !self.surfaces.is_empty()),
+            ("study.scheme", self.scheme == Scheme::Characteristic),
+            ("study.separation", self.separation.is_some()),
+        ];
+        if let Some((field, _)) = full_only.into_iter().find(|(_, given)| *given && by_model) {
+            return Err(refuse(field, "needs the full solver; leave it out, or leave out reduced and linearised"));
         }
-        let models = self.reduced.is_some() || self.linearised.is_some();
-        if models {
+        if by_model {
             coverage::check_models(experiment)?;
         }
         self.reduced.iter().try_for_each(|reduced| reduced.check(&experiment.grid))?;
@@ -376,7 +380,12 @@ impl TransientStudy {
         let frame = self.frames.iter().copied().find(|frame| *frame != Frame::Fixed).unwrap_or_default();
         let own = Transient { surfaces: stated.collect(), ..own };
         check("study".to_owned(), &Transient { frame, ..own.clone() })?;
-        if let Grid::Uniform { dx, .. } = experiment.grid {
+        let spacing = match experiment.grid {
+            Grid::Uniform { dx, .. } => Some(dx),
+            Grid::Plane(spec) => Some(spec.dx),
+            _ => None,
+        };
+        if let Some(dx) = spacing {
             let x: Vec<f64> = (-200..=200).map(|k| dx * f64::from(k)).collect();
             own.check_on(&x).map_err(|problem| refuse("study", format!("is refused: {problem}")))?;
         }

@@ -8,12 +8,11 @@ use super::step_error::controlled;
 use super::surface::{MovingSurface, Scheme, SurfaceError};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use super::unsupported::Unsupported;
-use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::response::{is_uniform, widest_spacing};
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::limits::Number;
 use crate::solver::observer::{Observer, Progress};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel};
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +26,10 @@ pub struct Transient {
     pub lubricant: Lubricant,
     /// Inputs that vary in time.
     pub inputs: Inputs,
+    /// Prescribed rigid-body separation: H₀ of the start plus this signal minus 1, in units of a²/R. The load is then a
+    /// result, reported in the inputs of each moment. If absent, the load is given.
+    #[serde(default)]
+    pub separation: Option<Signal>,
     /// Features that move through the contact.
     #[serde(default)]
     pub surfaces: Vec<MovingSurface>,
@@ -134,7 +137,10 @@ pub struct Step {
 /// under trial.
 pub trait Marching {
     /// Returns the grid of the model's fields.
-    fn grid(&self) -> &LineGrid;
+    fn mesh(&self) -> Mesh;
+
+    /// Returns the abscissae X of the fields, in units of the frame's half-width.
+    fn abscissae(&self) -> &[f64];
 
     /// Computes the steady state at the start, which is also its whole history.
     ///
@@ -161,6 +167,8 @@ pub trait Marching {
     fn state(&self, at: &Conditions) -> State;
 }
 
+/// Number of times at which the speed of a point contact is checked.
+const WATCHED: usize = 10_000;
 /// Maximum number of steps of one march.
 const MOST_STEPS: f64 = 2e6;
 /// Range of the tolerances, relative to the central film thickness H_c, of controlled steps. Below it, rounding and
@@ -176,6 +184,7 @@ impl Transient {
             point,
             lubricant,
             inputs,
+            separation: None,
             surfaces: Vec::new(),
             scheme: Scheme::Default,
             frame: Frame::Fixed,
@@ -215,6 +224,15 @@ impl Transient {
             return refuse("time step", longest, &accepted);
         }
         self.inputs.check(self.duration)?;
+        if let Some(separation) = &self.separation {
+            separation.check("separation", self.duration)?;
+            if self.frame != Frame::Fixed {
+                return Err(SurfaceError("a prescribed separation needs the fixed frame".to_owned()).into());
+            }
+        }
+        if self.point.kind == ContactKind::Point {
+            self.check_point()?;
+        }
         self.check_surfaces()
     }
 
@@ -230,6 +248,19 @@ impl Transient {
             if !(self.frame == Frame::Fixed && steady && equal) {
                 return refuse("the scheme Characteristic needs the fixed frame, a constant speed and radius, and fixed steps");
             }
+        }
+        Ok(())
+    }
+
+    /// Checks that frame, scheme and inputs suit a point contact.
+    fn check_point(&self) -> Result<(), TransientError> {
+        let steps = (0..=WATCHED).map(|k| self.duration * k as f64 / WATCHED as f64);
+        let reverses = steps.map(|time| self.inputs.speed.at(time)).any(|speed| speed < 0.0);
+        if self.frame != Frame::Fixed || self.scheme == Scheme::Characteristic {
+            return Err(Unsupported::PointFrame.into());
+        }
+        if self.inputs.radius != Signal::Constant || reverses {
+            return Err(Unsupported::PointInputs.into());
         }
         Ok(())
     }
@@ -257,7 +288,7 @@ impl Transient {
     /// [`TransientError`] if the contact, the inputs, the times or the lubricant are refused.
     pub fn problem(&self) -> Result<Problem, TransientError> {
         self.check()?;
-        Unsupported::check(self.point.kind, &self.lubricant)?;
+        Unsupported::check_lubricant(&self.lubricant)?;
         Ok(Problem::new(&self.point, self.lubricant)?)
     }
 }
@@ -314,7 +345,7 @@ pub(super) fn march_once(
     rule: Rule,
     observer: &dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
-    let mut trajectory = Trajectory { rule, ..Trajectory::begun(transient, model.grid())? };
+    let mut trajectory = Trajectory { rule, ..Trajectory::begun(transient, model.mesh(), model.abscissae())? };
     let problem = trajectory.problem;
     trajectory.ended = match walk(model, &problem, observer, &mut trajectory) {
         Ok(()) => Ended::Finished,
@@ -383,17 +414,17 @@ fn walk(
 }
 
 impl Trajectory {
-    /// Creates the trajectory of a contact on a grid before its first moment.
+    /// Creates the trajectory of a contact before its first moment, with the grid and the abscissae of its fields.
     ///
     /// # Errors
     /// [`TransientError`] if the contact, the inputs, the times or the lubricant are refused.
-    pub fn begun(transient: &Transient, grid: &LineGrid) -> Result<Self, TransientError> {
+    pub fn begun(transient: &Transient, mesh: Mesh, x: &[f64]) -> Result<Self, TransientError> {
         Ok(Self {
             transient: transient.clone(),
             rule: transient.time_step.rule(transient.duration),
             problem: transient.problem()?,
-            mesh: Mesh { spec: grid.reference.spec, scale: grid.scale },
-            x: grid.x.clone(),
+            mesh,
+            x: x.to_vec(),
             moments: Vec::new(),
             states: Vec::new(),
             rejected_steps: 0,

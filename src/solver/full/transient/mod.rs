@@ -13,6 +13,7 @@ mod march;
 mod mass;
 mod pace;
 mod signal;
+mod space;
 mod spline;
 mod step_error;
 mod surface;

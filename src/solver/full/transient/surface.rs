@@ -86,9 +86,15 @@ const FEWEST: f64 = 4.0;
 const ROUNDING: f64 = 1e-6;
 
 impl MovingSurface {
-    /// Returns the height at X and T.
-    pub fn height(&self, x: f64, time: f64) -> f64 {
-        self.shape.height(x - self.at - self.speed * time, self.at)
+    /// Returns the height at (X, Y) in units of a, and T. Gaussian features and dents of a ball are round and lie on the
+    /// axis Y = 0; all others are ridges across it.
+    pub fn height(&self, x: f64, across: f64, time: f64) -> f64 {
+        let along = x - self.at - self.speed * time;
+        let distance = match self.shape {
+            Shape::Gauss { .. } | Shape::Dent { .. } => along.hypot(across),
+            Shape::Venner { .. } | Shape::Wave { .. } | Shape::Profile { .. } => along,
+        };
+        self.shape.height(distance, self.at)
     }
 
     /// Checks the feature for a grid with the given widest spacing in the contact and for the longest time step.
@@ -196,7 +202,7 @@ mod tests {
         ] {
             let feature = moving(shape);
             for y in [-0.31, -0.2, -0.07, 0.0, 0.11, 0.2] {
-                let (early, late) = (feature.height(-2.5 + y, 0.0), feature.height(-2.5 + y + 0.75 * 1.6, 1.6));
+                let (early, late) = (feature.height(-2.5 + y, 0.1, 0.0), feature.height(-2.5 + y + 0.75 * 1.6, 0.1, 1.6));
                 assert!((early - late).abs() < 1e-14, "{:?} at {y}", feature.shape);
             }
         }
@@ -204,7 +210,7 @@ mod tests {
 
     #[test]
     fn heights_are_those_of_their_formulas() {
-        let at = |shape: Shape, y: f64| moving(shape).height(-2.5 + y, 0.0);
+        let at = |shape: Shape, y: f64| moving(shape).height(-2.5 + y, 0.0, 0.0);
         assert!((at(Shape::Gauss { height: 0.02, width: 0.3 }, 0.3) - 0.02 / 1f64.exp()).abs() < 1e-15);
         let packet = at(Shape::Venner { height: 0.02, width: 1.0 }, 0.5);
         assert!((packet + 0.02 * 10f64.powf(-2.5)).abs() < 1e-15);
