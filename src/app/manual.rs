@@ -33,6 +33,7 @@ const PAGES: &[Page] = pages![
     "starvation.md",
     "rough.md",
     "transient.md",
+    "waves.md",
     "trust.md",
     "export.md",
     "keyboard.md",

@@ -6,9 +6,10 @@ use super::output;
 use super::verdict::Verdict;
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
 use crate::host::clock::Stopwatch;
-use crate::scene::{Method, ResultJson, Sheet, answer_or_full, atomic_file};
+use crate::scene::{ContactDynamics, Method, Request, ResultJson, Sheet, answer_or_full, atomic_file};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::Rises;
+use crate::solver::full::response::{Dynamics, Maxwell, check_lubricant};
 use crate::solver::observer::{NewtonStep, Observer, WalkStep};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::TrainingObserver;
@@ -65,9 +66,36 @@ pub struct SolveArgs {
     /// Estimate the discretisation error of H_c and H_min of a point contact by a second solve on another grid
     #[arg(long)]
     accuracy: bool,
+    /// Compute stiffness and damping of the film at these frequencies in Hz, and fit a Maxwell element from three on
+    #[arg(long, value_name = "F1,F2", value_delimiter = ',', value_parser = frequency)]
+    dynamics: Vec<f64>,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
+}
+
+/// Highest accepted frequency \[Hz\], and the largest number of frequencies.
+const HIGHEST_HZ: f64 = 1e9;
+const MOST_FREQUENCIES: usize = 1000;
+
+fn frequency(text: &str) -> Result<f64, String> {
+    let accepted = || format!("frequencies must be numbers between 0 and {HIGHEST_HZ:e} Hz");
+    text.parse().ok().filter(|hz| (0.0..=HIGHEST_HZ).contains(hz)).ok_or_else(accepted)
+}
+
+/// Checks that the dynamics of the requested contact can be computed.
+fn check_dynamics(request: &Request, frequencies: &[f64]) -> Result<(), Failure> {
+    if frequencies.is_empty() {
+        return Ok(());
+    }
+    let refused = |problem: &str| Err(Failure::Request(format!("--dynamics {problem}")));
+    if frequencies.len() > MOST_FREQUENCIES {
+        return refused(&format!("has {} frequencies; accepted are at most {MOST_FREQUENCIES}", frequencies.len()));
+    }
+    if request.method != Method::Full {
+        return refused("belongs to full solutions; leave out --method reduced, or leave out --dynamics");
+    }
+    check_lubricant(&request.lubricant).or_else(|problem| refused(&format!("is refused: {problem}")))
 }
 
 /// Runs the command.
@@ -78,6 +106,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
             "--accuracy belongs to full solutions of point contacts; add --contact point, or leave it out".to_owned(),
         ));
     }
+    check_dynamics(&request, &args.dynamics)?;
     if let Some(path) = &args.sheet
         && Sheet::new("", &[], None).files(path).is_empty()
     {
@@ -99,7 +128,11 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
             None => output::complain(&format!("{} is not written: the solve did not converge", path.display())),
         }
     }
-    let mut report = Report { result: answer.result.json(), accuracy: None };
+    let mut report = Report { result: answer.result.json(), accuracy: None, dynamics: None };
+    if let Some(solution) = answer.fields().filter(|_| !args.dynamics.is_empty()) {
+        let dynamics = ContactDynamics::of(solution, &args.dynamics, &progress);
+        report.dynamics = Some(dynamics.map_err(|problem| Failure::Request(problem.to_string()))?);
+    }
     if args.accuracy && answer.result.converged {
         report.accuracy = Some(workbench.grid_accuracy(&answer, &progress)?);
     }
@@ -111,7 +144,8 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     if args.json {
         output::print_json(&report)?;
     } else {
-        output::print(&describe(&answer.result, report.accuracy.as_ref()))?;
+        let dynamics = report.dynamics.as_ref().map(described_dynamics);
+        output::print(&(describe(&answer.result, report.accuracy.as_ref()) + &dynamics.unwrap_or_default()))?;
     }
     Ok(if answer.result.converged { Verdict::Done } else { Verdict::FellShort })
 }
@@ -147,6 +181,25 @@ struct Report<'a> {
     result: ResultJson<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<GridAccuracy>,
+    #[serde(flatten)]
+    dynamics: Option<ContactDynamics>,
+}
+
+/// Describes stiffness and damping for users.
+fn described_dynamics(dynamics: &ContactDynamics) -> String {
+    let [stiffness, damping] = dynamics.units();
+    let mut lines = Vec::new();
+    let mut line = |name: &str, value: String| lines.push(format!("{name:<18} {value}\n"));
+    for Dynamics { frequency_hz, stiffness: k, damping: c } in &dynamics.values {
+        line(&format!("at {frequency_hz} Hz"), format!("k {k:.6e} {stiffness}, c {c:.6e} {damping}"));
+    }
+    if let Some(maxwell) = &dynamics.maxwell {
+        let Maxwell { static_stiffness, series_stiffness, relaxation_s, parallel_damping, deviation } = maxwell;
+        let springs = format!("k_0 {static_stiffness:.4e} and k_1 {series_stiffness:.4e} {stiffness}");
+        let dashpots = format!("τ {relaxation_s:.3e} s, c {parallel_damping:.3e} {damping}");
+        line("Maxwell element", format!("{springs}, {dashpots}, within {:.1} %", 100.0 * deviation));
+    }
+    lines.concat()
 }
 
 /// Describes the result for users.

@@ -11,7 +11,7 @@ use ehl_explorer::scene::{
     At, Bench, ContactSweep, Grid, Method, ModelSource, Notice, Request, Scene, Steps, Study, TransientStudy, Varied,
     VariedError, Words,
 };
-use ehl_explorer::solver::full::transient::{Frame, Inputs, MarchProgress, Signal, TimeStep, Transient, march};
+use ehl_explorer::solver::full::transient::{Frame, Inputs, MarchProgress, Scheme, Signal, TimeStep, Transient, march};
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::ContactKind;
@@ -146,6 +146,9 @@ pub fn transient<'py>(
         duration,
         further: Vec::new(),
         time_step,
+        separation: None,
+        surfaces: Vec::new(),
+        scheme: Scheme::Default,
         frames: vec![Frame::Fixed],
         window: None,
         trainings: Vec::new(),

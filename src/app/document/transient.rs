@@ -4,7 +4,7 @@ use crate::app::document::Document;
 use crate::app::in_use::question;
 use crate::app::refusal::Refusal;
 use crate::scene::{Grid, LinearisedTransient, ReducedTransient, Study, TransientStudy};
-use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupported};
+use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Unsupported};
 
 /// Default grid, a compromise between accuracy and speed.
 const GRID: Grid = Grid::Uniform { dx: 0.0075, domain: (-4.0, 2.0) };
@@ -36,7 +36,7 @@ impl Document {
             ),
             Unsupported::Heat => Some("Transient runs cover isothermal contacts only; switch heat off"),
             Unsupported::Roughness => Some("Transient runs cover smooth surfaces only; set the roughness to zero"),
-            Unsupported::MassConservingModel => None,
+            Unsupported::MassConservingModel | Unsupported::PointFrame | Unsupported::PointInputs => None,
         })
     }
 
@@ -73,6 +73,9 @@ fn breathing() -> TransientStudy {
         duration: 8.0,
         further: Vec::new(),
         time_step: TimeStep::Fixed(0.05),
+        separation: None,
+        surfaces: Vec::new(),
+        scheme: Scheme::Default,
         frames: vec![Frame::Fixed],
         window: None,
         trainings: Vec::new(),

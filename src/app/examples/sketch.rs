@@ -169,6 +169,10 @@ pub(super) fn marks(scene: &Scene) -> Vec<Mark> {
             vec![Line(Film, curve(falling(2.0))), Line(Pressure, curve(|x| 0.5 + 0.3 * (9.0 * x).sin()))]
         }
         Study::InformationLoss(_) => vec![Line(Pressure, curve(falling(1.5))), Line(Film, curve(falling(4.0)))],
+        Study::Amplitude(_) => {
+            let law = |x: f32| 0.9 / (1.0 + (8.0 * (x - 0.5)).exp());
+            vec![Line(Quiet, curve(law)), Dots(Film, dots(8, law))]
+        }
         Study::FlowCurve(_) => {
             let thinned = |x: f32| 0.2 + 0.65 / (1.0 + (10.0 * (x - 0.5)).exp());
             vec![Line(Friction, curve(thinned)), Dashes(Quiet, curve(|_| 0.85))]

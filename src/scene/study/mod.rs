@@ -26,6 +26,7 @@ macro_rules! only {
     };
 }
 
+pub mod amplitude;
 pub mod dimensions;
 pub mod distance_measure;
 pub mod error_measures;
@@ -188,6 +189,8 @@ studies! {
     Starvation(starvation::Starvation),
     /// Pressure and film thickness for increasing load number, from rigid bodies to the dry contact (Fig. 2.2).
     Transition(transition::Transition),
+    /// Amplitude of the film thickness under a wavy surface, over its wavelength.
+    Amplitude(amplitude::Amplitude),
     /// Viscosity of the lubricant over shear stress (Fig. 3.10).
     FlowCurve(flow_curve::FlowCurve),
     /// Loss of information over the number of modes for a transient contact, in each frame (Fig. 4.5).

@@ -167,6 +167,8 @@ pub struct LineSpace {
     pub grid: LineGrid,
     /// 1/R̄ of (2.24), with the relative radius R̄; 1 if the radius is constant.
     pub curvature: f64,
+    /// Height of the surfaces' features at every node, which makes the gap smaller; empty for smooth surfaces.
+    pub features: Vec<f64>,
     /// Coefficients of the rows; in a steady contact those of the grid.
     pub rows: Vec<RowGeometry>,
     /// Side from which the flow of each row comes.
@@ -177,7 +179,7 @@ impl LineSpace {
     /// Creates the space of a steady contact.
     pub fn new(grid: LineGrid) -> Self {
         let (rows, upstream) = (grid.rows.clone(), vec![Upstream::Inlet; grid.rows.len()]);
-        Self { grid, curvature: 1.0, rows, upstream }
+        Self { grid, curvature: 1.0, features: Vec::new(), rows, upstream }
     }
 }
 
@@ -216,6 +218,9 @@ impl Space for LineSpace {
         for (gap, x) in gap.iter_mut().zip(&self.grid.x) {
             *gap = 0.5 * self.curvature * x * x;
         }
+        for (gap, height) in gap.iter_mut().zip(&self.features) {
+            *gap -= height;
+        }
     }
 
     fn spread(&self, unknowns: &[f64], nodes: &mut [f64]) {
@@ -233,6 +238,30 @@ impl Space for LineSpace {
 pub struct PlaneSpace {
     /// Grid.
     pub grid: Arc<PointGrid>,
+    /// Transient terms of the rows, and features of the surfaces.
+    pub motion: Motion,
+}
+
+/// Transient terms of the rows of a point contact, and features of its surfaces. By default the contact is steady and
+/// its surfaces are smooth.
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    /// Speed of the flow along X, at least 0.
+    pub speed: f64,
+    /// Weight of ρ̄H in its time derivative.
+    pub storage: f64,
+    /// Contribution of the previous steps to the time derivative of each unknown's row. Empty for a steady contact, in
+    /// which speed and storage have no effect.
+    pub history: Vec<f64>,
+    /// Height of the features at every node, which makes the gap smaller; empty for smooth surfaces.
+    pub features: Vec<f64>,
+}
+
+impl PlaneSpace {
+    /// Creates the space of a steady contact.
+    pub fn new(grid: Arc<PointGrid>) -> Self {
+        Self { grid, motion: Motion::default() }
+    }
 }
 
 /// Rows handled by one task.
@@ -250,7 +279,12 @@ impl Space for PlaneSpace {
 
     #[inline]
     fn row(&self, unknown: usize) -> ([usize; STENCIL], RowGeometry) {
-        self.grid.row(unknown)
+        let (stencil, geometry) = self.grid.row(unknown);
+        let Motion { speed, storage, history, .. } = &self.motion;
+        match history.get(unknown) {
+            None => (stencil, geometry),
+            Some(history) => (stencil, geometry.in_time(*speed, *storage, *history)),
+        }
     }
 
     fn wide_row(&self, unknown: usize) -> Option<([usize; STENCIL], RowGeometry)> {
@@ -284,6 +318,7 @@ impl Space for PlaneSpace {
 
     fn write_gap(&self, gap: &mut [f64]) {
         gap.iter_mut().enumerate().for_each(|(node, gap)| *gap = self.grid.parabola(node));
+        gap.iter_mut().zip(&self.motion.features).for_each(|(gap, height)| *gap -= height);
     }
 
     fn spread(&self, unknowns: &[f64], nodes: &mut [f64]) {

@@ -116,7 +116,7 @@ impl NewtonSpace for LineSpace {
     }
 
     fn mesh(&self) -> Mesh {
-        Mesh { spec: self.grid.reference.spec, scale: self.grid.scale }
+        Mesh::of_line(&self.grid)
     }
 
     fn forcing(control: &Backtracking, memory: &mut Residuals, residual: f64) -> f64 {
@@ -227,11 +227,5 @@ impl System<LineSpace> {
             *u = update(i);
         }
         self.backtrack(problem, options, before)
-    }
-
-    /// Sets 1/R̄ of (2.24). The film thickness follows with the next [`System::set_h_0`].
-    pub(super) fn set_curvature(&mut self, curvature: f64) {
-        self.space.curvature = curvature;
-        self.renew_gap();
     }
 }

@@ -1,6 +1,6 @@
 //! Grid of a solution, described by its specification.
 
-use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
+use crate::solver::discrete::grid::{GridSpec, LineGrid, PointGridSpec};
 use serde::{Deserialize, Serialize};
 
 /// Grid on which a solution is given. Node arrays of a line contact have one extra leading node outside the inlet.
@@ -13,6 +13,11 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Returns the grid of a line contact.
+    pub fn of_line(grid: &LineGrid) -> Self {
+        Self { spec: grid.reference.spec, scale: grid.scale }
+    }
+
     /// Returns the grid specification of a point contact, or `None` for a line contact.
     pub fn plane(&self) -> Option<PointGridSpec> {
         match self.spec {

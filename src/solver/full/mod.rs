@@ -17,6 +17,7 @@ mod newton_space;
 pub mod point;
 mod problem;
 mod report;
+pub mod response;
 mod rolling;
 mod rough;
 mod solution;

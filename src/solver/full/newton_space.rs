@@ -174,11 +174,20 @@ pub struct Preconditioner<M> {
     schur: f64,
     /// Quadrature weights w of the unknowns.
     weights: Vec<f64>,
+    /// True if the load equation is ΔH₀ = 0.
+    prescribed: bool,
 }
 
 impl<M: Factors> Preconditioner<M> {
-    /// Borders the matrix assembled for these equations by the H₀ column and the load equation.
-    pub fn border<S: Space>(&mut self, space: &S, &ScaledRows { rows, scaling, fractions, .. }: &ScaledRows<'_>) {
+    /// Borders the matrix assembled for these equations by the H₀ column and the load equation, or by ΔH₀ = 0 if H₀ is
+    /// `prescribed`.
+    pub fn border<S: Space>(
+        &mut self,
+        space: &S,
+        &ScaledRows { rows, scaling, fractions, .. }: &ScaledRows<'_>,
+        prescribed: bool,
+    ) {
+        self.prescribed = prescribed;
         let (grid, weights) = (space.grid(), space.grid().weights());
         self.weights.clear();
         self.weights.extend((0..rows.len()).map(|k| weights[grid.node(k)]));
@@ -195,6 +204,10 @@ impl<M: Factors> Preconditioner<M> {
     pub fn apply(&mut self, v: &mut [f64]) {
         let (head, last) = v.split_at_mut(self.weights.len());
         self.matrix.solve(head);
+        if self.prescribed {
+            // The right-hand side of ΔH₀ = 0 is zero, and so is the last entry of every Krylov vector.
+            return;
+        }
         let carried = dot(&self.weights, head);
         let dh_0 = if self.schur == 0.0 { 0.0 } else { (carried - last[0]) / self.schur };
         for (v, c) in head.iter_mut().zip(&self.column) {

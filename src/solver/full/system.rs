@@ -50,6 +50,8 @@ pub struct System<S: NewtonSpace> {
     pub film: Vec<f64>,
     /// H₀.
     pub h_0: f64,
+    /// True if H₀ is prescribed. The load is then a result.
+    pub prescribed: bool,
     gap: Vec<f64>,
     pub(super) deformation: Vec<f64>,
     pub(super) nodes: Nodes,
@@ -108,6 +110,7 @@ impl<S: NewtonSpace> System<S> {
             pressure: vec![0.0; n],
             film: vec![0.0; n],
             h_0: 0.0,
+            prescribed: false,
             gap,
             deformation: vec![0.0; n],
             nodes: Nodes::new(n, false),
@@ -138,14 +141,14 @@ impl<S: NewtonSpace> System<S> {
             *p = if weight > 0.0 { given } else { 0.0 };
         }
         let factor = problem.load / dot(weights, &self.pressure);
-        if factor.is_finite() && factor > 0.0 {
+        if factor.is_finite() && factor > 0.0 && !self.prescribed {
             self.pressure.iter_mut().for_each(|p| *p *= factor);
         }
         self.deform();
     }
 
     /// Returns the load of the pressure, including that beyond the ends of the domain.
-    fn carried_load(&self) -> f64 {
+    pub(super) fn carried_load(&self) -> f64 {
         let grid = self.space.grid();
         let beyond = if grid.continues() { far_field::load(grid, &self.pressure) } else { 0.0 };
         dot(grid.weights(), &self.pressure) + beyond
@@ -300,7 +303,7 @@ impl<S: NewtonSpace> System<S> {
             }
             report.residuals.push(residual);
             let forcing = S::forcing(&options.control, memory, residual);
-            let load = if exact_load { problem.load - self.carried_load() } else { 0.0 };
+            let load = if exact_load && !self.prescribed { problem.load - self.carried_load() } else { 0.0 };
             let linear = self.solve_linear(options, forcing, load, observer);
             report.linear_iterations += linear.iterations;
             if observer.cancelled() {
@@ -465,7 +468,7 @@ impl<S: NewtonSpace> System<S> {
     ) -> LinearOutcome {
         let Self { space, krylov, scratch, step, step_deformation, rows, scaling, preconditioner, rhs, .. } = self;
         let (update, active) = (&mut self.update, &self.active);
-        let (space, u) = (&*space, rows.len());
+        let (space, u, prescribed) = (&*space, rows.len(), self.prescribed);
         let diagonal = space.own_deformation();
         for (s, row) in scaling.iter_mut().zip(&*rows) {
             *s = 1.0 / (row.d_p[CENTER].abs() + row.d_h[CENTER].abs() * diagonal);
@@ -479,7 +482,7 @@ impl<S: NewtonSpace> System<S> {
         if !space.assemble(matrix, &options.control, &scaled, go_on) || !go_on() {
             return stopped;
         }
-        preconditioner.border(space, &scaled);
+        preconditioner.border(space, &scaled, prescribed);
         if !go_on() {
             return stopped;
         }
@@ -517,7 +520,7 @@ impl<S: NewtonSpace> System<S> {
                 if let Some(thinning) = &thinning {
                     thinning.add_product(space, scaling, &mut out[..u]);
                 }
-                out[u] = carried;
+                out[u] = if prescribed { shift } else { carried };
             },
             |v| preconditioner.apply(v),
             |iterations| {

@@ -62,6 +62,7 @@ pub(super) fn table(study: &TransientStudy, marches: &[&March], models: &[&Model
 mod tests {
     use super::*;
     use crate::scene::{Scene, Study};
+    use crate::solver::full::Mesh;
     use crate::solver::full::transient::{Frame, Moment, Trajectory};
 
     fn march(name: &str, by: By, steps: usize, step_s: f64) -> March {
@@ -84,7 +85,7 @@ mod tests {
             effort: Default::default(),
         };
         let grid = scene.grid.spec().unwrap().line().unwrap().scaled(1.0);
-        let begun = Trajectory::begun(&transient, &grid).unwrap();
+        let begun = Trajectory::begun(&transient, Mesh::of_line(&grid), &grid.x).unwrap();
         let trajectory = Trajectory { moments: (0..=steps).map(moment).collect(), ..begun };
         March {
             name: name.to_owned(),

@@ -7,6 +7,7 @@ use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::solver::full::transient::Unsupported;
 use crate::solver::limits::Refused;
+use crate::solver::physics::contact::ContactKind;
 
 /// Reason why a full transient run refuses the grid of a steady model.
 const OF_A_MODEL: &str = "a full transient run does not use the grid of a model";
@@ -15,6 +16,8 @@ const OF_A_MODEL: &str = "a full transient run does not use the grid of a model"
 fn refused(why: Unsupported) -> Refused {
     let (field, wanted) = match why {
         Unsupported::PointContact => ("contact", "must be Line"),
+        Unsupported::PointFrame => ("study.frames", "must be [Fixed], with the scheme Default or Bdf2"),
+        Unsupported::PointInputs => ("study.inputs", "must have other values"),
         Unsupported::ShearThinning => ("lubricant.shear", "must be Newtonian"),
         Unsupported::Heat => ("heat", "must be left out"),
         Unsupported::Roughness => ("roughness", "must be left out"),
@@ -37,6 +40,22 @@ pub(in crate::scene::study) fn check(experiment: &Experiment) -> Checked {
     Ok(())
 }
 
+/// Refuses a contact that the full solver does not support in time, and names the field of the scene. Point contacts are
+/// supported, without models and without the mass balance of a film in a plane.
+pub(super) fn check_full(experiment: &Experiment, by_model: bool, balances: bool) -> Checked {
+    if experiment.contact == ContactKind::Line || by_model {
+        return check(experiment);
+    }
+    Unsupported::check_lubricant(&experiment.lubricant).map_err(refused)?;
+    if balances {
+        return Err(refuse("study.mass_between", "must be left out for a point contact"));
+    }
+    if experiment.grid == Grid::Model {
+        return Err(refuse("grid", format!("must be Plane or Graded: {OF_A_MODEL}")));
+    }
+    Ok(())
+}
+
 /// Refuses a request that transient runs do not support, full ones or those by a reduced model.
 ///
 /// # Errors
@@ -46,7 +65,9 @@ pub fn check_request(request: &Request) -> Result<(), Refusal> {
     let of_model = || if by_model { Unsupported::check_model(&request.lubricant) } else { Ok(()) };
     Unsupported::check(request.point.kind, &request.lubricant).and_then(|()| of_model()).map_err(|why| {
         let (field, wanted) = match why {
-            Unsupported::PointContact => (Field::Contact, "<contact> must be line"),
+            Unsupported::PointContact | Unsupported::PointFrame | Unsupported::PointInputs => {
+                (Field::Contact, "<contact> must be line")
+            }
             Unsupported::ShearThinning => (Field::Shear, "<shear> must be newtonian"),
             Unsupported::Heat => (Field::Heat, "<heat> must be left out"),
             Unsupported::Roughness => (Field::Roughness, "<roughness> must be left out"),

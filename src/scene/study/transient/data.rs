@@ -3,12 +3,13 @@
 use super::coverage;
 use super::marches::training_contact;
 use super::published::{self, PublishedMarch};
+use super::surfaces::{self, SurfaceFeature};
 use crate::scene::check::{Checked, count, interval, number, refuse};
 use crate::scene::experiment::Experiment;
 use crate::scene::grid::Grid;
 use crate::scene::method::ModelSource;
 use crate::scene::written::is_default;
-use crate::solver::full::transient::{Frame, Inputs, TimeStep, Transient};
+use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Transient};
 use crate::solver::physics::contact::OperatingPoint;
 use crate::solver::reduced::tpwl::{Selection, Weighting};
 use crate::solver::training::{LocalBases, TrajectoryTraining};
@@ -32,6 +33,16 @@ pub struct TransientStudy {
     pub further: Vec<Drive>,
     /// Time step of all marches.
     pub time_step: TimeStep,
+    /// Prescribed rigid-body separation: H₀ of the start plus this signal minus 1, in units of a²/R. The load is then a
+    /// result, in the column `load` of the series. Needs the full solver.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub separation: Option<Signal>,
+    /// Features of the surfaces that move through the contact. They need the full solver.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub surfaces: Vec<SurfaceFeature>,
+    /// Time scheme of the full solver.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub scheme: Scheme,
     /// Frames of reference, each with its own march. The others are compared with the first.
     #[serde(default = "fixed", skip_serializing_if = "is_fixed")]
     pub frames: Vec<Frame>,
@@ -267,7 +278,8 @@ impl TransientStudy {
     /// # Errors
     /// With the first invalid field.
     pub(super) fn check_with(&self, experiment: &Experiment) -> Checked {
-        coverage::check(experiment)?;
+        let by_model = self.reduced.is_some() || self.linearised.is_some();
+        coverage::check_full(experiment, by_model, self.mass_between.is_some())?;
         count("study.frames (how many)", self.frames.len(), 1, 4)?;
         if (1..self.frames.len()).any(|i| self.frames[..i].contains(&self.frames[i])) {
             return Err(refuse("study.frames", "must not name a frame twice: results are named by it"));
@@ -292,10 +304,18 @@ impl TransientStudy {
             interval("study.mass_between", places, -4.0, 1.0)?;
         }
         self.training_loads.iter().try_for_each(|&load| number("study.training_loads", load, 1e-6, 1e10))?;
+        surfaces::check(&self.surfaces)?;
         self.check_contacts(experiment)?;
         self.check_marches(experiment)?;
-        let models = self.reduced.is_some() || self.linearised.is_some();
-        if models {
+        let full_only = [
+            ("study.surfaces", !self.surfaces.is_empty()),
+            ("study.scheme", self.scheme == Scheme::Characteristic),
+            ("study.separation", self.separation.is_some()),
+        ];
+        if let Some((field, _)) = full_only.into_iter().find(|(_, given)| *given && by_model) {
+            return Err(refuse(field, "needs the full solver; leave it out, or leave out reduced and linearised"));
+        }
+        if by_model {
             coverage::check_models(experiment)?;
         }
         self.reduced.iter().try_for_each(|reduced| reduced.check(&experiment.grid))?;
@@ -354,7 +374,21 @@ impl TransientStudy {
             transient.check().map_err(|problem| refuse(field, format!("is refused: {problem}")))
         };
         let own = self.own_march(point, lubricant, Frame::Fixed);
-        check("study".to_owned(), &own)?;
+        let sliding = OperatingPoint { sliding: experiment.sliding, ..point };
+        // The run reads and checks profiles.
+        let stated = self.surfaces.iter().filter_map(|surface| surface.moving(&sliding, |_| Err(())).ok());
+        let frame = self.frames.iter().copied().find(|frame| *frame != Frame::Fixed).unwrap_or_default();
+        let own = Transient { surfaces: stated.collect(), ..own };
+        check("study".to_owned(), &Transient { frame, ..own.clone() })?;
+        let spacing = match experiment.grid {
+            Grid::Uniform { dx, .. } => Some(dx),
+            Grid::Plane(spec) => Some(spec.dx),
+            _ => None,
+        };
+        if let Some(dx) = spacing {
+            let x: Vec<f64> = (-200..=200).map(|k| dx * f64::from(k)).collect();
+            own.check_on(&x).map_err(|problem| refuse("study", format!("is refused: {problem}")))?;
+        }
         for (i, drive) in self.further.iter().enumerate() {
             check(format!("study.further.{i}"), &self.march(drive, point, lubricant, Frame::Fixed))?;
         }

@@ -223,7 +223,8 @@ impl March {
     fn statistics(&self, window: (f64, f64), found: &mut Findings) {
         let trajectory = &self.trajectory;
         let Some(start) = trajectory.moments.first() else { return };
-        for (quantity_name, quantity) in QUANTITIES {
+        let load = trajectory.transient.separation.as_ref().map(|_| ("load", Quantity::Load));
+        for (quantity_name, quantity) in QUANTITIES.into_iter().chain(load) {
             let mut push = |what: &str, value| found.push(format!("{}.{quantity_name}.{what}", self.name), None, value);
             push("start", start.value(quantity));
             if let (Some(mean), Some(amplitude)) =
@@ -232,6 +233,10 @@ impl March {
                 push("mean", mean);
                 push("offset", mean / start.value(quantity) - 1.0);
                 push("amplitude", amplitude);
+            }
+            if let Some((low, high)) = trajectory.range(quantity, window) {
+                push("min", low);
+                push("max", high);
             }
         }
     }

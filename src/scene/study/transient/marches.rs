@@ -39,7 +39,9 @@ impl TransientStudy {
     /// Returns the march along some inputs, without stored fields.
     pub fn march(&self, drive: &Drive, point: OperatingPoint, lubricant: Lubricant, frame: Frame) -> Transient {
         let Drive { inputs, duration, .. } = drive.clone();
-        Transient { point, lubricant, inputs, frame, duration, time_step: self.time_step, keep: Keep::Scalars }
+        let (separation, surfaces, scheme) = (self.separation.clone(), Vec::new(), self.scheme);
+        let (time_step, keep) = (self.time_step, Keep::Scalars);
+        Transient { point, lubricant, inputs, separation, surfaces, scheme, frame, duration, time_step, keep }
     }
 
     /// Returns the march along the study's own inputs. It stores fields if models are trained from it.
@@ -49,6 +51,9 @@ impl TransientStudy {
             point,
             lubricant,
             inputs: self.inputs.clone(),
+            separation: self.separation.clone(),
+            surfaces: Vec::new(),
+            scheme: self.scheme,
             frame,
             duration: self.duration,
             time_step: self.time_step,

@@ -7,6 +7,7 @@ mod march;
 mod marches;
 mod models;
 mod published;
+mod surfaces;
 mod timed_march;
 mod train;
 
@@ -15,6 +16,7 @@ pub use data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 pub use march::{By, March, MarchedBy, series};
 pub use models::{Kind, Model};
 pub use published::PublishedMarch;
+pub use surfaces::{SurfaceFeature, SurfaceShape};
 pub(crate) use timed_march::{Listener, Timed, timed_march};
 
 use super::{StudyObserver, StudyRow};
@@ -24,9 +26,11 @@ use crate::scene::study::question::{
     Chart, ChartAxis, Checked, Column, Experiment, Findings, Marks, Notice, Question, RunError, Setting, Table, Tell,
 };
 use crate::solver::discrete::grid::{ContactGrid, ReferenceGrid};
-use crate::solver::full::transient::{Frame, FullMarch, Keep, Moment, State, Trajectory, Transient};
+use crate::solver::discrete::space::PlaneSpace;
+use crate::solver::full::transient::{Frame, FullMarch, Keep, Marching, Moment, State, Trajectory, Transient};
 use crate::solver::reduced::transient::TrajectoryModel;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Row of a transient study.
@@ -77,7 +81,7 @@ pub enum Row {
 /// Common data of all marches of a study.
 struct Runner<'a, 'b> {
     study: &'a TransientStudy,
-    grid: Arc<ReferenceGrid>,
+    grid: ContactGrid,
     /// Saved reduced model, if the study does not train one.
     saved: Option<Arc<TrajectoryModel>>,
     setting: &'a Setting<'b>,
@@ -101,10 +105,11 @@ impl Question for TransientStudy {
             sampled::read_into(&mut study.inputs, &setting.bench.resolve(path))?;
         }
         let request = setting.experiment.request()?;
-        let ContactGrid::Line(grid) = setting.bench.grid(&request, setting.observer)? else {
-            return Err(RunError::Study("a transient contact needs the grid of a line contact".to_owned()));
-        };
+        let grid = setting.bench.grid(&request, setting.observer)?;
         let saved = study.saved_model(setting)?;
+        let profile = |path: &Path| surfaces::read_profile(&setting.bench.resolve(path));
+        let moving = study.surfaces.iter().map(|surface| surface.moving(&request.point, profile));
+        let moving = moving.collect::<Result<Vec<_>, _>>()?;
         let runner = Runner { study: &study, grid, saved, setting, tell };
         let drives = study.drives();
         for &frame in &study.frames {
@@ -115,6 +120,7 @@ impl Question for TransientStudy {
                 } else {
                     study.march(drive, request.point, request.lubricant, frame)
                 };
+                let transient = Transient { surfaces: moving.clone(), ..transient };
                 let (full, states) = runner.full(drive, transient)?;
                 tell(Row::Marched(Arc::clone(&full)));
                 if k == 0 {
@@ -130,8 +136,9 @@ impl Question for TransientStudy {
 
     /// Values of a full march are prefixed by the name of its frame (`fixed`, `ale`, `remeshed`, `remeshed_linear`):
     ///
-    /// - `H_c.start`, `H_c.mean`, `H_c.amplitude`, `H_c.offset` (mean over start, minus 1) within the interval for
-    ///   statistics, and the same for H_min, P_c, P_max;
+    /// - `H_c.start`, `H_c.mean`, `H_c.amplitude`, `H_c.offset` (mean over start, minus 1), `H_c.min`, `H_c.max` within
+    ///   the interval for statistics, and the same for H_min, P_c, P_max;
+    /// - the same for `load`, if the separation is prescribed;
     /// - `steps`, `rejected_steps`, `newton_per_step`, `krylov_per_step`, `step_s_median`, `step_s_p99`, `march_s`;
     /// - `mass_defect` if positions are given;
     /// - `grid_error`, the discretisation error of H_c relative to H_c, the largest among steady contacts under the
@@ -224,7 +231,7 @@ impl TransientStudy {
         if let Some(path) = &study.sampled {
             sampled::read_into(&mut study.inputs, &bench.resolve(path))?;
         }
-        let ContactGrid::Line(grid) = bench.grid(&request, observer)? else { return Ok(()) };
+        let grid = bench.grid(&request, observer)?;
         let mut setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
         let reduced = |model: &&Model| matches!(model.kind, Kind::Reduced(_));
         let embedded = study.reduced.as_ref().is_some_and(ReducedTransient::is_embedded);
@@ -250,6 +257,11 @@ impl TransientStudy {
 }
 
 impl Runner<'_, '_> {
+    /// Returns the grid of a line contact, which all models need.
+    fn line(&self) -> Result<&Arc<ReferenceGrid>, RunError> {
+        self.grid.line().ok_or_else(|| RunError::Study("transient models need a line contact".to_owned()))
+    }
+
     /// Returns the listener for a named march.
     fn told(&self, march: &str, by: MarchedBy) -> Option<Listener<'_>> {
         Some(Listener { march: Arc::from(march), by, tell: self.tell, wants_states: self.setting.wants_states })
@@ -262,15 +274,28 @@ impl Runner<'_, '_> {
             transient.keep = Keep::Every(1);
         }
         let name = drive.result(frame.name());
-        let mut model = FullMarch::new(Arc::clone(&self.grid), &transient)?;
         let stage = MarchedBy::Full.stage(frame);
         let told = self.told(&name, MarchedBy::Full);
-        let mut timed = timed_march(&mut model, &transient, stage, self.setting.observer, told)?;
+        let observer = self.setting.observer;
+        let of_time = |model: &mut dyn Marching| -> Result<Timed, RunError> {
+            let mut timed = timed_march(model, &transient, stage, observer, told)?;
+            timed.trajectory.estimate_step_error(model, observer);
+            Ok(timed)
+        };
+        let (mut timed, grid_cost) = match &self.grid {
+            ContactGrid::Line(grid) => {
+                let mut model = FullMarch::new(Arc::clone(grid), &transient)?;
+                let timed = of_time(&mut model)?;
+                let cost = timed.trajectory.grid_cost(&mut model, observer);
+                (timed, cost)
+            }
+            ContactGrid::Point(grid) => {
+                (of_time(&mut FullMarch::<PlaneSpace>::on(Arc::clone(grid), &transient)?)?, None)
+            }
+        };
         let balance = study.mass_between.and_then(|places| timed.trajectory.mass_balance(places));
         let states = std::mem::take(&mut timed.trajectory.states);
         let first = study.frames.first().filter(|first| **first != frame).map(|first| drive.result(first.name()));
-        timed.trajectory.estimate_step_error(&mut model, self.setting.observer);
-        let grid_cost = timed.trajectory.grid_cost(&mut model, self.setting.observer);
         let march = March::new(&name, By::Full { first }, timed);
         let mass_defect = balance.map(|balance| balance.defect());
         Ok((Arc::new(March { mass_defect, grid_cost, ..march }), states))

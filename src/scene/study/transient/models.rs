@@ -185,7 +185,7 @@ impl Runner<'_, '_> {
         let mut cut_short = Vec::new();
         for (k, transient) in transients.iter().enumerate() {
             let stage = format!("{frame}, training {} of {}", k + 1, transients.len());
-            let mut model = FullMarch::new(Arc::clone(&self.grid), transient)?;
+            let mut model = FullMarch::new(Arc::clone(self.line()?), transient)?;
             let Timed { trajectory, .. } =
                 timed_march(&mut model, transient, stage.clone(), self.setting.observer, None)?;
             cut_short.extend(trajectory.stopped().map(|warning| Notice::Warning { part: stage, warning }));
@@ -206,7 +206,7 @@ impl Runner<'_, '_> {
         trainings: &[Trajectory],
     ) -> Result<Model, RunError> {
         let begun = Stopwatch::start();
-        let model = Arc::new(train_trajectories(&self.grid, trainings, training, self.setting.observer)?);
+        let model = Arc::new(train_trajectories(self.line()?, trainings, training, self.setting.observer)?);
         let (name, wall_s) = (reduced_name(frame), begun.seconds());
         let model = Model { name, frame, kind: Kind::Reduced(model), wall_s };
         (self.tell)(Row::Model(model.clone()));

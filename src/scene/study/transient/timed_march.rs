@@ -40,7 +40,7 @@ pub(crate) fn timed_march(
     told: Option<Listener<'_>>,
 ) -> Result<Timed, RunError> {
     if let Some(Listener { march, by, tell, .. }) = &told {
-        let trajectory = Box::new(Trajectory::begun(transient, model.grid())?);
+        let trajectory = Box::new(Trajectory::begun(transient, model.mesh(), model.abscissae())?);
         tell(Row::Begun { march: Arc::clone(march), by: *by, trajectory });
     }
     let progress = Mutex::new(Steps { begun: None, seconds: Vec::new(), time: 0.0, next_picture: 0.0 });

@@ -11,6 +11,7 @@ use crate::scene::study::Study;
 use crate::scene::study::question::Setting;
 use crate::scene::{Scene, SceneError};
 use crate::solver::discrete::grid::ContactGrid;
+use crate::solver::full::Mesh;
 use crate::solver::full::transient::{FullMarch, Trajectory};
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::training::{TrainingObserver, TrajectoryTraining, train_trajectories};
@@ -68,8 +69,9 @@ impl Scene {
         let frame = study.frames.first().copied().unwrap_or_default();
         let own = study.own_march(request.point, request.lubricant, frame);
         let setting = Setting { experiment: &experiment, bench, observer, wants_states: false };
-        let runner = Runner { study: &study, grid: Arc::clone(&grid), saved: None, setting: &setting, tell: &|_| {} };
-        let mut trainings = runner.trainings(&Trajectory::begun(&own, &grid.scaled(1.0))?)?;
+        let runner = Runner { study: &study, grid: ContactGrid::Line(Arc::clone(&grid)), saved: None, setting: &setting, tell: &|_| {} };
+        let line = grid.scaled(1.0);
+        let mut trainings = runner.trainings(&Trajectory::begun(&own, Mesh::of_line(&line), &line.x)?)?;
         if trainings.is_empty() {
             let mut model = FullMarch::new(Arc::clone(&grid), &own)?;
             trainings.push(timed_march(&mut model, &own, MarchedBy::Full.stage(frame), observer, None)?.trajectory);

@@ -111,7 +111,7 @@ impl NewtonSpace for PlaneSpace {
     }
 
     fn on(grid: &Arc<PointGrid>, ellipse: Ellipse) -> Result<Self, SolveError> {
-        Ok(Self { grid: grid.of_ellipse(ellipse)? })
+        Ok(Self::new(grid.of_ellipse(ellipse)?))
     }
 
     fn form(&self) -> Ellipse {

@@ -9,13 +9,16 @@ use crate::solver::full::newton_space::{Factors, ScaledRows};
 
 /// Number of columns of the product B K kept on either side. With one, contacts of low load and thick film do not
 /// converge; three are not faster.
-const REACH: usize = 2;
+pub const REACH: usize = 2;
+
+/// K from cells 0…REACH + 2 columns away. Each column has n_y entries followed by a zero.
+#[derive(Default)]
+pub struct KernelColumns(Vec<Vec<f32>>);
 
 /// Factorised matrix and its work space.
 #[derive(Default)]
 pub struct PlaneMatrix {
-    /// K from cells 0…REACH + 2 columns away. Each column has n_y entries followed by a zero.
-    kernel: Vec<Vec<f32>>,
+    kernel: KernelColumns,
     matrix: BlockTridiagonal,
     /// Scaled derivatives with respect to H, one stencil entry after the other for each column of unknowns.
     d_h: Vec<f32>,
@@ -38,9 +41,7 @@ impl PlaneMatrix {
     ) -> bool {
         let (m, ny) = (grid.column_unknowns(), grid.ny());
         let columns = grid.nx() - 2;
-        if self.kernel.is_empty() {
-            self.prepare(grid);
-        }
+        self.kernel.prepare(grid);
         let size = REACH * m;
         self.matrix.reset(size, columns.div_ceil(REACH));
         self.d_h.resize(columns * STENCIL * m, 0.0);
@@ -71,12 +72,10 @@ impl PlaneMatrix {
                         std::cmp::Ordering::Greater => &mut *row.upper,
                     };
                     let from = t % REACH * m * size + part * m;
-                    let kernels = [(t + 2).abs_diff(c), (t + 1).abs_diff(c), t.abs_diff(c), t.abs_diff(c + 1)]
-                        .map(|distance| kernel[distance].as_slice());
                     let deforms = |cell: &usize| !fractions.get(t * m + cell).is_some_and(|fraction| *fraction);
                     for cell in (0..m).filter(deforms) {
                         let entries = &mut block[from + cell * size..from + cell * size + m];
-                        combine(entries, weights, kernels, cell * (ny + 1));
+                        kernel.combine(entries, weights, (c, t), cell * (ny + 1));
                     }
                     for j in 0..m {
                         let a = &rows[c * m + j].d_p;
@@ -104,38 +103,45 @@ impl PlaneMatrix {
         });
         assembled.is_some() && self.matrix.factorise(go_on)
     }
-
-    fn prepare(&mut self, grid: &PointGrid) {
-        let ny = grid.ny();
-        self.kernel = (0..=REACH + 2)
-            .map(|distance| {
-                let block = grid.flexibility.column_block(distance);
-                let padded = |column: &[f64]| column.iter().map(|&k| k as f32).chain([0.0]).collect::<Vec<f32>>();
-                block.chunks_exact(ny).flat_map(padded).collect()
-            })
-            .collect();
-    }
 }
 
-/// Adds up one column of B K for all equations of a column of unknowns: six kernel entries each, weighted by the
-/// derivatives with respect to H. The kernels are those from WEST2, WEST, the column itself and EAST. The cell's
-/// entries begin at `at`.
-#[inline]
-fn combine(entries: &mut [f32], weights: &[f32], [w2, w, own, e]: [&[f32]; 4], at: usize) {
-    let m = entries.len();
-    let weight = |n: usize| &weights[n * m..(n + 1) * m];
-    let (west2, west, center, east) = (weight(WEST2), weight(WEST), weight(CENTER), weight(EAST));
-    let (south, north) = (weight(SOUTH), weight(NORTH));
-    let from = at + 1;
-    let (k_west2, k_west, k_own, k_east) =
-        (&w2[from..from + m], &w[from..from + m], &own[from..from + m], &e[from..from + m]);
-    let (k_south, k_north) = (&own[at..at + m], &own[at + 2..at + 2 + m]);
-    for j in 0..m {
-        entries[j] = west2[j] * k_west2[j]
-            + west[j] * k_west[j]
-            + center[j] * k_own[j]
-            + east[j] * k_east[j]
-            + south[j] * k_south[j]
-            + north[j] * k_north[j];
+impl KernelColumns {
+    /// Stores the kernel of a grid, unless it is stored already.
+    pub fn prepare(&mut self, grid: &PointGrid) {
+        if !self.0.is_empty() {
+            return;
+        }
+        let ny = grid.ny();
+        let columns = (0..=REACH + 2).map(|distance| {
+            let block = grid.flexibility.column_block(distance);
+            let padded = |column: &[f64]| column.iter().map(|&k| k as f32).chain([0.0]).collect::<Vec<f32>>();
+            block.chunks_exact(ny).flat_map(padded).collect()
+        });
+        self.0 = columns.collect();
+    }
+
+    /// Computes the entries of B K of all equations of column `c` against one cell of column `t`: six kernel entries
+    /// each, weighted by the derivatives with respect to H. The cell's entries begin at `at`.
+    #[inline]
+    pub fn combine(&self, entries: &mut [f32], weights: &[f32], (c, t): (usize, usize), at: usize) {
+        let m = entries.len();
+        let weight = |n: usize| &weights[n * m..(n + 1) * m];
+        let (west2, west, center, east) = (weight(WEST2), weight(WEST), weight(CENTER), weight(EAST));
+        let (south, north) = (weight(SOUTH), weight(NORTH));
+        // The kernels from WEST2, WEST, the column itself and EAST.
+        let [w2, w, own, e] = [(t + 2).abs_diff(c), (t + 1).abs_diff(c), t.abs_diff(c), t.abs_diff(c + 1)]
+            .map(|distance| self.0[distance].as_slice());
+        let from = at + 1;
+        let (k_west2, k_west, k_own, k_east) =
+            (&w2[from..from + m], &w[from..from + m], &own[from..from + m], &e[from..from + m]);
+        let (k_south, k_north) = (&own[at..at + m], &own[at + 2..at + 2 + m]);
+        for j in 0..m {
+            entries[j] = west2[j] * k_west2[j]
+                + west[j] * k_west[j]
+                + center[j] * k_own[j]
+                + east[j] * k_east[j]
+                + south[j] * k_south[j]
+                + north[j] * k_north[j];
+        }
     }
 }

@@ -27,7 +27,7 @@ fn solve(spec: PointGridSpec, point: &OperatingPoint) -> Solution {
 /// ΔH₀ = 0.3.
 fn state(problem: &Problem) -> (System<PlaneSpace>, Vec<f64>, Vec<f64>) {
     let grid = PointGridSpec::uniform(0.1, 0.2, (-2.5, 1.5, -1.6)).build().unwrap();
-    let mut system = System::new(PlaneSpace { grid: Arc::clone(&grid) });
+    let mut system = System::new(PlaneSpace::new(Arc::clone(&grid)));
     let (nx, ny) = (grid.nx(), grid.ny());
     let field = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
         (0..nx * ny).map(|n| if grid.weights[n] > 0.0 { f(grid.x[n / ny], grid.y[n % ny]) } else { 0.0 }).collect()

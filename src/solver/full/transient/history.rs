@@ -101,6 +101,12 @@ impl History {
         (&self.former[which].state, self.former[which].h_0)
     }
 
+    /// Returns ρ̄H of a previous state at a row's node; 0 is the nearer state.
+    #[inline]
+    pub fn flow(&self, which: usize, row: usize) -> f64 {
+        self.former[which].flow[row]
+    }
+
     /// Replaces the entries of a previous state.
     pub fn give_state(&mut self, which: usize, state: &[f64]) {
         let own = &mut self.former[which].state;

@@ -2,16 +2,17 @@
 
 use super::difference::BackwardDifference;
 use super::frame::{Conditions, Frame, Scales};
-use super::pace::{Pace, Rule, TimeStep};
-use super::signal::{InputError, Inputs};
+use super::pace::{Pace, ROUNDING, Rule, TimeStep};
+use super::signal::{InputError, Inputs, Signal};
 use super::step_error::controlled;
+use super::surface::{MovingSurface, Scheme, SurfaceError};
 use super::trajectory::{Effort, Ended, Moment, State, Trajectory};
 use super::unsupported::Unsupported;
-use crate::solver::discrete::grid::LineGrid;
+use crate::solver::full::response::{is_uniform, widest_spacing};
 use crate::solver::full::{Mesh, Problem, SolveError, Termination};
 use crate::solver::limits::Number;
 use crate::solver::observer::{Observer, Progress};
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, LubricantOfModel};
 use serde::{Deserialize, Serialize};
 
@@ -25,6 +26,16 @@ pub struct Transient {
     pub lubricant: Lubricant,
     /// Inputs that vary in time.
     pub inputs: Inputs,
+    /// Prescribed rigid-body separation: H₀ of the start plus this signal minus 1, in units of a²/R. The load is then a
+    /// result, reported in the inputs of each moment. If absent, the load is given.
+    #[serde(default)]
+    pub separation: Option<Signal>,
+    /// Features that move through the contact.
+    #[serde(default)]
+    pub surfaces: Vec<MovingSurface>,
+    /// Time scheme of the full system.
+    #[serde(default)]
+    pub scheme: Scheme,
     /// Motion of the domain.
     pub frame: Frame,
     /// Last dimensionless time T.
@@ -57,6 +68,9 @@ pub enum TransientError {
     /// The duration or a step is not a positive number, or there are too many steps. Contains a sentence.
     #[error("{0}")]
     Time(String),
+    /// A feature of the surfaces, or the time scheme, is refused.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
     /// Transient simulations do not support this contact.
     #[error(transparent)]
     Unsupported(#[from] Unsupported),
@@ -110,6 +124,8 @@ pub struct Step {
     pub former: [Scales; 2],
     /// Difference quotient.
     pub quotient: BackwardDifference,
+    /// Length of the step.
+    pub length: f64,
     /// Length of the step relative to the previous one.
     pub ratio: f64,
     /// ȧ/a of the moving nodes, by the same quotient as all other time derivatives, so that moving nodes alone change
@@ -121,7 +137,10 @@ pub struct Step {
 /// under trial.
 pub trait Marching {
     /// Returns the grid of the model's fields.
-    fn grid(&self) -> &LineGrid;
+    fn mesh(&self) -> Mesh;
+
+    /// Returns the abscissae X of the fields, in units of the frame's half-width.
+    fn abscissae(&self) -> &[f64];
 
     /// Computes the steady state at the start, which is also its whole history.
     ///
@@ -148,6 +167,8 @@ pub trait Marching {
     fn state(&self, at: &Conditions) -> State;
 }
 
+/// Number of times at which the speed of a point contact is checked.
+const WATCHED: usize = 10_000;
 /// Maximum number of steps of one march.
 const MOST_STEPS: f64 = 2e6;
 /// Range of the tolerances, relative to the central film thickness H_c, of controlled steps. Below it, rounding and
@@ -159,7 +180,18 @@ impl Transient {
     /// Creates a march with the default lubricant, in the fixed frame and with equal steps; no fields are kept.
     pub fn new(point: OperatingPoint, inputs: Inputs, duration: f64, step: f64) -> Self {
         let (lubricant, time_step) = (Lubricant::default(), TimeStep::Fixed(step));
-        Self { point, lubricant, inputs, frame: Frame::Fixed, duration, time_step, keep: Keep::Scalars }
+        Self {
+            point,
+            lubricant,
+            inputs,
+            separation: None,
+            surfaces: Vec::new(),
+            scheme: Scheme::Default,
+            frame: Frame::Fixed,
+            duration,
+            time_step,
+            keep: Keep::Scalars,
+        }
     }
 
     /// Checks inputs, duration and time step.
@@ -191,7 +223,63 @@ impl Transient {
             let accepted = format!("between {:e} and the duration {}", self.duration / MOST_STEPS, self.duration);
             return refuse("time step", longest, &accepted);
         }
-        Ok(self.inputs.check(self.duration)?)
+        self.inputs.check(self.duration)?;
+        if let Some(separation) = &self.separation {
+            separation.check("separation", self.duration)?;
+            if self.frame != Frame::Fixed {
+                return Err(SurfaceError("a prescribed separation needs the fixed frame".to_owned()).into());
+            }
+        }
+        if self.point.kind == ContactKind::Point {
+            self.check_point()?;
+        }
+        self.check_surfaces()
+    }
+
+    /// Checks that frame, inputs and steps suit the features and the scheme.
+    fn check_surfaces(&self) -> Result<(), TransientError> {
+        let refuse = |sentence: &str| Err(SurfaceError(sentence.to_owned()).into());
+        let steady = self.inputs.speed == Signal::Constant && self.inputs.radius == Signal::Constant;
+        if !self.surfaces.is_empty() && !(self.frame == Frame::Fixed && steady) {
+            return refuse("surfaces need the fixed frame, and a speed and a radius that are constant");
+        }
+        if self.scheme == Scheme::Characteristic {
+            let equal = matches!(self.time_step, TimeStep::Fixed(_));
+            if !(self.frame == Frame::Fixed && steady && equal) {
+                return refuse("the scheme Characteristic needs the fixed frame, a constant speed and radius, and fixed steps");
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that frame, scheme and inputs suit a point contact.
+    fn check_point(&self) -> Result<(), TransientError> {
+        let steps = (0..=WATCHED).map(|k| self.duration * k as f64 / WATCHED as f64);
+        let reverses = steps.map(|time| self.inputs.speed.at(time)).any(|speed| speed < 0.0);
+        if self.frame != Frame::Fixed || self.scheme == Scheme::Characteristic {
+            return Err(Unsupported::PointFrame.into());
+        }
+        if self.inputs.radius != Signal::Constant || reverses {
+            return Err(Unsupported::PointInputs.into());
+        }
+        Ok(())
+    }
+
+    /// Checks the features and the scheme on a grid with the abscissae `x`.
+    ///
+    /// # Errors
+    /// [`TransientError`] if the grid or the steps do not resolve a feature, or do not suit the scheme.
+    pub fn check_on(&self, x: &[f64]) -> Result<(), TransientError> {
+        let (spacing, step) = (widest_spacing(x), self.time_step.longest(self.duration));
+        self.surfaces.iter().try_for_each(|surface| surface.check(spacing, step))?;
+        if self.scheme == Scheme::Characteristic && !(is_uniform(x) && (step / spacing - 1.0).abs() < ROUNDING) {
+            let sentence = format!(
+                "the scheme Characteristic needs a uniform grid and time steps equal to its spacing; the spacing is \
+                 {spacing}, the step {step}"
+            );
+            return Err(SurfaceError(sentence).into());
+        }
+        Ok(())
     }
 
     /// Returns the reference problem.
@@ -200,7 +288,7 @@ impl Transient {
     /// [`TransientError`] if the contact, the inputs, the times or the lubricant are refused.
     pub fn problem(&self) -> Result<Problem, TransientError> {
         self.check()?;
-        Unsupported::check(self.point.kind, &self.lubricant)?;
+        Unsupported::check_lubricant(&self.lubricant)?;
         Ok(Problem::new(&self.point, self.lubricant)?)
     }
 }
@@ -216,7 +304,7 @@ impl Step {
             }
             Frame::Fixed | Frame::Remeshed(_) => 0.0,
         };
-        Self { now, former, quotient, ratio: step / step_before, growth }
+        Self { now, former, quotient, length: step, ratio: step / step_before, growth }
     }
 
     /// Returns the velocity of the flow relative to the node at X.
@@ -257,7 +345,7 @@ pub(super) fn march_once(
     rule: Rule,
     observer: &dyn TransientObserver,
 ) -> Result<Trajectory, TransientError> {
-    let mut trajectory = Trajectory { rule, ..Trajectory::begun(transient, model.grid())? };
+    let mut trajectory = Trajectory { rule, ..Trajectory::begun(transient, model.mesh(), model.abscissae())? };
     let problem = trajectory.problem;
     trajectory.ended = match walk(model, &problem, observer, &mut trajectory) {
         Ok(()) => Ended::Finished,
@@ -326,17 +414,17 @@ fn walk(
 }
 
 impl Trajectory {
-    /// Creates the trajectory of a contact on a grid before its first moment.
+    /// Creates the trajectory of a contact before its first moment, with the grid and the abscissae of its fields.
     ///
     /// # Errors
     /// [`TransientError`] if the contact, the inputs, the times or the lubricant are refused.
-    pub fn begun(transient: &Transient, grid: &LineGrid) -> Result<Self, TransientError> {
+    pub fn begun(transient: &Transient, mesh: Mesh, x: &[f64]) -> Result<Self, TransientError> {
         Ok(Self {
             transient: transient.clone(),
             rule: transient.time_step.rule(transient.duration),
             problem: transient.problem()?,
-            mesh: Mesh { spec: grid.reference.spec, scale: grid.scale },
-            x: grid.x.clone(),
+            mesh,
+            x: x.to_vec(),
             moments: Vec::new(),
             states: Vec::new(),
             rejected_steps: 0,

@@ -13,8 +13,10 @@ mod march;
 mod mass;
 mod pace;
 mod signal;
+mod space;
 mod spline;
 mod step_error;
+mod surface;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -30,6 +32,7 @@ pub use pace::TimeStep;
 pub(crate) use pace::{GREATEST_RATIO, MOST_PARTS, ROUNDING};
 pub use signal::{Input, InputError, Inputs, Signal};
 pub use spline::{Interpolated, Interpolation};
+pub use surface::{MovingSurface, Scheme, Shape, SurfaceError};
 pub use system::{FullMarch, solve};
 pub use trajectory::{Effort, Ended, Moment, Quantity, State, Trajectory};
 pub use unsupported::Unsupported;

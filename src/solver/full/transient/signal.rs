@@ -130,6 +130,16 @@ impl Signal {
         }
     }
 
+    /// Refuses constants out of range, and values that are not finite.
+    pub(super) fn check(&self, name: &'static str, duration: f64) -> Result<(), InputError> {
+        self.check_constants(name)?;
+        let mut times = (0..=WATCHED).map(|k| duration * k as f64 / WATCHED as f64);
+        match times.find(|time| !self.at(*time).is_finite()) {
+            None => Ok(()),
+            Some(time) => Err(InputError(format!("the {name} at T = {time:.4} must be a finite number"))),
+        }
+    }
+
     fn check_constants(&self, input: &'static str) -> Result<(), InputError> {
         let refuse = |constant: &str, value: f64, accepted: &str| {
             let value = Number(value);

@@ -3,6 +3,7 @@
 use super::march::{Keep, MarchProgress, Marching, Transient, TransientError, TransientObserver, march_once};
 use super::pace::{Rule, TimeStep};
 use super::signal::Input;
+use super::surface::Scheme;
 use super::trajectory::{Ended, Quantity, Trajectory};
 use crate::solver::observer::Observer;
 use crate::solver::warning::Warning;
@@ -27,7 +28,9 @@ impl Trajectory {
     /// model. Its steps are twice as long if these still resolve the inputs, otherwise half as long. The state of the
     /// model is lost. An existing estimate is kept.
     pub fn estimate_step_error(&mut self, model: &mut dyn Marching, observer: &dyn Observer) {
-        if self.step_error.is_some() || self.moments.len() < 2 || observer.cancelled() {
+        // Along the characteristics, the spacing sets the time step.
+        let set_by_grid = self.transient.scheme == Scheme::Characteristic;
+        if set_by_grid || self.step_error.is_some() || self.moments.len() < 2 || observer.cancelled() {
             return;
         }
         if self.resolves_inputs_to(BENT) {
@@ -66,14 +69,18 @@ impl Trajectory {
 
     /// Returns true if the inputs deviate from a straight line by at most this share of their range over any two steps.
     fn resolves_inputs_to(&self, share: f64) -> bool {
-        let values = |input: Input| [input.radius, input.speed, input.load];
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        let mut bent = [0.0f64; 3];
+        let Transient { inputs, separation, .. } = &self.transient;
+        let values = |time: f64| {
+            let Input { radius, speed, load } = inputs.at(time);
+            [radius, speed, load, separation.as_ref().map_or(1.0, |separation| separation.at(time))]
+        };
+        let (mut low, mut high) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+        let mut bent = [0.0f64; 4];
         for pair in self.moments.windows(3).step_by(2) {
             let [from, _, to] = pair else { continue };
-            let ends = [values(from.input), values(to.input)];
+            let ends = [values(from.time), values(to.time)];
             for part in [0.25, 0.5, 0.75] {
-                let between = values(self.transient.inputs.at(from.time + part * (to.time - from.time)));
+                let between = values(from.time + part * (to.time - from.time));
                 for k in 0..between.len() {
                     low[k] = low[k].min(between[k]).min(ends[0][k]);
                     high[k] = high[k].max(between[k]).max(ends[0][k]);

@@ -4,7 +4,7 @@ use super::frame::{Conditions, Scales, point_at};
 use super::march::Transient;
 use super::pace::Rule;
 use super::signal::Input;
-use crate::solver::discrete::grid::LineGrid;
+use crate::solver::discrete::space::Grid;
 use crate::solver::full::{Mesh, Problem, Scalars, Termination, scalars_of};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -114,6 +114,8 @@ pub enum Quantity {
     CentralPressure,
     /// Maximum pressure P_max.
     MaximumPressure,
+    /// Load w̄ relative to the reference contact.
+    Load,
 }
 
 /// Result of a transient simulation.
@@ -175,7 +177,7 @@ impl Moment {
     pub fn of_fields(
         at: &Conditions,
         step: f64,
-        grid: &LineGrid,
+        grid: &impl Grid,
         pressure: &[f64],
         film: &[f64],
         effort: Effort,
@@ -208,6 +210,7 @@ impl Moment {
             Quantity::MinimumFilm => self.h_min,
             Quantity::CentralPressure => self.p_c,
             Quantity::MaximumPressure => self.p_max,
+            Quantity::Load => self.input.load,
         }
     }
 }
@@ -265,12 +268,17 @@ impl Trajectory {
 
     /// Returns half the difference between the largest and the smallest value in a time window; `None` if the march
     /// did not cover the window.
-    pub fn amplitude(&self, quantity: Quantity, (from, to): (f64, f64)) -> Option<f64> {
+    pub fn amplitude(&self, quantity: Quantity, window: (f64, f64)) -> Option<f64> {
+        let (low, high) = self.range(quantity, window)?;
+        Some(0.5 * (high - low))
+    }
+
+    /// Returns the smallest and the largest value in a time window; `None` if the march did not cover the window.
+    pub fn range(&self, quantity: Quantity, (from, to): (f64, f64)) -> Option<(f64, f64)> {
         let ends = [self.at(quantity, from)?, self.at(quantity, to)?];
         let inside = self.moments.iter().filter(|moment| moment.time > from && moment.time < to);
         let values = ends.into_iter().chain(inside.map(|moment| moment.value(quantity)));
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
-        Some(0.5 * (high - low))
+        Some(values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v))))
     }
 
     /// Returns the largest relative difference and the relative L2 difference of a quantity from another trajectory.

@@ -9,6 +9,12 @@ pub enum Unsupported {
     /// Point contact.
     #[error("transient runs cover line contacts only")]
     PointContact,
+    /// Frame or scheme that point contacts do not have.
+    #[error("transient runs of point contacts use the fixed frame and the scheme Bdf2")]
+    PointFrame,
+    /// Inputs that point contacts do not have.
+    #[error("transient runs of point contacts need a constant radius and a speed that does not reverse")]
+    PointInputs,
     /// Lubricant whose viscosity depends on the shear stress.
     #[error("transient runs cover Newtonian lubricants only, not shear-thinning ones")]
     ShearThinning,
@@ -24,14 +30,20 @@ pub enum Unsupported {
 }
 
 impl Unsupported {
-    /// Checks that transient simulations support a contact.
+    /// Checks that transient simulations by all methods support a contact.
     ///
     /// # Errors
     /// The first reason why they do not.
     pub fn check(kind: ContactKind, lubricant: &Lubricant) -> Result<(), Self> {
-        if kind == ContactKind::Point {
-            Err(Self::PointContact)
-        } else if lubricant.shear != ShearLaw::Newtonian {
+        if kind == ContactKind::Point { Err(Self::PointContact) } else { Self::check_lubricant(lubricant) }
+    }
+
+    /// Checks that full transient simulations support a lubricant.
+    ///
+    /// # Errors
+    /// The first reason why they do not.
+    pub fn check_lubricant(lubricant: &Lubricant) -> Result<(), Self> {
+        if lubricant.shear != ShearLaw::Newtonian {
             Err(Self::ShearThinning)
         } else if lubricant.heat.is_some() {
             Err(Self::Heat)

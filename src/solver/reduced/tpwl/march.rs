@@ -7,11 +7,10 @@ use super::search::Search;
 use super::space::{INPUTS, input_vector};
 use super::superposition::Superposition;
 use super::weights::{Weight, Weighting, square_distance};
-use crate::solver::discrete::grid::LineGrid;
 use crate::solver::full::transient::{
     Conditions, Effort, Marching, Moment, State, Step, Trajectory, Transient, TransientObserver, extrapolated, march,
 };
-use crate::solver::full::{Scalars, Termination};
+use crate::solver::full::{Mesh, Scalars, Termination};
 use crate::solver::observer::Observer;
 use crate::solver::reduced::contact_rows::ContactRows;
 use crate::solver::reduced::dense::SmallSystem;
@@ -171,8 +170,12 @@ fn relative_change(a: &[f64], b: &[f64], modes: usize) -> f64 {
 const LINEAR: Effort = Effort { newton_iterations: 1, linear_iterations: 0 };
 
 impl Marching for TpwlMarch<'_> {
-    fn grid(&self) -> &LineGrid {
-        &self.model.space.grid
+    fn mesh(&self) -> Mesh {
+        Mesh::of_line(&self.model.space.grid)
+    }
+
+    fn abscissae(&self) -> &[f64] {
+        &self.model.space.grid.x
     }
 
     fn rest(&mut self, at: &Conditions, observer: &dyn Observer) -> Result<Effort, Termination> {

@@ -108,7 +108,7 @@ impl CoupledMarch {
 
     /// Returns the abscissae of the fields, in units of the frame's half-width.
     pub fn abscissae(&self) -> &[f64] {
-        &self.march.grid().x
+        self.march.abscissae()
     }
 
     /// Returns the rigid-body separation H₀ with the kernel of (2.27) in the lengths of the frame, in the film scale

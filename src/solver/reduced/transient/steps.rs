@@ -7,7 +7,7 @@ use super::part::Part;
 use crate::solver::discrete::elasticity::Scratch;
 use crate::solver::discrete::grid::{LineGrid, ReferenceGrid, dot};
 use crate::solver::full::transient::{Conditions, Effort, Frame, History, Marching, Moment, State, Step, Transient};
-use crate::solver::full::{Scalars, Termination};
+use crate::solver::full::{Mesh, Scalars, Termination};
 use crate::solver::observer::Observer;
 use crate::solver::parameters::distance;
 use crate::solver::physics::contact::ContactKind;
@@ -311,8 +311,12 @@ fn line_grid(model: &TrajectoryModel) -> Result<Arc<ReferenceGrid>, ReducedError
 }
 
 impl Marching for ReducedMarch<'_> {
-    fn grid(&self) -> &LineGrid {
-        &self.grid
+    fn mesh(&self) -> Mesh {
+        Mesh::of_line(&self.grid)
+    }
+
+    fn abscissae(&self) -> &[f64] {
+        &self.grid.x
     }
 
     fn rest(&mut self, at: &Conditions, _: &dyn Observer) -> Result<Effort, Termination> {
