@@ -6,10 +6,11 @@ use super::output;
 use super::verdict::Verdict;
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
 use crate::host::clock::Stopwatch;
-use crate::scene::{Method, ResultJson, Sheet, answer_or_full, atomic_file};
+use crate::scene::{Method, ResultJson, Sheet, Subsurface, answer_or_full, atomic_file, stress_table};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::Rises;
 use crate::solver::observer::{NewtonStep, Observer, WalkStep};
+use crate::solver::physics::bodies::Material;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::TrainingObserver;
 use clap::Args;
@@ -47,6 +48,9 @@ const BOUNDS: [(&str, &str); 4] = [
     ("rise", "reduced.mid_film_rise_error_bound"),
 ];
 
+/// Poisson's ratio of body 1 if it is not given.
+const STEEL_POISSON: f64 = Material::STEEL.poisson;
+
 /// Options of `solve`.
 #[derive(Debug, Args)]
 pub struct SolveArgs {
@@ -58,6 +62,10 @@ pub struct SolveArgs {
     /// Write the shear across the film in the plane Y = 0 as CSV: X, Z = z/h, shear stress in Pa, shear rate in 1/s
     #[arg(long, value_name = "FILE.csv")]
     film_shear: Option<PathBuf>,
+    /// Write the stress below the surface of body 1 in the plane Y = 0 as CSV, and report its maxima: X, depth Z, the
+    /// same in m, stresses in Pa
+    #[arg(long, value_name = "FILE.csv")]
+    stress: Option<PathBuf>,
     /// Write a report sheet with inputs, results, how they were checked, and published formulas; the extension selects
     /// Markdown with separate figures (md), a page with figures (html) or a table (csv)
     #[arg(long, value_name = "FILE.md")]
@@ -99,7 +107,15 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
             None => output::complain(&format!("{} is not written: the solve did not converge", path.display())),
         }
     }
-    let mut report = Report { result: answer.result.json(), accuracy: None };
+    let mut report = Report { result: answer.result.json(), accuracy: None, subsurface: None };
+    if let (Some(path), Some(solution)) = (&args.stress, answer.fields()) {
+        let field = solution.subsurface_stress(args.point.0.nu1.unwrap_or(STEEL_POISSON));
+        let field = field.map_err(|error| Failure::Request(error.to_string()))?;
+        atomic_file::replace(path, stress_table("stress", &field, &request.point).to_csv().as_bytes())?;
+        report.subsurface = Some(Subsurface::of(&field, &request.point));
+    } else if let Some(path) = &args.stress {
+        output::complain(&format!("{} is not written: the solve did not converge", path.display()));
+    }
     if args.accuracy && answer.result.converged {
         report.accuracy = Some(workbench.grid_accuracy(&answer, &progress)?);
     }
@@ -111,7 +127,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     if args.json {
         output::print_json(&report)?;
     } else {
-        output::print(&describe(&answer.result, report.accuracy.as_ref()))?;
+        output::print(&describe(&answer.result, report.accuracy.as_ref(), report.subsurface.as_ref()))?;
     }
     Ok(if answer.result.converged { Verdict::Done } else { Verdict::FellShort })
 }
@@ -147,10 +163,12 @@ struct Report<'a> {
     result: ResultJson<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<GridAccuracy>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    subsurface: Option<Subsurface>,
 }
 
 /// Describes the result for users.
-fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>) -> String {
+fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>, subsurface: Option<&Subsurface>) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         // Writing to a string cannot fail.
@@ -226,6 +244,15 @@ fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>) -> String {
         line("grid error of H_min", off(accuracy.h_min_error, accuracy.h_min_limit));
         if !accuracy.resolved {
             line("", "one of both grids does not resolve the side lobes: the error of H_min may be larger".to_owned());
+        }
+    }
+    if let Some(stress) = subsurface {
+        for (name, value, depth) in [
+            ("von Mises stress", stress.von_mises_max_pa, stress.von_mises_depth_m),
+            ("maximum shear", stress.shear_max_pa, stress.shear_depth_m),
+            ("orthogonal shear", stress.orthogonal_shear_max_pa, stress.orthogonal_shear_depth_m),
+        ] {
+            line(name, format!("{value:.6e} Pa at a depth of {depth:.6e} m"));
         }
     }
     line("time", format!("{:.3} ms", result.wall_s * 1e3));

@@ -28,7 +28,7 @@ const HERTZIAN_WIDTH: f64 = 1.850_550_825;
 /// the film at mid-film, and the friction of touching asperities. Both are zero at SRR = 0. The shear stress acts on
 /// body 1 in the direction of motion for SRR > 0. On body 2 it acts against it, so that its field is nearly the mirror
 /// image.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SubsurfaceStress {
     /// Abscissae X, in units of a.
     pub x: Vec<f64>,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Stress in the plane Y = 0. Tension is positive. σ_xy and σ_yz vanish there by symmetry, so that σ_y is principal.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stress {
     /// σ_x, along the direction of motion.
     pub x: f64,
