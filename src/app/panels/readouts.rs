@@ -9,6 +9,7 @@ use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
 use crate::solver::physics::bodies::film_regime;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::{Extent, Losses};
 use egui::text::LayoutJob;
 use egui::{RichText, Ui};
 use std::sync::Arc;
@@ -84,18 +85,30 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
             &traction_tip,
         );
         let point = &picture.key.point;
-        let (force, length) = (picture.traction * point.load, if point.kind == ContactKind::Line { "/mm" } else { "" });
-        if force != 0.0 && !unphysical {
-            let per = if length.is_empty() { 1.0 } else { 1e-3 };
-            let power = force * srr * point.speed_m_per_s * per;
+        // Without a length the values of a line contact are per mm.
+        let own = document.extent();
+        let whole = point.kind == ContactKind::Point || own.length_m.is_some();
+        let extent = Extent { length_m: own.length_m.or(Some(1e-3)), ..own };
+        let losses = Losses::of(point, picture.traction, picture.solution.rolling_resistance(), &extent);
+        if let Some(losses) = losses.filter(|_| !unphysical) {
+            let per = if whole { "" } else { "/mm" };
+            let torques: Vec<String> = losses.torques_nm.iter().flatten().map(|t| numbers::digits(*t, 3)).collect();
+            let torques = match torques.as_slice() {
+                [] => String::new(),
+                torques => format!("; torques of the bodies {} N m{per}", torques.join(", ")),
+            };
             cell(
                 ui,
                 symbol(ui, "F", ""),
-                numbers::significant(force * per),
-                format!("N{length}, {} W{length} lost", numbers::digits(power, 3)),
+                numbers::significant(losses.friction_n),
+                format!("N{per}, {} W{per} lost", numbers::digits(losses.power_w, 3)),
                 palette.traction,
                 None,
-                "Friction force µw, and the friction power µw SRR u_m",
+                &format!(
+                    "Friction force F = µw, and the power loss F SRR u_m + 2 F_r u_m with the rolling resistance F_r = {} \
+                     N{per} of each body{torques}",
+                    numbers::digits(losses.rolling_n, 3)
+                ),
             );
         }
         if let Some(lambda) = bodies.and_then(|bodies| bodies.film_ratio(picture.minimum_film_m()).ok()) {
