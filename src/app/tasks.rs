@@ -2,7 +2,7 @@
 
 use crate::app::answers::jobs::FullSolve;
 use crate::app::figure::ToImage;
-use crate::app::sheets::Solves;
+use crate::app::reports::Solves;
 use crate::app::tabs::profiles::StressTask;
 use crate::app::tabs::training::TrainingTask;
 use crate::app::tabs::transient::{NumberTask, OtherRuleTask};

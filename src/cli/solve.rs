@@ -6,7 +6,10 @@ use super::output;
 use super::verdict::Verdict;
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
 use crate::host::clock::Stopwatch;
-use crate::scene::{Method, ResultJson, Sheet, Subsurface, answer_or_full, atomic_file, stress_table};
+use crate::scene::{
+    Method, Paper, Report, ReportFormat, Request, ResultJson, Stated, Subsurface, answer_or_full, atomic_file,
+    stress_table,
+};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::Rises;
 use crate::solver::observer::{NewtonStep, Observer, WalkStep};
@@ -66,16 +69,40 @@ pub struct SolveArgs {
     /// same in m, stresses in Pa
     #[arg(long, value_name = "FILE.csv")]
     stress: Option<PathBuf>,
-    /// Write a report sheet with inputs, results, how they were checked, and published formulas; the extension selects
-    /// Markdown with separate figures (md), a page with figures (html) or a table (csv)
-    #[arg(long, value_name = "FILE.md")]
-    sheet: Option<PathBuf>,
+    /// Write a report of one page with inputs, results, how they were checked, and figures; the extension selects HTML
+    /// (html) or PDF (pdf)
+    #[arg(long, value_name = "FILE.pdf")]
+    report: Option<PathBuf>,
+    /// Title of the report (default: the kind of contact)
+    #[arg(long, requires = "report", value_name = "TEXT")]
+    title: Option<String>,
+    /// Author of the report
+    #[arg(long, requires = "report", value_name = "TEXT", default_value = "", hide_default_value = true)]
+    author: String,
+    /// Company of the report
+    #[arg(long, requires = "report", value_name = "TEXT", default_value = "", hide_default_value = true)]
+    company: String,
+    /// Paper of the report
+    #[arg(long, requires = "report", default_value = "a4", value_parser = ["a4", "letter"])]
+    paper: String,
     /// Estimate the discretisation error of H_c and H_min of a point contact by a second solve on another grid
     #[arg(long)]
     accuracy: bool,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
+}
+
+impl SolveArgs {
+    /// Returns what the report contains in addition to the answer.
+    fn stated(&self, request: &Request) -> Stated {
+        let title = || {
+            let kind = request.point.kind.name();
+            format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""))
+        };
+        let stated = Stated::of_spec(self.title.clone().unwrap_or_else(title), &self.point.0);
+        Stated { author: self.author.clone(), company: self.company.clone(), ..stated }
+    }
 }
 
 /// Runs the command.
@@ -86,13 +113,14 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
             "--accuracy belongs to full solutions of point contacts; add --contact point, or leave it out".to_owned(),
         ));
     }
-    if let Some(path) = &args.sheet
-        && Sheet::new("", &[], None).files(path).is_empty()
-    {
-        let sentence =
-            format!("--sheet {} has an unsupported file extension; accepted are md, html, csv", path.display());
-        return Err(Failure::Request(sentence));
-    }
+    let report_format = args.report.as_ref().map(|path| {
+        let refused = || {
+            let accepted = "has an unsupported file extension; accepted are html, pdf";
+            Failure::Request(format!("--report {} {accepted}", path.display()))
+        };
+        ReportFormat::of(path).map(|format| (path, format)).ok_or_else(refused)
+    });
+    let report_format = report_format.transpose()?;
     let mut workbench = Workbench::new("");
     let progress = Progress { begin: Stopwatch::start(), next: AtomicUsize::new(2) };
     let answer = answer_or_full(&mut workbench, &request, &progress)?;
@@ -107,7 +135,7 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
             None => output::complain(&format!("{} is not written: the solve did not converge", path.display())),
         }
     }
-    let mut report = Report { result: answer.result.json(), accuracy: None, subsurface: None };
+    let mut report = Printed { result: answer.result.json(), accuracy: None, subsurface: None };
     if let (Some(path), Some(solution)) = (&args.stress, answer.fields()) {
         let field = solution.subsurface_stress(args.point.0.nu1.unwrap_or(STEEL_POISSON));
         let field = field.map_err(|error| Failure::Request(error.to_string()))?;
@@ -119,10 +147,11 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     if args.accuracy && answer.result.converged {
         report.accuracy = Some(workbench.grid_accuracy(&answer, &progress)?);
     }
-    if let Some(path) = &args.sheet {
-        let kind = request.point.kind.name();
-        let title = format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""));
-        atomic_file::replace_all(&Sheet::new(&title, std::slice::from_ref(&answer), None).files(path))?;
+    if let Some((path, format)) = report_format {
+        let stated = args.stated(&request);
+        let paper = if args.paper == "letter" { Paper::Letter } else { Paper::A4 };
+        let file = Report::new(&stated, std::slice::from_ref(&answer), paper).file(format);
+        atomic_file::replace(path, &file)?;
     }
     if args.json {
         output::print_json(&report)?;
@@ -156,9 +185,9 @@ impl Observer for Progress {
 
 impl TrainingObserver for Progress {}
 
-/// Result, with the discretisation error of a point contact if requested.
+/// Result, with the stress below the surface and the discretisation error of a point contact if requested.
 #[derive(Serialize)]
-struct Report<'a> {
+struct Printed<'a> {
     #[serde(flatten)]
     result: ResultJson<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
