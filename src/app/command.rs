@@ -7,11 +7,11 @@ use super::in_use::InUse;
 use super::layouts::Layout;
 use super::panels::sliders::ChosenSliders;
 use super::purpose::{Purpose, Written};
-use super::sheets::Form;
 use super::tab::Tab;
 use crate::app::tabs::training::TrainingCommand;
 use crate::app::tabs::transient::TransientCommand;
 use crate::host::browser;
+use crate::scene::ReportFormat;
 use crate::scene::Scene;
 use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Popup, ThemePreference};
 use std::path::PathBuf;
@@ -42,8 +42,8 @@ pub enum Command {
     ExportFigures,
     /// Exports the profiles as a table.
     ExportProfiles,
-    /// Writes a results sheet of the contact.
-    ExportSheet(Form),
+    /// Writes a report of the contact.
+    ExportReport(ReportFormat),
     /// Writes the worksheet of the running lesson.
     ExportWorksheet,
     /// Marks the lesson of this title as finished.
@@ -205,6 +205,22 @@ pub static MENUS: &[Item] = {
             "Export figure…",
             "picture plot image svg png print pdf",
             Some((CTRL, Key::E)),
+        ),
+        item(
+            "File",
+            2,
+            C::ExportReport(ReportFormat::Pdf),
+            "Export report as PDF…",
+            "report sheet protocol print pdf summary document customer",
+            None,
+        ),
+        item(
+            "File",
+            2,
+            C::ExportReport(ReportFormat::Html),
+            "Export report as HTML…",
+            "report sheet protocol print summary document page",
+            None,
         ),
         item("File", 2, C::ExportProfiles, "Export profiles as CSV…", "table data pressure film thickness excel", None),
         item(

@@ -54,10 +54,10 @@ impl Explorer {
                     self.execute(ctx, Command::csv(text));
                 }
             }
-            Command::ExportSheet(form) => desk.sheets.begin(ctx, (&desk.document, &desk.answers), form),
+            Command::ExportReport(form) => desk.reports.begin(ctx, (&desk.document, &desk.answers), form),
             Command::ExportWorksheet => match self.lessons.running().cloned() {
                 Some(lesson) => {
-                    if let Err(why) = desk.sheets.begin_worksheet(ctx, (&desk.document, &desk.answers), lesson) {
+                    if let Err(why) = desk.reports.begin_worksheet(ctx, (&desk.document, &desk.answers), lesson) {
                         desk.files.notice = Some(Notice::wrong(why));
                     }
                 }

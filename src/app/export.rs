@@ -14,6 +14,11 @@ pub fn csv(comments: &[String], header: &[&str], rows: impl IntoIterator<Item = 
     let mut table = Table::new("", header);
     let row = |row: Vec<Option<f64>>| row.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
     table.rows.extend(rows.into_iter().map(row));
+    commented(comments, &table)
+}
+
+/// Returns a table as CSV after comment lines.
+pub fn commented(comments: &[String], table: &Table) -> String {
     comments.iter().map(|line| format!("# {line}\n")).chain([table.to_csv()]).collect()
 }
 

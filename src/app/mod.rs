@@ -34,11 +34,11 @@ mod plot;
 mod presentation;
 mod purpose;
 mod refusal;
+mod reports;
 mod seen;
 #[cfg(test)]
 mod sequences;
 mod session;
-mod sheets;
 mod tab;
 mod tabs;
 mod tasks;

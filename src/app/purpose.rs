@@ -1,7 +1,5 @@
 //! Purpose of a path that the user is to choose.
 
-use crate::scene::Sheet;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Purpose of a path that the user is to choose.
@@ -19,8 +17,6 @@ pub enum Purpose {
     ComparedModel,
     /// Write a file with this content.
     Write(Written, Arc<Vec<u8>>),
-    /// Write a sheet as notes, with figures next to them.
-    Notes(Arc<Sheet>),
 }
 
 /// Type of an exported file.
@@ -35,6 +31,8 @@ pub enum Written {
     Png,
     /// A web page.
     Html,
+    /// A page for print.
+    Pdf,
     Arrays,
 }
 
@@ -58,12 +56,6 @@ impl Purpose {
         matches!(self, Self::Open | Self::Inputs | Self::Cases | Self::ComparedModel)
     }
 
-    /// Returns the paths of further files that are written with a file of this name.
-    pub fn beside(&self, path: &Path) -> Vec<PathBuf> {
-        let Self::Notes(sheet) = self else { return Vec::new() };
-        sheet.notes(path).into_iter().skip(1).map(|(path, _)| path).collect()
-    }
-
     /// Returns the texts of the dialog.
     pub fn words(&self) -> Words {
         let (title, action, files, endings, name): (_, _, _, &[&str], _) = match self {
@@ -77,8 +69,8 @@ impl Purpose {
             Self::ComparedModel => ("Add a reduced model to the comparison", "Add", "Reduced model", &["rom"], ""),
             Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),
             Self::Write(Written::Table, _) => ("Export the data as CSV", "Export", "Table", &["csv"], "profiles.csv"),
-            Self::Notes(_) => ("Export the sheet", "Export", "Notes", &["md"], "contact.md"),
-            Self::Write(Written::Html, _) => ("Export the sheet", "Export", "Page", &["html", "htm"], "contact.html"),
+            Self::Write(Written::Html, _) => ("Export the page", "Export", "Page", &["html", "htm"], "contact.html"),
+            Self::Write(Written::Pdf, _) => ("Export the report", "Export", "Report", &["pdf"], "contact.pdf"),
             Self::Write(Written::Arrays, _) => ("Export arrays", "Export", "Arrays for numpy", &["npz"], "model.npz"),
             Self::Write(Written::Svg, _) => ("Export the picture", "Export", "Picture", &["svg"], "contact.svg"),
             Self::Write(Written::Png, _) => ("Export the picture", "Export", "Picture", &["png"], "contact.png"),

@@ -2,7 +2,8 @@
 
 use crate::app::answers::jobs::FullSolve;
 use crate::app::figure::ToImage;
-use crate::app::sheets::Solves;
+use crate::app::reports::Solves;
+use crate::app::tabs::profiles::StressTask;
 use crate::app::tabs::training::TrainingTask;
 use crate::app::tabs::transient::{NumberTask, OtherRuleTask};
 use crate::engine::Store;
@@ -18,5 +19,5 @@ pub fn perform(kind: &str, task: &[u8], store: &Store, performer: Performer) {
             }
         };
     }
-    of!(FullSolve, Asked, Replayed, TrainingTask, NumberTask, OtherRuleTask, ToImage, Solves);
+    of!(FullSolve, Asked, Replayed, TrainingTask, NumberTask, OtherRuleTask, ToImage, Solves, StressTask);
 }

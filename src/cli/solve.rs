@@ -6,11 +6,15 @@ use super::output;
 use super::verdict::Verdict;
 use crate::engine::{ContactResult, GridAccuracy, Table, Workbench, film_shear_table, profile_table};
 use crate::host::clock::Stopwatch;
-use crate::scene::{ContactDynamics, Method, Request, ResultJson, Sheet, answer_or_full, atomic_file};
+use crate::scene::{
+    ContactDynamics, Method, Paper, Report, ReportFormat, Request, ResultJson, Stated, Subsurface, answer_or_full,
+    atomic_file, stress_table,
+};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::Rises;
 use crate::solver::full::response::{Dynamics, Maxwell, check_lubricant};
 use crate::solver::observer::{NewtonStep, Observer, WalkStep};
+use crate::solver::physics::bodies::Material;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::training::TrainingObserver;
 use clap::Args;
@@ -48,6 +52,9 @@ const BOUNDS: [(&str, &str); 4] = [
     ("rise", "reduced.mid_film_rise_error_bound"),
 ];
 
+/// Poisson's ratio of body 1 if it is not given.
+const STEEL_POISSON: f64 = Material::STEEL.poisson;
+
 /// Options of `solve`.
 #[derive(Debug, Args)]
 pub struct SolveArgs {
@@ -59,10 +66,26 @@ pub struct SolveArgs {
     /// Write the shear across the film in the plane Y = 0 as CSV: X, Z = z/h, shear stress in Pa, shear rate in 1/s
     #[arg(long, value_name = "FILE.csv")]
     film_shear: Option<PathBuf>,
-    /// Write a report sheet with inputs, results, how they were checked, and published formulas; the extension selects
-    /// Markdown with separate figures (md), a page with figures (html) or a table (csv)
-    #[arg(long, value_name = "FILE.md")]
-    sheet: Option<PathBuf>,
+    /// Write the stress below the surface of body 1 in the plane Y = 0 as CSV, and report its maxima: X, depth Z, the
+    /// same in m, stresses in Pa
+    #[arg(long, value_name = "FILE.csv")]
+    stress: Option<PathBuf>,
+    /// Write a report of one page with inputs, results, how they were checked, and figures; the extension selects HTML
+    /// (html) or PDF (pdf)
+    #[arg(long, value_name = "FILE.pdf")]
+    report: Option<PathBuf>,
+    /// Title of the report (default: the kind of contact)
+    #[arg(long, requires = "report", value_name = "TEXT")]
+    title: Option<String>,
+    /// Author of the report
+    #[arg(long, requires = "report", value_name = "TEXT", default_value = "", hide_default_value = true)]
+    author: String,
+    /// Company of the report
+    #[arg(long, requires = "report", value_name = "TEXT", default_value = "", hide_default_value = true)]
+    company: String,
+    /// Paper of the report
+    #[arg(long, requires = "report", default_value = "a4", value_parser = ["a4", "letter"])]
+    paper: String,
     /// Estimate the discretisation error of H_c and H_min of a point contact by a second solve on another grid
     #[arg(long)]
     accuracy: bool,
@@ -98,6 +121,18 @@ fn check_dynamics(request: &Request, frequencies: &[f64]) -> Result<(), Failure>
     check_lubricant(&request.lubricant).or_else(|problem| refused(&format!("is refused: {problem}")))
 }
 
+impl SolveArgs {
+    /// Returns what the report contains in addition to the answer.
+    fn stated(&self, request: &Request) -> Stated {
+        let title = || {
+            let kind = request.point.kind.name();
+            format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""))
+        };
+        let stated = Stated::of_spec(self.title.clone().unwrap_or_else(title), &self.point.0);
+        Stated { author: self.author.clone(), company: self.company.clone(), ..stated }
+    }
+}
+
 /// Runs the command.
 pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
     let request = args.point.0.request()?;
@@ -107,13 +142,14 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
         ));
     }
     check_dynamics(&request, &args.dynamics)?;
-    if let Some(path) = &args.sheet
-        && Sheet::new("", &[], None).files(path).is_empty()
-    {
-        let sentence =
-            format!("--sheet {} has an unsupported file extension; accepted are md, html, csv", path.display());
-        return Err(Failure::Request(sentence));
-    }
+    let report_format = args.report.as_ref().map(|path| {
+        let refused = || {
+            let accepted = "has an unsupported file extension; accepted are html, pdf";
+            Failure::Request(format!("--report {} {accepted}", path.display()))
+        };
+        ReportFormat::of(path).map(|format| (path, format)).ok_or_else(refused)
+    });
+    let report_format = report_format.transpose()?;
     let mut workbench = Workbench::new("");
     let progress = Progress { begin: Stopwatch::start(), next: AtomicUsize::new(2) };
     let answer = answer_or_full(&mut workbench, &request, &progress)?;
@@ -128,24 +164,34 @@ pub fn run(args: &SolveArgs) -> Result<Verdict, Failure> {
             None => output::complain(&format!("{} is not written: the solve did not converge", path.display())),
         }
     }
-    let mut report = Report { result: answer.result.json(), accuracy: None, dynamics: None };
+    let mut report = Printed { result: answer.result.json(), accuracy: None, dynamics: None, subsurface: None };
     if let Some(solution) = answer.fields().filter(|_| !args.dynamics.is_empty()) {
         let dynamics = ContactDynamics::of(solution, &args.dynamics, &progress);
         report.dynamics = Some(dynamics.map_err(|problem| Failure::Request(problem.to_string()))?);
     }
+    if let (Some(path), Some(solution)) = (&args.stress, answer.fields()) {
+        let field = solution.subsurface_stress(args.point.0.nu1.unwrap_or(STEEL_POISSON));
+        let field = field.map_err(|error| Failure::Request(error.to_string()))?;
+        atomic_file::replace(path, stress_table("stress", &field, &request.point).to_csv().as_bytes())?;
+        report.subsurface = Some(Subsurface::of(&field, &request.point));
+    } else if let Some(path) = &args.stress {
+        output::complain(&format!("{} is not written: the solve did not converge", path.display()));
+    }
     if args.accuracy && answer.result.converged {
         report.accuracy = Some(workbench.grid_accuracy(&answer, &progress)?);
     }
-    if let Some(path) = &args.sheet {
-        let kind = request.point.kind.name();
-        let title = format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""));
-        atomic_file::replace_all(&Sheet::new(&title, std::slice::from_ref(&answer), None).files(path))?;
+    if let Some((path, format)) = report_format {
+        let stated = args.stated(&request);
+        let paper = if args.paper == "letter" { Paper::Letter } else { Paper::A4 };
+        let file = Report::new(&stated, std::slice::from_ref(&answer), paper).file(format);
+        atomic_file::replace(path, &file)?;
     }
     if args.json {
         output::print_json(&report)?;
     } else {
         let dynamics = report.dynamics.as_ref().map(described_dynamics);
-        output::print(&(describe(&answer.result, report.accuracy.as_ref()) + &dynamics.unwrap_or_default()))?;
+        let described = describe(&answer.result, report.accuracy.as_ref(), report.subsurface.as_ref());
+        output::print(&(described + &dynamics.unwrap_or_default()))?;
     }
     Ok(if answer.result.converged { Verdict::Done } else { Verdict::FellShort })
 }
@@ -174,15 +220,17 @@ impl Observer for Progress {
 
 impl TrainingObserver for Progress {}
 
-/// Result, with the discretisation error of a point contact if requested.
+/// Result, with the stress below the surface and the discretisation error of a point contact if requested.
 #[derive(Serialize)]
-struct Report<'a> {
+struct Printed<'a> {
     #[serde(flatten)]
     result: ResultJson<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     accuracy: Option<GridAccuracy>,
     #[serde(flatten)]
     dynamics: Option<ContactDynamics>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    subsurface: Option<Subsurface>,
 }
 
 /// Describes stiffness and damping for users.
@@ -203,7 +251,7 @@ fn described_dynamics(dynamics: &ContactDynamics) -> String {
 }
 
 /// Describes the result for users.
-fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>) -> String {
+fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>, subsurface: Option<&Subsurface>) -> String {
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         // Writing to a string cannot fail.
@@ -279,6 +327,15 @@ fn describe(result: &ContactResult, accuracy: Option<&GridAccuracy>) -> String {
         line("grid error of H_min", off(accuracy.h_min_error, accuracy.h_min_limit));
         if !accuracy.resolved {
             line("", "one of both grids does not resolve the side lobes: the error of H_min may be larger".to_owned());
+        }
+    }
+    if let Some(stress) = subsurface {
+        for (name, value, depth) in [
+            ("von Mises stress", stress.von_mises_max_pa, stress.von_mises_depth_m),
+            ("maximum shear", stress.shear_max_pa, stress.shear_depth_m),
+            ("orthogonal shear", stress.orthogonal_shear_max_pa, stress.orthogonal_shear_depth_m),
+        ] {
+            line(name, format!("{value:.6e} Pa at a depth of {depth:.6e} m"));
         }
     }
     line("time", format!("{:.3} ms", result.wall_s * 1e3));

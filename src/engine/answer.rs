@@ -163,6 +163,7 @@ mod tests {
     use crate::scene::{Grid, Method, ModelSource, StudyRow};
     use crate::solver::discrete::grid::GridSpec;
     use crate::solver::observer::Progress;
+    use crate::solver::physics::engineering::Extent;
     use crate::solver::physics::lubricant::{Heat, Lubricant};
     use crate::solver::reduced::ReducedOptions;
     use serde::Serialize;
@@ -183,7 +184,7 @@ mod tests {
         let grid = store.grid(spec).unwrap();
         let request = |lubricant: Lubricant, method: Method| {
             let (point, grid_model) = (OperatingPoint::TABLE_2_1, ModelSource::Embedded);
-            Request { point, lubricant, grid: Grid::from(spec), grid_model, method }
+            Request { point, lubricant, grid: Grid::from(spec), grid_model, method, extent: Extent::default() }
         };
         let starved =
             Lubricant { cavitation: Cavitation::MassConserving { supply_film_m: Some(5e-8) }, ..Lubricant::default() };

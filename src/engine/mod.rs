@@ -40,6 +40,6 @@ pub use workbench::Workbench;
 pub use crate::scene::{
     Answer, ContactResult, Extras, NamedValue, ReducedFacts, Request, RunError as EngineError, SceneOutcome, Table,
     Verdict, contact_columns, film_shear_table, median, percentile, profile_table, rank_correlation, result_columns,
-    run_scene, table,
+    run_scene, stress_table, table,
 };
 pub use crate::solver::warning::Warning;

@@ -5,6 +5,7 @@ use super::grid::Grid;
 use super::method::{Method, ModelSource};
 use crate::solver::full::Solution;
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::engineering::Extent;
 use crate::solver::physics::lubricant::{Lubricant, WholeLubricant};
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,9 @@ pub struct Request {
     pub grid_model: ModelSource,
     /// Full solver, or which reduced model.
     pub method: Method,
+    /// Length of a line contact and radii of the bodies, for forces and torques.
+    #[serde(default, skip_serializing_if = "Extent::is_empty")]
+    pub extent: Extent,
 }
 
 /// Answer to a [`Request`].

@@ -31,14 +31,6 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     files::replace(path, bytes).map_err(|reason| WriteError { path: path.to_owned(), reason })
 }
 
-/// Writes files that belong together. The first one refers to the others and is written last.
-///
-/// # Errors
-/// When one of them cannot be written.
-pub fn replace_all(files: &[(PathBuf, String)]) -> Result<(), WriteError> {
-    files.iter().rev().try_for_each(|(path, text)| replace(path, text.as_bytes()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,6 +6,7 @@ use super::names;
 use crate::solver::full::heat::{Rises, Temperatures};
 use crate::solver::full::{GridCost, Mixed, Scalars, Solution};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::{Extent, Losses};
 use crate::solver::physics::lubricant::Cavitation;
 use crate::solver::reduced::{ErrorEstimate, ModelSize};
 use crate::solver::warning::Warning;
@@ -24,6 +25,9 @@ const WORDS: [Word; 5] = ["full", "reduced", "uniform", "graded", "model"];
 pub struct ContactResult {
     /// The operating point.
     pub point: OperatingPoint,
+    /// Length of a line contact and radii of the bodies.
+    #[serde(default)]
+    pub extent: Extent,
     /// `full` or `reduced`.
     #[serde(deserialize_with = "word")]
     pub method: Word,
@@ -150,6 +154,8 @@ enum In {
     Mixed,
     /// Columns of a thermal result.
     Heat,
+    /// Columns of a line contact with a length.
+    Total,
 }
 
 /// All values with their names, in the order of the JSON object and of tables. A dot in a name separates group and
@@ -171,6 +177,7 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::MODULUS, In::Contact, |r| number(r.point.modulus_pa)),
     (names::VISCOSITY, In::Contact, |r| number(r.point.viscosity_pa_s)),
     (names::ALPHA, In::Contact, |r| number(r.point.alpha_per_pa)),
+    (names::LENGTH, In::None, |r| number(r.extent.length_m?)),
     (names::SRR, In::Contact, |r| number(r.point.sliding.slide_to_roll_ratio)),
     (names::NPR, In::Contact, |r| number(r.point.sliding.newtonian_plateau_ratio?)),
     (names::M, In::Contact, |r| number(r.point.moes().m)),
@@ -201,6 +208,12 @@ const VALUES: [(&str, In, Get); names::ALL.len()] = [
     (names::TRACTION, In::Result, |r| number(r.traction?)),
     (names::ROLLING_RESISTANCE, In::None, |r| number(r.rolling_resistance?)),
     (names::ROLLING_RESISTANCE_FIT, In::None, |r| number(r.rolling_resistance.and(r.point.rolling_resistance_fit())?)),
+    (names::TOTAL_LOAD, In::Total, |r| number(r.losses()?.load_n)),
+    (names::FRICTION_FORCE, In::Total, |r| number(r.losses()?.friction_n)),
+    (names::TOTAL_ROLLING_RESISTANCE, In::Total, |r| number(r.losses()?.rolling_n)),
+    (names::TORQUE_1, In::Total, |r| number(r.losses()?.torques_nm[0]?)),
+    (names::TORQUE_2, In::Total, |r| number(r.losses()?.torques_nm[1]?)),
+    (names::POWER_LOSS, In::Total, |r| number(r.losses()?.power_w)),
     (names::LOAD_RESIDUAL, In::Result, |r| number(r.scalars?.load_residual)),
     (names::RESIDUAL_NORM, In::Result, |r| number(r.residual_norm?)),
     (names::NEWTON_ITERATIONS, In::Result, |r| Some(Value::Count(r.newton_iterations))),
@@ -258,8 +271,8 @@ pub(super) fn contact_columns_after(varied: &[String]) -> Vec<&'static str> {
 
 /// Returns the names of the result columns.
 pub fn result_columns(extras: Extras) -> Vec<&'static str> {
-    let Extras { heat, mixed } = extras;
-    let groups = [(true, In::Result), (mixed, In::Mixed), (heat, In::Heat)];
+    let Extras { heat, mixed, total } = extras;
+    let groups = [(true, In::Result), (mixed, In::Mixed), (heat, In::Heat), (total, In::Total)];
     columns(&groups.into_iter().filter(|(wanted, _)| *wanted).map(|(_, group)| group).collect::<Vec<_>>())
 }
 
@@ -293,13 +306,14 @@ impl ContactResult {
         reduced: Option<(ReducedFacts, Cavitation, Option<f64>)>,
         effort: Effort,
     ) -> Self {
-        let Request { point, lubricant, grid, method, .. } = request;
+        let Request { point, lubricant, grid, method, extent, .. } = request;
         let Effort { nodes, dofs, newton_iterations, linear_iterations, wall_s } = effort;
         let converged = solution.filter(|solution| solution.converged());
         let slides = point.sliding.slide_to_roll_ratio != 0.0;
         let by_model = reduced.as_ref().and_then(|(.., traction)| *traction).filter(|_| slides);
         Self {
             point: *point,
+            extent: *extent,
             method: method.name(),
             converged: converged.is_some(),
             warnings: Vec::new(),
@@ -320,6 +334,11 @@ impl ContactResult {
             heat: converged.and_then(|solution| solution.heat.as_deref()).map(HeatFacts::from),
             reduced: reduced.map(|(facts, ..)| facts),
         }
+    }
+
+    /// Returns forces, torques and power loss of the whole contact; `None` for a line contact without a length.
+    pub fn losses(&self) -> Option<Losses> {
+        Losses::of(&self.point, self.traction?, self.rolling_resistance?, &self.extent)
     }
 
     /// Returns the number with this name, if the result has it.

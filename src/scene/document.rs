@@ -67,6 +67,9 @@ pub struct Scene {
     /// Operating point. Not used by studies that bring their own points (trajectory, random validation, training).
     #[serde(default)]
     pub at: At,
+    /// Length of a line contact \[m\]. With it the results contain forces and the power loss of the whole contact.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub length: Option<f64>,
     /// Slide-to-roll ratio SRR.
     #[serde(default, skip_serializing_if = "is_default")]
     pub srr: f64,
@@ -110,6 +113,7 @@ impl Scene {
             heat: None,
             roughness: None,
             at: At::moes(m, l),
+            length: None,
             srr: 0.0,
             npr: None,
             grid: Grid::Graded,
@@ -154,6 +158,7 @@ impl Scene {
             sliding: self.sliding(),
             grid: self.grid,
             grid_model: self.study.grid_model(),
+            length_m: self.length,
             expected: self.expect.iter().map(|expectation| expectation.name.clone()).collect(),
         }
     }

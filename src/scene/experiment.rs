@@ -5,6 +5,7 @@ use super::at::At;
 use super::grid::Grid;
 use super::method::{Method, ModelSource};
 use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::Extent;
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 
 /// Contact of a scene, and how it is solved in full.
@@ -22,6 +23,8 @@ pub struct Experiment {
     pub grid: Grid,
     /// Reduced model whose grid [`Grid::Model`] refers to.
     pub grid_model: ModelSource,
+    /// Length of a line contact \[m\].
+    pub length_m: Option<f64>,
     /// Names of the expected values.
     pub expected: Vec<String>,
 }
@@ -51,6 +54,7 @@ impl Experiment {
             grid: self.grid,
             grid_model: self.grid_model.clone(),
             method: Method::Full,
+            extent: Extent { length_m: self.length_m, ..Extent::default() },
         }
     }
 }

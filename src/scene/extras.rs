@@ -8,6 +8,8 @@ use crate::solver::physics::lubricant::Lubricant;
 pub struct Extras {
     /// Temperatures of thermal contacts.
     pub heat: bool,
+    /// Forces and power loss of line contacts with a length.
+    pub total: bool,
     /// Values of contacts with rough surfaces.
     pub mixed: bool,
 }
@@ -18,6 +20,7 @@ impl Extras {
         lubricants.into_iter().fold(Self::default(), |all, lubricant| Self {
             heat: all.heat || lubricant.heat.is_some(),
             mixed: all.mixed || lubricant.is_rough(),
+            ..all
         })
     }
 
@@ -26,6 +29,7 @@ impl Extras {
         results.into_iter().fold(Self::default(), |all, result| Self {
             heat: all.heat || result.heat.is_some(),
             mixed: all.mixed || result.mixed.is_some(),
+            total: all.total || result.extent.length_m.is_some(),
         })
     }
 }

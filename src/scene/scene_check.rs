@@ -9,7 +9,8 @@ use super::study::Study;
 use super::view::View;
 use crate::solver::limits::plain;
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::Extent;
 use crate::solver::physics::lubricant::{LubricantError, ScaledShear};
 use crate::solver::physics::surfaces::LARGEST_RMS;
 
@@ -42,6 +43,13 @@ impl Scene {
         }
         ScaledShear::new(self.lubricant.shear, self.sliding(), &point)
             .map_err(|problem| refuse("srr, npr", format!("are refused: {problem}")))?;
+        if let Some(length) = self.length {
+            if self.contact == ContactKind::Point {
+                return Err(refuse("length", "belongs to a line contact; leave it out").into());
+            }
+            let (least, most) = Extent::LENGTHS_M;
+            number("length", length, least, most)?;
+        }
         grid::check(&self.grid, self.contact)?;
         self.study.check(&self.experiment())?;
         if self.training == TrainedModel::Embedded && !matches!(self.study, Study::Training(_) | Study::Transient(_)) {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// Options whose value is a file or folder to be written.
-const WRITTEN: [&str; 6] = ["--csv", "--profiles", "--sheet", "--film-shear", "--out", "--arrays"];
+const WRITTEN: [&str; 7] = ["--csv", "--profiles", "--report", "--stress", "--film-shear", "--out", "--arrays"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -100,40 +100,93 @@ fn a_table_that_is_none_is_refused() {
 }
 
 #[test]
-fn a_sheet_says_what_solve_says_in_three_formats() {
-    let folder = Scratch::new("sheet");
-    let contact = ["--moes-m", "40", "--moes-l", "10", "--srr", "0.05", "--lubricant", "mineral-oil", "--json"];
-    let sheet = |name: &str| {
+fn a_report_says_what_solve_says_on_one_page() {
+    let folder = Scratch::new("report");
+    let contact = [
+        "--radius1",
+        "0.012",
+        "--radius2",
+        "0.05",
+        "--length",
+        "0.01",
+        "--total-load",
+        "3200",
+        "--speed",
+        "3",
+        "--modulus",
+        "231e9",
+        "--oil-thermal",
+        "2000,0.14,870",
+        "--heat",
+        "--viscosity",
+        "0.02",
+        "--alpha",
+        "1.8e-8",
+        "--srr",
+        "0.02",
+        "--limiting-stress",
+        "5e6,0.05",
+        "--grid",
+        "graded",
+        "--json",
+    ];
+    let report = |name: &str| {
         let path = folder.join(name);
-        let output = program(&[&["solve", "--sheet", path.to_str().unwrap()], &contact[..]].concat());
+        let options =
+            ["solve", "--title", "Roller <7>", "--author", "A. N. Author", "--report", path.to_str().unwrap()];
+        let output = program(&[&options, &contact[..]].concat());
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
         let result: Value = serde_json::from_slice(&output.stdout).unwrap();
-        (std::fs::read_to_string(Path::new(&path)).unwrap(), result)
+        (std::fs::read(Path::new(&path)).unwrap(), result)
     };
-    let (csv, result) = sheet("sheet.csv");
-    for (name, value) in [
-        ("Central film thickness h_c", &result["h_c_m"]),
-        ("Hertzian pressure p_H", &result["hertz"]["p_h_pa"]),
-        ("Friction coefficient µ", &result["traction"]),
-        ("Entrainment speed u_m", &result["si"]["speed"]),
-    ] {
-        let line = csv.lines().find(|line| line.split(',').nth(1) == Some(name)).expect(name);
-        assert_eq!(line.split(',').nth(2).unwrap().parse::<f64>().unwrap(), value.as_f64().unwrap(), "{name}");
+    let (page, result) = report("report.html");
+    let page = String::from_utf8(page).unwrap();
+    let total = &result["total"];
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert!((number(&total["load_n"]) / 3200.0 - 1.0).abs() < 1e-12, "{total}");
+    let [friction, rolling, power] =
+        ["friction_force_n", "rolling_resistance_n", "power_loss_w"].map(|n| number(&total[n]));
+    assert!((power / (3.0 * (0.02 * friction + 2.0 * rolling)) - 1.0).abs() < 1e-12);
+    assert!((number(&total["torque_2_nm"]) / (0.05 * (friction + rolling)) - 1.0).abs() < 1e-12);
+    let film = format!("{:.1} nm", 1e9 * number(&result["h_c_m"]));
+    for text in ["Roller &lt;7&gt;", "A. N. Author", "3.200 kN in total", "40.0 °C", "radius 12 mm", &film] {
+        assert!(page.contains(text), "{text}");
     }
-    let (markdown, _) = sheet("sheet.md");
-    for (name, title) in
-        [("sheet_pressure.svg", "Pressure"), ("sheet_film.svg", "Film"), ("sheet_regime.svg", "Regime")]
-    {
-        assert!(markdown.contains(&format!("![{title}](<{name}>)")), "{name}");
-        let figure = std::fs::read_to_string(folder.join(name)).unwrap();
-        assert!(figure.starts_with("<svg ") && figure.trim_end().ends_with("</svg>"), "{name}");
-    }
-    assert!(markdown.contains("| Regime | elastic, piezoviscous: "));
-    assert!(markdown.contains("| Central film thickness h_c | ") && markdown.contains("## Published film formulas"));
-    let (page, _) = sheet("sheet.html");
-    assert!(page.contains("<svg ") && page.contains("Dowson–Toyoda") && page.trim_end().ends_with("</html>"));
+    assert_eq!(page.matches("<svg ").count(), 3, "pressure, film thickness and stress");
     assert!(page.contains(&format!("ehl-explorer {}", env!("CARGO_PKG_VERSION"))));
-    let output = program(&[&["solve", "--sheet", "sheet.docx"], &contact[..]].concat());
+    let (pdf, _) = report("report.pdf");
+    assert!(pdf.starts_with(b"%PDF-") && pdf.len() < 300_000, "{} bytes", pdf.len());
+    let output = program(&[&["solve", "--report", "report.docx"], &contact[..]].concat());
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("accepted are md, html, csv"));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("accepted are html, pdf"));
+}
+
+#[test]
+fn the_stress_below_the_surface_is_written_and_its_maxima_are_reported() {
+    let folder = Scratch::new("stress");
+    let path = folder.join("stress.csv");
+    let output = program(&[
+        "solve",
+        "--moes-m",
+        "100",
+        "--moes-l",
+        "5",
+        "--grid",
+        "graded",
+        "--stress",
+        path.to_str().unwrap(),
+        "--json",
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let (below, hertz) = (&result["subsurface"], &result["hertz"]);
+    let number = |value: &Value| value.as_f64().unwrap();
+    // A heavily loaded line contact is close to the dry one: 0.300 p_H at 0.786 a.
+    assert!((number(&below["shear_max_pa"]) / number(&hertz["p_h_pa"]) / 0.300 - 1.0).abs() < 0.03, "{below}");
+    assert!((number(&below["shear_depth_m"]) / number(&hertz["a_m"]) - 0.786).abs() < 0.06, "{below}");
+    let csv = std::fs::read_to_string(path).unwrap();
+    let (head, rows) = csv.split_once('\n').unwrap();
+    assert_eq!(head, "X,Z,x_m,z_m,sigma_x_pa,sigma_y_pa,sigma_z_pa,tau_xz_pa,von_mises_pa,maximum_shear_pa");
+    let largest = rows.lines().filter_map(|row| row.split(',').nth(9)?.parse::<f64>().ok()).fold(0.0, f64::max);
+    assert!((largest / number(&below["shear_max_pa"]) - 1.0).abs() < 0.01, "{largest}");
 }

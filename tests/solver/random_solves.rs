@@ -9,6 +9,7 @@ use ehl_explorer::solver::discrete::grid::{GridSpec, MAX_GRADED_NODES, PointGrid
 use ehl_explorer::solver::full::{ContactSolver, Solution, Start};
 use ehl_explorer::solver::observer::{NewtonStep, Observer};
 use ehl_explorer::solver::physics::contact::{ContactKind, MoesRequest, OperatingPoint, si_from_moes};
+use ehl_explorer::solver::physics::engineering::Extent;
 use ehl_explorer::solver::physics::lubricant::Lubricant;
 use fastrand::Rng;
 use std::collections::BTreeMap;
@@ -171,7 +172,7 @@ fn reduced(kind: ContactKind, seed: u64, cases: usize, (m, l): ((f64, f64), (f64
         let Ok(point) = si_from_moes(&MoesRequest::new(kind, m, l)) else { continue };
         let lubricant = Lubricant::default();
         let (grid, grid_model, method) = (Grid::Model, ModelSource::Embedded, Method::EMBEDDED);
-        let request = Request { point, lubricant, grid, grid_model, method };
+        let request = Request { point, lubricant, grid, grid_model, method, extent: Extent::default() };
         let Ok(answer) = answer_or_full(&mut bench, &request, &()) else {
             *counts.entry("refused").or_default() += 1;
             continue;

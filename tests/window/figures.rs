@@ -210,43 +210,27 @@ fn figure_of_all_plots_has_one_caption() {
 }
 
 #[test]
-fn a_sheet_leaves_with_the_numbers_of_a_headless_solve() {
+fn a_report_leaves_with_the_numbers_of_a_headless_solve() {
     let mut harness = open();
-    let folder = Scratch::new("sheet");
-    for (item, name) in [("Results sheet as CSV…", "sheet.csv"), ("Results sheet as HTML…", "sheet.html")] {
+    let folder = Scratch::new("report");
+    for (item, name) in [("Report as PDF…", "report.pdf"), ("Report as HTML…", "report.html")] {
         click(&mut harness, "Export from Profiles");
         click(&mut harness, item);
         let asks = |harness: &Window| harness.query_by_label("Path of the file").is_some();
-        wait_until(Duration::from_secs(60), &mut harness, "the sheet", asks);
+        wait_until(Duration::from_secs(60), &mut harness, "the report", asks);
         give_path(&mut harness, &folder.join(name), "Export");
     }
-    let sheet = std::fs::read_to_string(folder.join("sheet.csv")).unwrap();
     let text = "Scene(version: 1, title: \"t\", at: Moes(m: 40.0, l: 10.0), study: Point(methods: [Full]))";
     let scene = Scene { grid: Grid::Graded, ..Scene::from_ron(text).unwrap() };
     let outcome = run_scene(&scene, &mut Workbench::new(""), &()).unwrap();
-    let headless = outcome.found.values.iter().find(|value| value.name == "H_c").unwrap().value;
-    let line = sheet.lines().find(|line| line.contains("Dimensionless H_c")).unwrap();
-    let own: f64 = line.split(',').nth(2).unwrap().parse().unwrap();
-    assert!((own / headless - 1.0).abs() < 1e-9, "{own} and {headless}");
-    for part in ["Solution method: full", "Solution method: reduced", "Published film formulas", "Methods compared"] {
-        assert!(sheet.contains(part), "{part}");
+    let headless = outcome.found.values.iter().find(|value| value.name == "h_c_m").unwrap().value;
+    let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(page.contains(&format!("{:.1} nm", 1e9 * headless)), "{headless}");
+    for part in ["Full solution", "Reduced model", "reduced against full", "Stress below the surface of body 1"] {
+        assert!(page.contains(part), "{part}");
     }
-    let page = std::fs::read_to_string(folder.join("sheet.html")).unwrap();
-    assert_eq!(page.matches("<svg ").count(), 3, "pressure, film and the chart of regimes");
-    // The figures of the notes are stored next to it; none is replaced without confirmation.
-    std::fs::write(folder.join("notes_film.svg"), "mine").unwrap();
-    click(&mut harness, "Export from Profiles");
-    click(&mut harness, "Results sheet as Markdown…");
-    let asks = |harness: &Window| harness.query_by_label("Path of the file").is_some();
-    wait_until(Duration::from_secs(60), &mut harness, "the notes", asks);
-    give_path(&mut harness, &folder.join("notes.md"), "Export");
-    assert!(shows(&harness, "notes_film.svg exists") && !folder.join("notes.md").exists());
-    click(&mut harness, "Replace the file");
-    let notes = std::fs::read_to_string(folder.join("notes.md")).unwrap();
-    for name in ["notes_pressure.svg", "notes_film.svg", "notes_regime.svg"] {
-        assert!(notes.contains(&format!("(<{name}>)")), "{name}");
-        assert!(std::fs::read_to_string(folder.join(name)).unwrap().starts_with("<svg "), "{name}");
-    }
+    assert_eq!(page.matches("<svg ").count(), 3, "pressure, film thickness and stress");
+    assert!(std::fs::read(folder.join("report.pdf")).unwrap().starts_with(b"%PDF-"));
 }
 
 #[test]

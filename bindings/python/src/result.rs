@@ -4,7 +4,8 @@ use crate::contact::Contact;
 use crate::tables::{from_row, shaped};
 use crate::work::{long, refused, stated};
 use ehl_explorer::engine::{Answer, ContactResult};
-use ehl_explorer::scene::answer_or_full;
+use ehl_explorer::scene::{ContactSpec, Paper, Report, ReportFormat, Stated, Subsurface, answer_or_full, atomic_file};
+use ehl_explorer::solver::discrete::half_space::Stress;
 use ehl_explorer::solver::full::Solution;
 use ehl_explorer::solver::physics::contact::ContactKind;
 use pyo3::exceptions::{PyAttributeError, PyKeyError};
@@ -12,6 +13,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::PathBuf;
 
 /// Result of one contact: scalars by the names of ``solve --json`` (``H_c``, ``h_c_m``, ``traction``, ``converged``,
 /// and those of groups such as ``p_h_pa`` or ``trained``), and fields as arrays. Values that do not apply are absent.
@@ -21,6 +23,8 @@ pub struct Result {
     result: ContactResult,
     values: PyOnceLock<Py<PyDict>>,
     fields: Option<Fields>,
+    /// Answer and contact, for reports and stresses; `None` for a pickled result.
+    solved: Option<Box<(Answer, ContactSpec)>>,
 }
 
 /// Arrays of a solution.
@@ -90,7 +94,7 @@ pub fn _result(result: &str, fields: Option<Kept<'_>>) -> PyResult<Result> {
         let (x, y, pressure, film) = (x.unbind(), y.unbind(), pressure.unbind(), film.unbind());
         Ok::<_, PyErr>(Fields { x, y, pressure, film, further })
     });
-    Ok(Result { result, values: PyOnceLock::new(), fields: fields.transpose()? })
+    Ok(Result { result, values: PyOnceLock::new(), fields: fields.transpose()?, solved: None })
 }
 
 impl Result {
@@ -110,10 +114,17 @@ impl Result {
         Ok(Some((x, y, pressure, film, self.fields(py)?)))
     }
 
-    fn of(py: Python<'_>, answer: Answer) -> PyResult<Self> {
+    fn of(py: Python<'_>, answer: Answer, spec: &ContactSpec) -> PyResult<Self> {
         let result = answer.result.clone();
+        let solved = Some(Box::new((answer.clone(), spec.clone())));
         let fields = answer.into_fields().map(|solution| Fields::of(py, solution)).transpose()?;
-        Ok(Self { result, values: PyOnceLock::new(), fields })
+        Ok(Self { result, values: PyOnceLock::new(), fields, solved })
+    }
+
+    /// Returns answer and contact.
+    fn solved(&self) -> PyResult<&(Answer, ContactSpec)> {
+        let none = || refused("a pickled result has no solution for this; solve the contact again");
+        self.solved.as_deref().ok_or_else(none)
     }
 
     fn values<'py>(&self, py: Python<'py>) -> PyResult<&Bound<'py, PyDict>> {
@@ -223,6 +234,60 @@ impl Result {
         Ok(py.import("copy")?.call_method1("deepcopy", (self.values(py)?,))?.cast_into::<PyDict>()?)
     }
 
+    /// Writes a report of one page. The extension of ``path`` selects HTML or PDF.
+    #[pyo3(signature = (path, title=None, author="", company="", paper="a4"))]
+    fn report(&self, path: PathBuf, title: Option<&str>, author: &str, company: &str, paper: &str) -> PyResult<()> {
+        let (answer, spec) = self.solved()?;
+        let accepted =
+            || refused(format!("{} has an unsupported file extension; accepted are html, pdf", path.display()));
+        let format = ReportFormat::of(&path).ok_or_else(accepted)?;
+        let paper = match paper {
+            "a4" => Paper::A4,
+            "letter" => Paper::Letter,
+            word => return Err(refused(format!("paper=\"{word}\" is not valid; accepted are a4, letter"))),
+        };
+        let title = title.map_or_else(|| format!("{} contact", answer.result.point.kind.name()), str::to_owned);
+        let stated = Stated::of_spec(title, spec);
+        let stated = Stated { author: author.to_owned(), company: company.to_owned(), ..stated };
+        let file = Report::new(&stated, std::slice::from_ref(answer), paper).file(format);
+        atomic_file::replace(&path, &file).map_err(refused)
+    }
+
+    /// Returns the stress below the surface of body 1 in the plane Y = 0 as arrays by name: ``x_m``, ``z_m`` (depth), and
+    /// with the shape (depths, abscissae) in Pa ``sigma_x_pa``, ``sigma_y_pa``, ``sigma_z_pa``, ``tau_xz_pa``,
+    /// ``von_mises_pa``, ``maximum_shear_pa``; and the maxima of ``solve --stress --json``. ``poisson`` is Poisson's ratio
+    /// of body 1.
+    #[pyo3(signature = (poisson=0.3))]
+    fn subsurface<'py>(&self, py: Python<'py>, poisson: f64) -> PyResult<Bound<'py, PyDict>> {
+        let (answer, _) = self.solved()?;
+        let solution = answer.fields().ok_or_else(|| refused("the solve did not converge: there are no fields"))?;
+        if !(0.0..=0.5).contains(&poisson) {
+            return Err(refused(format!("poisson={poisson} is not valid; accepted are numbers from 0 to 0.5")));
+        }
+        let point = &answer.result.point;
+        let field = py.detach(|| solution.subsurface_stress(poisson)).map_err(refused)?;
+        let maxima = serde_json::to_string(&Subsurface::of(&field, point)).map_err(refused)?;
+        let dict = py.import("json")?.call_method1("loads", (maxima,))?.cast_into::<PyDict>()?;
+        let a = point.hertz().half_width_m;
+        let lengths = |nodes: &[f64]| nodes.iter().map(|at| a * at).collect::<Vec<_>>();
+        let shape = [field.z.len(), field.x.len()];
+        dict.set_item("x_m", shaped(py, lengths(&field.x), &[shape[1]])?)?;
+        dict.set_item("z_m", shaped(py, lengths(&field.z), &[shape[0]])?)?;
+        type Part = fn(&Stress) -> f64;
+        let parts: [(&str, Part); 6] = [
+            ("sigma_x_pa", |stress| stress.x),
+            ("sigma_y_pa", |stress| stress.y),
+            ("sigma_z_pa", |stress| stress.z),
+            ("tau_xz_pa", |stress| stress.xz),
+            ("von_mises_pa", |stress| stress.von_mises()),
+            ("maximum_shear_pa", |stress| stress.maximum_shear()),
+        ];
+        for (name, part) in parts {
+            dict.set_item(name, shaped(py, field.stress.iter().map(part).collect(), &shape)?)?;
+        }
+        Ok(dict)
+    }
+
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let made_by = py.import("ehl_explorer._native")?.getattr("_result")?;
         Ok((made_by, (self.text()?, self.kept(py)?)))
@@ -301,9 +366,9 @@ pub fn solve(
         use ehl_explorer::scene::Bench;
         let answer = py.detach(|| asked.bench().answer(&request, None, &())).map_err(refused)?;
         if answer.result.converged {
-            return Result::of(py, answer);
+            return Result::of(py, answer, &asked.spec);
         }
     }
     let answer = long(py, progress, |watch| answer_or_full(&mut asked.bench(), &request, watch))?;
-    Result::of(py, answer)
+    Result::of(py, answer, &asked.spec)
 }

@@ -16,7 +16,7 @@ use crate::app::model_source::Models;
 use crate::app::notice::Notice;
 use crate::app::panels::headline::Headline;
 use crate::app::presentation::Presentation;
-use crate::app::sheets::Sheets;
+use crate::app::reports::Reports;
 use crate::app::tab::Tab;
 use crate::app::tabs::all::Tabs;
 use crate::app::tabs::transient::TransientRuns;
@@ -54,8 +54,8 @@ pub struct Desk {
     pub headline: Option<Headline>,
     /// Titles of the lessons that were finished.
     pub finished: Vec<String>,
-    /// Results sheet that is being made.
-    pub sheets: Sheets,
+    /// Report that is being made.
+    pub reports: Reports,
     /// Running presentation, which shows only plots and sliders.
     pub presentation: Option<Presentation>,
     /// Item that was just opened and still has to be handled.
@@ -85,7 +85,7 @@ impl Desk {
             load_cases: LoadCasesWindow::default(),
             headline: None,
             finished: Vec::new(),
-            sheets: Sheets::default(),
+            reports: Reports::default(),
             presentation: None,
             opened: None,
             fit_plots: true,
@@ -122,14 +122,14 @@ impl Desk {
         self.entries.answer(field, result);
     }
 
-    /// Draws the figure window and handles a completed sheet. Call after everything else is drawn.
+    /// Draws the figure window and handles a completed report. Call after everything else is drawn.
     pub fn figures_ui(&mut self, ctx: &egui::Context) {
         let mut figures = std::mem::take(&mut self.figures);
         let made = figures.ui(ctx, self.display.theme, |tab| self.caption(tab));
         self.figures = figures;
-        match made.map(Ok).or_else(|| self.sheets.receive()) {
+        match made.map(Ok).or_else(|| self.reports.receive()) {
             Some(Ok(file)) => self.ask_path(ctx, file),
-            Some(Err(why)) => self.files.notice = Some(Notice::Wrong(format!("No sheet: {why}"))),
+            Some(Err(why)) => self.files.notice = Some(Notice::Wrong(format!("No report: {why}"))),
             None => {}
         }
     }
@@ -162,7 +162,7 @@ impl Desk {
     pub fn works(&self) -> Vec<Standing> {
         let context = self.context();
         let tabs = Tab::ALL.iter().flat_map(|tab| self.tabs.of(*tab).jobs(&context));
-        let made = [self.sheets.standing(), self.figures.standing()];
+        let made = [self.reports.standing(), self.figures.standing()];
         self.answers.standing().into_iter().chain(tabs).chain(made.into_iter().flatten()).collect()
     }
 
@@ -178,7 +178,7 @@ impl Desk {
         self.answers.cancel_all();
         self.transient.stop();
         self.tabs.stop();
-        self.sheets.stop();
+        self.reports.stop();
         self.figures.stop();
     }
 

@@ -25,6 +25,8 @@ pub enum Edit {
     Hold(Quantity, bool),
     /// Sets the oil that determines η₀ and α. With `None` they keep their values.
     Oil(Option<Oil>),
+    /// Sets the length of a line contact \[m\].
+    Length(Option<f64>),
     /// Sets the bodies that determine R, E′, u_m and SRR.
     Bodies(Bodies),
     /// Sets the rms roughness of body 1 and body 2 \[m\].
@@ -70,6 +72,7 @@ impl Document {
             Edit::Hold(quantity, held) => self.view.held.set(quantity, held),
             Edit::Oil(Some(oil)) => return self.set_oil(oil),
             Edit::Oil(None) => self.view.oil = None,
+            Edit::Length(length_m) => self.length_m = length_m,
             Edit::Bodies(bodies) => return self.set_bodies(bodies),
             Edit::Surfaces(rms_m) => return self.set_surfaces(rms_m),
             Edit::Mixed(on) => return self.switch_mixed(on),

@@ -5,8 +5,8 @@ use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::of_laws;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::{Bodies, Material};
-use crate::solver::physics::contact::OperatingPoint;
-use crate::solver::physics::engineering::Oil;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::{Extent, Oil};
 use crate::solver::physics::lubricant::{Heat, Lubricant};
 
 const OF_THE_OIL: [Quantity; 2] = [Quantity::Viscosity, Quantity::Alpha];
@@ -44,6 +44,12 @@ impl Document {
             self.view.held.set(Quantity::RadiusY, true);
         }
         Ok(())
+    }
+
+    /// Returns the length of a line contact, and the radii of the bodies that the contact has the values of.
+    pub fn extent(&self) -> Extent {
+        let radii_m = self.bodies_in_force().map_or([None; 2], |bodies| bodies.0.map(|body| body.radius_m));
+        Extent { length_m: self.length_m.filter(|_| self.point.kind == ContactKind::Line), radii_m }
     }
 
     /// Returns true if the present contact still has the values of its oil.

@@ -27,6 +27,8 @@ pub struct Document {
     pub lubricant: Lubricant,
     /// Grid of full solutions. Only the grid of a point contact can be edited here.
     pub grid: Grid,
+    /// Length of a line contact \[m\], for its forces and its power loss. A point contact keeps it, without effect.
+    pub length_m: Option<f64>,
     /// Quantities that follow M and L, and the truncation.
     pub view: View,
     /// Training. `None` until one is opened or edited.
@@ -56,6 +58,7 @@ impl Default for Document {
             point: si_from_moes(&request).unwrap_or(OperatingPoint::TABLE_2_1),
             lubricant: MINERAL_OIL,
             grid: Grid::Graded,
+            length_m: None,
             view: View::default(),
             training: None,
             transient: None,
@@ -296,6 +299,7 @@ impl Document {
             point,
             lubricant: scene.laws(),
             grid: scene.grid,
+            length_m: scene.length,
             view: scene.view.unwrap_or_default(),
             training: match &scene.study {
                 Study::Training(spec) => Some(spec.clone()),
@@ -355,6 +359,7 @@ impl Document {
             self.drop_question(&mut scene);
         }
         scene.grid = self.grid;
+        scene.length = self.length_m.filter(|_| self.point.kind == ContactKind::Line);
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
             scene.study = Study::Training(spec.clone());
         }

@@ -2,6 +2,7 @@
 
 use crate::scene::{Grid, Method, ModelSource, Request};
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::engineering::Extent;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use serde::{Deserialize, Serialize};
 
@@ -26,7 +27,7 @@ impl Key {
     /// Returns a request for the contact on a grid.
     pub fn request(&self, grid: Grid, method: Method) -> Request {
         let Self { point, lubricant } = *self;
-        Request { point, lubricant, grid, grid_model: ModelSource::Embedded, method }
+        Request { point, lubricant, grid, grid_model: ModelSource::Embedded, method, extent: Extent::default() }
     }
 
     /// Returns true if pressure and film thickness are the same. In an isothermal contact a limiting stress changes

@@ -5,7 +5,7 @@ use super::text::{Lesson, Step};
 use crate::app::document::{Document, Edit, Key};
 use crate::app::refusal::Refusal;
 use crate::engine::Answer;
-use crate::scene::{Page, Sheet};
+use crate::scene::{Page, profiles};
 use std::fmt::Write as _;
 
 impl Lesson {
@@ -93,9 +93,8 @@ fn figures(answer: &Answer) -> String {
     let moes = answer.request.point.moes();
     let caption = format!("M {:.3}, L {:.3}", moes.m, moes.l);
     let page = Page { width_mm: 80.0, height_mm: 52.0, caption, ..Page::default() };
-    let sheet = Sheet::new("", std::slice::from_ref(answer), None);
-    let charts = sheet.figures().iter().take(2).map(|figure| figure.to_svg(&page));
-    format!("<div>\n{}\n</div>\n", charts.collect::<Vec<_>>().join("\n"))
+    let charts = profiles(std::slice::from_ref(answer)).map(|figure| figure.to_svg(&page));
+    format!("<div>\n{}\n</div>\n", charts.join("\n"))
 }
 
 /// Returns Markdown with emphasis as HTML paragraphs.

@@ -1,4 +1,4 @@
-//! Entries of the palette: commands, tabs, places of the panels, kinds of contact, lubricants, sheets, recent scenes.
+//! Entries of the palette: commands, tabs, places of the panels, kinds of contact, lubricants, recent scenes.
 
 use super::places::PLACES;
 use crate::app::command::{Command, MENUS};
@@ -6,7 +6,6 @@ use crate::app::desk::Desk;
 use crate::app::document::{Edit, Shape};
 use crate::app::panels::lubricant::GROUP;
 use crate::app::panels::operating_point::SHAPE;
-use crate::app::sheets::Form;
 use crate::app::tab::Tab;
 use crate::scene::named_lubricant::{NAMED, of_laws};
 use egui::KeyboardShortcut;
@@ -59,10 +58,6 @@ pub fn all(desk: &Desk) -> Vec<Entry> {
             .iter()
             .map(|place| Entry::new("Panel", place.name.to_owned(), place.keywords, Command::PointAt(place.control))),
     );
-    entries.extend(Form::ALL.map(|form| {
-        let keywords = "report protocol print pdf summary export document";
-        Entry::new("Export", form.name().to_owned(), keywords, Command::ExportSheet(form))
-    }));
     let present = Shape::of(&desk.document.point);
     entries.extend(Shape::ALL.map(|shape| {
         let edit = Command::Edit(Edit::Shape(shape), SHAPE);

@@ -137,7 +137,36 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
             held_ui(ui, document, (quantity, field), commands);
         });
     }
-    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([SHAPE]));
+    if kind == ContactKind::Line {
+        length_ui(ui, document, entries, commands);
+    }
+    entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([SHAPE, LENGTH]));
+}
+
+/// Name under which refusals of the length are stored.
+const LENGTH: &str = "Length";
+
+/// Draws the field of the length of a line contact. Zero means none.
+fn length_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
+    let meaning = "Length of the line contact, for the friction force, the torques and the power loss of the whole \
+                   contact; 0 for values per length";
+    ui.horizontal(|ui| {
+        row_name(ui, name_and_symbol(ui, LENGTH, "", ""), meaning);
+        let read = |text: &str| {
+            let length = engineering::parse(text, engineering::Dimension::Length, "mm")?;
+            let (least, most) = engineering::Extent::LENGTHS_M;
+            if length == 0.0 || (least..=most).contains(&length) {
+                return Ok(1e3 * length);
+            }
+            let [least, most] = [least, most].map(numbers::length);
+            Err(Refusal::new(format!("the length must be 0 (none) or from {least} to {most}")))
+        };
+        let value = 1e3 * document.length_m.unwrap_or(0.0);
+        if let Some(length) = typed_field(ui, entries, LENGTH, value, 70.0, meaning, read) {
+            commands.edit(Edit::Length(Some(1e-3 * length).filter(|length| *length > 0.0)), LENGTH);
+        }
+        ui.label("mm");
+    });
 }
 
 /// Draws the lock of a held quantity, or the number that a free quantity follows.

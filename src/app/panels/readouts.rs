@@ -11,6 +11,7 @@ use crate::app::theme::{Palette, symbol};
 use crate::solver::full::Lubrication;
 use crate::solver::physics::bodies::film_regime;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::{Extent, Losses};
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, RichText, TextStyle, Ui};
 use std::borrow::Cow;
@@ -64,7 +65,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         },
     ];
     cells.extend(film_ratio(ui, picture, document, &palette));
-    cells.extend(friction(ui, picture, &delta, &palette));
+    cells.extend(friction(ui, (picture, document), &delta, &palette));
     ui.scope(|ui| {
         if stale {
             ui.disable();
@@ -73,10 +74,10 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     });
 }
 
-/// Returns the traction coefficient, and the friction force with its power.
+/// Returns the traction coefficient, and the friction force with the power loss.
 fn friction(
     ui: &Ui,
-    picture: &Picture,
+    (picture, document): (&Picture, &Document),
     delta: &dyn Fn(&dyn Fn(&Picture) -> f64) -> Option<f64>,
     palette: &Palette,
 ) -> Vec<Cell> {
@@ -96,17 +97,30 @@ fn friction(
         tip: doubt.map_or_else(|| tip.to_owned(), |why| sentence(&why.to_string())).into(),
     }];
     let point = &picture.key.point;
-    let (force, length) = (picture.traction * point.load, if point.kind == ContactKind::Line { "/mm" } else { "" });
-    if force != 0.0 && doubt.is_none() {
-        let per = if length.is_empty() { 1.0 } else { 1e-3 };
-        let power = force * srr * point.speed_m_per_s * per;
+    // Without a length the values of a line contact are per mm.
+    let own = document.extent();
+    let whole = point.kind == ContactKind::Point || own.length_m.is_some();
+    let extent = Extent { length_m: own.length_m.or(Some(1e-3)), ..own };
+    let losses = Losses::of(point, picture.traction, picture.solution.rolling_resistance(), &extent);
+    if let Some(losses) = losses.filter(|_| doubt.is_none()) {
+        let per = if whole { "" } else { "/mm" };
+        let torques: Vec<String> = losses.torques_nm.iter().flatten().map(|t| numbers::digits(*t, 3)).collect();
+        let torques = match torques.as_slice() {
+            [] => String::new(),
+            torques => format!("; torques of the bodies {} N m{per}", torques.join(", ")),
+        };
+        let tip = format!(
+            "Friction force F = µw, and the power loss F SRR u_m + 2 F_r u_m with the rolling resistance F_r = {} N{per} \
+             of each body{torques}",
+            numbers::digits(losses.rolling_n, 3)
+        );
         cells.push(Cell {
             name: symbol(ui, "F", ""),
-            value: numbers::significant(force * per),
-            unit: format!("N{length}, {} W{length} lost", numbers::digits(power, 3)),
+            value: numbers::significant(losses.friction_n),
+            unit: format!("N{per}, {} W{per} lost", numbers::digits(losses.power_w, 3)),
             color: palette.traction,
             delta: None,
-            tip: "Friction force µw, and the friction power µw SRR u_m".into(),
+            tip: tip.into(),
         });
     }
     cells

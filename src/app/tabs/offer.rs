@@ -4,9 +4,9 @@ use crate::app::command::Command;
 use crate::app::context::Commands;
 use crate::app::controls::named;
 use crate::app::purpose::{Purpose, Written};
-use crate::app::sheets::Form;
 use crate::app::tab::Tab;
 use crate::engine::arrays::{Array, npz};
+use crate::scene::ReportFormat;
 use egui::{Button, Ui};
 
 /// Export with its name and a function that makes it. `None` if there is nothing to export yet.
@@ -69,14 +69,14 @@ pub fn menu<'a>(ui: &mut Ui, tab: Tab, offers: impl FnOnce() -> Vec<Offer<'a>>, 
             }
         }
         ui.separator();
-        for form in Form::ALL {
-            let tip = "Inputs with units, results, checks and published formulas for the contact on the screen, in \
-                       full and by the reduced model";
-            if item(ui, form.name(), tip, true) {
-                commands.push(Command::ExportSheet(form));
+        for (name, format) in [("Report as PDF…", ReportFormat::Pdf), ("Report as HTML…", ReportFormat::Html)] {
+            let tip = "One page with inputs, results, checks and figures of the contact on the screen, in full and by \
+                       the reduced model";
+            if item(ui, name, tip, true) {
+                commands.push(Command::ExportReport(format));
             }
         }
     });
-    let tip = "Figures and data of this tab, and a sheet of the contact";
+    let tip = "Figures and data of this tab, and a report of the contact";
     named(ui, shown.response, &format!("Export from {}", tab.title())).on_hover_text(tip);
 }

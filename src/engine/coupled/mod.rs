@@ -17,6 +17,7 @@ use super::answer::{Solver, answer};
 use crate::scene::{Answer, ContactResult, ContactSpec, Grid, Method, ModelSource, Request, Words};
 use crate::solver::full::{ContactSolver, Problem, Start};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::Extent;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::reduced::{Online, ReducedModel, ReducedOptions, Trust};
 use crate::solver::warning::Warning;
@@ -261,7 +262,7 @@ impl Coupled {
             .operating_point(&self.lubricant)
             .map_err(|why| CoupledError::Stated(why.in_words(Words::Variables)))?;
         let (grid, grid_model, method) = (Grid::Model, ModelSource::Embedded, Method::EMBEDDED);
-        Ok(Request { point, lubricant: self.lubricant, grid, grid_model, method })
+        Ok(Request { point, lubricant: self.lubricant, grid, grid_model, method, extent: Extent::default() })
     }
 
     /// Solves in full on the model's grid.

@@ -127,7 +127,17 @@ contact_fields! {
           titles: &["u_1"] };
     u2: f64, U2, "u2", "Speed of the surface of body 2",
         { measure: Measure::In(Dimension::Speed { radius_m: None }), titles: &["u_2"] };
+    radius1: f64, Radius1, "radius1", "Radius of body 1 along the rolling direction, negative for a concave surface",
+        { measure: Measure::In(Dimension::Length), note: ", with <radius2> in place of <radius>; without one a body is a plane",
+          titles: &["r1", "r_1"], absent: &[Words::Variables] };
+    radius2: f64, Radius2, "radius2", "Radius of body 2 along the rolling direction, negative for a concave surface",
+        { measure: Measure::In(Dimension::Length), titles: &["r2", "r_2"], absent: &[Words::Variables] };
     load: f64, Load, "load", "Load w", { measure: Measure::Of(Quantity::Load), titles: &["w", "f"] };
+    length: f64, Length, "length", "Length of a line contact, for its forces, torques and power loss",
+        { measure: Measure::In(Dimension::Length), titles: &["width"], absent: &[Words::Variables] };
+    total_load: f64, TotalLoad, "total-load", "Load of a line contact over its whole length",
+        { measure: Measure::In(Dimension::Force), note: ", with <length> in place of <load>", titles: &["totalload"],
+          absent: &[Words::Variables] };
     modulus: f64, Modulus, "modulus", "Reduced modulus E’",
         { measure: Measure::Of(Quantity::Modulus), note: ", or <e1> <nu1> <e2> <nu2>", titles: &["e'", "e’", "e\u{2032}"] };
     e1: f64, E1, "e1", "Young's modulus of body 1", { measure: Measure::In(Dimension::Pressure) };

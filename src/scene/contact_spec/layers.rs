@@ -37,6 +37,13 @@ impl ContactSpec {
         let named_alpha = self.lubricant.is_some_and(|named| named.alpha_per_pa.is_some());
         for (replaced, field) in [
             (self.kind() != base.kind(), Field::Load),
+            (self.kind() != base.kind(), Field::Length),
+            (self.kind() != base.kind(), Field::TotalLoad),
+            (states(&[Field::Load, Field::MoesM]), Field::TotalLoad),
+            (states(&[Field::TotalLoad]), Field::Load),
+            (states(&[Field::Radius]), Field::Radius1),
+            (states(&[Field::Radius]), Field::Radius2),
+            (states(&[Field::Radius1, Field::Radius2]), Field::Radius),
             (self.kind() == ContactKind::Line, Field::RadiusY),
             (states(&[Field::E1, Field::Nu1, Field::E2, Field::Nu2]), Field::Modulus),
             (oil || named, Field::Viscosity),
@@ -91,10 +98,11 @@ impl From<At> for ContactSpec {
 
 impl From<&Experiment> for ContactSpec {
     fn from(experiment: &Experiment) -> Self {
-        let Experiment { contact, lubricant, at, sliding, grid, .. } = *experiment;
+        let Experiment { contact, lubricant, at, sliding, grid, length_m, .. } = *experiment;
         let rough = lubricant.roughness;
         Self {
             contact: Some(contact),
+            length: length_m,
             laws: Some(lubricant),
             // Stated only if it is not the default, which a roughness changes.
             cavitation: Some(lubricant.cavitation).filter(|cavitation| *cavitation != Cavitation::default()),

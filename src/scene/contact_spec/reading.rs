@@ -2,7 +2,8 @@
 
 use super::fields::{ContactSpec, Field};
 use super::refusal::{Refusal, refuse};
-use crate::solver::physics::engineering::parse;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::{Dimension, parse};
 
 impl ContactSpec {
     /// Sets a field from a text. A number without a unit has the unit `unit`, or the field's default unit if `unit` is
@@ -15,6 +16,15 @@ impl ContactSpec {
         if field.is_number() {
             let dimension = facts.dimension_in(self.kind());
             let unit = if unit.is_empty() { facts.bare.unwrap_or_else(|| dimension.si_unit()) } else { unit };
+            // A force is the load of a line contact over its whole length.
+            if field == Field::Load
+                && self.kind() == ContactKind::Line
+                && parse(text, dimension, unit).is_err()
+                && let Ok(total) = parse(text, Dimension::Force, unit)
+            {
+                self.total_load = Some(total);
+                return Ok(());
+            }
             return match parse(text, dimension, unit) {
                 Ok(value) => {
                     self.set(field, value);

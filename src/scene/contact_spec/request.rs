@@ -9,8 +9,9 @@ use crate::scene::grid::Grid;
 use crate::scene::method::{Method, ModelSource};
 use crate::solver::limits::Number;
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::contact::{ContactError, OperatingPoint, reduced_modulus};
-use crate::solver::physics::engineering::{Grade, Oil, OilFamily, OilState};
+use crate::solver::physics::bodies::reduced_radius_m;
+use crate::solver::physics::contact::{ContactError, ContactKind, OperatingPoint, reduced_modulus};
+use crate::solver::physics::engineering::{Extent, Grade, Oil, OilFamily, OilState};
 use crate::solver::physics::lubricant::{Lubricant, Sliding};
 
 /// The six SI quantities.
@@ -39,7 +40,7 @@ impl ContactSpec {
         let point = self.operating_point(&lubricant)?;
         let grid = self.grid_for(full, &lubricant.grid_contact(&point))?;
         let method = if full { Method::Full } else { Method::reduced(grid_model.clone()) };
-        Ok(Request { point, lubricant, grid, grid_model, method })
+        Ok(Request { point, lubricant, grid, grid_model, method, extent: self.extent()? })
     }
 
     /// Returns the operating point of a contact with these laws.
@@ -69,9 +70,59 @@ impl ContactSpec {
         }
         let alpha = own_alpha.or(self.alpha).or(oil.map(|oil| oil.alpha_per_pa));
         let alpha = alpha.or(self.lubricant.and_then(|named| named.alpha_per_pa));
-        let at = self.numbers([self.radius, speed, self.load, modulus, viscosity, alpha])?;
+        let at = self.numbers([self.reduced_radius()?, speed, self.load_of_kind()?, modulus, viscosity, alpha])?;
         let point = at.point(self.kind()).map_err(|error| self.of_contact(&error))?;
         Ok(OperatingPoint { sliding: Sliding { slide_to_roll_ratio, newtonian_plateau_ratio: self.npr }, ..point })
+    }
+
+    /// Returns length and radii of the bodies as stated.
+    fn extent(&self) -> Result<Extent, Refusal> {
+        let (least, most) = Extent::LENGTHS_M;
+        if let Some(length) = self.length {
+            if self.kind() == ContactKind::Point {
+                return refuse(Field::Length, "<length> belongs to a line contact; leave it out");
+            }
+            if !(least..=most).contains(&length) {
+                let length = Number(length);
+                return refuse(
+                    Field::Length,
+                    format!("<length> is {length} m, but must be between {least} and {most}"),
+                );
+            }
+        }
+        Ok(Extent { length_m: self.length, radii_m: [self.radius1, self.radius2] })
+    }
+
+    /// Returns the load \[N/m\] or \[N\], as stated or from the total load over the length of a line contact.
+    fn load_of_kind(&self) -> Result<Option<f64>, Refusal> {
+        let Some(total) = self.total_load else { return Ok(self.load) };
+        if self.load.is_some() || self.moes_m.is_some() {
+            return refuse(Field::TotalLoad, "<total-load> says what <load> or <moes-m> says; leave one of them out");
+        }
+        match (self.kind(), self.extent()?.length_m) {
+            (ContactKind::Point, _) => refuse(Field::TotalLoad, "<total-load> belongs to a line contact; give <load>"),
+            (ContactKind::Line, Some(length)) => Ok(Some(total / length)),
+            (ContactKind::Line, None) => {
+                refuse(Field::Length, "a load in N on a line contact needs its length; give <length> too")
+            }
+        }
+    }
+
+    /// Returns R as stated, or from the radii of both bodies, 1/R = 1/R₁ + 1/R₂ (2.3).
+    fn reduced_radius(&self) -> Result<Option<f64>, Refusal> {
+        let radii = [self.radius1, self.radius2];
+        let Some(field) = [Field::Radius1, Field::Radius2].into_iter().find(|field| self.states(*field)) else {
+            return Ok(self.radius);
+        };
+        if self.radius.is_some() {
+            return refuse(
+                Field::Radius,
+                "<radius> and <radius1> <radius2> give the same quantity; leave one of them out",
+            );
+        }
+        reduced_radius_m(radii)
+            .map(Some)
+            .map_err(|error| Refusal::new(field, format!("<radius1> and <radius2>: {error}")))
     }
 
     /// u_m and SRR, as they are stated or of both surfaces. X points where the lubricant is entrained.

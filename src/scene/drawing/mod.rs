@@ -1,13 +1,16 @@
-//! Drawings for print: lines, areas, text and images with positions in points, written as SVG or as PNG with any
-//! resolution. The program ships the font, so that drawings do not depend on the system.
+//! Drawings for print: lines, areas, text and images with positions in points, written as SVG, as PDF, or as PNG
+//! with any resolution. The program ships the font, so that drawings do not depend on the system.
 
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
+mod color_map;
+mod pdf;
 mod png;
 mod svg;
 mod words;
 
+pub use color_map::viridis;
 pub use png::{DPI, PngError, encode};
 pub use svg::escaped;
 pub use words::{Words, wrapped};
@@ -106,6 +109,27 @@ pub struct Drawing {
     pub ground: Rgb,
     /// Elements in drawing order: the first one is below all others.
     pub marks: Vec<Mark>,
+}
+
+impl Mark {
+    /// Returns the element moved right and down \[pt\].
+    pub fn moved(self, by: [f64; 2]) -> Self {
+        let point = |[x, y]: [f64; 2]| [x + by[0], y + by[1]];
+        let area = |[x, y, width, height]: [f64; 4]| [x + by[0], y + by[1], width, height];
+        match self {
+            Self::Line(points, pen) => Self::Line(points.into_iter().map(point).collect(), pen),
+            Self::Area(rect, color, opacity) => Self::Area(area(rect), color, opacity),
+            Self::Polygon(corners, color, opacity) => {
+                Self::Polygon(corners.into_iter().map(point).collect(), color, opacity)
+            }
+            Self::Frame(rect, pen) => Self::Frame(area(rect), pen),
+            Self::Dot(at, radius, color) => Self::Dot(point(at), radius, color),
+            Self::Ring(at, radius, pen) => Self::Ring(point(at), radius, pen),
+            Self::Image(rect, pixels) => Self::Image(area(rect), pixels),
+            Self::Words(words) => Self::Words(Lettering { at: point(words.at), ..words }),
+            Self::Within(rect) => Self::Within(rect.map(area)),
+        }
+    }
 }
 
 impl Pixels {

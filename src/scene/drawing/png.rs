@@ -1,6 +1,6 @@
 //! Writes drawings and pixels as PNG.
 
-use super::words::{LOWERED, font};
+use super::words::{LOWERED, SLANT, font};
 use super::{Drawing, Lettering, Mark, PT_PER_MM, Pen, Pixels, Rgb, TextAnchor};
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, PixelDimensions, Unit};
 use skrifa::MetadataProvider as _;
@@ -16,8 +16,6 @@ use vello_cpu::{Image, ImageSource, Pixmap, RenderContext, Resources};
 pub const DPI: (f64, f64) = (50.0, 1200.0);
 /// Largest number of pixels of an image.
 const MOST_PIXELS: f64 = 60e6;
-/// Slant of italic symbols.
-const SLANT: f64 = 0.2;
 
 /// Reason why an image cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

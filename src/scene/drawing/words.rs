@@ -8,6 +8,8 @@ use skrifa::{FontRef, MetadataProvider as _};
 pub(super) const SUBSCRIPT: f64 = 0.72;
 /// Offset of a subscript below the baseline, over the font size of its symbol.
 pub(super) const LOWERED: f64 = 0.22;
+/// Slant of italic symbols.
+pub(super) const SLANT: f64 = 0.2;
 /// Approximate width of a letter over the font size; larger than that of most letters.
 const LETTER_WIDTH: f64 = 0.56;
 

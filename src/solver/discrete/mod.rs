@@ -2,6 +2,7 @@
 
 pub mod elasticity;
 pub mod grid;
+pub mod half_space;
 pub mod heat;
 pub mod nodes;
 pub mod reynolds;

@@ -22,6 +22,7 @@ mod rolling;
 mod rough;
 mod solution;
 mod solver;
+mod subsurface;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -43,6 +44,7 @@ pub use report::{Report, Termination};
 pub(crate) use solution::under_contact;
 pub use solution::{Scalars, Solution, Traction, scalars_of};
 pub use solver::{ContactSolver, FullSolver, PointSolver, Solver, Start, most_newton};
+pub use subsurface::{StressMaximum, SubsurfaceStress};
 pub use system::{SolveOptions, System};
 pub(crate) use traction::mid_film_stresses;
 pub use traction::{Shear, TractionDoubt};

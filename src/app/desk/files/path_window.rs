@@ -148,15 +148,8 @@ impl Desk {
             return;
         }
         let known = self.files.path.as_deref() == Some(path.as_path()) && window.purpose == Purpose::Save;
-        let there = || window.purpose.beside(&path).into_iter().find(|path| files::exists(path));
-        let there = if files::exists(&path) { Some(path.clone()) } else { there() };
-        if let Some(there) = there.filter(|_| !window.purpose.reads() && !known)
-            && window.overwrite.as_deref() != Some(&path)
-        {
-            window.message = Some(match there == path {
-                true => "a file of this name exists; press again to replace it".to_owned(),
-                false => format!("{} exists; press again to replace it", there.display()),
-            });
+        if files::exists(&path) && !window.purpose.reads() && !known && window.overwrite.as_deref() != Some(&path) {
+            window.message = Some("a file of this name exists; press again to replace it".to_owned());
             window.overwrite = Some(path);
             return;
         }
@@ -169,9 +162,6 @@ impl Desk {
                 .map(|()| self.files.notice = Some(Notice::Done(format!("Read {}", path.display())))),
             Purpose::Cases => self.load_cases.read(&path),
             Purpose::ComparedModel => self.tabs.training.work.add_beside(self.answers.store(), &path),
-            Purpose::Notes(sheet) => atomic_file::replace_all(&sheet.notes(&path)).map_err(Refusal::from).map(|()| {
-                self.files.notice = Some(Notice::Done(format!("Exported {} and its figures", path.display())))
-            }),
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };
                 atomic_file::replace(&path, &bytes).map_err(Refusal::from).map(|()| {

@@ -4,6 +4,7 @@
 use super::curves::{Scene, key_ui};
 use super::film_shear::{self, FilmShear, FilmShearImage};
 use super::plots::{difference_plot, film_plot, pressure_plot};
+use super::stress::{self, StressImage};
 use super::temperatures::{self, TemperatureImage};
 use super::why::Facts;
 use crate::app::answers::Answers;
@@ -19,6 +20,9 @@ use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, rich};
 use crate::app::units::Scales;
 use crate::app::{badge, caption, export, numbers};
+use crate::engine::job::Standing;
+use crate::engine::stress_table;
+use crate::solver::discrete::half_space::StressMeasure;
 use egui::{Checkbox, ComboBox, Ui};
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +32,7 @@ pub struct Profiles {
     /// Settings of the display.
     pub choices: Choices,
     image: FilmShearImage,
+    stress: StressImage,
     warm: TemperatureImage,
 }
 
@@ -41,13 +46,15 @@ pub struct Choices {
     pub difference: bool,
     /// Quantity shown across the film.
     pub film_shear: FilmShear,
+    /// Measure of the stress shown below the surface; `None` to show none.
+    pub stress: Option<StressMeasure>,
     /// True if temperatures of a thermal contact are drawn next to the profiles.
     pub temperatures: bool,
 }
 
 impl Default for Choices {
     fn default() -> Self {
-        Self { overlay: false, difference: false, film_shear: FilmShear::Off, temperatures: true }
+        Self { overlay: false, difference: false, film_shear: FilmShear::Off, stress: None, temperatures: true }
     }
 }
 
@@ -89,8 +96,12 @@ impl View for Profiles {
         if shear != FilmShear::Off {
             self.image.follow(ui.ctx(), picture, shear);
         }
+        let stress = self.choices.stress;
+        if let Some(measure) = stress {
+            self.stress.follow(ui.ctx(), context, picture, measure);
+        }
         let extra = |shown: bool| if shown { 0.6 } else { 0.0 };
-        let parts = 2.0 + extra(comparison.is_some()) + extra(shear != FilmShear::Off);
+        let parts = 2.0 + extra(comparison.is_some()) + extra(shear != FilmShear::Off) + 1.5 * extra(stress.is_some());
         let scene = Scene {
             picture,
             full,
@@ -161,6 +172,9 @@ impl View for Profiles {
         if shear != FilmShear::Off {
             film_shear::ui(ui, (&self.image, length_mm), shear, stale, 0.6 * unit);
         }
+        if let Some(measure) = stress {
+            stress::ui(ui, &self.stress, (picture, measure), stale, 0.9 * unit);
+        }
         if let Some((direction, to)) = moved {
             let mut cuts = context.cuts;
             direction.move_other(&mut cuts, to);
@@ -178,12 +192,32 @@ impl View for Profiles {
             let across = move |answers: &&Answers| export::profile_across(answers, cuts.x);
             offers.push(Offer::table("Profile across as CSV…", tip, Some(answers), across));
         }
+        if self.choices.stress.is_some() {
+            let tip = "The stress below the surface at all depths, and its measures, in SI units";
+            let field = picture.and_then(|picture| Some((picture, self.stress.field_of(&picture.solution)?)));
+            offers.push(Offer::table("Stress below the surface as CSV…", tip, field, |(picture, field)| {
+                let table = stress_table("stress", field, &picture.key.point);
+                export::commented(&[export::describe(picture), answers.means()], &table)
+            }));
+        }
         offers
     }
 
     fn caption(&self, context: &Context<'_>) -> Option<String> {
         let key = context.answers.picture()?.key;
         Some(format!("{}; {}", caption::contact(&key.point, &key.lubricant), caption::means(context.answers)?))
+    }
+
+    fn receive(&mut self) {
+        self.stress.receive();
+    }
+
+    fn jobs(&self, _: &Context<'_>) -> Vec<Standing> {
+        view::lasting(self.stress.standing()).into_iter().collect()
+    }
+
+    fn stop(&mut self) {
+        self.stress.stop();
     }
 
     fn kept(&self) -> Option<String> {
@@ -253,6 +287,16 @@ fn toolbar(ui: &mut Ui, choices: &mut Choices, context: &Context<'_>, commands: 
             }
         });
         named(ui, choice.response, "Across the film").on_hover_text(tip);
+        let stress = &mut choices.stress;
+        let tip = "Shows the stress below the surface of body 1, from pressure and shear stress";
+        let shown = stress.map_or("no stress", StressMeasure::name);
+        let choice = ComboBox::from_id_salt("stress below").selected_text(shown).width(104.0).show_ui(ui, |ui| {
+            ui.selectable_value(stress, None, "no stress");
+            for measure in StressMeasure::ALL {
+                ui.selectable_value(stress, Some(measure), measure.name());
+            }
+        });
+        named(ui, choice.response, "Below the surface").on_hover_text(tip);
         if context.document.lubricant.heat.is_some() {
             let tip = "Temperature rises along and across the film and of both bodies, and the heat balance";
             ui.checkbox(&mut choices.temperatures, "Temperatures").on_hover_text(tip);

@@ -11,7 +11,7 @@ pub struct KernelError(String);
 
 /// Forward and inverse transforms of one length.
 #[derive(Clone)]
-pub(super) struct Convolution {
+pub(crate) struct Convolution {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
 }

@@ -5,6 +5,7 @@ mod convolution;
 pub mod line;
 pub mod point;
 
+pub(crate) use convolution::Convolution;
 pub use convolution::KernelError;
 pub use line::{Flexibility, Scratch, Toeplitz};
 pub use point::{PointFlexibility, PointScratch, rectangle_kernel};

@@ -246,7 +246,9 @@ impl Transient {
         if self.scheme == Scheme::Characteristic {
             let equal = matches!(self.time_step, TimeStep::Fixed(_));
             if !(self.frame == Frame::Fixed && steady && equal) {
-                return refuse("the scheme Characteristic needs the fixed frame, a constant speed and radius, and fixed steps");
+                return refuse(
+                    "the scheme Characteristic needs the fixed frame, a constant speed and radius, and fixed steps",
+                );
             }
         }
         Ok(())

@@ -6,4 +6,4 @@ mod pair;
 
 pub use body::{Body, Transverse};
 pub use material::{BodyHeat, MATERIALS, Material};
-pub use pair::{Bodies, BodyError, film_regime, surface_speeds};
+pub use pair::{Bodies, BodyError, film_regime, reduced_radius_m, surface_speeds};

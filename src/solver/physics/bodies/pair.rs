@@ -69,6 +69,15 @@ fn curvatures(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
     Ok(first? + second?)
 }
 
+/// Returns the reduced radius \[m\] of two surfaces with these radii \[m\], `None` for a plane: 1/R = 1/R₁ + 1/R₂ (2.3).
+///
+/// # Errors
+/// If a radius is zero, or a concave surface is not flatter than the convex one.
+pub fn reduced_radius_m(radii_m: [Option<f64>; 2]) -> Result<f64, BodyError> {
+    let radius = 1.0 / curvatures(radii_m)?;
+    if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
+}
+
 impl Bodies {
     /// Returns two steel bodies that form a contact: a roller or ball on a plane with the given reduced radius \[m\],
     /// mean speed \[m/s\] and slide-to-roll ratio. Both are as smooth as good bearings.
@@ -93,8 +102,7 @@ impl Bodies {
     /// # Errors
     /// If a radius is zero, or a concave surface is not flatter than the convex one.
     pub fn reduced_radius_m(&self) -> Result<f64, BodyError> {
-        let radius = 1.0 / curvatures(self.0.map(|body| body.radius_m))?;
-        if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err(BodyError::Conforming) }
+        reduced_radius_m(self.0.map(|body| body.radius_m))
     }
 
     /// Returns the reduced radius R_y across the rolling direction \[m\], by the same rule.

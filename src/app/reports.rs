@@ -1,4 +1,4 @@
-//! Results sheet of the contact on the screen. It is solved in the background by the full solver and, inside the
+//! Report of the contact on the screen. It is solved in the background by the full solver and, inside the
 //! trained range, by the reduced model.
 
 use super::answers::Answers;
@@ -9,49 +9,35 @@ use super::wake::wake;
 use crate::app::refusal::Refusal;
 use crate::engine::job::{Background, Ending, Given, Job, Reporter, Standing, Task};
 use crate::engine::{Store, Workbench};
-use crate::scene::{Answer, Method, Request, Sheet, answer_or_full};
-use crate::solver::physics::bodies::Bodies;
+use crate::scene::{Answer, Method, Paper, Report, ReportFormat, Request, Stated, answer_or_full};
 use crate::solver::reduced::Trust;
 use egui::Context;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
-/// Format of a sheet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// For reading and for notes, with figures next to it.
-    Markdown,
-    /// With embedded figures.
-    Html,
-    /// For other programs.
-    Csv,
-}
-
-/// Sheet that is being made.
+/// Report that is being made.
 #[derive(Default)]
-pub struct Sheets {
+pub struct Reports {
     of: Option<Of>,
     work: Background<Progress>,
 }
 
-/// Content of a sheet, with the answers that have been solved so far.
+/// Content of a report, with the answers that have been solved so far.
 struct Of {
-    form: Form,
-    title: String,
-    bodies: Option<Bodies>,
+    format: ReportFormat,
+    stated: Stated,
     answers: Vec<Answer>,
     /// Lesson of a worksheet, and the answers of its start and its steps.
     lesson: Option<(Lesson, Vec<usize>)>,
 }
 
-/// Solves of a sheet.
+/// Solves of a report.
 #[derive(Serialize, Deserialize)]
 pub struct Solves {
     requests: Vec<Request>,
     model: Option<Given>,
 }
 
-/// Messages of the solves of a sheet.
+/// Messages of the solves of a report.
 #[derive(Serialize, Deserialize)]
 pub enum Progress {
     Answer(Box<Answer>),
@@ -59,7 +45,7 @@ pub enum Progress {
 }
 
 impl Task for Solves {
-    const KIND: &'static str = "sheet";
+    const KIND: &'static str = "report";
     const LANE: usize = 1;
     type Message = Progress;
 
@@ -81,47 +67,28 @@ impl Task for Solves {
     }
 }
 
-impl Form {
-    /// All formats.
-    pub const ALL: [Self; 3] = [Self::Markdown, Self::Html, Self::Csv];
-
-    /// Returns the name in the menu.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Markdown => "Results sheet as Markdown…",
-            Self::Html => "Results sheet as HTML…",
-            Self::Csv => "Results sheet as CSV…",
-        }
-    }
-
-    fn write(self, sheet: Sheet) -> Purpose {
-        let (written, text) = match self {
-            Self::Markdown => return Purpose::Notes(Arc::new(sheet)),
-            Self::Html => (Written::Html, sheet.to_html()),
-            Self::Csv => (Written::Table, sheet.to_csv()),
-        };
-        Purpose::Write(written, text.into_bytes().into())
-    }
-}
-
-impl Sheets {
-    /// Starts the sheet of a document's contact.
-    pub fn begin(&mut self, ctx: &Context, (document, answers): (&Document, &Answers), form: Form) {
+impl Reports {
+    /// Starts the report of a document's contact.
+    pub fn begin(&mut self, ctx: &Context, (document, answers): (&Document, &Answers), format: ReportFormat) {
         let (key, grid) = (document.key(), document.grid);
         let (mut methods, mut model) = (vec![Method::Full], None);
         if let Some(in_use) = answers.in_use(document).filter(|_| answers.trust(document) == Some(Trust::Trained)) {
             methods.push(in_use.method());
             model = Some(Given::of(&in_use.model));
         }
-        let requests = methods.into_iter().map(|method| key.request(grid, method)).collect();
+        let requests = methods
+            .into_iter()
+            .map(|method| Request { extent: document.extent(), ..key.request(grid, method) })
+            .collect();
         self.of = Some(Of {
-            form,
-            title: document.title.clone(),
-            bodies: document.bodies_in_force(),
+            format,
+            stated: Stated { title: document.title.clone(), ..Stated::default() }
+                .with(document.bodies_in_force(), document.view.oil.filter(|_| document.oil_counts()))
+                .with_lubricant(&document.point, &document.lubricant),
             answers: Vec::new(),
             lesson: None,
         });
-        self.work.run(Job::of("Results sheet", wake(ctx), answers.store(), Solves { requests, model }));
+        self.work.run(Job::of("Report", wake(ctx), answers.store(), Solves { requests, model }));
     }
 
     /// Starts the worksheet of a lesson. Its contacts are solved by the full solver.
@@ -136,13 +103,14 @@ impl Sheets {
     ) -> Result<(), Refusal> {
         let (keys, indices) = lesson.pictures()?;
         let requests = keys.iter().map(|key| key.request(document.grid, Method::Full)).collect();
-        let (title, lesson) = (lesson.title.clone(), Some((lesson, indices)));
-        self.of = Some(Of { form: Form::Html, title, bodies: None, answers: Vec::new(), lesson });
+        let stated = Stated { title: lesson.title.clone(), ..Stated::default() };
+        let lesson = Some((lesson, indices));
+        self.of = Some(Of { format: ReportFormat::Html, stated, answers: Vec::new(), lesson });
         self.work.run(Job::of("Worksheet", wake(ctx), answers.store(), Solves { requests, model: None }));
         Ok(())
     }
 
-    /// Returns the sheet once it is complete, or the reason why there is none.
+    /// Returns the report once it is complete, or the reason why there is none.
     pub fn receive(&mut self) -> Option<Result<Purpose, Refusal>> {
         let (mut complete, answers) = (false, self.of.as_mut().map(|of| &mut of.answers));
         let mut unread = Vec::new();
@@ -151,12 +119,17 @@ impl Sheets {
             Progress::Answer(answer) => answers.push(*answer),
             Progress::Complete => complete = true,
         });
-        if let Some(Of { form, title, bodies, answers, lesson }) = self.of.take_if(|_| complete) {
+        if let Some(Of { format, stated, answers, lesson }) = self.of.take_if(|_| complete) {
             if let Some((lesson, indices)) = lesson {
                 let page = lesson.worksheet(&answers, &indices);
                 return Some(Ok(Purpose::Write(Written::Html, page.into_bytes().into())));
             }
-            return Some(Ok(form.write(Sheet::new(&title, &answers, bodies.as_ref()))));
+            let file = Report::new(&stated, &answers, Paper::default()).file(format);
+            let written = match format {
+                ReportFormat::Html => Written::Html,
+                ReportFormat::Pdf => Written::Pdf,
+            };
+            return Some(Ok(Purpose::Write(written, file.into())));
         }
         self.work.message.take().map(|why| Err(Refusal::new(why)))
     }
@@ -166,7 +139,7 @@ impl Sheets {
         self.work.standing()
     }
 
-    /// Stops the sheet.
+    /// Stops the report.
     pub fn stop(&self) {
         self.work.stop();
     }

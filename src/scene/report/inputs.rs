@@ -1,0 +1,165 @@
+//! Inputs of a contact in engineering units.
+
+use super::rows::{
+    FORCE, LENGTH, LINE_LOAD, PRESSURE, PRESSURE_COEFFICIENT, SPEED, Section, VISCOSITY, celsius, measured, number,
+    percent,
+};
+use super::stated::Stated;
+use crate::scene::answer::Answer;
+use crate::scene::regime::{Ratios, RegimeMap};
+use crate::solver::physics::contact::{ContactKind, FilmShape, OperatingPoint};
+use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Lubricant, ShearLaw, ViscosityLaw};
+use crate::solver::physics::surfaces::Roughness;
+
+/// Returns the sections of the inputs.
+pub fn sections(stated: &Stated, solved: &Answer) -> Vec<Section> {
+    let (point, lubricant) = (&solved.result.point, &solved.request.lubricant);
+    vec![
+        bodies(stated, solved),
+        operation(solved),
+        oil(stated, point, lubricant),
+        surfaces(lubricant.roughness.filter(|_| lubricant.is_rough()).as_ref()),
+    ]
+}
+
+/// Returns the kind of contact in words.
+pub fn kind(point: &OperatingPoint) -> &'static str {
+    match (point.kind, point.is_elliptic()) {
+        (ContactKind::Line, _) => "line contact",
+        (ContactKind::Point, false) => "circular contact",
+        (ContactKind::Point, true) => "elliptical contact",
+    }
+}
+
+fn bodies(stated: &Stated, solved: &Answer) -> Section {
+    let point = &solved.result.point;
+    let mut part = Section::new("Contact and bodies");
+    part.row("Contact", kind(point));
+    part.measure("Length", solved.request.extent.length_m, LENGTH);
+    part.row("Body 1", stated.bodies[0].clone());
+    part.row("Body 2", stated.bodies[1].clone());
+    part.measure("Reduced radius {R}", point.radius_m, LENGTH);
+    part.measure("Across {R_y}", point.radius_y_m.filter(|_| point.is_elliptic()), LENGTH);
+    part.measure("Reduced modulus {E}′", point.modulus_pa, PRESSURE);
+    part
+}
+
+fn operation(solved: &Answer) -> Section {
+    let point = &solved.result.point;
+    let mut part = Section::new("Operation");
+    match (point.kind, solved.request.extent.length_m) {
+        (ContactKind::Line, Some(length)) => {
+            let total = measured(point.load * length, FORCE);
+            part.row("Load {w}", format!("{}, {total} in total", measured(point.load, LINE_LOAD)));
+        }
+        (ContactKind::Line, None) => part.measure("Load {w}", point.load, LINE_LOAD),
+        (ContactKind::Point, _) => part.measure("Load {w}", point.load, FORCE),
+    }
+    part.measure("Entrainment speed {u_m}", point.speed_m_per_s, SPEED);
+    let sliding = point.sliding.slide_to_roll_ratio;
+    part.row("Slide-to-roll ratio SRR", if sliding == 0.0 { "0, pure rolling".to_owned() } else { percent(sliding) });
+    if sliding != 0.0 {
+        let [first, second] = point.surface_speeds().map(|speed| measured(speed, SPEED));
+        part.row("Surface speeds {u_1}, {u_2}", format!("{first}, {second}"));
+    }
+    let cavitation = &solved.result.cavitation;
+    part.row(
+        "Oil supply",
+        match cavitation.supply_film_m() {
+            Some(film) => format!("starved, inlet film {}", measured(film, LENGTH)),
+            None => "fully flooded".to_owned(),
+        },
+    );
+    part.row(
+        "Cavitation",
+        match cavitation {
+            Cavitation::Penalty => "penalty",
+            Cavitation::Complementarity => "complementarity",
+            Cavitation::MassConserving { .. } => "mass-conserving (Elrod–Adams)",
+        },
+    );
+    part
+}
+
+fn oil(stated: &Stated, point: &OperatingPoint, lubricant: &Lubricant) -> Section {
+    let mut part = Section::new("Lubricant");
+    part.row("Oil", stated.oil.clone());
+    part.measure("Viscosity {η_0} at {p} = 0", point.viscosity_pa_s, VISCOSITY);
+    part.measure("Pressure coefficient {α}", point.alpha_per_pa, PRESSURE_COEFFICIENT);
+    let viscosity = match lubricant.viscosity {
+        ViscosityLaw::Barus => "Barus",
+        ViscosityLaw::Roelands => "Roelands",
+        ViscosityLaw::Doolittle(_) => "Doolittle",
+    };
+    let density = match lubricant.density {
+        DensityLaw::Incompressible => "incompressible",
+        DensityLaw::DowsonHigginson => "Dowson–Higginson",
+        DensityLaw::Tait(_) => "Tait",
+    };
+    part.row("Viscosity, density", format!("{viscosity}, {density}"));
+    let plateau = || {
+        let ratio = point.sliding.newtonian_plateau_ratio.unwrap_or(lubricant.shear.plateau());
+        if ratio == 0.0 { String::new() } else { format!(", plateau ratio {}", number(ratio)) }
+    };
+    part.row(
+        "Shear law",
+        match lubricant.shear {
+            ShearLaw::Newtonian => "Newtonian".to_owned(),
+            ShearLaw::Eyring { critical_stress, .. } => {
+                format!("Eyring, {}{}", measured(critical_stress, PRESSURE), plateau())
+            }
+            ShearLaw::Carreau { critical_stress, n, beta, .. } => {
+                let [n, beta] = [n, beta].map(number);
+                format!("Carreau, {}, n {n}, β {beta}{}", measured(critical_stress, PRESSURE), plateau())
+            }
+            ShearLaw::Ellis { critical_stress, n, .. } => {
+                format!("Ellis, {}, n {}{}", measured(critical_stress, PRESSURE), number(n), plateau())
+            }
+        },
+    );
+    if let Some(limit) = lubricant.limiting_stress {
+        let own = measured(limit.ambient, PRESSURE);
+        part.row("Limiting shear stress", format!("{own} + {} {}", number(limit.slope), "p"));
+    }
+    match &lubricant.heat {
+        None => part.row("Temperature", "isothermal at the inlet temperature"),
+        Some(heat) => {
+            part.row("Inlet temperature", celsius(heat.inlet_temperature));
+            let oil = &heat.oil;
+            let [c, k, density] = [oil.heat_capacity, oil.conductivity, oil.density].map(number);
+            part.row("Heat of the oil", format!("c {c} J/(kg K), k {k} W/(m K), ρ {density} kg/m³"));
+            if oil.free_volume.is_none() {
+                part.row("Viscosity over temperature", format!("β {} 1/K", number(oil.viscosity_temperature)));
+            }
+            for (name, body) in ["Heat of body 1", "Heat of body 2"].into_iter().zip(&heat.bodies) {
+                let [c, k, density] = [body.heat_capacity, body.conductivity, body.density].map(number);
+                part.row(name, format!("c {c} J/(kg K), k {k} W/(m K), ρ {density} kg/m³"));
+            }
+        }
+    }
+    part
+}
+
+fn surfaces(roughness: Option<&Roughness>) -> Section {
+    let mut part = Section::new("Surfaces");
+    let Some(rough) = roughness else {
+        part.row("In the model", "smooth");
+        return part;
+    };
+    part.measure("Composite roughness {σ}", rough.sigma, LENGTH);
+    part.row("Asperity contact", rough.asperities.name());
+    let isotropic = if rough.peklenik == 1.0 { ", isotropic" } else { "" };
+    part.row("Peklenik number {γ}", format!("{}{isotropic}", number(rough.peklenik)));
+    part.row("Boundary friction {µ_b}", number(rough.boundary_friction));
+    part
+}
+
+/// Returns M, L and the regime.
+pub fn regime(solved: &Answer) -> [(&'static str, String); 2] {
+    let point = &solved.result.point;
+    let moes = point.moes();
+    let estimate = || RegimeMap::new(FilmShape::of(point)).at(moes);
+    let ratios = solved.fields().map_or_else(estimate, Ratios::of);
+    let numbers = format!("{}, {}", number(moes.m), number(moes.l));
+    [("Moes’ numbers {M}, {L}", numbers), ("Regime", ratios.regime().title().to_lowercase())]
+}
