@@ -76,7 +76,10 @@ impl Ratios {
         // H = H₀ + X²/2 + deformation on the axis.
         let deformation = (0.5 + film(0.0) - 0.5 * (film(-1.0) + film(1.0))).max(0.0);
         let viscosity = solution.problem.fluid.at(solution.scalars.p_max).viscosity;
-        Self { deformation: deformation / solution.scalars.h_c, viscosity }
+        // The mean planes of rough surfaces may touch; their mean gap is positive.
+        let h_c = solution.scalars.h_c;
+        let gap = solution.problem.rough.map_or(h_c, |rough| rough.mean_gap(h_c).0);
+        Self { deformation: deformation / gap, viscosity }
     }
 
     /// Returns the regime.

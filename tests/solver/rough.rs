@@ -342,3 +342,31 @@ fn what_is_not_supported_is_refused_in_one_sentence() {
         assert!(sentence.contains(said), "{sentence}");
     }
 }
+
+#[test]
+fn a_slow_contact_has_a_real_contact_area_wears_and_is_elastic() {
+    let slow = point(ContactKind::Line, [0.01, 1e-3, 2e5, 231e9, 0.02, 1.5e-8, 0.1]);
+    let roughness = Roughness { wear_rate: 1e-16, ..Roughness::new(3e-7) };
+    let mut solver = ContactSolver::on(&LINE.build().unwrap());
+    let lubricant = Lubricant::default().on_rough_surfaces(Some(roughness));
+    let solution = solved(&mut solver, &slow, lubricant, Start::Cold);
+    let mixed = solution.mixed().unwrap();
+    // The mean pressure in the real contact area is one of those of the law between the film thicknesses.
+    let hertz = slow.hertz();
+    let area = mixed.real_contact_area.unwrap() * 2.0 * hertz.half_width_m;
+    let mean = mixed.asperity_load_share * slow.load / area;
+    let of = |ratio: f64| {
+        let law = roughness.asperities;
+        law.pressure(slow.modulus_pa, ratio).0 / law.contact_area(slow.modulus_pa, ratio).unwrap()
+    };
+    let (deep, apart) = (of(mixed.film_ratio_min), of(3.0));
+    assert!(mixed.real_contact_area.unwrap() < 1.0 && (apart..deep).contains(&mean), "{apart:e} {mean:e} {deep:e}");
+    // Archard's law at the largest asperity pressure.
+    let largest = solution.asperity_pressures().fold(0.0, f64::max) * hertz.pressure_pa;
+    let wear = mixed.wear_m_per_s.unwrap();
+    assert!((wear / (1e-16 * largest * 1e-4) - 1.0).abs() < 1e-12, "{wear:e}");
+    // The nominal film is below zero, but the bodies flatten by much more than the mean gap.
+    assert!(solution.scalars.h_c < 0.0);
+    let ratios = ehl_explorer::scene::regime::Ratios::of(&solution);
+    assert!(ratios.regime().is_elastic() && ratios.deformation > 1.0, "{ratios:?}");
+}
