@@ -76,7 +76,9 @@ pub use outcome::{Findings, NamedValue, SceneOutcome, Verdict};
 pub use run::run_scene;
 pub use sheet::Sheet;
 pub use statistics::{median, percentile, rank_correlation};
-pub use study::transient::{Drive, LinearisedTransient, PublishedMarch, ReducedTransient, SurfaceFeature, SurfaceShape, TransientStudy};
+pub use study::transient::{
+    Drive, LinearisedTransient, PublishedMarch, ReducedTransient, SurfaceFeature, SurfaceShape, TransientStudy,
+};
 pub use study::{ComparedPlan, ComparedSampling, Contacts, OnlineScheme, Study, StudyObserver, StudyRow};
 pub use table::{Column, Table};
 pub use view::{Held, LoadFollower, LubricantFollower, View};

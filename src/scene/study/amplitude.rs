@@ -9,8 +9,8 @@ use crate::scene::method::Method;
 use crate::scene::written::is_default;
 use crate::solver::full::Solution;
 use crate::solver::full::response::{
-    ContactResponse, TimeDerivative, WaveResponse, check_lubricant, check_wavelength, published_reduction, reduction_parameter,
-    widest_spacing,
+    ContactResponse, TimeDerivative, WaveResponse, check_lubricant, check_wavelength, published_reduction,
+    reduction_parameter, widest_spacing,
 };
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::warning::Warning;

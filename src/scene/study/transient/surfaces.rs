@@ -124,9 +124,7 @@ impl SurfaceFeature {
         let slide = 0.5 * point.sliding.slide_to_roll_ratio;
         let speed = if self.body == 1 { 1.0 - slide } else { 1.0 + slide };
         let (at, shape) = match self.shape {
-            SurfaceShape::Gauss { height, width, at } => {
-                (at, Shape::Gauss { height: height / film, width: width / a })
-            }
+            SurfaceShape::Gauss { height, width, at } => (at, Shape::Gauss { height: height / film, width: width / a }),
             SurfaceShape::Venner { height, width, at } => {
                 (at, Shape::Venner { height: height / film, width: width / a })
             }

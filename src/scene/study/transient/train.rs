@@ -69,7 +69,13 @@ impl Scene {
         let frame = study.frames.first().copied().unwrap_or_default();
         let own = study.own_march(request.point, request.lubricant, frame);
         let setting = Setting { experiment: &experiment, bench, observer, wants_states: false };
-        let runner = Runner { study: &study, grid: ContactGrid::Line(Arc::clone(&grid)), saved: None, setting: &setting, tell: &|_| {} };
+        let runner = Runner {
+            study: &study,
+            grid: ContactGrid::Line(Arc::clone(&grid)),
+            saved: None,
+            setting: &setting,
+            tell: &|_| {},
+        };
         let line = grid.scaled(1.0);
         let mut trainings = runner.trainings(&Trajectory::begun(&own, Mesh::of_line(&line), &line.x)?)?;
         if trainings.is_empty() {

@@ -212,9 +212,8 @@ impl<S: ResponseSpace> LinearResponse<S> {
                 let mut products = vec![Complex64::ZERO; unknowns];
                 space.each_row(&mut products, |k, stencil, out| {
                     let ComplexRow { d_p, d_h } = &rows[k];
-                    let of = |e: usize| {
-                        d_p[e] * pair(parts, stencil[e]) + d_h[e] * (pair(deformations, stencil[e]) + shift)
-                    };
+                    let of =
+                        |e: usize| d_p[e] * pair(parts, stencil[e]) + d_h[e] * (pair(deformations, stencil[e]) + shift);
                     *out = (0..S::NODES).map(of).sum::<Complex64>() * scaling[k];
                 });
                 for (out, product) in out.chunks_exact_mut(2).zip(products) {

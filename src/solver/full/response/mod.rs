@@ -26,5 +26,6 @@ pub use linear::{LinearResponse, ResponseError, ResponseSpace};
 pub use maxwell::Maxwell;
 pub use unsupported::check_lubricant;
 pub use wave::{
-    PublishedReduction, WaveResponse, check_wavelength, is_uniform, published_reduction, reduction_parameter, widest_spacing,
+    PublishedReduction, WaveResponse, check_wavelength, is_uniform, published_reduction, reduction_parameter,
+    widest_spacing,
 };

@@ -119,8 +119,7 @@ fn the_ball_of_equal_radii_is_the_limit_of_ellipses() {
     };
     let stiffness = |radius_y_m: Option<f64>| {
         let point = OperatingPoint { radius_y_m, ..circle };
-        let solution =
-            PointSolver::new(grid).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
+        let solution = PointSolver::new(grid).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
         ContactResponse::of(&solution).unwrap().dynamics(100.0).unwrap()
     };
     let (own, near) = (stiffness(None), stiffness(Some(1.001 * circle.radius_m)));

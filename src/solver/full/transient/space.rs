@@ -8,7 +8,7 @@ use super::pace::ROUNDING;
 use super::signal::Input;
 use crate::solver::discrete::grid::FIRST_UNKNOWN;
 use crate::solver::discrete::reynolds::line::Upstream;
-use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};
+use crate::solver::discrete::space::{LineSpace, PlaneSpace};
 use crate::solver::full::newton_space::NewtonSpace;
 use crate::solver::full::{Backtracking, SolveOptions};
 use crate::solver::physics::lubricant::Cavitation;
@@ -58,7 +58,8 @@ impl MarchSpace for LineSpace {
     fn set_rows(&mut self, step: &Step, history: &History, characteristic: Option<f64>) {
         let Self { grid, rows, upstream, .. } = self;
         // A step that had to be divided does not meet the nodes of the characteristics.
-        let meets = |spacing: f64| (step.length / spacing - 1.0).abs() < ROUNDING && (step.ratio - 1.0).abs() < ROUNDING;
+        let meets =
+            |spacing: f64| (step.length / spacing - 1.0).abs() < ROUNDING && (step.ratio - 1.0).abs() < ROUNDING;
         if characteristic.is_some_and(meets) {
             let weight = 1.0 / step.length;
             for (k, (row, geometry)) in rows.iter_mut().zip(&grid.rows).enumerate() {
@@ -127,7 +128,9 @@ impl MarchSpace for PlaneSpace {
         motion.features.clear();
         if let Some(height) = height {
             let across = &grid.across;
-            motion.features.extend(grid.x.iter().flat_map(|&x| across.iter().map(move |&y| (x, y))).map(|(x, y)| height(x, y)));
+            motion
+                .features
+                .extend(grid.x.iter().flat_map(|&x| across.iter().map(move |&y| (x, y))).map(|(x, y)| height(x, y)));
         }
     }
 

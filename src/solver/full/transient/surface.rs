@@ -202,7 +202,8 @@ mod tests {
         ] {
             let feature = moving(shape);
             for y in [-0.31, -0.2, -0.07, 0.0, 0.11, 0.2] {
-                let (early, late) = (feature.height(-2.5 + y, 0.1, 0.0), feature.height(-2.5 + y + 0.75 * 1.6, 0.1, 1.6));
+                let (early, late) =
+                    (feature.height(-2.5 + y, 0.1, 0.0), feature.height(-2.5 + y + 0.75 * 1.6, 0.1, 1.6));
                 assert!((early - late).abs() < 1e-14, "{:?} at {y}", feature.shape);
             }
         }
