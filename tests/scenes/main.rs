@@ -10,4 +10,5 @@ mod plans;
 mod points;
 mod repository;
 mod sampling;
+mod surfaces;
 mod transient;

@@ -23,6 +23,7 @@ mod random_solves;
 mod reach;
 mod rebuilt;
 mod regimes;
+mod response_reference;
 mod rough;
 mod shear_models;
 mod shear_thinning;

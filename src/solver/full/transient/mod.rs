@@ -5,6 +5,7 @@
 //! the full system. All scalars of a [`Trajectory`] are in the scales of the reference contact in every frame, so
 //! that trajectories can be compared. Its fields are in the frame's own scales.
 
+mod check;
 mod difference;
 mod frame;
 mod grid_cost;

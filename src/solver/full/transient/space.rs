@@ -8,7 +8,7 @@ use super::pace::ROUNDING;
 use super::signal::Input;
 use crate::solver::discrete::grid::FIRST_UNKNOWN;
 use crate::solver::discrete::reynolds::line::Upstream;
-use crate::solver::discrete::space::{Grid, LineSpace, PlaneSpace};
+use crate::solver::discrete::space::{LineSpace, PlaneSpace};
 use crate::solver::full::newton_space::NewtonSpace;
 use crate::solver::full::{Backtracking, SolveOptions};
 use crate::solver::physics::lubricant::Cavitation;
