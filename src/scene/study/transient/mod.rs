@@ -97,10 +97,10 @@ impl Question for TransientStudy {
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let mut study = self.clone();
-        if let Some(path) = &study.sampled {
-            sampled::read_into(&mut study.inputs, &setting.bench.resolve(path))?;
-        }
         let request = setting.experiment.request()?;
+        if let Some(path) = &study.sampled {
+            sampled::read_into(&mut study.inputs, &setting.bench.resolve(path), &request.point.into())?;
+        }
         let ContactGrid::Line(grid) = setting.bench.grid(&request, setting.observer)? else {
             return Err(RunError::Study("a transient contact needs the grid of a line contact".to_owned()));
         };
@@ -222,7 +222,7 @@ impl TransientStudy {
         let request = experiment.request()?;
         let mut study = self.clone();
         if let Some(path) = &study.sampled {
-            sampled::read_into(&mut study.inputs, &bench.resolve(path))?;
+            sampled::read_into(&mut study.inputs, &bench.resolve(path), &request.point.into())?;
         }
         let ContactGrid::Line(grid) = bench.grid(&request, observer)? else { return Ok(()) };
         let mut setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };
