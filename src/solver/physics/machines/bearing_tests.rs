@@ -16,7 +16,7 @@ const HARRIS_209: Bearing = Bearing {
     element_diameter_m: 0.0127,
     elements: 9,
     clearance_m: 0.0,
-    inner_rpm: 3819.718_634,
+    inner_rpm: 3_819.718_634,
     outer_rpm: 0.0,
     radial_n: 8900.0,
     axial_n: 0.0,

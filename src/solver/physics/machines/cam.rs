@@ -115,7 +115,7 @@ impl CamFollower {
         };
         // For a roller R/r_r = 1 − r_r κ becomes zero where the cam is as sharp as it can be.
         let (angle, smallest) = worst(&|angle| self.radius(curve.at(angle)));
-        if !(smallest > SHARPEST_M) {
+        if smallest.is_nan() || smallest <= SHARPEST_M {
             let (angle, radius) = (angle.to_degrees(), 1e3 * self.cam_radius(curve.at(angle)));
             let remedy = match self.follower {
                 Follower::Flat => {
@@ -128,7 +128,7 @@ impl CamFollower {
             return Err(MachineError::Profile { angle, radius, remedy });
         }
         let (angle, least) = worst(&|angle| self.forces(curve.at(angle)).into_iter().sum());
-        if !(least > 0.0) {
+        if least.is_nan() || least <= 0.0 {
             let [spring, inertia] = self.forces(curve.at(angle));
             return Err(MachineError::Separation { angle: angle.to_degrees(), spring, inertia: -inertia });
         }

@@ -205,7 +205,7 @@ pub fn lift_table(text: &str) -> Result<Vec<(f64, f64)>, MachineError> {
     let mut points = Vec::new();
     for (k, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
         // With tabs, semicolons or spaces the decimal sign may be a comma.
-        let by_comma = !line.contains([';', '\t']) && line.trim().split_whitespace().count() == 1;
+        let by_comma = !line.contains([';', '\t']) && line.split_whitespace().count() == 1;
         let cells: Vec<String> = match line {
             _ if line.contains(';') => line.split(';').map(str::to_owned).collect(),
             _ if by_comma => line.split(',').map(str::to_owned).collect(),

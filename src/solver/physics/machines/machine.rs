@@ -1,10 +1,11 @@
 //! Any of the machine elements.
 
-use super::bearing::Bearing;
+use super::bearing::{Bearing, Element};
 use super::cam::CamFollower;
 use super::contact::MachineContact;
 use super::error::MachineError;
 use super::gear::GearPair;
+use crate::solver::physics::contact::ContactKind;
 use serde::{Deserialize, Serialize};
 
 /// Machine element whose contact is computed.
@@ -65,6 +66,16 @@ impl Machine {
             Self::Bearing(bearing) => Self::Bearing(Bearing { orbit_deg: position.to_degrees(), ..bearing }),
             Self::Gear(pair) => Self::Gear(GearPair { position_m: position, ..pair }),
             Self::Cam(cam) => Self::Cam(CamFollower { angle_deg: position.to_degrees(), ..cam }),
+        }
+    }
+
+    /// Returns the kind of its contact.
+    pub fn kind(&self) -> ContactKind {
+        match self {
+            Self::Bearing(Bearing { element: Element::Roller { crown_radius_m: None, .. }, .. })
+            | Self::Gear(_)
+            | Self::Cam(_) => ContactKind::Line,
+            Self::Bearing(_) => ContactKind::Point,
         }
     }
 
