@@ -5,6 +5,7 @@ use super::display::Thresholds;
 use super::document::Edit;
 use super::in_use::InUse;
 use super::layouts::Layout;
+use super::machines::MachineKind;
 use super::panels::sliders::ChosenSliders;
 use super::purpose::{Purpose, Written};
 use super::tab::Tab;
@@ -28,6 +29,10 @@ pub enum Command {
     Examples,
     /// Solves a table of load cases.
     LoadCases,
+    /// Opens the form of a machine.
+    Machine(MachineKind),
+    /// Puts a text into the window of load cases and opens it.
+    OpenLoadCases(String),
     /// Copies a link to the present view to the clipboard.
     CopyLink,
     /// Opens a link that the user enters.
@@ -244,6 +249,23 @@ pub static MENUS: &[Item] = {
             "clipboard table values results film thickness",
             Some((CTRL_SHIFT, Key::C)),
         ),
+        item(
+            "Edit",
+            2,
+            C::Machine(MachineKind::Bearing),
+            "From a bearing…",
+            "rolling ball roller race deep groove angular contact machine",
+            None,
+        ),
+        item(
+            "Edit",
+            2,
+            C::Machine(MachineKind::Gear),
+            "From a gear pair…",
+            "teeth spur helical involute machine",
+            None,
+        ),
+        item("Edit", 2, C::Machine(MachineKind::Cam), "From a cam…", "follower lift valve tappet machine", None),
         item(
             "Edit",
             3,

@@ -36,6 +36,8 @@ impl Explorer {
             Command::Open => desk.request(ctx, Pending::OpenDialog),
             Command::Examples => self.examples.open(),
             Command::LoadCases => desk.load_cases.open(),
+            Command::OpenLoadCases(text) => desk.load_cases.paste(text),
+            Command::Machine(kind) => desk.machines.open(kind, &desk.document),
             Command::CopyLink => match Fragment::link(&desk.document, &self.tree) {
                 Ok(link) => {
                     ctx.copy_text(link);
@@ -156,6 +158,7 @@ impl Explorer {
             Command::ThrowModelAway => desk.request(ctx, Pending::ThrowModelAway),
             Command::Cancel if self.settings.open => self.settings.open = false,
             Command::Cancel if self.examples.is_open() => self.examples.close(),
+            Command::Cancel if desk.machines.is_open() => desk.machines.close(),
             Command::Cancel if desk.load_cases.is_open() => desk.load_cases.close(),
             Command::Cancel if self.help.about => self.help.about = false,
             Command::Cancel if self.help.manual.is_open() => self.help.manual.close(),

@@ -181,6 +181,7 @@ impl Explorer {
         self.link_window.ui(&ctx, &mut commands);
         self.settings.ui(&ctx, &self.desk, &mut commands);
         self.examples.ui(&ctx, &mut commands);
+        self.desk.machines.ui(&ctx, &self.desk.document, &mut commands);
         self.desk.load_cases.ui(&ctx, &self.desk.document, &mut commands);
         commands.extend(self.palette.ui(&ctx, &self.desk));
         self.settle(&ctx);

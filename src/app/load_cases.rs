@@ -51,6 +51,12 @@ impl LoadCasesWindow {
         self.open = true;
     }
 
+    /// Opens the window with a table.
+    pub fn paste(&mut self, text: String) {
+        self.text = text;
+        self.open = true;
+    }
+
     /// Closes the window and keeps the table.
     pub fn close(&mut self) {
         self.open = false;

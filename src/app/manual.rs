@@ -28,6 +28,7 @@ const PAGES: &[Page] = pages![
     "first_contact.md",
     "tour.md",
     "engineering.md",
+    "machines.md",
     "friction.md",
     "heat.md",
     "starvation.md",

@@ -24,6 +24,7 @@ mod layouts;
 mod lessons;
 mod links;
 mod load_cases;
+mod machines;
 mod manual;
 mod model_source;
 mod notice;

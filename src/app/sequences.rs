@@ -147,7 +147,7 @@ fn change(rng: &mut Rng, window: &mut Window) -> String {
         }
         11 => {
             let pressure_loss = rng.bool().then_some(1e-6);
-            Edit::View(Box::new(View { pressure_loss, ..document.view }))
+            Edit::View(Box::new(View { pressure_loss, ..document.view.clone() }))
         }
         _ => match rng.u8(..4) {
             0 | 1 => {

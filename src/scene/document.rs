@@ -190,7 +190,8 @@ impl Scene {
     }
 }
 
-fn options() -> Options {
+/// Returns how RON is read and written here.
+pub(super) fn options() -> Options {
     Options::default().with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 

@@ -19,6 +19,7 @@ mod contact_result;
 mod contact_row;
 mod contact_spec;
 mod contact_sweep;
+mod csv;
 pub mod document;
 pub mod drawing;
 mod dynamics;

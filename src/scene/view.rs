@@ -4,12 +4,13 @@ use super::written::is_default;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::Bodies;
 use crate::solver::physics::engineering::Oil;
+use crate::solver::physics::machines::Machine;
 use crate::solver::physics::surfaces::HeightMeasure;
 use serde::{Deserialize, Serialize};
 
 /// Explorer settings of a scene: which quantities follow when a slider moves, and how the reduced model is truncated.
 /// They have no effect on `run`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Default)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields, default)]
 pub struct View {
     /// Quantity that follows when M moves.
@@ -36,6 +37,9 @@ pub struct View {
     /// Measure in which roughness is displayed and typed.
     #[serde(skip_serializing_if = "is_default")]
     pub height_measure: HeightMeasure,
+    /// Bearing, gear pair or cam from which bodies and load were entered.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub machine: Option<Machine>,
     /// R_y \[m\] of the last elliptical contact, stored while a line or circular contact is selected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_y_m: Option<f64>,
@@ -185,6 +189,7 @@ impl LubricantFollower {
 mod tests {
     use super::super::Scene;
     use super::*;
+    use crate::solver::physics::machines::CamFollower;
 
     fn scene(view: View) -> Scene {
         Scene { view: Some(view), ..Scene::at_moes(40.0, 10.0) }
@@ -201,6 +206,7 @@ mod tests {
             bodies: Some(Bodies::on_plane(0.01, 1.0, 0.1)),
             surfaces: Some([1e-7, 2e-7]),
             height_measure: HeightMeasure::Ra,
+            machine: Some(Machine::Cam(CamFollower::default())),
             radius_y_m: Some(0.02),
             pressure_loss: Some(1.25e-7),
             deformation_loss: Some(3e-9),
@@ -229,8 +235,8 @@ mod tests {
         }
         let message = |view: View| scene(view).check().unwrap_err().to_string();
         let base = View::default();
-        assert!(message(View { pressure_loss: Some(f64::NAN), ..base }).contains("view.pressure_loss"));
-        assert!(message(View { deformation_loss: Some(2.0), ..base }).contains("view.deformation_loss"));
+        assert!(message(View { pressure_loss: Some(f64::NAN), ..base.clone() }).contains("view.pressure_loss"));
+        assert!(message(View { deformation_loss: Some(2.0), ..base.clone() }).contains("view.deformation_loss"));
         assert!(message(View { when_m_moves: LoadFollower::Speed, ..base }).contains("view.when_l_moves"));
     }
 }

@@ -14,6 +14,7 @@ mod installed;
 mod interfaces;
 mod language;
 mod load_cases;
+mod machines;
 mod readme;
 mod refused;
 mod run_and_train;

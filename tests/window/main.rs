@@ -21,6 +21,7 @@ mod figures;
 mod heat;
 mod interfaces;
 mod lessons;
+mod machines;
 mod presets;
 mod results_tab;
 mod rupture;

@@ -12,6 +12,7 @@ use crate::app::display::Display;
 use crate::app::document::{Document, Edit, History};
 use crate::app::figure::Figures;
 use crate::app::load_cases::LoadCasesWindow;
+use crate::app::machines::MachineWindow;
 use crate::app::model_source::Models;
 use crate::app::notice::Notice;
 use crate::app::panels::headline::Headline;
@@ -50,6 +51,8 @@ pub struct Desk {
     pub figures: Figures,
     /// Tables of load cases.
     pub load_cases: LoadCasesWindow,
+    /// Forms of bearings, gears and cams.
+    pub machines: MachineWindow,
     /// Question of the example scene that was opened.
     pub headline: Option<Headline>,
     /// Titles of the lessons that were finished.
@@ -83,6 +86,7 @@ impl Desk {
             tabs: Tabs::default(),
             figures: Figures::default(),
             load_cases: LoadCasesWindow::default(),
+            machines: MachineWindow::default(),
             headline: None,
             finished: Vec::new(),
             reports: Reports::default(),

@@ -11,6 +11,7 @@ use crate::solver::physics::bodies::{Bodies, Material};
 use crate::solver::physics::contact::{Moes, OperatingPoint};
 use crate::solver::physics::engineering::Oil;
 use crate::solver::physics::lubricant::Lubricant;
+use crate::solver::physics::machines::Machine;
 use crate::solver::training::TrainingSpec;
 
 /// Change of the document.
@@ -33,6 +34,8 @@ pub enum Edit {
     Surfaces([f64; 2]),
     /// Sets whether asperities carry load.
     Mixed(bool),
+    /// Sets bodies, speeds and load of a bearing, a gear pair or a cam.
+    Machine(Box<Machine>),
     /// Sets whether temperatures are computed.
     Heat(bool),
     /// Sets the material of a body, 0 or 1.
@@ -76,10 +79,11 @@ impl Document {
             Edit::Bodies(bodies) => return self.set_bodies(bodies),
             Edit::Surfaces(rms_m) => return self.set_surfaces(rms_m),
             Edit::Mixed(on) => return self.switch_mixed(on),
+            Edit::Machine(machine) => return self.set_machine(*machine),
             Edit::Heat(on) => return self.switch_heat(on),
             Edit::Material(body, material) => return self.set_material(body, material),
             Edit::Shape(shape) => return self.set_shape(shape),
-            Edit::Laws(laws) => return self.set_lubricant(*laws),
+            Edit::Laws(laws) => return self.set_laws(*laws),
             Edit::Named(named) => return self.pick_lubricant(named),
             Edit::Contact(point, lubricant) => return self.set_contact(point, *lubricant),
             Edit::Training(spec) => return self.set_training(*spec),

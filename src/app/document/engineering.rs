@@ -4,16 +4,18 @@ use super::experiment::Document;
 use crate::app::refusal::Refusal;
 use crate::scene::named_lubricant::of_laws;
 use crate::solver::parameters::Quantity;
-use crate::solver::physics::bodies::{Bodies, Material};
+use crate::solver::physics::bodies::{Bodies, Body, Material, surface_speeds};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::engineering::{Extent, Oil};
 use crate::solver::physics::lubricant::{Heat, Lubricant};
+use crate::solver::physics::machines::Machine;
 
 const OF_THE_OIL: [Quantity; 2] = [Quantity::Viscosity, Quantity::Alpha];
 const OF_THE_BODIES: [Quantity; 3] = [Quantity::Radius, Quantity::Modulus, Quantity::Speed];
 
 impl Document {
-    /// Sets η₀ and α from an oil and holds them.
+    /// Sets η₀ and α from an oil and holds them. For a thermal contact it sets the inlet temperature and the thermal
+    /// constants of the oil.
     ///
     /// # Errors
     /// A sentence if there is no such oil, or if the lubricant's own law fixes α. The document is then
@@ -24,7 +26,11 @@ impl Document {
             return Err(Refusal::new(why));
         }
         let point = self.of_oil(&oil)?;
-        self.accept(point)?;
+        let state = oil.state()?;
+        // The temperature of the oil is that of the inlet.
+        let heat =
+            self.lubricant.heat.map(|heat| Heat { oil: state.heat, inlet_temperature: oil.temperature_k, ..heat });
+        self.set_contact(point, Lubricant { heat, ..self.lubricant })?;
         self.view.oil = Some(oil);
         OF_THE_OIL.into_iter().for_each(|quantity| self.view.held.set(quantity, true));
         Ok(())
@@ -52,27 +58,82 @@ impl Document {
         Extent { length_m: self.length_m.filter(|_| self.point.kind == ContactKind::Line), radii_m }
     }
 
+    /// Sets kind of contact, bodies, speeds and load of a machine at its position, and holds them. Materials and
+    /// roughness of the bodies stay.
+    ///
+    /// # Errors
+    /// A sentence if the machine has no contact there. The document is then unchanged.
+    pub fn set_machine(&mut self, machine: Machine) -> Result<(), Refusal> {
+        let base = self.bodies();
+        let contact = machine.contact(base.reduced_modulus_pa()?)?;
+        let bodies = contact.bodies(base);
+        let point = contact.operating_point(base, self.point)?;
+        let heat = self.lubricant.heat.map(|heat| Heat { bodies: bodies.heat(), ..heat });
+        self.set_contact(point, Lubricant { heat, ..self.lubricant })?;
+        self.view.bodies = Some(bodies);
+        self.view.machine = Some(machine);
+        let held = OF_THE_BODIES.into_iter().chain([Quantity::Load]);
+        held.for_each(|quantity| self.view.held.set(quantity, true));
+        self.view.held.set(Quantity::RadiusY, self.point.radius_y_m.is_some());
+        Ok(())
+    }
+
+    /// Returns true if the present contact still has the values of the entered machine.
+    pub fn machine_counts(&self) -> bool {
+        let contact = || {
+            let (machine, base) = (self.view.machine.as_ref()?, self.bodies());
+            let contact = machine.contact(base.reduced_modulus_pa().ok()?).ok()?;
+            contact.operating_point(base, self.point).ok()
+        };
+        contact() == Some(self.point)
+    }
+
     /// Returns true if the present contact still has the values of its oil.
     pub fn oil_counts(&self) -> bool {
         self.view.oil.is_some_and(|oil| self.of_oil(&oil) == Ok(self.point))
     }
 
-    /// Returns the bodies that were entered. Without an entry, returns a roller or ball on a plane that is
-    /// equivalent to the present contact.
+    /// Returns the bodies of the present contact: those that were entered, with the values that were changed since
+    /// then. Without an entry, returns a roller or ball on a plane. An edit of one value therefore keeps all others.
     pub fn bodies(&self) -> Bodies {
-        self.view.bodies.unwrap_or_else(|| {
-            let point = &self.point;
-            let srr = point.sliding.slide_to_roll_ratio;
-            let Bodies([first, second]) = Bodies::on_plane(point.radius_m, point.speed_m_per_s, srr);
-            // An elliptical contact with a plane needs a body with both radii.
-            let first = point.radius_y_m.map_or(first, |radius_y| first.with_transverse_radius_m(Some(radius_y)));
+        let point = &self.point;
+        let srr = point.sliding.slide_to_roll_ratio;
+        let entered = self.view.bodies.unwrap_or_else(|| {
             let [own, other] = self.lubricant.heat.unwrap_or_default().bodies;
+            let Bodies([first, second]) = Bodies::on_plane(point.radius_m, point.speed_m_per_s, srr);
             let mut bodies = [first.conducting(own), second.conducting(other)];
             if let Some(surfaces) = self.view.surfaces {
                 bodies.iter_mut().zip(surfaces).for_each(|(body, rms)| body.roughness_m = rms);
             }
             Bodies(bodies)
-        })
+        });
+        let same = |one: f64, other: f64| (one - other).abs() <= 1e-12 * other.abs();
+        let mut bodies = entered;
+        let along = entered.reduced_radius_m().is_ok_and(|radius| same(radius, point.radius_m));
+        let radius_y = point.radius_y_m.unwrap_or(point.radius_m);
+        let line = point.kind == ContactKind::Line;
+        let across = line || entered.reduced_transverse_radius_m().is_ok_and(|radius| same(radius, radius_y));
+        if !(along && across) {
+            let Bodies([first, second]) = Bodies::on_plane(point.radius_m, point.speed_m_per_s, srr);
+            // An elliptical contact with a plane needs a body with both radii.
+            let first = point.radius_y_m.map_or(first, |radius_y| first.with_transverse_radius_m(Some(radius_y)));
+            for (body, Body { radius_m, transverse, .. }) in bodies.0.iter_mut().zip([first, second]) {
+                *body = Body { radius_m, transverse, ..*body };
+            }
+        }
+        let moving = |(mean, sliding): (f64, f64)| same(mean, point.speed_m_per_s) && (sliding - srr).abs() <= 1e-12;
+        if !entered.entrainment().is_ok_and(moving) {
+            let speeds = surface_speeds(point.speed_m_per_s, srr);
+            bodies.0.iter_mut().zip(speeds).for_each(|(body, speed)| body.speed_m_per_s = speed);
+        }
+        if let Ok(modulus) = entered.reduced_modulus_pa()
+            && !same(modulus, point.modulus_pa)
+        {
+            bodies.0.iter_mut().for_each(|body| body.modulus_pa *= point.modulus_pa / modulus);
+        }
+        let heat = self.lubricant.heat.into_iter().flat_map(|heat| heat.bodies);
+        bodies.0.iter_mut().zip(heat).for_each(|(body, heat)| body.heat = heat);
+        bodies
     }
 
     /// Returns the bodies that were entered, if the present contact still has their values.
@@ -91,11 +152,32 @@ impl Document {
     /// # Errors
     /// A sentence if the contact cannot be computed with heat. The document is then unchanged.
     pub fn switch_heat(&mut self, on: bool) -> Result<(), Refusal> {
-        let oil = of_laws(&self.lubricant, &self.point).map(|named| named.heat).unwrap_or_default();
+        let named = of_laws(&self.lubricant, &self.point).map(|named| named.heat);
+        let chosen = self.view.oil.filter(|_| self.oil_counts());
+        let oil = chosen.and_then(|oil| oil.state().ok()).map(|state| state.heat).or(named).unwrap_or_default();
+        let inlet_temperature = chosen.map_or(Heat::default().inlet_temperature, |oil| oil.temperature_k);
         let entered = self.view.bodies.filter(|bodies| bodies.reduced_modulus_pa() == Ok(self.point.modulus_pa));
         let bodies = entered.map_or(Heat::default().bodies, |bodies| bodies.heat());
-        let heat = on.then(|| Heat { oil, bodies, ..Heat::default() });
+        let heat = on.then_some(Heat { oil, bodies, inlet_temperature });
         self.set_lubricant(Lubricant { heat, ..self.lubricant })
+    }
+
+    /// Sets the laws of the lubricant. If an oil is in force, a changed inlet temperature is that of the oil, which then
+    /// sets η₀, α and its thermal constants.
+    ///
+    /// # Errors
+    /// A sentence if a law is not defined for the contact. The document is then unchanged.
+    pub fn set_laws(&mut self, laws: Lubricant) -> Result<(), Refusal> {
+        let inlet = |laws: &Lubricant| laws.heat.map(|heat| heat.inlet_temperature);
+        let wanted = inlet(&laws).filter(|wanted| inlet(&self.lubricant).is_some_and(|before| before != *wanted));
+        let oil = self.view.oil.filter(|_| self.oil_counts());
+        let mut with = self.clone();
+        with.set_lubricant(laws)?;
+        if let (Some(oil), Some(temperature_k)) = (oil, wanted) {
+            with.set_oil(Oil { temperature_k, ..oil })?;
+        }
+        *self = with;
+        Ok(())
     }
 
     /// Sets the material of a body, 0 or 1. If the contact still has the values of the entered bodies, the body
@@ -124,14 +206,86 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::document::Shape;
+    use crate::app::document::{Edit, Shape};
     use crate::solver::full::Problem;
-    use crate::solver::physics::bodies::Body;
     use crate::solver::physics::contact::Moes;
     use crate::solver::physics::engineering::{Grade, OilFamily};
+    use crate::solver::physics::machines::{Bearing, CamFollower, GearPair};
 
-    const VG_68: Oil =
-        Oil { grade: Grade::IsoVg(68.0), family: OilFamily::Mineral, temperature_k: 333.15, density_15: 880.0 };
+    const VG_68: Oil = Oil {
+        grade: Grade::IsoVg(68.0),
+        family: OilFamily::Mineral,
+        temperature_k: 333.15,
+        density_15: 880.0,
+        alpha_per_pa: None,
+    };
+
+    #[test]
+    fn a_machine_defines_bodies_and_load_and_is_remembered() {
+        let mut document = Document::default();
+        document.set_oil(VG_68).unwrap();
+        let rough = |bodies: Bodies| bodies.0.map(|body| (body.roughness_m, body.modulus_pa));
+        let before = (document.point.viscosity_pa_s, rough(document.bodies()));
+        for machine in [
+            Machine::Bearing(Bearing::default()),
+            Machine::Gear(GearPair::default()),
+            Machine::Cam(CamFollower::default()),
+        ] {
+            document.set_machine(machine.clone()).unwrap();
+            let contact = machine.contact(document.bodies().reduced_modulus_pa().unwrap()).unwrap();
+            assert_eq!((document.point.load, document.point.kind), (contact.load, contact.kind));
+            assert!((document.point.radius_m / contact.radius_m() - 1.0).abs() < 1e-12);
+            assert!((document.point.speed_m_per_s / contact.mean_speed().abs() - 1.0).abs() < 1e-12);
+            assert!(document.machine_counts() && document.bodies_in_force() == Some(document.bodies()));
+            assert_eq!((document.point.viscosity_pa_s, rough(document.bodies())), before, "oil and materials stay");
+            let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
+            assert_eq!((again.view.machine.as_ref(), again.point), (Some(&machine), document.point));
+        }
+        let wrong = Machine::Bearing(Bearing { radial_n: 0.0, ..Bearing::default() });
+        let before = document.clone();
+        assert!(document.set_machine(wrong).unwrap_err().contains("carries no load"));
+        assert_eq!(document, before);
+        document.type_quantity(Quantity::Load, 1e5).unwrap();
+        assert!(!document.machine_counts());
+    }
+
+    #[test]
+    fn one_oil_serves_film_friction_and_heat() {
+        let mut document = Document::default();
+        document.set_oil(VG_68).unwrap();
+        document.switch_heat(true).unwrap();
+        let heat = |document: &Document| document.lubricant.heat.unwrap();
+        assert_eq!((heat(&document).oil, heat(&document).inlet_temperature), (VG_68.state().unwrap().heat, 333.15));
+        // The inlet temperature is that of the oil, whichever is typed.
+        let warm = Heat { inlet_temperature: 353.15, ..heat(&document) };
+        document.edit(Edit::Laws(Box::new(Lubricant { heat: Some(warm), ..document.lubricant }))).unwrap();
+        let state = Oil { temperature_k: 353.15, ..VG_68 }.state().unwrap();
+        assert_eq!(document.view.oil.unwrap().temperature_k, 353.15);
+        assert_eq!((document.point.viscosity_pa_s, heat(&document).oil), (state.viscosity_pa_s, state.heat));
+        document.set_oil(VG_68).unwrap();
+        assert_eq!(heat(&document).inlet_temperature, 333.15);
+    }
+
+    #[test]
+    fn a_roughness_or_a_material_leaves_all_other_entries() {
+        // Typed values in turn; each keeps what was typed before.
+        let mut document = Document::default();
+        document.type_quantity(Quantity::Modulus, 220e9).unwrap();
+        document.type_quantity(Quantity::SlideToRollRatio, 0.1).unwrap();
+        let point = document.point;
+        let mut bodies = document.bodies();
+        bodies.0[0].roughness_m = 2e-7;
+        document.set_bodies(bodies).unwrap();
+        for (now, before) in document.point.quantities().into_iter().zip(point.quantities()) {
+            assert!((now / before - 1.0).abs() < 1e-12, "a roughness changes no other value: {now} {before}");
+        }
+        document.type_quantity(Quantity::SlideToRollRatio, 0.2).unwrap();
+        let mut bodies = document.bodies();
+        bodies.0[1].roughness_m = 3e-7;
+        document.set_bodies(bodies).unwrap();
+        assert!((document.point.sliding.slide_to_roll_ratio - 0.2).abs() < 1e-12, "the sliding stays");
+        assert_eq!(document.bodies().0.map(|body| body.roughness_m), [2e-7, 3e-7]);
+    }
 
     #[test]
     fn oil_and_bodies_define_the_contact_and_stay() {
@@ -150,7 +304,7 @@ mod tests {
         assert!(document.set_moes(Moes { l: 1.1 * moes.l, ..moes }).unwrap_err().contains("held"));
         // Saving and opening again loses nothing.
         let again = Document::from_ron(&document.to_ron().unwrap()).unwrap();
-        assert_eq!((again.view, again.point), (document.view, document.point));
+        assert_eq!((&again.view, again.point), (&document.view, document.point));
         // A value typed over the oil's values no longer belongs to the oil.
         document.type_quantity(Quantity::Alpha, 2e-8).unwrap();
         assert!(!document.oil_counts() && document.view.oil == Some(VG_68));
@@ -188,7 +342,7 @@ mod tests {
         let mut document = Document::default();
         document.set_shape(Shape::Ball).unwrap();
         let Bodies([ball, race]) = Bodies::on_plane(4.7625e-3, 3.0, 0.0);
-        let race = Body { radius_m: Some(18.2e-3), ..race };
+        let race = Body { radius_m: Some(18.2375e-3), ..race };
         let pair = |groove_m: f64| Bodies([ball, race.with_transverse_radius_m(Some(groove_m))]);
         document.set_bodies(pair(-4.953e-3)).unwrap();
         assert!((document.point.radius_ratio() - 32.8).abs() < 0.1, "{}", document.point.radius_ratio());

@@ -300,7 +300,7 @@ impl Document {
             lubricant: scene.laws(),
             grid: scene.grid,
             length_m: scene.length,
-            view: scene.view.unwrap_or_default(),
+            view: scene.view.clone().unwrap_or_default(),
             training: match &scene.study {
                 Study::Training(spec) => Some(spec.clone()),
                 _ => None,
@@ -370,8 +370,8 @@ impl Document {
         if scene.point() != Ok(OperatingPoint { sliding: Sliding::NONE, ..self.point }) {
             scene.at = At::from(self.point);
         }
-        if scene.view.unwrap_or_default() != self.view {
-            scene.view = Some(self.view);
+        if scene.view.clone().unwrap_or_default() != self.view {
+            scene.view = Some(self.view.clone());
         }
         if scene.check().is_err() {
             // Whatever the reason, a saved scene must be readable.

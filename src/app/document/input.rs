@@ -2,7 +2,8 @@
 
 use crate::app::document::Document;
 use crate::app::refusal::Refusal;
-use crate::scene::{TransientStudy, sampled};
+use crate::scene::TransientStudy;
+use crate::scene::sampled::{self, Reference};
 use crate::solver::full::transient::{Inputs, Signal};
 use std::path::Path;
 
@@ -53,14 +54,17 @@ impl Input {
 }
 
 impl Document {
-    /// Reads the inputs for which a table has columns. The document stores their values.
+    /// Reads the inputs for which a table has columns. The document stores their values, and the run ends with them.
     ///
     /// # Errors
     /// A sentence with the invalid line, or the reason why an input is refused. The document is then
     /// unchanged.
     pub fn read_inputs(&mut self, path: &Path) -> Result<(), Refusal> {
         let mut study = TransientStudy { sampled: None, ..self.transient_study() };
-        sampled::read_into(&mut study.inputs, path)?;
+        let contact = self.view.machine.as_ref().filter(|_| self.machine_counts());
+        let contact = contact.and_then(|machine| machine.contact(self.point.modulus_pa).ok());
+        let length_m = contact.and_then(|contact| contact.length_m);
+        study.duration = sampled::read_into(&mut study.inputs, path, &Reference { point: self.point, length_m })?;
         let rows = |input: Input| match input.of(&study.inputs) {
             Signal::Sampled { times, .. } => times.len(),
             _ => 0,

@@ -30,7 +30,7 @@ fn saving_and_opening_again_loses_nothing() {
     document.set_quantity(Quantity::Radius, 0.0123).unwrap();
     let text = document.to_ron().unwrap();
     let again = Document::from_ron(&text).unwrap();
-    assert_eq!((&again.title, again.point, again.view), (&document.title, document.point, document.view));
+    assert_eq!((&again.title, again.point, &again.view), (&document.title, document.point, &document.view));
     assert_eq!(again.to_ron().unwrap(), text);
     assert!(Document::from_ron(&text.replace("title", "titel")).unwrap_err().contains("titel"));
     assert!(Document::from_ron(&text.replace("pressure_loss: ", "pressure_loss: -")).is_err(), "{text}");
@@ -44,10 +44,10 @@ fn a_scene_keeps_what_the_explorer_does_not_edit() {
     assert_eq!(document.to_scene(), before);
     document.set_moes(Moes { m: 55.0, l: 8.0 }).unwrap();
     let after = document.to_scene();
-    assert_eq!((&after.study, &after.expect, after.view), (&before.study, &before.expect, None));
+    assert_eq!((&after.study, &after.expect, &after.view), (&before.study, &before.expect, &None));
     assert_eq!(Document::of_scene(after).unwrap().point, document.point);
     document.view.projected_deformation = true;
-    assert_eq!(document.to_scene().view, Some(document.view));
+    assert_eq!(document.to_scene().view, Some(document.view.clone()));
     document.view.projected_deformation = false;
     assert_eq!(document.to_scene().view, None);
 }

@@ -206,7 +206,10 @@ mod tests {
                         let cavitation = Cavitation::MassConserving { supply_film_m: None };
                         Edit::Laws(Box::new(Lubricant { cavitation, ..lubricant }))
                     }
-                    _ => Edit::View(Box::new(View { pressure_loss: Some(log(rng, 1e-8, 1e-3)), ..document.view })),
+                    _ => Edit::View(Box::new(View {
+                        pressure_loss: Some(log(rng, 1e-8, 1e-3)),
+                        ..document.view.clone()
+                    })),
                 },
             };
             // A refused edit leaves the document unchanged.

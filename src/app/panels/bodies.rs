@@ -1,12 +1,14 @@
 //! Panel of the two bodies: materials, radii and surface speeds. They determine R, R_y, E′, u_m, SRR and, for a
 //! thermal contact, the thermal constants.
 
+use crate::app::command::Command;
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, named, ringed, row_name, typed_field, warning_ui};
 use crate::app::document::{Document, Edit};
+use crate::app::machines::MachineKind;
 use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
-use crate::solver::physics::bodies::{Bodies, Body, MATERIALS};
+use crate::solver::physics::bodies::{Bodies, Body, MATERIALS, Material};
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{self, Dimension};
 use egui::{CollapsingHeader, ComboBox, Ui};
@@ -73,18 +75,35 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
         if let Some(field) = field.filter(|_| wanted != before) {
             commands.edit(Edit::Bodies(wanted), field);
         }
+        machines_ui(ui, document, commands);
         if document.view.bodies.is_some() && document.bodies_in_force().is_none() {
             warning_ui(
                 ui,
                 "R, R_y, E’, u_m, SRR or thermal constants have been changed and no longer match these bodies",
             );
-            if ui.button("Use the bodies’ values").clicked() {
-                commands.edit(Edit::Bodies(before), GROUP);
+            if ui.button("Use the bodies’ values").clicked()
+                && let Some(entered) = document.view.bodies
+            {
+                commands.edit(Edit::Bodies(entered), GROUP);
             }
         }
         entries.reserved_ui(ui, ROWS.iter().flat_map(|row| row.names).chain([GROUP]));
     });
     ringed(ui, shown.header_response, "Two bodies");
+}
+
+/// Draws the buttons that open the forms of the machines.
+fn machines_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
+    ui.horizontal_wrapped(|ui| {
+        for kind in MachineKind::ALL {
+            if ui.button(kind.title()).on_hover_text(kind.tip()).clicked() {
+                commands.push(Command::Machine(kind));
+            }
+        }
+    });
+    if let Some(machine) = document.view.machine.as_ref().filter(|_| document.machine_counts()) {
+        ui.weak(format!("These are the bodies of a {}", machine.name()));
+    }
 }
 
 fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
@@ -96,7 +115,9 @@ fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
             "E and ν determine E’ (2.5). With Heat, k, c and ρ are used as well",
         );
         for (body, name) in bodies.0.iter_mut().zip(["Material of body 1", "Material of body 2"]) {
-            let present = body.material();
+            // E of a body that was not entered follows from E’ and differs slightly from that of its material.
+            let near = |material: &Material| (body.modulus_pa / material.modulus_pa - 1.0).abs() < 0.01;
+            let present = body.material().or(body.heat.material().filter(near));
             let text = present.map_or("Own", |material| material.name);
             let response = ComboBox::from_id_salt(name).width(78.0).selected_text(text).show_ui(ui, |ui| {
                 for material in MATERIALS {

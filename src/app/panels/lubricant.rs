@@ -5,8 +5,10 @@ use crate::app::context::Commands;
 use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, named, row_name, sentence, typed_field};
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
+use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
+use crate::solver::physics::engineering::{Dimension, parse};
 use crate::solver::physics::lubricant::{
     Cavitation, DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
 };
@@ -274,7 +276,8 @@ pub(super) fn constants_ui(
         let Some(value) = of(laws) else { continue };
         ui.horizontal(|ui| {
             row_name(ui, name_and_symbol(ui, row, base, subscript), tip);
-            if let Some(entered) = typed_field(ui, entries, name, *value / scale, 96.0, tip, numbers::parse) {
+            let read = |text: &str| read(text, unit, *scale);
+            if let Some(entered) = typed_field(ui, entries, name, *value / scale, 96.0, tip, read) {
                 *value = entered * scale;
                 field = name;
             }
@@ -282,6 +285,17 @@ pub(super) fn constants_ui(
         });
     }
     field
+}
+
+/// Returns a typed number in the unit of its field. A text may have another unit if the dimension has several.
+fn read(text: &str, unit: &str, scale: f64) -> Result<f64, Refusal> {
+    const DIMENSIONS: [Dimension; 5] =
+        [Dimension::Pressure, Dimension::Length, Dimension::Temperature, Dimension::PerKelvin, Dimension::Density];
+    let of_unit = |dimension: &Dimension| dimension.units().iter().any(|(known, _)| *known == unit);
+    match DIMENSIONS.into_iter().find(of_unit) {
+        Some(dimension) => Ok(parse(text, dimension, unit)? / scale),
+        None => numbers::parse(text),
+    }
 }
 
 /// Draws the limiting shear stress with its switch.

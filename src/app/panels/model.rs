@@ -48,10 +48,10 @@ fn model_ui(ui: &mut Ui, Context { document, answers, .. }: &Context<'_>, comman
         ui.label(of(rows, window.map(|window| window.grid.unknowns())));
         ui.end_row();
         let tip = "How the reduced model computes the deformation";
-        let mut view = document.view;
+        let mut view = document.view.clone();
         choice(ui, "Deformation", tip, &mut view.projected_deformation, &[false, true], deformation_operator);
         if view != document.view {
-            commands.edit(Edit::View(view.into()), "Deformation");
+            commands.edit(Edit::View(view.clone().into()), "Deformation");
         }
         if view.projected_deformation {
             ui.label("Deformation modes");

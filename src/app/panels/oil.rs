@@ -1,7 +1,7 @@
 //! Panel of the oil: its grade and temperature determine η₀ and α.
 
 use crate::app::context::Commands;
-use crate::app::controls::{Entries, NAME_WIDTH, choice, row_name, sentence, typed_field, warning_ui};
+use crate::app::controls::{Entries, NAME_WIDTH, choice, named, row_name, sentence, typed_field, warning_ui};
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
@@ -10,8 +10,16 @@ use egui::{Grid, Ui};
 
 /// Name under which refusals of the oil are stored.
 const GROUP: &str = "oil";
-const FIELDS: [&str; 7] =
-    [GROUP, "Oil temperature", "Oil density", "Viscosity 1", "At temperature 1", "Viscosity 2", "At temperature 2"];
+const FIELDS: [&str; 8] = [
+    GROUP,
+    "Oil temperature",
+    "Oil density",
+    "Viscosity 1",
+    "At temperature 1",
+    "Viscosity 2",
+    "At temperature 2",
+    "Measured coefficient",
+];
 
 /// Choice of the oil.
 #[derive(Clone, Copy, PartialEq)]
@@ -115,6 +123,9 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
     if let Some(oil) = &mut wanted {
         field = fields_ui(ui, oil, entries).unwrap_or(field);
     }
+    if let Some(oil) = &mut wanted {
+        field = measured_ui(ui, oil, entries).unwrap_or(field);
+    }
     if wanted != before {
         commands.edit(Edit::Oil(wanted), field);
     }
@@ -147,6 +158,7 @@ fn grade_ui(ui: &mut Ui, wanted: &mut Option<Oil>) {
         family: OilFamily::Mineral,
         temperature_k: KELVIN + 40.0,
         density_15: OilFamily::Mineral.usual_density(),
+        alpha_per_pa: None,
     };
     let oil = wanted.unwrap_or(usual);
     *wanted = match chosen {
@@ -201,6 +213,33 @@ fn fields_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'stat
             ui.label(*unit);
         });
     }
+    entered
+}
+
+/// Draws the choice between the estimate of α and a measured value. Returns the name of the field that was changed.
+fn measured_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'static str> {
+    let mut entered = None;
+    ui.horizontal(|ui| {
+        let tip = "Switch on to type the α of a data sheet at the temperature of the oil. Otherwise it is estimated";
+        let mut measured = oil.alpha_per_pa.is_some();
+        let switch = ui.add(egui::Checkbox::new(&mut measured, "Measured α"));
+        if named(ui, switch, "Measured α").on_hover_text(tip).changed() {
+            let estimate = Oil { alpha_per_pa: None, ..*oil }.state().map_or(2e-8, |state| state.alpha_per_pa);
+            oil.alpha_per_pa = measured.then_some(estimate);
+            entered = Some(FIELDS[7]);
+        }
+        if let Some(alpha) = &mut oil.alpha_per_pa {
+            let read = |text: &str| {
+                let si = engineering::parse(text, Dimension::PressureCoefficient, "1/GPa")?;
+                Ok(1e9 * si)
+            };
+            if let Some(typed) = typed_field(ui, entries, FIELDS[7], 1e9 * *alpha, 78.0, tip, read) {
+                *alpha = 1e-9 * typed;
+                entered = Some(FIELDS[7]);
+            }
+            ui.label("1/GPa");
+        }
+    });
     entered
 }
 

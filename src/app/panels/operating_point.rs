@@ -84,7 +84,7 @@ fn followers_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
         let mut keeps = keeps_before;
         choice(ui, "New shape keeps", tip, &mut keeps, &ShapeKeeps::ALL, |keeps| (keeps.name(), ""));
         if keeps != keeps_before {
-            let view = View { new_shape_keeps: keeps, ..document.view };
+            let view = View { new_shape_keeps: keeps, ..document.view.clone() };
             commands.edit(Edit::View(Box::new(view)), "New shape keeps");
         }
         if load != load_before {

@@ -103,7 +103,7 @@ fn measure_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
     let tip = "Measure of the fields below. Mean heights are converted by the factor of Gaussian heights";
     choice(ui, "Measured as", tip, &mut wanted, &HeightMeasure::ALL, |measure| (measure.name(), measure.meaning()));
     if wanted != present {
-        commands.edit(Edit::View(Box::new(View { height_measure: wanted, ..document.view })), GROUP);
+        commands.edit(Edit::View(Box::new(View { height_measure: wanted, ..document.view.clone() })), GROUP);
     }
 }
 

@@ -267,7 +267,7 @@ mod tests {
         let mut again = start(true);
         assert_eq!(notice(&again), None);
         let document = &again.desk.document;
-        assert_eq!((document.point, document.view), (former.point, former.view));
+        assert_eq!((document.point, &document.view), (former.point, &former.view));
         assert_eq!(document.lubricant, former.lubricant);
         assert!(Shown::of(&again.desk) == shown && again.place == place && again.tree == tree);
         assert!(again.desk.dirty(), "what was not saved is still unsaved");

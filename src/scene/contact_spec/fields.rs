@@ -11,6 +11,7 @@ use crate::solver::physics::bodies::BodyHeat;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::Dimension;
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Heat, LimitingStress, Lubricant, ViscosityLaw};
+use crate::solver::physics::machines::Machine;
 use crate::solver::physics::surfaces::AsperityLaw;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -116,6 +117,9 @@ contact_fields! {
     method: MethodName, Method, "method", "Solution method", { default: Some("full"), absent: &[Words::Columns] };
     rom: PathBuf, Rom, "rom", "Reduced model to use",
         { note: " (default: the embedded one)", placeholder: Some("FILE"), absent: &[Words::Columns] };
+    machine: Machine, Machine, "machine",
+        "Rolling bearing, gear pair or cam in the notation of scenes, which determines radii, speeds and load",
+        { note: ", as Gear(teeth: (16, 24), module_m: 0.0045, …)", placeholder: Some("MACHINE") };
     radius: f64, Radius, "radius", "Reduced radius R", { measure: Measure::Of(Quantity::Radius), titles: &["r", "r_x"] };
     radius_y: f64, RadiusY, "radius-y", "Reduced radius R_y across the rolling direction",
         { measure: Measure::Of(Quantity::RadiusY), note: ", for a point contact (default: <radius>)", titles: &["r_y", "ry"],

@@ -55,6 +55,12 @@ pub enum ValueError {
          the decay length in units of σ, as in exponential,6e9,0.4"
     )]
     Asperities,
+    /// Not a machine.
+    #[error(
+        "accepted are Bearing(…), Gear(…) and Cam(…) with their values, as Gear(teeth: (16, 24), module_m: 0.0045, \
+         shifts: (0.18, 0.17), face_width_m: 0.014, pinion_rpm: 1500, torque_n_m: 200); {0}"
+    )]
+    Machine(String),
     /// Not three numbers.
     #[error("accepted are three numbers with commas between them, as in 2000,0.14,870")]
     ThreeNumbers,

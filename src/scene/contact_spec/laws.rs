@@ -99,7 +99,10 @@ impl ContactSpec {
             return useless.map_or(Ok(None), |field| refuse(field, without(field)));
         }
         let constants = self.thermal.unwrap_or_default();
-        let mut oil = self.lubricant.map_or(constants.oil, |named| named.heat);
+        // An oil of a grade brings its thermal constants, and its temperature is that of the inlet.
+        let graded = self.oil_state()?.map(|state| state.heat);
+        let mut oil = graded.or(self.lubricant.map(|named| named.heat)).unwrap_or(constants.oil);
+        let inlet_temperature = graded.and(self.temperature).unwrap_or(constants.inlet_temperature);
         if let Some([heat_capacity, conductivity, density]) = self.oil_thermal {
             oil = OilHeat { heat_capacity, conductivity, density, ..oil };
         }
@@ -107,7 +110,7 @@ impl ContactSpec {
         oil.density_temperature = self.density_temperature.unwrap_or(oil.density_temperature);
         let [first, second] = constants.bodies;
         Ok(Some(Heat {
-            inlet_temperature: self.inlet_temperature.unwrap_or(constants.inlet_temperature),
+            inlet_temperature: self.inlet_temperature.unwrap_or(inlet_temperature),
             oil,
             bodies: [self.body1.unwrap_or(first), self.body2.unwrap_or(second)],
         }))

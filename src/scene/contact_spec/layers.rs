@@ -1,10 +1,12 @@
 //! Combines two contact specifications: fields that a table line leaves out are those of the scene.
 
 use super::fields::{ContactSpec, Field};
+use super::machines::DETERMINED;
 use crate::scene::at::At;
 use crate::scene::experiment::Experiment;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::lubricant::Cavitation;
+use crate::solver::physics::machines::Machine;
 
 /// Fields of [`At`].
 const NUMBERS: [Field; 9] = [
@@ -20,9 +22,9 @@ const NUMBERS: [Field; 9] = [
 ];
 
 impl ContactSpec {
-    /// Returns the contact kind: line or point.
+    /// Returns the contact kind: line or point. A machine determines it.
     pub fn kind(&self) -> ContactKind {
-        self.contact.unwrap_or_default()
+        self.machine.as_ref().map_or(self.contact.unwrap_or_default(), Machine::kind)
     }
 
     /// Fills the fields that this contact leaves out from `base`. Fields of `base` are dropped if this contact states
@@ -31,6 +33,11 @@ impl ContactSpec {
         let states = |fields: &[Field]| fields.iter().any(|field| self.states(*field));
         if states(&[Field::MoesM, Field::MoesL]) || base.moes_m.is_some() {
             NUMBERS.into_iter().for_each(|field| base.forget(field));
+        }
+        if self.machine.is_some() {
+            DETERMINED.into_iter().for_each(|field| base.forget(field));
+        } else if states(&DETERMINED) {
+            base.forget(Field::Machine);
         }
         let oil = states(&[Field::Oil, Field::Temperature]);
         let named = self.lubricant.is_some_and(|named| named.viscosity_pa_s.is_some());

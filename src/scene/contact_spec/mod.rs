@@ -12,6 +12,7 @@ mod given;
 mod grids;
 mod laws;
 mod layers;
+mod machines;
 mod reading;
 mod refusal;
 mod request;

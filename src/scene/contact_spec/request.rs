@@ -28,6 +28,9 @@ impl ContactSpec {
     /// # Errors
     /// With the first field that is out of range, missing, or inconsistent with another one.
     pub fn request(&self) -> Result<Request, Refusal> {
+        if let Some(plain) = self.of_machine()? {
+            return plain.request();
+        }
         let lubricant = self.lubricant()?;
         let grid_model = self.rom.clone().map_or(ModelSource::Embedded, ModelSource::File);
         let full = self.method != Some(MethodName::Reduced);
@@ -48,6 +51,9 @@ impl ContactSpec {
     /// # Errors
     /// With the first field that is out of range, missing, or inconsistent with another one.
     pub fn operating_point(&self, lubricant: &Lubricant) -> Result<OperatingPoint, Refusal> {
+        if let Some(plain) = self.of_machine()? {
+            return plain.operating_point(lubricant);
+        }
         for (field, quantity) in SLIDING {
             let (low, high) = quantity.range();
             if let Some(value) = self.number(field).filter(|value| !(low..=high).contains(value)) {
@@ -171,7 +177,7 @@ impl ContactSpec {
     }
 
     /// Returns E′ as stated, or computed from both bodies.
-    fn reduced_modulus(&self) -> Result<Option<f64>, Refusal> {
+    pub(super) fn reduced_modulus(&self) -> Result<Option<f64>, Refusal> {
         let Some(stated) = BODIES.into_iter().find(|field| self.states(*field)) else { return Ok(self.modulus) };
         if self.modulus.is_some() {
             return refuse(
@@ -191,7 +197,7 @@ impl ContactSpec {
     }
 
     /// Returns viscosity and α of the stated oil grade at its temperature.
-    fn oil_state(&self) -> Result<Option<OilState>, Refusal> {
+    pub(super) fn oil_state(&self) -> Result<Option<OilState>, Refusal> {
         let (OilGrade(grade), temperature_k) = match (self.oil, self.temperature) {
             (Some(grade), Some(temperature)) => (grade, temperature),
             (Some(_), None) => return refuse(Field::Temperature, "<oil> needs a temperature; give <temperature> too"),
@@ -207,7 +213,13 @@ impl ContactSpec {
             );
         }
         let family = OilFamily::Mineral;
-        let oil = Oil { grade: Grade::IsoVg(grade), family, temperature_k, density_15: family.usual_density() };
+        let oil = Oil {
+            grade: Grade::IsoVg(grade),
+            family,
+            temperature_k,
+            density_15: family.usual_density(),
+            alpha_per_pa: None,
+        };
         oil.state().map(Some).map_err(|error| Refusal::new(Field::Oil, format!("<oil>: {error}")))
     }
 

@@ -2,6 +2,7 @@
 
 use super::error::CasesError;
 use crate::scene::contact_spec::{Field, Words};
+use crate::scene::csv::split_title;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::{Dimension, UnitError, parse};
 
@@ -48,14 +49,6 @@ pub(super) fn titles(line: usize, cells: &[&str]) -> Result<Vec<(Column, String)
         columns.push((column, unit.to_owned()));
     }
     Ok(columns)
-}
-
-/// Splits `load [N/mm]` or `load (N/mm)` into title and unit.
-fn split_title(cell: &str) -> (&str, &str) {
-    match cell.split_once(['[', '(']) {
-        Some((word, unit)) => (word.trim(), unit.trim().trim_end_matches([']', ')']).trim()),
-        None => (cell.trim(), ""),
-    }
 }
 
 /// Checks that the unit of a title belongs to its field, for at least one contact kind.

@@ -6,9 +6,9 @@ use super::line::{measured, request};
 use crate::host::files;
 use crate::scene::answer::Request;
 use crate::scene::check::MAX_POINTS;
+use crate::scene::csv::records;
 use crate::scene::examples;
 use crate::scene::experiment::Experiment;
-use csv_core::ReadFieldResult;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -80,13 +80,6 @@ fn text_of(path: &Path) -> Result<String, CasesError> {
     String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text; save it as CSV in UTF-8".to_owned()))
 }
 
-/// Returns the cell delimiter: tab for tables pasted from a spreadsheet, semicolon for tables with decimal commas, or
-/// comma.
-fn delimiter(text: &str) -> u8 {
-    let titles = text.lines().find(|line| !line.trim().is_empty()).unwrap_or("");
-    [b'\t', b';'].into_iter().find(|&mark| titles.contains(char::from(mark))).unwrap_or(b',')
-}
-
 fn cases(text: &str, experiment: &Experiment) -> Result<Vec<LoadCase>, CasesError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut columns: Option<Vec<(Column, String)>> = None;
@@ -112,36 +105,6 @@ fn cases(text: &str, experiment: &Experiment) -> Result<Vec<LoadCase>, CasesErro
         cases.push(LoadCase { line, name, measured_m, request });
     }
     if cases.is_empty() { Err(CasesError::Empty) } else { Ok(cases) }
-}
-
-/// Returns the cells of each record, with the line number where it begins, from 1.
-fn records(text: &str) -> Vec<(usize, Vec<String>)> {
-    let mut reader = csv_core::ReaderBuilder::new().delimiter(delimiter(text)).build();
-    let (mut input, mut out) = (text.as_bytes(), vec![0; text.len() + 1]);
-    let (mut records, mut cells, mut cell) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut line, mut begin) = (1, 1);
-    loop {
-        if cells.is_empty() && cell.is_empty() {
-            begin = line + input.iter().take_while(|byte| byte.is_ascii_whitespace()).filter(|&&b| b == b'\n').count();
-        }
-        let (result, read, written) = reader.read_field(input, &mut out);
-        let (done, rest) = input.split_at_checked(read).unwrap_or((input, &[]));
-        line += done.iter().filter(|&&byte| byte == b'\n').count();
-        input = rest;
-        cell.extend(out.iter().take(written));
-        match result {
-            // At the end of the input, the next call ends the field. The output buffer is as long as the text.
-            ReadFieldResult::InputEmpty | ReadFieldResult::OutputFull => {}
-            ReadFieldResult::Field { record_end } => {
-                cells.push(String::from_utf8_lossy(&cell).into_owned());
-                cell.clear();
-                if record_end {
-                    records.push((begin, std::mem::take(&mut cells)));
-                }
-            }
-            ReadFieldResult::End => return records,
-        }
-    }
 }
 
 #[cfg(test)]
@@ -184,8 +147,13 @@ mod tests {
         let [a, b, c] = [0, 1, 2].map(|k| point(&cases[k]));
         assert!((a.moes().m - 40.0).abs() < 1e-9 && a.kind == ContactKind::Point);
         assert_eq!(a.sliding.slide_to_roll_ratio, 0.05);
-        let oil =
-            Oil { grade: Grade::IsoVg(68.0), family: OilFamily::Mineral, temperature_k: 333.15, density_15: 880.0 };
+        let oil = Oil {
+            grade: Grade::IsoVg(68.0),
+            family: OilFamily::Mineral,
+            temperature_k: 333.15,
+            density_15: 880.0,
+            alpha_per_pa: None,
+        };
         assert_eq!((b.viscosity_pa_s, b.alpha_per_pa), {
             let state = oil.state().unwrap();
             (state.viscosity_pa_s, state.alpha_per_pa)

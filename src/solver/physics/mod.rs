@@ -4,5 +4,6 @@ pub mod bodies;
 pub mod contact;
 pub mod engineering;
 pub mod lubricant;
+pub mod machines;
 pub mod optics;
 pub mod surfaces;

@@ -36,7 +36,7 @@ pub fn loss_plot(
     window: &Window,
     height: f32,
 ) {
-    let mut view = context.document.view;
+    let mut view = context.document.view.clone();
     let palette = Palette::of(ui);
     let Some(curves) = &own.curves else { return };
     let projected = view.projected_deformation;

@@ -171,7 +171,7 @@ pub fn ui(
                     let wanted = (to.round().max(1.0) as usize).min(most);
                     // The loss is slightly increased, so that rounding errors do not remove a mode.
                     let loss = (wanted < most).then(|| window.pressure.basis().loss(wanted) * (1.0 + 1e-6));
-                    let view = View { pressure_loss: loss, ..context.document.view };
+                    let view = View { pressure_loss: loss, ..context.document.view.clone() };
                     if view != context.document.view {
                         commands.edit(Edit::View(view.into()), TRUNCATION);
                     }

@@ -145,7 +145,7 @@ fn toolbar(
     (at, window): (usize, &Window),
 ) {
     let options = context.answers.options(context.document);
-    let view = context.document.view;
+    let view = &context.document.view;
     badge::ui(ui, context);
     ui.horizontal_wrapped(|ui| {
         ui.label(format!(
@@ -164,7 +164,7 @@ fn toolbar(
         let truncated = view.pressure_loss.is_some() || view.deformation_loss.is_some();
         if ui.add_enabled(truncated, egui::Button::new("Keep all modes")).clicked() {
             commands.edit(
-                Edit::View(crate::scene::View { pressure_loss: None, deformation_loss: None, ..view }.into()),
+                Edit::View(crate::scene::View { pressure_loss: None, deformation_loss: None, ..view.clone() }.into()),
                 TRUNCATION,
             );
         }

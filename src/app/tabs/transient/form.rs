@@ -71,7 +71,7 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
         for input in Input::ALL {
             signal_ui(ui, form, &names(input), input.of_mut(&mut study.inputs));
         }
-        let tip = "A table with a title line: T and any of radius, speed, load, each relative to its reference";
+        let tip = "A table with a title line: T and any of radius, speed, load, relative to the sliders, or with units: time [s]; load [N/mm]";
         read_table = ui.button("Inputs from CSV…").on_hover_text(tip).clicked();
         if let Some(path) = &study.sampled {
             ui.weak(format!("Every run reads its inputs from {}.", path.display()));

@@ -101,10 +101,10 @@ impl Question for TransientStudy {
 
     fn run(&self, setting: &mut Setting<'_>, tell: &Tell<'_, Row>) -> Result<(), RunError> {
         let mut study = self.clone();
-        if let Some(path) = &study.sampled {
-            sampled::read_into(&mut study.inputs, &setting.bench.resolve(path))?;
-        }
         let request = setting.experiment.request()?;
+        if let Some(path) = &study.sampled {
+            sampled::read_into(&mut study.inputs, &setting.bench.resolve(path), &request.point.into())?;
+        }
         let grid = setting.bench.grid(&request, setting.observer)?;
         let saved = study.saved_model(setting)?;
         let profile = |path: &Path| surfaces::read_profile(&setting.bench.resolve(path));
@@ -229,7 +229,7 @@ impl TransientStudy {
         let request = experiment.request()?;
         let mut study = self.clone();
         if let Some(path) = &study.sampled {
-            sampled::read_into(&mut study.inputs, &bench.resolve(path))?;
+            sampled::read_into(&mut study.inputs, &bench.resolve(path), &request.point.into())?;
         }
         let grid = bench.grid(&request, observer)?;
         let mut setting = Setting { experiment, bench, observer, wants_states: observer.wants_states() };

@@ -58,13 +58,13 @@ impl Scene {
         let none = || RunError::Study("the scene trains no transient reduced model".to_owned());
         let Study::Transient(study) = &self.study else { return Err(none()) };
         let (training, mut study) = (study.training().ok_or_else(none)?, study.clone());
-        if let Some(path) = &study.sampled {
-            sampled::read_into(&mut study.inputs, &bench.resolve(path))?;
-        }
         // Linearised models would need more states than a basis does.
         study.linearised = None;
         let experiment = self.experiment();
         let request = experiment.request()?;
+        if let Some(path) = &study.sampled {
+            sampled::read_into(&mut study.inputs, &bench.resolve(path), &request.point.into())?;
+        }
         let ContactGrid::Line(grid) = bench.grid(&request, observer)? else { return Err(none()) };
         let frame = study.frames.first().copied().unwrap_or_default();
         let own = study.own_march(request.point, request.lubricant, frame);

@@ -219,11 +219,12 @@ mod tests {
 
     #[test]
     fn a_ball_in_a_groove_is_an_ellipse_across_the_rolling_direction() {
-        // Ball of a 6206 bearing on its inner race: 9.525 mm in a groove of 4.953 mm (52 %).
-        let Bodies([ball, race]) = bodies([4.7625e-3, 18.2e-3], [1.0; 2]);
+        // Ball of a 6206 bearing, 9.525 mm on a pitch diameter of 46 mm, on its inner race of 36.475 mm in a groove of
+        // 4.953 mm (52 %).
+        let Bodies([ball, race]) = bodies([4.7625e-3, 18.2375e-3], [1.0; 2]);
         let race = race.with_transverse_radius_m(Some(-4.953e-3));
         let pair = Bodies([ball, race]);
-        assert!((pair.reduced_radius_m().unwrap() - 3.7747e-3).abs() < 1e-6);
+        assert!((pair.reduced_radius_m().unwrap() - 3.77633e-3).abs() < 1e-8);
         assert!((pair.reduced_transverse_radius_m().unwrap() - 123.83e-3).abs() < 1e-5);
         // A body without a transverse radius is as round across as along.
         let round = bodies([0.01, -0.05], [1.0; 2]);

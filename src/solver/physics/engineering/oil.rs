@@ -1,6 +1,7 @@
 //! Oils by grade and temperature: viscosity, density and pressure–viscosity coefficient.
 
 use super::units::KELVIN;
+use crate::solver::physics::lubricant::OilHeat;
 use serde::{Deserialize, Serialize};
 
 /// Reason for refusing an oil.
@@ -23,10 +24,16 @@ pub enum OilError {
     /// A density outside the accepted range.
     #[error("a density of {0} kg/m³ is none of an oil; 500 to 2000 kg/m³ are accepted")]
     Density(f64),
+    /// A pressure–viscosity coefficient outside the accepted range.
+    #[error("a pressure–viscosity coefficient of {0}/GPa is none of an oil; 1 to 100/GPa are accepted")]
+    Alpha(f64),
     /// A number that is not an ISO viscosity grade.
     #[error("{0} is no ISO viscosity grade; 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000 and 1500 are")]
     Grade(f64),
 }
+
+/// Density of water at 15 °C \[kg/m³\].
+const WATER: f64 = 999.1;
 
 /// ISO 3448 viscosity grades: kinematic viscosity at 40 °C, and at 100 °C for a viscosity index of 95 by ASTM D2270,
 /// both in mm²/s.
@@ -60,6 +67,9 @@ pub struct Oil {
     pub temperature_k: f64,
     /// Density at 15 °C \[kg/m³\].
     pub density_15: f64,
+    /// Measured α at the temperature \[1/Pa\]. If absent, the correlation of the base oil estimates it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub alpha_per_pa: Option<f64>,
 }
 
 /// Specification of an oil's viscosity.
@@ -80,8 +90,11 @@ pub struct OilState {
     pub kinematic_m2_per_s: f64,
     /// Density \[kg/m³\].
     pub density: f64,
-    /// Pressure–viscosity coefficient α \[1/Pa\] by the correlation of its family.
+    /// Pressure–viscosity coefficient α \[1/Pa\] by the correlation of its family, or as measured.
     pub alpha_per_pa: f64,
+    /// Thermal constants: β from the viscosity over temperature, density and its coefficient from the expansion, heat
+    /// capacity and conductivity by Cragoe 1929.
+    pub heat: OilHeat,
 }
 
 impl Oil {
@@ -100,8 +113,21 @@ impl Oil {
         let kinematic_m2_per_s = law.at(self.temperature_k)?;
         let density = density_at(self.density_15, self.temperature_k);
         let viscosity_pa_s = kinematic_m2_per_s * density;
-        let alpha_per_pa = self.family.coefficient(viscosity_pa_s, kinematic_m2_per_s);
-        Ok(OilState { viscosity_pa_s, kinematic_m2_per_s, density, alpha_per_pa })
+        let alpha_per_pa = match self.alpha_per_pa {
+            Some(alpha) if (1e-9..=1e-7).contains(&alpha) => alpha,
+            Some(alpha) => return Err(OilError::Alpha(1e9 * alpha)),
+            None => self.family.coefficient(viscosity_pa_s, kinematic_m2_per_s),
+        };
+        let expansion = expansion_at(self.density_15, self.temperature_k);
+        let heat = OilHeat {
+            heat_capacity: heat_capacity(self.density_15, self.temperature_k),
+            conductivity: conductivity(self.density_15, self.temperature_k),
+            density,
+            viscosity_temperature: law.coefficient(self.temperature_k)? + expansion,
+            density_temperature: expansion,
+            free_volume: None,
+        };
+        Ok(OilState { viscosity_pa_s, kinematic_m2_per_s, density, alpha_per_pa, heat })
     }
 }
 
@@ -145,17 +171,43 @@ impl ViscosityTemperature {
         Self::through((KELVIN + 40.0, 1e-6 * at_40), (KELVIN + 100.0, 1e-6 * at_100))
     }
 
+    /// Returns −d ln ν/dT \[1/K\] at a temperature \[K\], by central differences of the chart.
+    ///
+    /// # Errors
+    /// As [`ViscosityTemperature::at`].
+    pub fn coefficient(&self, temperature_k: f64) -> Result<f64, OilError> {
+        let step = 0.01;
+        let (cold, hot) = (self.unchecked(temperature_k - step), self.unchecked(temperature_k + step));
+        self.at(temperature_k).map(|_| (cold / hot).ln() / (2.0 * step))
+    }
+
+    /// Returns the kinematic viscosity \[mm²/s\] at a temperature \[K\] without a check.
+    fn unchecked(&self, temperature_k: f64) -> f64 {
+        viscosity_of(10f64.powf(10f64.powf(self.a - self.b * temperature_k.log10())))
+    }
+
     /// Returns the kinematic viscosity \[m²/s\] at a temperature \[K\].
     ///
     /// # Errors
     /// If the temperature is outside the accepted range, or the viscosity at it is outside the chart.
     pub fn at(&self, temperature_k: f64) -> Result<f64, OilError> {
         check_temperature(temperature_k)?;
-        let z = 10f64.powf(10f64.powf(self.a - self.b * temperature_k.log10()));
-        let viscosity = viscosity_of(z);
+        let viscosity = self.unchecked(temperature_k);
         check_viscosity(viscosity)?;
         Ok(1e-6 * viscosity)
     }
+}
+
+/// Returns the heat capacity c_p \[J/(kg K)\] at a temperature \[K\] of an oil with a given density at 15 °C \[kg/m³\].
+/// Source: Cragoe 1929 for petroleum oils; synthetic oils differ from it by some 15 %.
+pub fn heat_capacity(density_15: f64, temperature_k: f64) -> f64 {
+    (1684.8 + 3.3913 * (temperature_k - KELVIN)) / (density_15 / WATER).sqrt()
+}
+
+/// Returns the thermal conductivity k \[W/(m K)\] at a temperature \[K\] of an oil with a given density at 15 °C
+/// \[kg/m³\]. Source: Cragoe 1929 for petroleum oils; synthetic oils differ from it by some 15 %.
+pub fn conductivity(density_15: f64, temperature_k: f64) -> f64 {
+    0.1172 * (1.0 - 5.4e-4 * (temperature_k - KELVIN)) / (density_15 / WATER)
 }
 
 fn check_temperature(kelvin: f64) -> Result<(), OilError> {
@@ -183,6 +235,12 @@ fn viscosity_of(z: f64) -> f64 {
 pub fn density_at(density_15: f64, temperature_k: f64) -> f64 {
     let expansion = 0.6278 / density_15 * (temperature_k - KELVIN - 15.0);
     density_15 * (-expansion * (1.0 + 0.8 * expansion)).exp()
+}
+
+/// Returns −d ln ρ/dT \[1/K\] of [`density_at`].
+fn expansion_at(density_15: f64, temperature_k: f64) -> f64 {
+    let coefficient = 0.6278 / density_15;
+    coefficient * (1.0 + 1.6 * coefficient * (temperature_k - KELVIN - 15.0))
 }
 
 /// Base oils whose pressure–viscosity coefficient has a published correlation with the viscosity.
@@ -301,12 +359,37 @@ mod tests {
             family: OilFamily::Mineral,
             temperature_k: celsius(60.0),
             density_15: 880.0,
+            alpha_per_pa: None,
         };
         let state = oil.state().unwrap();
         assert!((24e-3..28e-3).contains(&state.viscosity_pa_s), "{state:?}");
         assert!((state.viscosity_pa_s / state.kinematic_m2_per_s / state.density - 1.0).abs() < 1e-12);
         assert!((18e-9..21e-9).contains(&state.alpha_per_pa), "{state:?}");
         assert!(Oil { density_15: f64::NAN, ..oil }.state().unwrap_err().to_string().contains("none of an oil"));
+    }
+
+    #[test]
+    fn thermal_constants_are_slopes_of_the_laws_and_published_values() {
+        let oil = Oil {
+            grade: Grade::IsoVg(68.0),
+            family: OilFamily::Mineral,
+            temperature_k: celsius(60.0),
+            density_15: 880.0,
+            alpha_per_pa: None,
+        };
+        let heat = oil.state().unwrap().heat;
+        let at = |shift: f64| Oil { temperature_k: celsius(60.0 + shift), ..oil }.state().unwrap();
+        let slope = |of: fn(&OilState) -> f64| (of(&at(-0.5)) / of(&at(0.5))).ln();
+        assert!((heat.viscosity_temperature / slope(|s| s.viscosity_pa_s) - 1.0).abs() < 1e-4);
+        assert!((heat.density_temperature / slope(|s| s.density) - 1.0).abs() < 1e-4);
+        // Cragoe 1929 at 15 °C for a specific gravity of 0.88 (from memory): 0.4418 kcal/(kg K), 0.132 W/(m K).
+        assert!((heat_capacity(880.0, celsius(15.0)) / (0.4418 * 4186.8) - 1.0).abs() < 2e-3);
+        assert!((conductivity(880.0, celsius(15.0)) - 0.132).abs() < 5e-4);
+        // A measured α replaces the estimate.
+        let measured = Oil { alpha_per_pa: Some(2.2e-8), ..oil };
+        assert_eq!(measured.state().unwrap().alpha_per_pa, 2.2e-8);
+        let refused = Oil { alpha_per_pa: Some(f64::NAN), ..oil }.state().unwrap_err().to_string();
+        assert!(refused.contains("1 to 100/GPa"), "{refused}");
     }
 
     #[test]

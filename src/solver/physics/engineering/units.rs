@@ -1,4 +1,4 @@
-//! Numbers with units as entered by users: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`.
+//! Numbers with units as entered by users: `300 N/mm`, `0,4 µm`, `68 cSt`, `5 %`, `1500 rpm`, `80 °C`, `1.5 in`.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 pub const KELVIN: f64 = 273.15;
 
 /// Dimension of an entered number. Results are in SI units: m, m/s, N, N/m, Pa, Pa·s, m²/s, 1/Pa, K, 1/K, kg/m³, s,
-/// and dimensionless ratios.
+/// rad/s, rad, N m, kg, and dimensionless ratios.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dimension {
     /// Length in m.
@@ -39,6 +39,19 @@ pub enum Dimension {
     Density,
     /// Time in s.
     Time,
+    /// Rotational speed in rad/s.
+    Rotation,
+    /// Angle in rad.
+    Angle,
+    /// Torque in N m. A power is accepted if the rotational speed \[rad/s\] is given.
+    Torque {
+        /// Rotational speed of the shaft.
+        turning: Option<f64>,
+    },
+    /// Spring rate in N/m.
+    Stiffness,
+    /// Mass in kg.
+    Mass,
     /// Dimensionless number.
     Ratio,
 }
@@ -73,6 +86,12 @@ pub enum UnitError {
         /// Unit that was entered.
         unit: String,
     },
+    /// A power without a rotational speed.
+    #[error("“{unit}” is a power and needs the speed of the shaft; enter that first, or a torque in N m")]
+    NeedsTurning {
+        /// Unit that was entered.
+        unit: String,
+    },
     /// A kinematic viscosity without a density.
     #[error("“{unit}” is a kinematic viscosity and needs the density of the oil; enter that first, or mPa·s")]
     NeedsDensity {
@@ -84,7 +103,14 @@ pub enum UnitError {
 /// Units with their size in SI units. The first of each list is used as an example.
 type Units = &'static [(&'static str, f64)];
 
-const ROTATION: Units = &[("rpm", PI / 30.0), ("1/min", PI / 30.0), ("U/min", PI / 30.0), ("rad/s", 1.0)];
+/// Pound-force \[N\], from the avoirdupois pound and standard gravity.
+const LBF: f64 = 4.448_221_615_260_5;
+const INCH: f64 = 0.0254;
+const PSI: f64 = LBF / (INCH * INCH);
+
+const ROTATION: Units =
+    &[("rpm", PI / 30.0), ("1/min", PI / 30.0), ("U/min", PI / 30.0), ("rad/s", 1.0), ("1/s", 2.0 * PI)];
+const POWER: Units = &[("kW", 1e3), ("W", 1.0), ("MW", 1e6), ("hp", 550.0 * 12.0 * INCH * LBF), ("PS", 735.498_75)];
 const KINEMATIC: Units = &[("cSt", 1e-6), ("mm²/s", 1e-6), ("m²/s", 1.0), ("St", 1e-4)];
 
 impl Dimension {
@@ -103,6 +129,11 @@ impl Dimension {
             Self::PerKelvin => "a temperature coefficient",
             Self::Density => "a density",
             Self::Time => "a time",
+            Self::Rotation => "a rotational speed",
+            Self::Angle => "an angle",
+            Self::Torque { .. } => "a torque",
+            Self::Stiffness => "a spring rate",
+            Self::Mass => "a mass",
             Self::Ratio => "a ratio",
         }
     }
@@ -122,6 +153,11 @@ impl Dimension {
             Self::PerKelvin => "1/K",
             Self::Density => "kg/m³",
             Self::Time => "s",
+            Self::Rotation => "rad/s",
+            Self::Angle => "rad",
+            Self::Torque { .. } => "N m",
+            Self::Stiffness => "N/m",
+            Self::Mass => "kg",
             Self::Ratio => "",
         }
     }
@@ -129,10 +165,27 @@ impl Dimension {
     /// Returns its units.
     pub fn units(self) -> Units {
         match self {
-            Self::Length => &[("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9), ("cm", 1e-2), ("m", 1.0), ("in", 0.0254)],
-            Self::Speed { .. } => &[("m/s", 1.0), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)],
-            Self::Force => &[("N", 1.0), ("kN", 1e3), ("mN", 1e-3), ("MN", 1e6)],
-            Self::LineLoad => &[("N/mm", 1e3), ("kN/m", 1e3), ("N/m", 1.0), ("kN/mm", 1e6), ("MN/m", 1e6)],
+            Self::Length => &[
+                ("mm", 1e-3),
+                ("µm", 1e-6),
+                ("nm", 1e-9),
+                ("cm", 1e-2),
+                ("m", 1.0),
+                ("in", INCH),
+                ("µin", 1e-6 * INCH),
+            ],
+            Self::Speed { .. } => &[
+                ("m/s", 1.0),
+                ("mm/s", 1e-3),
+                ("km/h", 1.0 / 3.6),
+                ("in/s", INCH),
+                ("ft/s", 12.0 * INCH),
+                ("ft/min", 12.0 * INCH / 60.0),
+            ],
+            Self::Force => &[("N", 1.0), ("kN", 1e3), ("mN", 1e-3), ("MN", 1e6), ("lbf", LBF)],
+            Self::LineLoad => {
+                &[("N/mm", 1e3), ("kN/m", 1e3), ("N/m", 1.0), ("kN/mm", 1e6), ("MN/m", 1e6), ("lbf/in", LBF / INCH)]
+            }
             Self::Pressure => &[
                 ("GPa", 1e9),
                 ("MPa", 1e6),
@@ -140,17 +193,31 @@ impl Dimension {
                 ("Pa", 1.0),
                 ("bar", 1e5),
                 ("N/mm²", 1e6),
-                ("psi", 6894.757),
+                ("psi", PSI),
+                ("ksi", 1e3 * PSI),
             ],
-            Self::Viscosity { .. } => &[("mPa·s", 1e-3), ("Pa·s", 1.0), ("cP", 1e-3), ("P", 0.1)],
+            Self::Viscosity { .. } => &[("mPa·s", 1e-3), ("Pa·s", 1.0), ("cP", 1e-3), ("P", 0.1), ("reyn", PSI)],
             Self::KinematicViscosity => KINEMATIC,
-            Self::PressureCoefficient => {
-                &[("1/GPa", 1e-9), ("GPa-1", 1e-9), ("1/Pa", 1.0), ("Pa-1", 1.0), ("1/MPa", 1e-6), ("mm²/N", 1e-6)]
-            }
+            Self::PressureCoefficient => &[
+                ("1/GPa", 1e-9),
+                ("GPa-1", 1e-9),
+                ("1/Pa", 1.0),
+                ("Pa-1", 1.0),
+                ("1/MPa", 1e-6),
+                ("mm²/N", 1e-6),
+                ("1/psi", 1.0 / PSI),
+            ],
             Self::Temperature => &[("°C", 1.0), ("C", 1.0), ("K", 1.0), ("°F", 5.0 / 9.0), ("F", 5.0 / 9.0)],
-            Self::PerKelvin => &[("1/K", 1.0), ("K-1", 1.0)],
+            Self::PerKelvin => &[("1/K", 1.0), ("K-1", 1.0), ("1/°F", 1.8)],
             Self::Density => &[("kg/m³", 1.0), ("g/cm³", 1e3), ("kg/l", 1e3)],
             Self::Time => &[("ms", 1e-3), ("µs", 1e-6), ("s", 1.0)],
+            Self::Rotation => ROTATION,
+            Self::Angle => &[("°", PI / 180.0), ("deg", PI / 180.0), ("rad", 1.0), ("mrad", 1e-3)],
+            Self::Torque { .. } => {
+                &[("N m", 1.0), ("N mm", 1e-3), ("kN m", 1e3), ("lbf in", LBF * INCH), ("lbf ft", 12.0 * LBF * INCH)]
+            }
+            Self::Stiffness => &[("N/mm", 1e3), ("N/m", 1.0), ("kN/m", 1e3), ("kN/mm", 1e6), ("lbf/in", LBF / INCH)],
+            Self::Mass => &[("kg", 1.0), ("g", 1e-3), ("lb", LBF / 9.806_65)],
             Self::Ratio => &[("%", 1e-2), ("‰", 1e-3)],
         }
     }
@@ -198,6 +265,13 @@ fn in_si((number, value): (&str, f64), typed: &str, dimension: Dimension) -> Res
                 return radius_m.map(|radius| value * size * radius).ok_or(UnitError::NeedsRadius { unit });
             }
         }
+        Dimension::Torque { turning } => {
+            if let Some(size) = size(POWER) {
+                let unit = typed.to_owned();
+                let turning = turning.map(f64::abs).filter(|turning| *turning > 0.0);
+                return turning.map(|turning| value * size / turning).ok_or(UnitError::NeedsTurning { unit });
+            }
+        }
         Dimension::Viscosity { density } => {
             if let Some(size) = size(KINEMATIC) {
                 let unit = typed.to_owned();
@@ -243,6 +317,9 @@ fn is_number(text: &str) -> bool {
 
 /// Returns a unit in a normalised form, without characters that may be omitted or written differently.
 fn key(unit: &str) -> String {
+    if unit.trim() == "°" {
+        return "deg".to_owned();
+    }
     let kept = unit.chars().filter(|c| !matches!(c, '·' | '*' | '^' | '°' | ' ' | '\u{2009}'));
     let plain: String = kept
         .map(|c| match c {
@@ -333,6 +410,11 @@ mod tests {
     #[test]
     fn every_unit_reads_itself() {
         for dimension in [
+            Dimension::Rotation,
+            Dimension::Angle,
+            Dimension::Torque { turning: None },
+            Dimension::Stiffness,
+            Dimension::Mass,
             Dimension::Length,
             ROLLER,
             Dimension::Force,
@@ -354,5 +436,85 @@ mod tests {
                 assert_eq!(typed, parse("2", dimension, unit).expect(unit), "{unit}");
             }
         }
+    }
+
+    /// Units with their sizes in SI units, from the definitions of the inch (0.0254 m), the pound-force
+    /// (4.448 221 615 260 5 N), the horsepower (550 ft lbf/s) and the Celsius and Fahrenheit scales.
+    #[test]
+    fn sixty_units_are_read_and_written_both_ways() {
+        const SHAFT: Dimension = Dimension::Torque { turning: Some(100.0) };
+        use Dimension as D;
+        let table: [(&str, D, f64); 60] = [
+            ("1 m", D::Length, 1.0),
+            ("1 cm", D::Length, 0.01),
+            ("1 mm", D::Length, 1e-3),
+            ("1 µm", D::Length, 1e-6),
+            ("1 nm", D::Length, 1e-9),
+            ("1 in", D::Length, 0.0254),
+            ("1 µin", D::Length, 2.54e-8),
+            ("1 m/s", ROLLER, 1.0),
+            ("1 mm/s", ROLLER, 1e-3),
+            ("36 km/h", ROLLER, 10.0),
+            ("1 in/s", ROLLER, 0.0254),
+            ("1 ft/s", ROLLER, 0.3048),
+            ("1 ft/min", ROLLER, 0.00508),
+            ("30 rpm", ROLLER, PI * 0.02),
+            ("1 rad/s", ROLLER, 0.02),
+            ("1 N", D::Force, 1.0),
+            ("3.2 kN", D::Force, 3200.0),
+            ("1 mN", D::Force, 1e-3),
+            ("1 lbf", D::Force, 4.448_221_615_260_5),
+            ("1 N/m", D::LineLoad, 1.0),
+            ("1 N/mm", D::LineLoad, 1e3),
+            ("1 kN/m", D::LineLoad, 1e3),
+            ("1 kN/mm", D::LineLoad, 1e6),
+            ("1 lbf/in", D::LineLoad, 175.126_835_246_476_4),
+            ("1 Pa", D::Pressure, 1.0),
+            ("1 kPa", D::Pressure, 1e3),
+            ("1 MPa", D::Pressure, 1e6),
+            ("1 GPa", D::Pressure, 1e9),
+            ("1 bar", D::Pressure, 1e5),
+            ("1 N/mm²", D::Pressure, 1e6),
+            ("1 psi", D::Pressure, 6_894.757_293_168_36),
+            ("30000 ksi", D::Pressure, 206.842_718_795_051e9),
+            ("1 Pa·s", OIL, 1.0),
+            ("1 mPa·s", OIL, 1e-3),
+            ("1 cP", OIL, 1e-3),
+            ("1 P", OIL, 0.1),
+            ("1 reyn", OIL, 6_894.757_293_168_36),
+            ("100 cSt", OIL, 0.085),
+            ("1 cSt", D::KinematicViscosity, 1e-6),
+            ("1 mm²/s", D::KinematicViscosity, 1e-6),
+            ("1 St", D::KinematicViscosity, 1e-4),
+            ("20 1/GPa", D::PressureCoefficient, 2e-8),
+            ("1 mm²/N", D::PressureCoefficient, 1e-6),
+            ("1 1/psi", D::PressureCoefficient, 1.450_377_377_302_09e-4),
+            ("80 °C", D::Temperature, 353.15),
+            ("176 °F", D::Temperature, 353.15),
+            ("-40 °F", D::Temperature, 233.15),
+            ("300 K", D::Temperature, 300.0),
+            ("0.025 1/°F", D::PerKelvin, 0.045),
+            ("0.88 g/cm³", D::Density, 880.0),
+            ("5 %", D::Ratio, 0.05),
+            ("2 ms", D::Time, 2e-3),
+            ("1500 rpm", D::Rotation, 50.0 * PI),
+            ("180 °", D::Angle, PI),
+            ("1 kN m", SHAFT, 1e3),
+            ("1 lbf ft", SHAFT, 1.355_817_948_331_4),
+            ("20 kW", SHAFT, 200.0),
+            ("1 hp", SHAFT, 7.456_998_715_822_7),
+            ("25 N/mm", D::Stiffness, 25e3),
+            ("250 g", D::Mass, 0.25),
+        ];
+        for (text, dimension, si) in table {
+            let read = parse(text, dimension, "").expect(text);
+            assert!((read / si - 1.0).abs() < 1e-12, "{text}: {read} instead of {si}");
+            // Back: the unit as that of the field, with the number alone.
+            let (number, unit) = text.split_once(' ').unwrap();
+            let back = parse(number, dimension, unit).expect(text);
+            assert!((back / si - 1.0).abs() < 1e-12, "{text}");
+        }
+        let power = parse("20 kW", D::Torque { turning: None }, "N m").unwrap_err().to_string();
+        assert!(power.contains("needs the speed of the shaft"), "{power}");
     }
 }

@@ -1,0 +1,231 @@
+//! Window with the form of a machine: its values, what follows from them, and a slider along the path of contact.
+
+use super::along;
+use super::derived::{self, Row};
+use super::kind::MachineKind;
+use super::{bearing, cam, gear, sketch};
+use crate::app::command::Command;
+use crate::app::context::Commands;
+use crate::app::controls::{Entries, RangeSlider, message_ui};
+use crate::app::document::{Document, Edit};
+use crate::app::refusal::Refusal;
+use crate::app::tab::Tab;
+use crate::app::theme::rich;
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::machines::Machine;
+use egui::{Button, Context, Grid, ScrollArea, TextStyle, Ui, Window};
+
+/// Field under which the document refuses a machine.
+const FIELD: &str = "bodies";
+/// Width of the derived values.
+const DERIVED: f32 = 250.0;
+
+/// Window with the form of a machine. Machines that were entered are kept while the program runs; the document
+/// remembers the one in use.
+pub struct MachineWindow {
+    open: Option<MachineKind>,
+    drafts: [Machine; 3],
+    /// Text of the lift table.
+    table: String,
+    entries: Entries,
+    /// Reason why the last button did nothing.
+    message: Option<Refusal>,
+}
+
+impl Default for MachineWindow {
+    fn default() -> Self {
+        Self {
+            open: None,
+            drafts: MachineKind::ALL.map(MachineKind::example),
+            table: String::new(),
+            entries: Entries::default(),
+            message: None,
+        }
+    }
+}
+
+/// Machine as it would be used now.
+struct Trial {
+    /// Document with the machine.
+    document: Result<Document, Refusal>,
+    rows: Result<Vec<Row>, Refusal>,
+}
+
+impl MachineWindow {
+    /// Returns true if the window is open. Escape then closes it.
+    pub fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+
+    /// Opens the form of a kind, with the machine of the document if it has one.
+    pub fn open(&mut self, kind: MachineKind, document: &Document) {
+        self.open = Some(kind);
+        self.message = None;
+        self.entries.clear();
+        if let Some(machine) = document.view.machine.as_ref().filter(|machine| MachineKind::of(machine) == kind) {
+            self.drafts[kind as usize] = machine.clone();
+        }
+        if let Machine::Cam(cam) = &self.drafts[MachineKind::Cam as usize] {
+            self.table = cam::text_of(&cam.lift);
+        }
+    }
+
+    /// Closes the window and keeps the values.
+    pub fn close(&mut self) {
+        self.open = None;
+    }
+
+    /// Draws the window if it is open.
+    pub fn ui(&mut self, ctx: &Context, document: &Document, commands: &mut Commands) {
+        let Some(kind) = self.open else { return };
+        let mut open = true;
+        let room = ctx.content_rect().size();
+        let title = kind.title().trim_end_matches('…');
+        let window = Window::new(title).id(egui::Id::unique("machine")).open(&mut open).collapsible(false);
+        let height = 0.86 * room.y;
+        window.resizable(false).max_height(height).default_pos((0.2 * room.x, 0.06 * room.y)).show(ctx, |ui| {
+            ScrollArea::vertical().max_height(height - 60.0).show(ui, |ui| {
+                ui.horizontal_top(|ui| {
+                    ui.vertical(|ui| self.form_ui(ui, kind));
+                    ui.separator();
+                    ui.vertical(|ui| {
+                        ui.set_width(DERIVED);
+                        self.derived_ui(ui, kind, document, commands);
+                    });
+                });
+            });
+        });
+        if !open {
+            self.open = None;
+        }
+    }
+
+    fn form_ui(&mut self, ui: &mut Ui, kind: MachineKind) {
+        let entries = &mut self.entries;
+        let changed = match &mut self.drafts[kind as usize] {
+            Machine::Bearing(draft) => bearing::ui(ui, draft, entries),
+            Machine::Gear(draft) => gear::ui(ui, draft, entries),
+            Machine::Cam(draft) => cam::ui(ui, draft, &mut self.table, entries),
+        };
+        if changed {
+            self.message = None;
+        }
+        let names: Vec<&str> = match kind {
+            MachineKind::Bearing => bearing::names().collect(),
+            MachineKind::Gear => gear::names().collect(),
+            MachineKind::Cam => cam::names().collect(),
+        };
+        ui.scope(|ui| {
+            ui.set_max_width(250.0);
+            self.entries.reserved_ui(ui, names);
+        });
+    }
+
+    fn derived_ui(&mut self, ui: &mut Ui, kind: MachineKind, document: &Document, commands: &mut Commands) {
+        self.slider_ui(ui, kind, document);
+        let machine = self.drafts[kind as usize].clone();
+        let Trial { document: with, rows } = trial(&machine, document);
+        let shown = with.as_ref().map_err(Clone::clone).and(rows);
+        let modulus = document.bodies().reduced_modulus_pa().unwrap_or(document.point.modulus_pa);
+        sketch::ui(ui, &machine, modulus, DERIVED - 10.0);
+        ui.scope(|ui| {
+            // The values keep their space while a message is shown.
+            ui.set_min_height(250.0);
+            match &shown {
+                Ok(rows) => rows_ui(ui, rows),
+                Err(why) => message_ui(ui, why),
+            }
+        });
+        let line = machine.kind() == ContactKind::Line;
+        ui.horizontal_wrapped(|ui| {
+            let ready = shown.is_ok();
+            let tip = "Sets bodies, speeds and load. Materials, roughness and lubricant stay";
+            if ui.add_enabled(ready, Button::new("Use")).on_hover_text(tip).clicked() {
+                commands.edit(Edit::Machine(Box::new(machine.clone())), FIELD);
+            }
+            let tip = "Opens a table with the contacts along the path";
+            if ui.add_enabled(ready, Button::new("Load cases along the path")).on_hover_text(tip).clicked() {
+                match along::load_cases(&machine, document) {
+                    Ok(text) => commands.push(Command::OpenLoadCases(text)),
+                    Err(why) => self.message = Some(why),
+                }
+            }
+            let tip =
+                "Uses this contact, and lets R, u_m and w follow the path in the Transient tab. By the full solver";
+            let transient = ui.add_enabled(ready && line, Button::new("Transient run along the path"));
+            let transient =
+                transient.on_hover_text(tip).on_disabled_hover_text("Transient runs cover line contacts only");
+            if transient.clicked() {
+                self.message = start_transient(&machine, document, commands).err();
+            }
+        });
+        if let Some(why) = &self.message {
+            message_ui(ui, why);
+        }
+    }
+
+    /// Draws the slider along the path, and keeps the position on the path.
+    fn slider_ui(&mut self, ui: &mut Ui, kind: MachineKind, document: &Document) {
+        let draft = &mut self.drafts[kind as usize];
+        let (name, unit, size) = kind.position();
+        let modulus = document.bodies().reduced_modulus_pa().unwrap_or(document.point.modulus_pa);
+        let Ok((from, to)) = draft.extent(modulus) else { return };
+        let here = match draft {
+            Machine::Bearing(bearing) => bearing.orbit_deg,
+            Machine::Gear(pair) => 1e3 * pair.position_m,
+            Machine::Cam(cam) => cam.angle_deg,
+        };
+        ui.label(format!("{name}, {:.1} to {:.1} {unit}", from / size, to / size));
+        let slider = RangeSlider {
+            name: "Position along the path",
+            range: from / size..=to / size,
+            marked: None,
+            home: 0.0,
+            tooltip: "Position of the contact along its path; a double click sets 0",
+            logarithmic: false,
+        };
+        if let Some(moved) = slider.show(ui, here, DERIVED - 20.0) {
+            *draft = draft.at(moved.clamp(from / size, to / size) * size);
+            self.entries.clear();
+        }
+    }
+}
+
+fn trial(machine: &Machine, document: &Document) -> Trial {
+    let mut with = document.clone();
+    let result = with.set_machine(machine.clone());
+    let base = document.bodies();
+    let rows = || {
+        let modulus_pa = base.reduced_modulus_pa()?;
+        let mut rows = derived::of_contact(&with.point, &machine.contact(modulus_pa)?);
+        rows.extend(derived::of_machine(machine, modulus_pa)?);
+        Ok(rows)
+    };
+    let rows = rows();
+    Trial { document: result.map(|()| with), rows }
+}
+
+fn rows_ui(ui: &mut Ui, rows: &[Row]) {
+    Grid::new("derived").num_columns(2).spacing([12.0, 3.0]).show(ui, |ui| {
+        for (name, value, tip) in rows {
+            let size = TextStyle::Body.resolve(ui.style()).size;
+            let name = if name.contains('_') { format!("{{{name}}}") } else { (*name).to_owned() };
+            let color = ui.visuals().text_color();
+            ui.label(rich(&name, size, color)).on_hover_text(*tip);
+            ui.label(value).on_hover_text(*tip);
+            ui.end_row();
+        }
+    });
+}
+
+/// Sets the contact of the machine and the transient study along its path.
+fn start_transient(machine: &Machine, document: &Document, commands: &mut Commands) -> Result<(), Refusal> {
+    let study = along::transient(machine, document)?;
+    let mut with = document.clone();
+    with.set_machine(machine.clone())?;
+    with.set_transient(study.clone())?;
+    commands.edit(Edit::Machine(Box::new(machine.clone())), FIELD);
+    commands.edit(Edit::Transient(Box::new(study)), FIELD);
+    commands.push(Command::Go(Tab::Transient));
+    Ok(())
+}
