@@ -203,6 +203,39 @@ fn what_a_point_contacts_grid_costs_is_estimated_on_request() {
 }
 
 #[test]
+fn stiffness_and_damping_are_printed_with_their_units_in_the_names() {
+    let frequencies = ["--dynamics", "0,500,5000,20000"];
+    let line = ["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--dx", "0.02"];
+    let ball =
+        ["solve", "--json", "--contact", "point", "--moes-m", "50", "--moes-l", "5", "--dx", "0.06", "--dy", "0.1"];
+    for (contact, [stiffness, damping]) in [
+        (&line[..], ["stiffness_n_per_m2", "damping_ns_per_m2"]),
+        (&ball[..], ["stiffness_n_per_m", "damping_ns_per_m"]),
+    ] {
+        let report = json(&program(&[contact, &frequencies].concat()));
+        let of = |k: usize, name: &str| report["dynamics"][k][name].as_f64().unwrap();
+        assert_eq!(report["dynamics"].as_array().unwrap().len(), 4);
+        assert_eq!((of(0, "frequency_hz"), of(3, "frequency_hz")), (0.0, 20000.0));
+        assert!(of(3, stiffness) > of(0, stiffness) && of(0, damping) > of(3, damping) && of(3, damping) > 0.0);
+        // The element is softest at rest, as the film.
+        let maxwell = &report["maxwell"];
+        let softest = maxwell[format!("static_{stiffness}")].as_f64().unwrap();
+        assert!((softest / of(0, stiffness) - 1.0).abs() < 0.1, "{maxwell}");
+        assert!(maxwell["deviation"].as_f64().unwrap() < 0.2, "{maxwell}");
+    }
+    for (options, part) in [
+        (&["--dynamics=-1"][..], "between 0 and 1e9 Hz"),
+        (&["--dynamics", "NaN"], "between 0 and 1e9 Hz"),
+        (&["--dynamics", "100", "--method", "reduced"], "--dynamics belongs to full solutions"),
+        (&["--dynamics", "100", "--cavitation", "mass-conserving"], "not mass-conserving cavitation"),
+    ] {
+        let refused = program(&[&["solve", "--moes-m", "40", "--moes-l", "10"][..], options].concat());
+        assert_eq!(refused.status.code(), Some(2), "{options:?}");
+        assert!(String::from_utf8_lossy(&refused.stderr).contains(part), "{options:?}");
+    }
+}
+
+#[test]
 fn a_point_contact_prints_its_plane_and_its_fields() {
     let folder = Scratch::new("point");
     let profiles = folder.join("fields.csv");

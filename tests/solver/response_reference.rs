@@ -64,7 +64,7 @@ fn stiffness_and_damping_of_a_ball_agree_with_an_independent_solution() {
         (0.0, 1.442960623, None),
         (0.1, 1.44387816, Some(0.11478329)),
         (0.5, 1.463748323, Some(0.1003224312)),
-        (6.283185307, 1.533086141, Some(0.0175049667)),
+        (TAU, 1.533086141, Some(0.0175049667)),
         (20.0, 1.664654991, Some(0.01114547683)),
     ] {
         let found = response.stiffness(omega).unwrap();

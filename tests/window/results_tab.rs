@@ -85,6 +85,7 @@ fn studies_of_contacts_give_the_same_on_the_screen_and_headless() {
         ("distance_measure", graded, format!("DistanceMeasure(range: {BOX}, points: 8, seed: 5)")),
         ("formula_comparison", "lubricant: (viscosity: Barus, density: Incompressible), grid: Graded,", "FormulaComparison(formula: Moes, m: [20, 50], l: [5])".to_owned()),
         ("starvation", uniform, "Starvation(ratios: [0.3, 1.5])".to_owned()),
+        ("amplitude", uniform, "Amplitude(wavelengths: [1.0, 0.5], derivatives: [Exact, Bdf2])".to_owned()),
         ("transition", uniform, "Transition(m: [20, 50], l: 5)".to_owned()),
         ("flow_curve", "lubricant: (shear: Eyring(critical_stress: 5e6)),", "FlowCurve(plateaus: [0.0, 0.2], stress: (1e4, 1e8))".to_owned()),
         ("measured_film", uniform, "MeasuredFilm(between: (-1e-4, 1e-4), films: [(name: \"other\", from: \"nobody\", points: [(-200, 300), (0, 200), (200, 300)])])".to_owned()),

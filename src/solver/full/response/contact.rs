@@ -9,7 +9,6 @@ use crate::solver::discrete::space::{LineSpace, PlaneSpace};
 use crate::solver::full::{Solution, SolveError};
 
 /// Linear response of a line or point contact.
-#[expect(clippy::large_enum_variant, reason = "one per steady contact, never in a list")]
 pub enum ContactResponse {
     /// Response of a line contact.
     Line(LinearResponse<LineSpace>),

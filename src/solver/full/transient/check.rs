@@ -65,7 +65,7 @@ impl Transient {
     fn check_surfaces(&self) -> Result<(), TransientError> {
         let refuse = |sentence: &str| Err(SurfaceError(sentence.to_owned()).into());
         let steady = self.inputs.speed == Signal::Constant && self.inputs.radius == Signal::Constant;
-        if !self.surfaces.is_empty() && !(self.frame == Frame::Fixed && steady) {
+        if !(self.surfaces.is_empty() || self.frame == Frame::Fixed && steady) {
             return refuse("surfaces need the fixed frame, and a speed and a radius that are constant");
         }
         if self.scheme == Scheme::Characteristic {

@@ -104,21 +104,21 @@ impl MovingSurface {
     pub fn check(&self, spacing: f64, step: f64) -> Result<(), SurfaceError> {
         let refuse = |sentence: String| Err(SurfaceError(sentence));
         let (height, length) = (self.shape.greatest(), self.shape.length());
-        if !(height <= HIGHEST) {
+        if height.is_nan() || height > HIGHEST {
             return refuse(format!(
                 "a feature is {} a²/R high or deep; accepted is at most the flattening of the Hertzian contact, {HIGHEST} \
                  a²/R",
                 Number(height)
             ));
         }
-        if !(length >= FEWEST * spacing * (1.0 - ROUNDING)) {
+        if length.is_nan() || length < FEWEST * spacing * (1.0 - ROUNDING) {
             return refuse(format!(
                 "a feature is {length:.4} a long, but the grid needs {FEWEST} spacings of {spacing:.4} a for it; use a \
                  finer grid or a longer feature"
             ));
         }
         let travelled = self.speed.abs() * step;
-        if !(FEWEST * travelled <= length * (1.0 + ROUNDING)) {
+        if travelled.is_nan() || FEWEST * travelled > length * (1.0 + ROUNDING) {
             let longest = length / (FEWEST * self.speed.abs());
             return refuse(format!(
                 "a time step of {step:.4} moves a feature by {travelled:.4} a, more than a quarter of its length \

@@ -37,6 +37,7 @@ pub struct FullMarch<S: MarchSpace = LineSpace> {
 
 /// Number of steps in which features are raised where a steady solve with their full height fails.
 const RAISES: usize = 8;
+
 /// Simulates a contact in time with the full system on a grid.
 ///
 /// # Errors
