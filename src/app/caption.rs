@@ -50,9 +50,7 @@ fn conditions(lubricant: &Lubricant) -> String {
     let rough = rough.map(|rough| format!(", roughness σ {}", numbers::length(rough.sigma)));
     let supply = lubricant.cavitation.supply_film_m();
     let supply = supply.map(|film| format!(", starved with an inlet film of {}", numbers::length(film)));
-    let heat = lubricant
-        .heat
-        .map(|heat| format!(", heat from {} °C at the inlet", numbers::digits(heat.inlet_temperature - KELVIN, 1)));
+    let heat = lubricant.heat.map(|heat| format!(", heat from {:.1} °C at the inlet", heat.inlet_temperature - KELVIN));
     [rough, supply, heat].into_iter().flatten().collect()
 }
 
