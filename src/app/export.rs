@@ -4,8 +4,10 @@ use super::answers::Answers;
 use super::answers::picture::{Cuts, Picture, value_at};
 use super::numbers;
 use crate::engine::Table;
+use crate::solver::full::heat::Rises;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
+use egui_plot::PlotPoint;
 use std::fmt::Write as _;
 
 /// Returns a CSV table: comment lines, header, and rows of numbers with full precision. A missing value is an empty
@@ -79,11 +81,13 @@ pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     if full.is_some() {
         header.extend(["P_full", "H_full"].map(str::to_owned));
     }
+    let further = further(picture, cuts);
+    header.extend(further.iter().map(|(name, _)| (*name).to_owned()));
     for pin in answers.pins() {
         comments.push(format!("pin{}: {}; {}", pin.number, describe(&pin.picture), pin.picture.means()));
         header.extend(COLUMNS.map(|column| format!("pin{}.{column}", pin.number)));
     }
-    let live_width = COLUMNS.len() + if full.is_some() { 2 } else { 0 };
+    let live_width = COLUMNS.len() + if full.is_some() { 2 } else { 0 } + further.len();
     if picture.has_plane() {
         comments.push(format!("profiles along X at Y {:e}", cuts.y));
     }
@@ -96,6 +100,7 @@ pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
             if let Some(full) = full {
                 row.extend([value_at(&full.pressure, node.0), value_at(&full.film, node.0)]);
             }
+            row.extend(further.iter().map(|(_, curve)| value_at(curve, node.0)));
             row
         })
         .collect();
@@ -112,6 +117,31 @@ pub fn profiles(answers: &Answers, cuts: Cuts) -> Option<String> {
     };
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     Some(csv(&comments, &header, (0..rows).map(row)))
+}
+
+/// Returns further curves along the axis with their names: film fraction, asperity pressure, temperature rises. Empty
+/// away from the axis.
+fn further(picture: &Picture, cuts: Cuts) -> Vec<(&'static str, Vec<PlotPoint>)> {
+    if picture.has_plane() && cuts.y != 0.0 {
+        return Vec::new();
+    }
+    let (solution, ny) = (&picture.solution, picture.solution.y.len());
+    let fraction = solution.axis_fraction().map(|(x, value)| PlotPoint::new(x, value)).collect();
+    let carried = solution.asperity_pressure.iter().skip(ny - 1).step_by(ny);
+    let carried = solution.x.iter().zip(carried).map(|(x, value)| PlotPoint::new(*x, *value)).collect();
+    let heat = solution.heat.as_deref();
+    let rises = |of: fn(Rises) -> f64| -> Vec<PlotPoint> {
+        let along = heat.into_iter().flat_map(|heat| heat.x.iter().zip(heat.along_axis()));
+        along.map(|(x, profile)| PlotPoint::new(*x, of(Rises::of(profile)))).collect()
+    };
+    let curves: [(&str, Vec<PlotPoint>); 5] = [
+        ("theta", fraction),
+        ("P_a", carried),
+        ("mid_film_rise_k", rises(|rises| rises.mid_film_k)),
+        ("surface_1_rise_k", rises(|rises| rises.surfaces_k[0])),
+        ("surface_2_rise_k", rises(|rises| rises.surfaces_k[1])),
+    ];
+    curves.into_iter().filter(|(_, curve)| !curve.is_empty()).collect()
 }
 
 /// Returns the profile across a point contact, with dimensionless and SI values. Empty without a picture.

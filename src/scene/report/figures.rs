@@ -2,8 +2,8 @@
 
 use crate::scene::answer::Answer;
 use crate::scene::chart::{Chart, ChartAxis, ColorScale, Map, Marks};
-use crate::scene::drawing::{Pixels, viridis};
-use crate::solver::discrete::half_space::StressMeasure;
+use crate::scene::drawing::{Pen, Pixels, viridis};
+use crate::solver::discrete::half_space::{Stress, StressMeasure};
 use crate::solver::full::{Solution, SubsurfaceStress};
 use crate::solver::physics::contact::ContactKind;
 
@@ -92,10 +92,10 @@ fn stress_map(solution: &Solution, field: &SubsurfaceStress) -> Chart {
     let ends = |nodes: &[f64]| (nodes.first().map_or(0.0, |x| mm * x), nodes.last().map_or(1.0, |x| mm * x));
     let ((left, right), (_, deepest)) = (ends(&field.x), ends(&field.z));
     let largest = field.maximum(StressMeasure::VonMises);
-    let pixel = |stress: &crate::solver::discrete::half_space::Stress| viridis(stress.von_mises() / largest.stress_pa);
+    let pixel = |stress: &Stress| viridis(stress.von_mises() / largest.stress_pa);
     let mut chart =
         Chart::new("Von Mises stress below body 1", ChartAxis::linear("{x} in mm"), ChartAxis::linear("{z} in mm"));
-    (chart.equal, chart.marked) = (true, true);
+    chart.marked = true;
     chart.map = Some(Map {
         x: (left, right),
         y: (-deepest, 0.0),
@@ -110,8 +110,7 @@ fn stress_map(solution: &Solution, field: &SubsurfaceStress) -> Chart {
     chart.add("maximum", Marks::Crosses, [[mm * largest.x, -mm * largest.z]]);
     if let Some(series) = chart.series.last_mut() {
         series.name.clear();
-        series.pen =
-            Some(crate::scene::drawing::Pen { color: [0x22; 3], opacity: 1.0, width: 1.0, dashes: Vec::new() });
+        series.pen = Some(Pen { color: [0x22; 3], opacity: 1.0, width: 1.0, dashes: Vec::new() });
     }
     chart
 }

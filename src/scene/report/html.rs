@@ -28,7 +28,7 @@ fn symbols(text: &str) -> String {
 }
 
 fn table(section: &Section) -> String {
-    let row = |Row { name, value }: &Row| format!("<tr><td>{}</td><td>{}</td></tr>\n", symbols(name), escaped(value));
+    let row = |Row { name, value }: &Row| format!("<tr><td>{}</td><td>{}</td></tr>\n", symbols(name), symbols(value));
     let rows: String = section.rows.iter().map(row).collect();
     format!("<h2>{}</h2>\n<table>\n{rows}</table>\n", escaped(section.title))
 }

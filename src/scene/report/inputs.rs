@@ -9,7 +9,7 @@ use crate::scene::answer::Answer;
 use crate::scene::regime::{Ratios, RegimeMap};
 use crate::solver::physics::contact::{ContactKind, FilmShape, OperatingPoint};
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Lubricant, ShearLaw, ViscosityLaw};
-use crate::solver::physics::surfaces::Roughness;
+use crate::solver::physics::surfaces::{AsperityLaw, Roughness};
 
 /// Returns the sections of the inputs.
 pub fn sections(stated: &Stated, solved: &Answer) -> Vec<Section> {
@@ -40,7 +40,7 @@ fn bodies(stated: &Stated, solved: &Answer) -> Section {
     part.row("Body 2", stated.bodies[1].clone());
     part.measure("Reduced radius {R}", point.radius_m, LENGTH);
     part.measure("Across {R_y}", point.radius_y_m.filter(|_| point.is_elliptic()), LENGTH);
-    part.measure("Reduced modulus {E}′", point.modulus_pa, PRESSURE);
+    part.measure("Reduced modulus {E}’", point.modulus_pa, PRESSURE);
     part
 }
 
@@ -119,7 +119,7 @@ fn oil(stated: &Stated, point: &OperatingPoint, lubricant: &Lubricant) -> Sectio
     );
     if let Some(limit) = lubricant.limiting_stress {
         let own = measured(limit.ambient, PRESSURE);
-        part.row("Limiting shear stress", format!("{own} + {} {}", number(limit.slope), "p"));
+        part.row("Limiting shear stress", format!("{own} + {} {{p}}", number(limit.slope)));
     }
     match &lubricant.heat {
         None => part.row("Temperature", "isothermal at the inlet temperature"),
@@ -147,7 +147,14 @@ fn surfaces(roughness: Option<&Roughness>) -> Section {
         return part;
     };
     part.measure("Composite roughness {σ}", rough.sigma, LENGTH);
-    part.row("Asperity contact", rough.asperities.name());
+    part.row(
+        "Asperity contact",
+        match rough.asperities {
+            AsperityLaw::GreenwoodTripp { .. } => "Greenwood–Tripp",
+            AsperityLaw::ZhaoMaiettaChang { .. } => "Zhao–Maietta–Chang",
+            AsperityLaw::Exponential { .. } => "exponential",
+        },
+    );
     let isotropic = if rough.peklenik == 1.0 { ", isotropic" } else { "" };
     part.row("Peklenik number {γ}", format!("{}{isotropic}", number(rough.peklenik)));
     part.row("Boundary friction {µ_b}", number(rough.boundary_friction));

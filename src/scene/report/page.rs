@@ -17,9 +17,9 @@ const FOOTER: f64 = 6.8;
 /// Line spacing over font size.
 const SPACING: f64 = 1.32;
 /// Share of a column that names take.
-const NAMES: f64 = 0.42;
+const NAMES: f64 = 0.45;
 /// Heights of the figures \[pt\].
-const FIGURES: (f64, f64) = (95.0, 172.0);
+const FIGURES: (f64, f64) = (95.0, 185.0);
 /// Most lines of warnings; the rest is in the HTML report.
 const MOST_WARNING_LINES: usize = 9;
 
@@ -64,14 +64,18 @@ impl Writer<'_> {
 
     fn row(&mut self, Row { name, value }: &Row, left: f64, width: f64, top: f64) -> f64 {
         let split = NAMES * width;
-        let names = wrapped(name, TEXT, split - 4.0);
+        // Marks of symbols take no room, so that only a name that is too long without them is broken.
+        let names = match Words::marked(name).length(TEXT) <= split - 4.0 {
+            true => vec![name.clone()],
+            false => wrapped(name, TEXT, split - 4.0),
+        };
         let values = wrapped(value, TEXT, width - split);
         let line = |k: usize| top + TEXT * (1.05 + SPACING * k as f64) + 1.0;
         for (k, name) in names.iter().enumerate() {
             self.text(Words::marked(name), [left, line(k)], (TEXT, false, QUIET));
         }
         for (k, value) in values.iter().enumerate() {
-            self.text(Words::plain(value.as_str()), [left + split, line(k)], (TEXT, false, INK));
+            self.text(Words::marked(value), [left + split, line(k)], (TEXT, false, INK));
         }
         let bottom = line(names.len().max(values.len()).max(1) - 1) + 2.6;
         self.rule([left, bottom], width, (0.35, RULE));
@@ -118,12 +122,12 @@ impl Report {
         drawing
     }
 
-    /// Draws the figures in rows of two between two heights, as large as fits.
+    /// Draws the figures between two heights, as large as fits: up to three in one row, more in two rows if there is
+    /// room.
     fn figures(&self, marks: &mut Vec<Mark>, [left, top]: [f64; 2], [width, bottom]: [f64; 2]) {
-        let rows = self.figures.len().div_ceil(2).max(1);
-        let height = ((bottom - top) / rows as f64).min(FIGURES.1);
-        let (across, height) =
-            if height >= FIGURES.0 { (2, height) } else { (self.figures.len().max(1), bottom - top) };
+        let (count, room) = (self.figures.len().max(1), bottom - top);
+        let across = if count > 3 && 0.5 * room >= FIGURES.0 { count.div_ceil(2) } else { count };
+        let height = (room / count.div_ceil(across) as f64).min(FIGURES.1);
         let wide = width / across as f64;
         let page = Page { width_mm: (wide - 4.0) / PT_PER_MM, height_mm: height / PT_PER_MM, ..Page::default() };
         for (k, figure) in self.figures.iter().enumerate() {

@@ -133,10 +133,7 @@ fn trust(first: &Answer, others: &[Answer]) -> Section {
         if let Some(error) = result.reduced.as_ref().and_then(|reduced| reduced.error) {
             let traction = error.traction.map_or_else(String::new, |t| format!(", µ {}", percent(t.bound)));
             let [h_c, h_min] = [error.h_c.bound, error.h_min.bound].map(percent);
-            part.row(
-                "99 % error bounds",
-                format!("{{h_c}} {h_c}, {{h_min}} {h_min}{traction}").replace(['{', '}'], ""),
-            );
+            part.row("99 % error bounds", format!("{{h_c}} {h_c}, {{h_min}} {h_min}{traction}"));
         }
     }
     for other in others {
@@ -144,7 +141,7 @@ fn trust(first: &Answer, others: &[Answer]) -> Section {
             let (here, there) = (first.result.value(name)?, other.result.value(name)?);
             (here != 0.0).then(|| percent((there - here) / here))
         };
-        let differences: Vec<String> = [("h_c", "h_c_m"), ("h_min", "h_min_m"), ("µ", "traction")]
+        let differences: Vec<String> = [("{h_c}", "h_c_m"), ("{h_min}", "h_min_m"), ("{µ}", "traction")]
             .into_iter()
             .filter_map(|(symbol, name)| Some(format!("{symbol} {}", off(name)?)))
             .collect();

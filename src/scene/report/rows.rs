@@ -28,9 +28,14 @@ pub fn measured(value: f64, units: &[Unit]) -> String {
     }
 }
 
-/// Returns a dimensionless number.
+/// Returns a dimensionless number, without zeros at the end of its decimals.
 pub fn number(value: f64) -> String {
-    significant(value, DIGITS).replace('-', "−")
+    let text = significant(value, DIGITS);
+    let short = match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => text.as_str(),
+    };
+    short.replace('-', "−")
 }
 
 /// Returns a ratio in percent.
@@ -43,7 +48,7 @@ pub fn celsius(kelvin: f64) -> String {
     format!("{:.1} °C", kelvin - crate::solver::physics::engineering::KELVIN).replace('-', "−")
 }
 
-/// Row of a section: name with symbols in braces, value.
+/// Row of a section: name and value, both with symbols in braces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     pub name: String,

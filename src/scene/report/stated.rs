@@ -89,9 +89,10 @@ fn body_words(body: &Body) -> String {
     let material = body.material().map_or_else(String::new, |material| material.name.to_lowercase());
     let radius = |radius: Option<f64>| radius.map_or("plane".to_owned(), |radius| measured(radius, LENGTH));
     let along = body.radius_m.map_or("plane".to_owned(), |radius| format!("radius {}", measured(radius, LENGTH)));
-    let across = (body.transverse_radius_m() != body.radius_m)
-        .then(|| format!("across {}", radius(body.transverse_radius_m())))
-        .unwrap_or_default();
+    let across = match body.transverse_radius_m() {
+        across if across == body.radius_m => String::new(),
+        across => format!("across {}", radius(across)),
+    };
     let elastic = format!("E {}, ν {}", measured(body.modulus_pa, PRESSURE), number(body.poisson));
     joined([material, along, across, elastic, format!("Rq {}", measured(body.roughness_m, LENGTH))])
 }

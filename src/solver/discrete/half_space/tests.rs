@@ -22,7 +22,7 @@ fn hertz(kappa: Option<f64>, friction: f64, spacing: f64) -> SurfaceLoad {
     let pressure: Vec<f64> = (0..columns * lines).map(at).collect();
     let traction = pressure.iter().map(|p| friction * p).collect();
     let kappa = kappa.unwrap_or(1.0);
-    let period = if lines == 1 { [64.0, 1.0] } else { [24.0 * kappa.max(1.0).min(2.5), 24.0 * kappa.max(1.0)] };
+    let period = if lines == 1 { [64.0, 1.0] } else { [24.0 * kappa.clamp(1.0, 2.5), 24.0 * kappa.max(1.0)] };
     SurfaceLoad { columns, spacing: [spacing, across], pressure, traction, period }
 }
 

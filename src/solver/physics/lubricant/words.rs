@@ -1,6 +1,6 @@
 //! Description of a lubricant as text.
 
-use super::{DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw};
+use super::{Cavitation, DensityLaw, Doolittle, Heat, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw};
 
 impl Lubricant {
     /// Returns all laws with their constants in SI units as text, for table headers.
@@ -35,7 +35,27 @@ impl Lubricant {
             format!("limiting stress {ambient:e} Pa + {slope:e} p{bent}")
         });
         let roughness = self.roughness.filter(|_| self.is_rough()).map(|roughness| roughness.describe());
-        [Some(viscosity), Some(density), shear, limit, roughness].into_iter().flatten().collect::<Vec<_>>().join("; ")
+        let laws = [Some(viscosity), Some(density), shear, limit, roughness].into_iter().flatten();
+        laws.chain(self.conditions()).collect::<Vec<_>>().join("; ")
+    }
+
+    /// Returns cavitation model, oil supply and heat as texts, with constants in SI units; none for the penalty method,
+    /// a flooded inlet and an isothermal contact.
+    fn conditions(&self) -> impl Iterator<Item = String> {
+        let cavitation =
+            (self.cavitation != Cavitation::default()).then(|| format!("cavitation {}", self.cavitation.name()));
+        let supply = self.cavitation.supply_film_m().map(|film| format!("inlet film thickness {film:e} m"));
+        let heat = self.heat.map(|Heat { inlet_temperature, oil, bodies }| {
+            let thermal =
+                |c: f64, k: f64, density: f64| format!("c {c:e} J/(kg K), k {k:e} W/(m K), rho {density:e} kg/m3");
+            let [first, second] = bodies.map(|body| thermal(body.heat_capacity, body.conductivity, body.density));
+            format!(
+                "heat from {inlet_temperature:e} K (oil {}, beta {:e} 1/K; body 1 {first}; body 2 {second})",
+                thermal(oil.heat_capacity, oil.conductivity, oil.density),
+                oil.viscosity_temperature
+            )
+        });
+        [cavitation, supply, heat].into_iter().flatten()
     }
 }
 
@@ -59,6 +79,11 @@ mod tests {
             "Doolittle viscosity (B 4e0, R_0 6.5e-1, K_0 1e9 Pa, K_0' 1.1e1); Tait density (K_0 1e9 Pa, K_0' 1.1e1); \
              Carreau shear (G_c 1e4 Pa, beta 2.2e0, n 8e-1, NPR 2.5e-1); limiting stress 5e6 Pa + 5e-2 p"
         );
+        let heat = Some(Heat::default());
+        let supplied = Cavitation::MassConserving { supply_film_m: Some(2e-7) };
+        let said = Lubricant { heat, cavitation: supplied, ..Lubricant::default() }.describe();
+        let conditions = "; cavitation mass-conserving; inlet film thickness 2e-7 m; heat from 3.1315e2 K (oil c 2e3 ";
+        assert!(said.contains(conditions) && said.contains("body 2 c 4.6e2 J/(kg K), k 4.7e1 W/(m K)"), "{said}");
         let eyring = ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 };
         assert!(!Lubricant { shear: eyring, ..lubricant }.describe().contains('{'));
     }
