@@ -39,8 +39,8 @@ use std::time::Duration;
 const LOW: f32 = 480.0;
 /// Width of all tabs below which their titles are closely spaced.
 const NARROW: f32 = 900.0;
-/// Height of a row of read-outs. Two rows are reserved in windows that are narrower than the one and at least as high as
-/// the other.
+/// Height of a row of read-outs. With friction or a film ratio two rows are reserved, in windows that are narrower than
+/// the one and at least as high as the other.
 const READOUTS: f32 = 24.0;
 const ONE_ROW: f32 = 1400.0;
 const TWO_ROWS: f32 = 700.0;
@@ -200,8 +200,11 @@ impl Explorer {
         Panel::bottom("readouts").show(ui, |ui| {
             // The height is constant, so that nothing above moves.
             let screen = ui.ctx().content_rect();
-            let one = self.desk.presentation.is_some() || screen.width() >= ONE_ROW || screen.height() < TWO_ROWS;
-            let rows = if one { 1.0 } else { 2.0 };
+            let document = &self.desk.document;
+            let more = document.has_surfaces() || document.point.sliding.slide_to_roll_ratio != 0.0;
+            let two =
+                more && self.desk.presentation.is_none() && screen.width() < ONE_ROW && screen.height() >= TWO_ROWS;
+            let rows = if two { 2.0 } else { 1.0 };
             ui.set_min_height(rows * READOUTS + (rows - 1.0) * ui.spacing().item_spacing.y);
             let context = self.desk.context();
             if !in_time || !panels::moment::ui(ui, &context) {

@@ -42,7 +42,8 @@ fn carry_out(harness: &mut Window, goal: &str) {
         ["mixed"] => {
             // The text of the lesson names the group too.
             harness.query_all_by_label("Surfaces").next().unwrap().click();
-            harness.run_steps(3);
+            // The group opens slowly.
+            harness.run_steps(20);
             harness.get_by_role_and_label(Role::CheckBox, "Mixed lubrication").click();
             harness.run_steps(2);
         }

@@ -227,7 +227,7 @@ fn sliders_of_a_presentation_are_chosen() {
         click(&mut harness, name);
     }
     press(&mut harness, Modifiers::NONE, Key::Escape);
-    assert!(harness.query_by_label("Load number M").is_none(), "only what was chosen");
+    assert!(harness.query_by_role_and_label(Role::Slider, "Load number M").is_none(), "only what was chosen");
     crate::driver::set(&mut harness, Role::Slider, "Slider of the speed", 10.0);
     wait(&mut harness, "the faster contact", |app| app.central_film().is_some_and(|other| other > 1.5 * film));
     crate::driver::set(&mut harness, Role::Slider, "Slider of the load", 100.0);
@@ -236,5 +236,5 @@ fn sliders_of_a_presentation_are_chosen() {
     assert!(place.bottom() <= 800.0, "{place:?}");
     click(&mut harness, "Sliders");
     click(&mut harness, "Usual sliders");
-    assert!(harness.query_by_label("Load number M").is_some());
+    assert!(harness.query_by_role_and_label(Role::Slider, "Load number M").is_some());
 }

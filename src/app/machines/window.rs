@@ -83,11 +83,11 @@ impl MachineWindow {
         let title = kind.title().trim_end_matches('…');
         let window = Window::new(title).id(egui::Id::unique("machine")).open(&mut open).collapsible(false);
         let height = 0.86 * room.y;
-        window.resizable(false).max_height(height).default_pos((0.2 * room.x, 0.06 * room.y)).show(ctx, |ui| {
+        window.resizable(false).max_height(height).default_pos((0.28 * room.x, 0.06 * room.y)).show(ctx, |ui| {
             ScrollArea::vertical().max_height(height - 60.0).show(ui, |ui| {
                 ui.horizontal_top(|ui| {
                     ui.vertical(|ui| self.form_ui(ui, kind));
-                    ui.separator();
+                    ui.add_space(12.0);
                     ui.vertical(|ui| {
                         ui.set_width(DERIVED);
                         self.derived_ui(ui, kind, document, commands);

@@ -102,7 +102,7 @@ fn friction(
     let whole = point.kind == ContactKind::Point || own.length_m.is_some();
     let extent = Extent { length_m: own.length_m.or(Some(1e-3)), ..own };
     let losses = Losses::of(point, picture.traction, picture.solution.rolling_resistance(), &extent);
-    if let Some(losses) = losses.filter(|_| doubt.is_none()) {
+    if let Some(losses) = losses.filter(|losses| doubt.is_none() && losses.friction_n != 0.0) {
         let per = if whole { "" } else { "/mm" };
         let torques: Vec<String> = losses.torques_nm.iter().flatten().map(|t| numbers::digits(*t, 3)).collect();
         let torques = match torques.as_slice() {

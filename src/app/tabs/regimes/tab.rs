@@ -269,7 +269,7 @@ impl View for Regimes {
         } else {
             let room = ui.available_height();
             self.chart(ui, context, commands, (room - FORMULAS).max(0.7 * room));
-            let table = ScrollArea::vertical().id_salt("formulas").auto_shrink(false);
+            let table = ScrollArea::vertical().id_salt("formulas").auto_shrink(false).min_scrolled_height(0.0);
             table.show(ui, |ui| formulas::ui(ui, context, commands));
         }
     }
