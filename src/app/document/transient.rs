@@ -43,11 +43,15 @@ impl Document {
     /// Returns why the transient study does not support the contact. `None` if it does.
     pub fn unsupported_in_time(&self) -> Option<Unsupported> {
         let by_model = |study: &TransientStudy| study.reduced.is_some() || study.linearised.is_some();
-        let of_model = |()| match self.transient.as_ref().is_some_and(by_model) {
-            true => Unsupported::check_model(&self.lubricant),
-            false => Ok(()),
-        };
-        Unsupported::check(self.point.kind, &self.lubricant).and_then(of_model).err()
+        let lubricant = &self.lubricant;
+        match &self.transient {
+            // Full runs cover point contacts too.
+            Some(study) if !by_model(study) => Unsupported::check_lubricant(lubricant).err(),
+            study => {
+                let of_model = || if study.is_some() { Unsupported::check_model(lubricant) } else { Ok(()) };
+                Unsupported::check(self.point.kind, lubricant).and_then(|()| of_model()).err()
+            }
+        }
     }
 
     /// Returns true if the file contains the transient contact. A scene with another study keeps that study, and an

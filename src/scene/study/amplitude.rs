@@ -209,7 +209,11 @@ impl Question for Amplitude {
     }
 
     fn charts(&self, rows: &[&Row]) -> Vec<Chart> {
-        let mut chart = Chart::new("Amplitude of a wavy surface", ChartAxis::log("∇"), ChartAxis::linear("|A_d/A_i|"));
+        let mut chart = Chart::new(
+            "Amplitude of a wavy surface",
+            ChartAxis::log("Reduction parameter Ψ"),
+            ChartAxis::linear("|A_d/A_i|"),
+        );
         let mut published: Vec<[f64; 2]> = rows.iter().map(|row| [row.nabla, row.published]).collect();
         published.sort_by(|a, b| a[0].total_cmp(&b[0]));
         chart.add("published, pure rolling", Marks::Line, published);

@@ -2,7 +2,7 @@ use super::*;
 use crate::solver::discrete::grid::{GridSpec, PointGridSpec};
 use crate::solver::discrete::space::LineSpace;
 use crate::solver::full::{FullSolver, PointSolver, Solution, Start};
-use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::physics::contact::{ContactKind, Moes, MoesRequest, OperatingPoint, si_from_moes};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 use std::f64::consts::TAU;
 
@@ -63,7 +63,8 @@ fn the_stiffness_at_rest_is_the_slope_of_steady_loads() {
             let (a, reference) = (point.hertz().half_width_m, steady.problem.point.hertz().half_width_m);
             (solution.scalars.h_0 + 0.5 * (a / reference).ln()) * point.film_scale_m()
         };
-        let step = 1e-3 * STEEL_LINE.load;
+        // So small that no node begins or ends to cavitate.
+        let step = 1e-5 * STEEL_LINE.load;
         let slope = -2.0 * step / (separation(STEEL_LINE.load + step) - separation(STEEL_LINE.load - step));
         assert!((computed / slope - 1.0).abs() < 1e-4, "{cavitation:?}: {computed} against {slope}");
     }
@@ -71,15 +72,17 @@ fn the_stiffness_at_rest_is_the_slope_of_steady_loads() {
 
 #[test]
 fn long_waves_are_flattened_and_short_ones_pass() {
-    let mut response = line();
-    let ratios: Vec<f64> = [8.0, 4.0, 2.0, 1.0, 0.5]
-        .map(|wavelength| response.wave(wavelength, 1.0, TimeDerivative::Exact).unwrap().ratio())
-        .into();
-    assert!(ratios.windows(2).all(|pair| pair[0] < pair[1]), "{ratios:?}");
-    let published = published_reduction(ContactKind::Line);
-    for (wavelength, ratio) in [2.0, 1.0, 0.5].into_iter().zip(&ratios[2..]) {
-        let wanted = published.at(reduction_parameter(ContactKind::Line, STEEL_LINE.moes(), wavelength));
-        assert!((ratio - wanted).abs() < 0.03, "λ = {wavelength}: {ratio} against {wanted}");
+    // Venner, Couhier, Lubrecht and Greenwood 1997, M = 100, L = 11, A_i/H_c = 0.1.
+    let published = [(4.0, 0.030), (2.0, 0.073), (1.0, 0.183), (0.5, 0.394), (0.25, 0.660)];
+    let point = si_from_moes(&MoesRequest::new(ContactKind::Line, 100.0, 11.0)).unwrap();
+    let fine = GridSpec::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
+    let steady = FullSolver::new(fine).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
+    let mut response = LinearResponse::new(&fine.line().unwrap(), &steady).unwrap();
+    let mut former = 0.0;
+    for (wavelength, wanted) in published {
+        let ratio = response.wave(wavelength, 1.0, TimeDerivative::Exact).unwrap().ratio();
+        assert!((ratio - wanted).abs() < 0.03 && ratio > former, "λ = {wavelength}: {ratio} against {wanted}");
+        former = ratio;
     }
 }
 
