@@ -77,7 +77,7 @@ fn long_waves_are_flattened_and_short_ones_pass() {
     let point = si_from_moes(&MoesRequest::new(ContactKind::Line, 100.0, 11.0)).unwrap();
     let fine = GridSpec::Uniform { dx: 0.005, domain: (-4.0, 2.0) };
     let steady = FullSolver::new(fine).unwrap().solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
-    let mut response = LinearResponse::new(&fine.line().unwrap(), &steady).unwrap();
+    let mut response = LinearResponse::<LineSpace>::new(&fine.line().unwrap(), &steady).unwrap();
     let mut former = 0.0;
     for (wavelength, wanted) in published {
         let ratio = response.wave(wavelength, 1.0, TimeDerivative::Exact).unwrap().ratio();
