@@ -19,6 +19,8 @@ use egui::{Button, Context, Grid, ScrollArea, TextStyle, Ui, Window};
 const FIELD: &str = "bodies";
 /// Width of the derived values.
 const DERIVED: f32 = 250.0;
+/// Height of the title and of the buttons.
+const ACTIONS: f32 = 96.0;
 
 /// Window with the form of a machine. Machines that were entered are kept while the program runs; the document
 /// remembers the one in use.
@@ -84,16 +86,22 @@ impl MachineWindow {
         let window = Window::new(title).id(egui::Id::unique("machine")).open(&mut open).collapsible(false);
         let height = 0.86 * room.y;
         window.resizable(false).max_height(height).default_pos((0.28 * room.x, 0.06 * room.y)).show(ctx, |ui| {
-            ScrollArea::vertical().max_height(height - 60.0).show(ui, |ui| {
-                ui.horizontal_top(|ui| {
+            let room = height - ACTIONS;
+            let area = ScrollArea::vertical().max_height(room).min_scrolled_height(room);
+            let ready = area.show(ui, |ui| {
+                let columns = ui.horizontal_top(|ui| {
                     ui.vertical(|ui| self.form_ui(ui, kind));
                     ui.add_space(12.0);
-                    ui.vertical(|ui| {
+                    let derived = ui.vertical(|ui| {
                         ui.set_width(DERIVED);
-                        self.derived_ui(ui, kind, document, commands);
+                        self.derived_ui(ui, kind, document)
                     });
+                    derived.inner
                 });
+                columns.inner
             });
+            // The buttons stay in view below the form.
+            self.actions_ui(ui, kind, ready.inner, document, commands);
         });
         if !open {
             self.open = None;
@@ -121,7 +129,8 @@ impl MachineWindow {
         });
     }
 
-    fn derived_ui(&mut self, ui: &mut Ui, kind: MachineKind, document: &Document, commands: &mut Commands) {
+    /// Draws the slider, the sketch and the values of the contact. Returns true if there is a contact.
+    fn derived_ui(&mut self, ui: &mut Ui, kind: MachineKind, document: &Document) -> bool {
         self.slider_ui(ui, kind, document);
         let machine = self.drafts[kind as usize].clone();
         let Trial { document: with, rows } = trial(&machine, document);
@@ -136,9 +145,21 @@ impl MachineWindow {
                 Err(why) => message_ui(ui, why),
             }
         });
+        shown.is_ok()
+    }
+
+    /// Draws the buttons that use the contact or its path.
+    fn actions_ui(
+        &mut self,
+        ui: &mut Ui,
+        kind: MachineKind,
+        ready: bool,
+        document: &Document,
+        commands: &mut Commands,
+    ) {
+        let machine = self.drafts[kind as usize].clone();
         let line = machine.kind() == ContactKind::Line;
-        ui.horizontal_wrapped(|ui| {
-            let ready = shown.is_ok();
+        ui.horizontal(|ui| {
             let tip = "Sets bodies, speeds and load. Materials, roughness and lubricant stay";
             if ui.add_enabled(ready, Button::new("Use")).on_hover_text(tip).clicked() {
                 commands.edit(Edit::Machine(Box::new(machine.clone())), FIELD);
