@@ -83,8 +83,8 @@ fn each_is_walked_through_from_a_fresh_start() {
     let texts = texts();
     assert_eq!(texts.len(), 14);
     for (k, text) in texts.iter().enumerate() {
-        // The switches of the lubricant are below the other controls.
-        let low = text.contains("Do: starved") || text.contains("Do: heat");
+        // The switches of lubricant and surfaces are below the other controls.
+        let low = ["starved", "heat", "mixed"].iter().any(|goal| text.contains(&format!("Do: {goal}")));
         let size = [1280.0, if low { 1900.0 } else { 800.0 }];
         let mut harness = window(Explorer::with_embedded_models().without_system_dialogs(), size);
         harness.run_steps(3);
