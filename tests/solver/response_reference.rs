@@ -78,8 +78,11 @@ fn marched(spec: GridSpec, point: OperatingPoint, omega: f64) -> (f64, f64) {
     const AMPLITUDE: f64 = 1e-3;
     // The damping is a small difference in phase, which a coarse time step would hide.
     const STEPS: f64 = 500.0;
+    const LEAVES: f64 = 6.0;
     let period = TAU / omega;
-    let (duration, step) = (3.0 * period, period / STEPS);
+    // The disturbance at the start leaves the contact before the last period.
+    let periods = (LEAVES / period).ceil() + 1.0;
+    let (duration, step) = (periods * period, period / STEPS);
     let lubricant = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let transient = Transient {
         lubricant,

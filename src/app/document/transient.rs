@@ -3,7 +3,7 @@
 use crate::app::document::Document;
 use crate::app::in_use::question;
 use crate::app::refusal::Refusal;
-use crate::scene::{Grid, LinearisedTransient, ReducedTransient, Study, TransientStudy};
+use crate::scene::{Grid, LinearisedTransient, ReducedTransient, Scene, Study, TransientStudy};
 use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Unsupported};
 
 /// Default grid, a compromise between accuracy and speed.
@@ -43,15 +43,14 @@ impl Document {
     /// Returns why the transient study does not support the contact. `None` if it does.
     pub fn unsupported_in_time(&self) -> Option<Unsupported> {
         let by_model = |study: &TransientStudy| study.reduced.is_some() || study.linearised.is_some();
-        let lubricant = &self.lubricant;
-        match &self.transient {
-            // Full runs cover point contacts too.
-            Some(study) if !by_model(study) => Unsupported::check_lubricant(lubricant).err(),
-            study => {
-                let of_model = || if study.is_some() { Unsupported::check_model(lubricant) } else { Ok(()) };
-                Unsupported::check(self.point.kind, lubricant).and_then(|()| of_model()).err()
-            }
+        let (lubricant, by_model) = (&self.lubricant, self.transient.as_ref().is_some_and(by_model));
+        // Full runs of scenes cover point contacts too; their grid is that of the scene.
+        let opened = |scene: &Scene| scene.contact == self.point.kind && matches!(scene.study, Study::Transient(_));
+        if !by_model && self.scene.as_ref().is_some_and(opened) {
+            return Unsupported::check_lubricant(lubricant).err();
         }
+        let of_model = |()| if by_model { Unsupported::check_model(lubricant) } else { Ok(()) };
+        Unsupported::check(self.point.kind, lubricant).and_then(of_model).err()
     }
 
     /// Returns true if the file contains the transient contact. A scene with another study keeps that study, and an

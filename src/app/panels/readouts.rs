@@ -65,7 +65,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         },
     ];
     cells.extend(film_ratio(ui, picture, document, &palette));
-    cells.extend(friction(ui, (picture, document), &delta, &palette));
+    cells.extend(friction(ui, (picture, document), delta(&|p| p.traction), &palette));
     ui.scope(|ui| {
         if stale {
             ui.disable();
@@ -74,11 +74,12 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
     });
 }
 
-/// Returns the traction coefficient, and the friction force with the power loss.
+/// Returns the traction coefficient with its change from the last pinned curve, and the friction force with the power
+/// loss.
 fn friction(
     ui: &Ui,
     (picture, document): (&Picture, &Document),
-    delta: &dyn Fn(&dyn Fn(&Picture) -> f64) -> Option<f64>,
+    traction_change: Option<f64>,
     palette: &Palette,
 ) -> Vec<Cell> {
     let (srr, doubt) = (picture.key.point.sliding.slide_to_roll_ratio, picture.unphysical);
@@ -93,7 +94,7 @@ fn friction(
             doubt.map_or_else(String::new, |why| format!(", {}", why.mark()))
         ),
         color: if doubt.is_some() { palette.reference } else { palette.traction },
-        delta: delta(&|p| p.traction).filter(|delta| delta.is_finite() && doubt.is_none()),
+        delta: traction_change.filter(|delta| delta.is_finite() && doubt.is_none()),
         tip: doubt.map_or_else(|| tip.to_owned(), |why| sentence(&why.to_string())).into(),
     }];
     let point = &picture.key.point;

@@ -356,7 +356,7 @@ impl LinkedPlot<'_> {
         }
         let points = axes.points(samples.iter().filter(|sample| mark(sample).is_none()), curve.of);
         let mut seen = points.into_iter().filter(|point| axes.shows(point[0]));
-        if let Some([x, y]) = if curve.named_at_start { seen.next() } else { seen.last() } {
+        if let Some([x, y]) = if curve.named_at_start { seen.next() } else { seen.next_back() } {
             let name = if sketch {
                 format!("{}, outside the trained range  ", curve.name)
             } else {
