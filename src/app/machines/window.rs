@@ -177,7 +177,11 @@ impl MachineWindow {
             let transient =
                 transient.on_hover_text(tip).on_disabled_hover_text("Transient runs cover line contacts only");
             if transient.clicked() {
-                self.message = start_transient(&machine, document, commands).err();
+                // The form would hide the run.
+                match start_transient(&machine, document, commands) {
+                    Ok(()) => self.open = None,
+                    Err(why) => self.message = Some(why),
+                }
             }
         });
         if let Some(why) = &self.message {
