@@ -76,8 +76,12 @@ pub fn solve_many<'py>(
         let name = Words::Keywords.of(*field);
         return Err(refused(format!("{name} has {} values, but another option has {total}", values.len())));
     }
-    let mixed = asked.spec.roughness.is_some() || columns.iter().any(|(field, _)| *field == Field::Roughness);
-    let extras = Extras { heat: asked.spec.heat == Some(true), mixed };
+    let varies = |wanted: Field| columns.iter().any(|(field, _)| *field == wanted);
+    let extras = Extras {
+        heat: asked.spec.heat == Some(true),
+        total: asked.spec.length.is_some() || varies(Field::Length),
+        mixed: asked.spec.roughness.is_some() || varies(Field::Roughness),
+    };
     let columns_of_rows = [contact_columns(), result_columns(extras)].concat();
     let Asked { spec, model } = asked;
     let width = columns_of_rows.len();
