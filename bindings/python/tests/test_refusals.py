@@ -46,7 +46,7 @@ def test_the_sentence_is_that_of_the_command_line_in_words_of_python(given, prog
     "given, part",
     [
         (dict(lubricant="butter"), "lubricant=: “butter” is not valid; there is no lubricant of that name; accepted are"),
-        (dict(colour="red"), "colour= is no keyword of a contact; accepted are contact, method, rom, radius, radius_y"),
+        (dict(colour="red"), "colour= is no keyword of a contact; accepted are contact, method, rom, machine, radius"),
         (dict(viscosity="many"), "viscosity=: “many” is no number; write it like 12.5 mPa·s"),
         (dict(radius="12 kg"), "radius=: “kg” is no unit of a length; accepted are mm"),
         (dict(contact="cube"), "contact=: “cube” is not valid; accepted are line, point"),
