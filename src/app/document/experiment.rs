@@ -335,8 +335,8 @@ impl Document {
 
     /// Returns true if the study of a scene is also possible with the heat and the roughness of the present contact.
     fn keeps(&self, scene: &Scene) -> bool {
-        let Lubricant { heat, .. } = self.lubricant;
-        let (warm, rough) = (heat.is_some() && scene.heat.is_none(), self.lubricant.is_rough());
+        let warm = self.lubricant.heat.is_some() && scene.heat.is_none();
+        let rough = self.lubricant.is_rough();
         if !warm && (!rough || scene.roughness.is_some()) {
             return true;
         }

@@ -46,13 +46,6 @@ impl Default for MachineWindow {
     }
 }
 
-/// Machine as it would be used now.
-struct Trial {
-    /// Document with the machine.
-    document: Result<Document, Refusal>,
-    rows: Result<Vec<Row>, Refusal>,
-}
-
 impl MachineWindow {
     /// Returns true if the window is open. Escape then closes it.
     pub fn is_open(&self) -> bool {
@@ -133,8 +126,7 @@ impl MachineWindow {
     fn derived_ui(&mut self, ui: &mut Ui, kind: MachineKind, document: &Document) -> bool {
         self.slider_ui(ui, kind, document);
         let machine = self.drafts[kind as usize].clone();
-        let Trial { document: with, rows } = trial(&machine, document);
-        let shown = with.as_ref().map_err(Clone::clone).and(rows);
+        let shown = trial(&machine, document);
         let modulus = document.bodies().reduced_modulus_pa().unwrap_or(document.point.modulus_pa);
         sketch::ui(ui, &machine, modulus, DERIVED - 10.0);
         ui.scope(|ui| {
@@ -216,18 +208,14 @@ impl MachineWindow {
     }
 }
 
-fn trial(machine: &Machine, document: &Document) -> Trial {
+/// Returns the values of a machine as it would be used now, or why the document cannot take it.
+fn trial(machine: &Machine, document: &Document) -> Result<Vec<Row>, Refusal> {
     let mut with = document.clone();
-    let result = with.set_machine(machine.clone());
-    let base = document.bodies();
-    let rows = || {
-        let modulus_pa = base.reduced_modulus_pa()?;
-        let mut rows = derived::of_contact(&with.point, &machine.contact(modulus_pa)?);
-        rows.extend(derived::of_machine(machine, modulus_pa)?);
-        Ok(rows)
-    };
-    let rows = rows();
-    Trial { document: result.map(|()| with), rows }
+    with.set_machine(machine.clone())?;
+    let modulus_pa = document.bodies().reduced_modulus_pa()?;
+    let mut rows = derived::of_contact(&with.point, &machine.contact(modulus_pa)?);
+    rows.extend(derived::of_machine(machine, modulus_pa)?);
+    Ok(rows)
 }
 
 fn rows_ui(ui: &mut Ui, rows: &[Row]) {

@@ -37,15 +37,6 @@ impl Lubrication {
         }
     }
 
-    /// Returns the load shares at its lower and upper end.
-    pub fn shares(self) -> (f64, f64) {
-        match self {
-            Self::FullFilm => (0.0, FULL_FILM),
-            Self::Mixed => (FULL_FILM, BOUNDARY),
-            Self::Boundary => (BOUNDARY, 1.0),
-        }
-    }
-
     /// Returns the name.
     pub fn name(self) -> &'static str {
         match self {
