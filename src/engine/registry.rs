@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn of_models_that_cover_a_contact_the_one_with_the_smallest_range_serves() {
+    fn the_covering_model_with_the_smallest_range_is_used() {
         let wide = catalogue().iter().find(|entry| entry.name == "line").unwrap().domain.clone();
         let mut narrow = wide.clone();
         narrow.space.axis_mut(Quantity::M).unwrap().ends = (20.0, 80.0);

@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn a_page_has_a_table_for_each_folder_and_says_what_falls_short_or_has_not_run() {
+    fn pages_have_a_table_per_folder_with_failures_and_gaps() {
         let refused: Result<SceneOutcome, _> = Err("no such model");
         let files = ["line/b.ron", "line/c.ron", "time/a.ron", "time/later.ron"].map(file);
         let entries = record([
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn a_page_gives_its_entries_back_and_each_belongs_to_its_own_scene_only() {
+    fn page_entries_are_read_back_for_their_own_scene() {
         let mut several = outcome(true);
         several.verdicts.extend(outcome(false).verdicts);
         let (mut titled, refused) = (file("line/b.ron"), Err("a | b"));
@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn an_entry_outlives_another_spelling_of_its_scene_and_the_page_has_the_new_titles() {
+    fn entries_survive_respelled_scenes_under_new_titles() {
         let text = |fields: &str| format!("Scene(version: 1, {fields})");
         let of = |fields: &str| Scene::from_ron(&text(fields)).unwrap();
         let old = of(

@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn solvers_come_back_unless_they_panicked_and_no_more_are_kept_than_wanted() {
+    fn solvers_are_returned_unless_they_panicked_up_to_a_limit() {
         let store = Store::default();
         for nodes in 100..100 + 2 * KEPT_LINES {
             let grid = store.grid(line(nodes)).unwrap();

@@ -415,7 +415,7 @@ mod tests {
     }
 
     #[test]
-    fn a_training_that_another_version_of_the_program_began_is_refused_and_left_alone() {
+    fn trainings_of_other_versions_are_refused_and_kept() {
         let (state, path) = state("version");
         write_as("0.0.1-\u{7}former", &state, &path).unwrap();
         let before = std::fs::read(&path).unwrap();

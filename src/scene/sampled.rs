@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn quantities_with_units_refer_to_the_contact_for_every_separator() {
+    fn quantities_with_units_are_read_with_every_separator() {
         let point = OperatingPoint::TABLE_2_1;
         let unit = point.hertz().half_width_m / point.speed_m_per_s;
         for text in [

@@ -405,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_of_the_time_step_is_warned_of_beyond_three_percent_or_the_tolerance() {
+    fn large_time_step_errors_are_warned_of() {
         assert_eq!(Warning::of_time_step(0.029, None), None);
         assert_eq!(Warning::of_time_step(0.009, Some(0.01)), None);
         let far = Warning::of_time_step(0.18, None).unwrap().to_string();

@@ -203,7 +203,7 @@ fn what_a_point_contacts_grid_costs_is_estimated_on_request() {
 }
 
 #[test]
-fn stiffness_and_damping_are_printed_with_their_units_in_the_names() {
+fn stiffness_and_damping_have_units_in_their_names() {
     let frequencies = ["--dynamics", "0,500,5000,20000"];
     let line = ["solve", "--json", "--moes-m", "40", "--moes-l", "10", "--dx", "0.02"];
     let ball =

@@ -163,7 +163,7 @@ fn a_report_says_what_solve_says_on_one_page() {
 }
 
 #[test]
-fn the_stress_below_the_surface_is_written_and_its_maxima_are_reported() {
+fn subsurface_stress_is_written_and_its_maxima_reported() {
     let folder = Scratch::new("stress");
     let path = folder.join("stress.csv");
     let output = program(&[

@@ -31,7 +31,7 @@ fn check(case: usize, (bytes, refusal): (usize, Option<String>)) {
 }
 
 #[test]
-fn damaged_scenes_are_refused_in_a_sentence_or_mean_what_they_say() {
+fn damaged_scenes_are_refused_or_mean_what_they_say() {
     let _alone = alone();
     let mut rng = Rng::with_seed(1);
     let texts: Vec<String> =
@@ -62,7 +62,7 @@ fn spoiled_model(rng: &mut Rng, whole: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn damaged_models_are_refused_in_a_sentence_or_solve_their_own_snapshots() {
+fn damaged_models_are_refused_or_solve_their_snapshots() {
     let _alone = alone();
     let mut rng = Rng::with_seed(2);
     for (contact, cases) in [(ContactKind::Line, cases(150, 19_000)), (ContactKind::Point, cases(10, 1000))] {
@@ -99,7 +99,7 @@ fn model_in_time(cavitation: Cavitation) -> Vec<u8> {
 }
 
 #[test]
-fn damaged_models_in_time_are_refused_in_a_sentence_or_rest_where_their_trainings_began() {
+fn damaged_transient_models_are_refused_or_rest() {
     let _alone = alone();
     let mut rng = Rng::with_seed(4);
     for cavitation in [Cavitation::Penalty, Cavitation::Complementarity] {

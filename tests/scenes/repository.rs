@@ -32,7 +32,7 @@ fn every_scene_survives_writing() {
 }
 
 #[test]
-fn every_expectation_says_where_its_bound_comes_from_and_none_judges_time() {
+fn expectations_name_their_source_and_do_not_judge_time() {
     let mut count = 0;
     for (name, scene) in all() {
         for expectation in &scene.expect {
@@ -91,7 +91,7 @@ fn a_share_gives_what_is_expected_of_all(name: &str, shrink: impl FnOnce(&mut St
 }
 
 #[test]
-fn parts_of_the_error_along_the_trajectory_are_as_small_at_a_few_places() {
+fn parts_of_the_error_are_small_along_the_trajectory() {
     a_share_gives_what_is_expected_of_all("error_split_trajectory", |study| {
         let Study::ErrorSplit(split) = study else { panic!("no parts of an error") };
         let Contacts::Trajectory { points, .. } = &mut split.contacts else { panic!("no trajectory") };
@@ -100,7 +100,7 @@ fn parts_of_the_error_along_the_trajectory_are_as_small_at_a_few_places() {
 }
 
 #[test]
-fn every_eighth_of_two_hundred_lines_is_solved_by_the_embedded_model() {
+fn every_eighth_line_is_solved_by_the_embedded_model() {
     let name = "two_hundred_lines";
     let table = std::fs::read_to_string(scene_files::path(name).with_extension("csv")).unwrap();
     let lines = || table.lines();
@@ -218,7 +218,7 @@ fn the_error_at_the_first_look_comes_from_the_grid() {
 }
 
 #[test]
-fn figures_of_line_contacts_stand_on_the_models_own_grid_in_addition_to_the_reference() {
+fn line_figures_use_the_models_grid_and_the_reference() {
     for name in ["fig_3_11_line", "fig_3_14_line"] {
         let (mut scene, outcome) = (scene_files::read(name), scene_files::outcome(name));
         let short: Vec<_> = outcome.verdicts.iter().filter(|verdict| !verdict.holds).collect();

@@ -110,7 +110,7 @@ fn a_ball_follows_load_speed_and_approach() {
 }
 
 #[test]
-fn invalid_surfaces_are_refused_with_the_field_and_what_is_accepted() {
+fn invalid_surfaces_are_refused_with_their_field() {
     let surface = |shape: &str, rest: &str| {
         format!("Transient(duration: 2.0, time_step: Fixed(0.02), surfaces: [(shape: {shape})]{rest})")
     };

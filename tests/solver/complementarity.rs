@@ -26,7 +26,7 @@ fn median(mut counts: Vec<usize>) -> usize {
 }
 
 #[test]
-fn full_solutions_agree_with_an_independent_program_on_the_same_grid() {
+fn full_solutions_agree_with_an_independent_program() {
     let file: serde_json::Value = serde_json::from_str(include_str!("../data/complementarity.json")).unwrap();
     let contacts = file["contacts"].as_array().unwrap();
     assert_eq!(contacts.len(), 6);
@@ -57,7 +57,7 @@ fn full_solutions_agree_with_an_independent_program_on_the_same_grid() {
 /// P ≥ 0, λ ≥ 0, P λ = 0, and λ = ∂(ρ̄H)/∂X in the cavitated region. Its first node is excepted, since liquid flows in
 /// from the neighbour under pressure.
 #[test]
-fn pressure_and_multiplier_are_complementary_and_the_multiplier_is_the_growth_of_the_flow() {
+fn pressure_and_multiplier_are_complementary() {
     for (kind, spec, m, l) in [
         (ContactKind::Line, GridSpec::DISSERTATION, 40.0, 10.0),
         (ContactKind::Line, GridSpec::EXPLORER, 200.0, 10.0),
@@ -131,7 +131,7 @@ fn cold_solves_take_few_steps_whatever_the_spacing() {
 }
 
 #[test]
-fn sliding_shear_thinning_contacts_rupture_by_complementarity_in_fewer_steps_too() {
+fn shear_thinning_complementarity_takes_fewer_steps() {
     let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..Lubricant::default() };
     let contacts = [(10.0, 5.0, 0.3), (100.0, 10.0, 0.5), (30.0, 12.0, 0.1), (60.0, 8.0, 0.3)];
     for (kind, spec) in [(ContactKind::Line, GridSpec::DISSERTATION), (ContactKind::Point, PLANE)] {

@@ -16,7 +16,7 @@ fn complementary() -> Lubricant {
 
 /// Eight contacts on coarse and medium grids, R_y/R_x from 0.2 to 20, by an independent program.
 #[test]
-fn shapes_and_films_agree_with_an_independent_program_on_the_same_grids() {
+fn shapes_and_films_agree_with_an_independent_program() {
     let file: serde_json::Value = serde_json::from_str(include_str!("../data/elliptic.json")).unwrap();
     let contacts = file["contacts"].as_array().unwrap();
     assert_eq!(contacts.len(), 8);
@@ -91,7 +91,7 @@ fn hertz_pressure_flattens_every_ellipse_with_second_order() {
 }
 
 #[test]
-fn equal_radii_are_the_circle_to_the_last_bit_and_near_ones_are_near() {
+fn equal_radii_are_the_circle_to_the_last_bit() {
     let mut solver = ContactSolver::on(&GridSpec::Plane(COARSE).build().unwrap());
     let circle = at(ContactKind::Point, 50.0, 8.0);
     let own = solved(&mut solver, &circle, Lubricant::default());

@@ -17,7 +17,7 @@ fn points(count: usize, seed: u64) -> Vec<OperatingPoint> {
 
 /// Shared by the tests, since its operators take a second.
 #[test]
-fn random_ellipses_of_its_range_are_solved_near_full_solutions_and_pass_from_shape_to_shape() {
+fn random_ellipses_agree_with_full_solutions() {
     let mut online = Online::new(embedded("ellipse").unwrap(), ReducedOptions::default());
     for point in points(300, 51) {
         online.forget();

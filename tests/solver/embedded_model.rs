@@ -111,7 +111,7 @@ fn bounds_allow_for_what_a_penalty_moves_films_by() {
 }
 
 #[test]
-fn what_a_window_beside_the_contacts_own_answers_says_so_and_promises_nothing() {
+fn neighbouring_local_models_are_reported_without_bounds() {
     let contact = at(40.0, 10.0);
     let mut model = ReducedModel::clone(&embedded("line").unwrap());
     let own = model.window_for(&contact);
@@ -128,7 +128,7 @@ fn what_a_window_beside_the_contacts_own_answers_says_so_and_promises_nothing() 
 }
 
 #[test]
-fn the_rupture_boundary_lies_behind_the_last_pressure_so_that_the_smallest_film_is_right() {
+fn rupture_lies_behind_the_last_pressure() {
     let mut online = online();
     let mut oils = online.model.domain.space.clone();
     assert!(oils.varies_lubricant());
@@ -169,7 +169,7 @@ fn dragging_gives_the_same_picture_as_jumping() {
 }
 
 #[test]
-fn outside_its_range_the_model_still_solves_the_given_point_and_says_that_it_was_not_trained_there() {
+fn contacts_outside_the_range_are_solved_and_reported() {
     let mut online = online();
     let point = OperatingPoint { viscosity_pa_s: 0.001, ..at(40.0, 10.0) };
     let solved = online.solve(&point, Lubricant::default()).unwrap();

@@ -61,7 +61,7 @@ fn its_films_lie_near_full_solutions() {
 }
 
 #[test]
-fn films_of_light_contacts_lie_near_full_solutions_and_meet_those_of_heavier_ones() {
+fn light_films_agree_with_full_solutions() {
     let mut light = Online::new(embedded("point_light").unwrap(), ReducedOptions::default());
     let oil = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let mut solver = ContactSolver::on(&light.model.windows[0].grid);

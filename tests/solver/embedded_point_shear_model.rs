@@ -62,7 +62,7 @@ fn it_solves_its_range_and_agrees_with_full_solutions() {
 }
 
 #[test]
-fn it_is_mirrored_by_the_sliding_and_newtonian_at_a_plateau_of_one() {
+fn reversed_sliding_mirrors_and_unit_plateau_is_newtonian() {
     // Initial guesses differ, and the iteration ends with steps below 1e-5.
     assert_mirrored(online(), points(&range(), 1, 3)[0], 1e-5);
 }
@@ -79,7 +79,7 @@ fn what_it_was_not_trained_for_is_said() {
 }
 
 #[test]
-fn another_lubricant_is_solved_with_its_own_equations_and_said_to_be_another() {
+fn another_lubricant_is_solved_and_reported() {
     // Table 3.8, as used in Figs. 3.15 and 3.16.
     let pao = by_name("pao-650").unwrap();
     let point = OperatingPoint {

@@ -109,7 +109,7 @@ fn its_residual_is_measured_with_nodes_that_thin() {
 }
 
 #[test]
-fn a_curve_is_what_its_contacts_are_one_by_one_in_fewer_iterations() {
+fn curves_equal_single_contacts_in_fewer_iterations() {
     let mut online = online();
     let base = points(5)[3];
     for (vary, from, to) in [
@@ -152,12 +152,12 @@ fn a_curve_beyond_what_the_equations_know_says_so_where_it_ends() {
 }
 
 #[test]
-fn it_is_mirrored_by_the_sliding_and_newtonian_at_a_plateau_of_one() {
+fn reversed_sliding_mirrors_and_unit_plateau_is_newtonian() {
     assert_mirrored(online(), points(1)[0], 1e-6);
 }
 
 #[test]
-fn what_it_was_not_trained_for_is_said_and_a_newtonian_model_refuses_its_lubricant() {
+fn untrained_and_foreign_lubricants_are_reported() {
     assert_limits_are_said(&online(), points(1)[0], &[]);
 }
 

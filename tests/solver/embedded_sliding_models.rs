@@ -32,18 +32,18 @@ fn lie_near_full_solutions(name: &str, contacts: usize) {
 }
 
 #[test]
-fn films_and_tractions_of_sliding_lines_lie_near_full_solutions_from_the_lightest_to_the_heaviest() {
+fn sliding_lines_agree_with_full_solutions() {
     lie_near_full_solutions("line_sliding", 24);
 }
 
 #[test]
-fn films_and_tractions_of_sliding_balls_lie_near_full_solutions_from_m_3_on() {
+fn sliding_balls_agree_with_full_solutions() {
     lie_near_full_solutions("point_light_sliding", 4);
     lie_near_full_solutions("point_sliding", 3);
 }
 
 #[test]
-fn contacts_that_end_at_a_larger_step_have_the_same_films_and_tractions_in_fewer_steps() {
+fn larger_final_steps_give_the_same_results() {
     let model = embedded("point_sliding").unwrap();
     let laws = model.domain.lubricant;
     let points = random_points(&model.domain.space, model.contact(), 40, 48);

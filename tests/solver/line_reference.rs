@@ -65,7 +65,7 @@ fn full_solutions_agree_with_independent_ones_to_1e_10() {
 }
 
 #[test]
-fn a_warm_start_from_another_contact_and_grid_gives_the_same_solution() {
+fn warm_starts_give_the_same_solution() {
     let references = references();
     let mut uniform = FullSolver::new(GridSpec::DISSERTATION).unwrap();
     let mut graded = FullSolver::new(GridSpec::EXPLORER).unwrap();

@@ -27,7 +27,7 @@ fn flow(s: &Solution) -> Vec<f64> {
 }
 
 #[test]
-fn flooded_and_starved_lines_agree_with_an_independent_program_on_the_same_grid() {
+fn flooded_and_starved_lines_agree_with_independent_values() {
     let file: serde_json::Value = serde_json::from_str(include_str!("../data/mass_conserving.json")).unwrap();
     let contacts = file["contacts"].as_array().unwrap();
     assert_eq!(contacts.len(), 3);
@@ -61,7 +61,7 @@ fn flooded_and_starved_lines_agree_with_an_independent_program_on_the_same_grid(
 }
 
 #[test]
-fn a_flooded_film_is_that_of_complementarity_and_pressure_and_fraction_exclude_each_other() {
+fn flooded_films_equal_complementarity() {
     for (kind, spec, m, l) in [
         (ContactKind::Line, GridSpec::DISSERTATION, 40.0, 10.0),
         (ContactKind::Line, GridSpec::EXPLORER, 200.0, 10.0),
@@ -86,7 +86,7 @@ fn a_flooded_film_is_that_of_complementarity_and_pressure_and_fraction_exclude_e
 
 /// A steady line contact passes the inlet film: H_c follows the supply up to its flooded value.
 #[test]
-fn lines_carry_what_they_are_supplied_with_and_no_more_than_flooded_ones() {
+fn lines_carry_at_most_their_supply() {
     for spec in [GridSpec::DISSERTATION, GridSpec::EXPLORER] {
         let mut solver = ContactSolver::on(&spec.build().unwrap());
         for (m, l) in [(20.0, 3.0), (50.0, 10.0), (200.0, 14.0), (400.0, 6.0)] {
@@ -224,7 +224,7 @@ fn in_time_what_is_stored_is_what_flows_in_less_what_flows_out() {
 }
 
 #[test]
-fn in_time_a_flooded_film_goes_with_complementarity_in_every_frame() {
+fn flooded_films_in_time_equal_complementarity() {
     let spec = GridSpec::Uniform { dx: 0.01, domain: (-4.0, 2.0) };
     for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, Frame::ALL[2]] {
         let inputs = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 / 3.0 });

@@ -9,7 +9,7 @@ use ehl_explorer::solver::physics::lubricant::Lubricant;
 use serde_json::Value;
 
 #[test]
-fn full_solutions_agree_with_independent_ones_on_301_by_41_nodes() {
+fn full_solutions_agree_with_independent_ones_on_301_by_41() {
     let file: Value = serde_json::from_str(include_str!("../data/point_stationary.json")).unwrap();
     let points = file["points"].as_array().unwrap();
     assert_eq!(points.len(), 5);
@@ -55,7 +55,7 @@ fn full_solutions_agree_with_independent_ones_on_301_by_41_nodes() {
 }
 
 #[test]
-fn the_corners_of_the_corrected_box_of_table_3_4_converge_from_a_cold_start() {
+fn corners_of_the_corrected_box_of_table_3_4_converge() {
     let mut solver = PointSolver::new(PointGridSpec { dx: 0.04, ..PointGridSpec::DISSERTATION }).unwrap();
     let table = ParameterSpace::table_3_4();
     assert_eq!(table.corners().count(), 16);

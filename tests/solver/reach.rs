@@ -103,7 +103,7 @@ fn a_light_ball_has_the_film_of_rigid_spheres() {
 }
 
 #[test]
-fn soft_contacts_have_the_films_of_the_isoviscous_elastic_regime() {
+fn soft_contacts_have_isoviscous_elastic_films() {
     // R, u_m, w, E′, η₀ of a silicone ball and of an artificial hip, whose thin film takes minutes.
     let contacts = [
         ([9.5e-3, 0.1, 1.3, 4.8e6 / 0.75, 0.1, 0.0], 5520e-9),
@@ -129,7 +129,7 @@ fn soft_contacts_have_the_films_of_the_isoviscous_elastic_regime() {
 
 /// Case E: no cold start reaches it.
 #[test]
-fn a_walk_reaches_what_no_cold_start_does_says_where_it_is_and_ends_when_it_is_told() {
+fn continuation_reports_progress_and_can_be_cancelled() {
     struct Heard(Mutex<Vec<WalkStep>>, AtomicBool, usize);
     impl Observer for Heard {
         fn walk_step(&self, step: &WalkStep) {
@@ -158,7 +158,7 @@ fn a_walk_reaches_what_no_cold_start_does_says_where_it_is_and_ends_when_it_is_t
 }
 
 #[test]
-fn an_isothermal_film_does_not_feel_that_one_surface_runs_backwards() {
+fn isothermal_films_do_not_depend_on_opposite_motion() {
     let rolling = contact(ContactKind::Line, 40.0, 8.0);
     let sliding = Sliding { slide_to_roll_ratio: 8.0, ..Sliding::NONE };
     let reversing = OperatingPoint { sliding, ..rolling };
@@ -169,7 +169,7 @@ fn an_isothermal_film_does_not_feel_that_one_surface_runs_backwards() {
 }
 
 #[test]
-fn a_march_carries_the_film_through_a_reversal_and_conserves_mass() {
+fn marches_pass_a_reversal_and_conserve_mass() {
     // The defect is that of the quadrature of a film with steep fronts, not of the march.
     let (dx, dt, most) = if long() { (0.005, 0.01, 1e-6) } else { (0.02, 0.02, 1.5e-5) };
     let period = 20.0;

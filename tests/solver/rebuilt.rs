@@ -87,11 +87,11 @@ fn a_point_model_has_the_same_bytes_on_any_number_of_threads() {
 }
 
 #[test]
-fn a_line_model_under_shear_has_the_same_bytes_on_any_number_of_threads() {
+fn line_shear_model_does_not_depend_on_threads() {
     the_same_bytes_on_one_and_on_three_threads("embedded_shear_model");
 }
 
 #[test]
-fn a_point_model_under_shear_has_the_same_bytes_on_any_number_of_threads() {
+fn point_shear_model_does_not_depend_on_threads() {
     the_same_bytes_on_one_and_on_three_threads("embedded_point_shear_model");
 }

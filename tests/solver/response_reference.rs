@@ -56,7 +56,7 @@ fn amplitudes_of_waves_agree_with_an_independent_solution() {
 }
 
 #[test]
-fn stiffness_and_damping_of_a_ball_agree_with_an_independent_solution() {
+fn ball_stiffness_and_damping_agree_with_independent_values() {
     let lubricant = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let steady = PointSolver::new(PointGridSpec::QUICK).unwrap().solve(&BALL, lubricant, Start::Cold, &()).unwrap();
     let mut response = ContactResponse::of(&steady).unwrap();
@@ -101,7 +101,7 @@ fn marched(spec: GridSpec, point: OperatingPoint, omega: f64) -> (f64, f64) {
 }
 
 #[test]
-fn stiffness_and_damping_of_a_roller_are_those_of_small_oscillations() {
+fn roller_stiffness_and_damping_equal_small_oscillations() {
     let spec = uniform(0.02);
     let lubricant = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let steady = FullSolver::new(spec).unwrap().solve(&ROLLER, lubricant, Start::Cold, &()).unwrap();
@@ -116,7 +116,7 @@ fn stiffness_and_damping_of_a_roller_are_those_of_small_oscillations() {
 }
 
 #[test]
-fn features_that_pass_a_roller_agree_with_an_independent_solution() {
+fn passing_features_agree_with_an_independent_solution() {
     let packet = |height: f64, width: f64| Shape::Venner { height, width };
     let wave = Shape::Wave { height: 0.005, wavelength: 0.5, front: 0.5 };
     // Extremes of H_c and P_c over time.
@@ -162,7 +162,7 @@ fn features_that_pass_a_roller_agree_with_an_independent_solution() {
 }
 
 #[test]
-fn a_march_of_small_waves_has_the_amplitude_of_the_linear_response() {
+fn small_waves_in_time_have_the_linear_amplitude() {
     let (step, wavelength) = (0.02, 0.6);
     let steady =
         FullSolver::new(uniform(step)).unwrap().solve(&ROLLER, Lubricant::default(), Start::Cold, &()).unwrap();
@@ -183,7 +183,7 @@ fn a_march_of_small_waves_has_the_amplitude_of_the_linear_response() {
 }
 
 #[test]
-fn a_ball_under_a_harmonic_load_agrees_with_an_independent_solution() {
+fn a_ball_under_harmonic_load_agrees_with_independent_values() {
     let lubricant = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 1.0 });
     let transient = Transient { lubricant, ..Transient::new(BALL, load, 1.5, 0.01) };

@@ -149,7 +149,7 @@ fn film_is_even_and_traction_odd_in_the_slide_to_roll_ratio() {
 }
 
 #[test]
-fn sliding_and_plateaus_beyond_table_3_6_converge_and_a_neighbour_is_a_good_start() {
+fn contacts_beyond_table_3_6_converge() {
     for (kind, mut solver) in Solvers::new().0 {
         for speed in [0.1, 1.0, 5.0] {
             for srr in [-2.0, 0.01, 2.0] {
@@ -225,7 +225,7 @@ fn a_limiting_stress_bounds_the_traction_and_leaves_the_film() {
 }
 
 #[test]
-fn an_eyring_stress_bends_the_traction_of_a_newtonian_film_node_by_node() {
+fn eyring_stress_limits_the_traction_node_by_node() {
     let mut solver = ContactSolver::on(&LINE.build().unwrap());
     let sliding = Sliding { slide_to_roll_ratio: 0.05, newtonian_plateau_ratio: None };
     let point = OperatingPoint { sliding, ..OperatingPoint::TABLE_2_1 };

@@ -75,7 +75,7 @@ fn the_error_of_equal_steps_is_estimated_within_a_factor_of_two() {
 }
 
 #[test]
-fn a_coarse_step_is_warned_of_and_a_contact_at_rest_has_no_error() {
+fn coarse_steps_are_warned_of_and_rest_has_no_error() {
     let swinging = Inputs::load(Signal::Harmonic { amplitude: 0.15, period: 0.25 });
     let of = |inputs: Inputs| {
         let transient = Transient::new(OperatingPoint::TABLE_2_1, inputs, 1.0, 0.05);
@@ -119,7 +119,7 @@ fn controlled_steps_keep_the_tolerance_in_full_and_reduced() {
 }
 
 #[test]
-fn controlled_steps_do_not_miss_an_input_whose_period_is_their_length() {
+fn controlled_steps_resolve_inputs_of_their_own_period() {
     let quick = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 0.1 });
     let equal = Transient::new(OperatingPoint::TABLE_2_1, quick, DURATION, 0.01);
     let (mut model, trajectory) = marched(&Transient { time_step: TimeStep::Controlled(0.02), ..equal });

@@ -17,7 +17,7 @@ fn rows<const N: usize>(table: &str) -> Vec<[f64; N]> {
 }
 
 #[test]
-fn a_breathing_contact_agrees_with_an_independent_one_at_every_moment() {
+fn a_breathing_contact_agrees_with_independent_values() {
     let load = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 });
     let breathing = Transient::new(OperatingPoint::TABLE_2_1, load, 8.0, 0.01);
     let trajectory = transient::solve(GridSpec::DISSERTATION, &breathing, &()).unwrap();

@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn asperities_carry_load_after_the_switch_and_follow_the_roughness() {
+    fn asperities_carry_load_once_switched_on() {
         let mut document = Document::default();
         document.set_surfaces([0.3e-6, 0.4e-6]).unwrap();
         document.switch_mixed(true).unwrap();

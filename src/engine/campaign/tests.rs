@@ -149,7 +149,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn a_campaign_gives_the_same_bytes_however_it_is_cut_and_the_numbers_of_one_run() {
+fn campaigns_give_the_bytes_of_one_run_for_any_division() {
     let scratch = Scratch::new("cut");
     let (one, rounds) = through(scratch.planned(RANDOM, 100, "one"));
     let (many, _) = through(scratch.planned(RANDOM, 2, "many"));
@@ -165,7 +165,7 @@ fn a_campaign_gives_the_same_bytes_however_it_is_cut_and_the_numbers_of_one_run(
 }
 
 #[test]
-fn an_adaptive_training_in_rounds_is_the_training_of_one_machine() {
+fn adaptive_training_in_rounds_equals_that_of_one_machine() {
     let scratch = Scratch::new("training");
     let (files, rounds) = through(scratch.planned(ADAPTIVE, 2, "dir"));
     let spec = Scene::read(&scratch.0.join("a.ron")).unwrap().training().unwrap();
@@ -176,7 +176,7 @@ fn an_adaptive_training_in_rounds_is_the_training_of_one_machine() {
 }
 
 #[test]
-fn gaps_and_what_is_damaged_or_foreign_are_refused_and_nothing_is_merged() {
+fn missing_damaged_or_foreign_results_are_not_merged() {
     let scratch = Scratch::new("refused");
     let folder = scratch.planned(RANDOM, 3, "dir");
     let other = scratch.planned(&RANDOM.replace("seed: 7", "seed: 8"), 3, "other");

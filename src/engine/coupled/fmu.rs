@@ -407,7 +407,7 @@ mod tests {
     }
 
     #[test]
-    fn stiffness_is_the_same_from_two_units_and_from_one_for_a_line_and_a_ball() {
+    fn stiffness_agrees_between_two_units_and_one() {
         for which in ["line", "point"] {
             let (mut one, inputs) = first(which);
             let (mut other, _) = first(which);

@@ -349,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn friction_and_pressure_at_rest_are_those_of_the_full_contact_in_every_frame() {
+    fn friction_and_pressure_at_rest_equal_the_full_contact() {
         let (point, sliding) = (OperatingPoint { alpha_per_pa: 7e-9, load: 1e5, ..OperatingPoint::TABLE_4_2 }, 0.02);
         for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian] {
             let model = trained_at(point, frame);
@@ -396,7 +396,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_sense_is_refused_and_what_was_not_trained_is_told() {
+    fn invalid_inputs_are_refused_and_untrained_ones_reported() {
         let model = trained(Frame::Fixed);
         let (mut own, first) = (InTime::new(Arc::clone(&model)), InTime::first_inputs(&model).unwrap());
         let step = model.domain.step * InTime::seconds_per_time(&model.starts[0].point);
@@ -428,7 +428,7 @@ mod tests {
     }
 
     #[test]
-    fn stiffness_of_a_line_is_the_same_from_two_units_and_from_one_march() {
+    fn line_stiffness_agrees_between_two_units_and_one_march() {
         let times: Vec<f64> = (0..=20).map(|k| 0.05 * f64::from(k)).collect();
         let slow = |load: f64, by: f64| {
             let point = OperatingPoint { load, ..OperatingPoint::TABLE_4_2 };

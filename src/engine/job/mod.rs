@@ -421,7 +421,7 @@ mod tests {
     }
 
     #[test]
-    fn a_job_stops_at_its_next_question_and_a_panic_becomes_a_sentence() {
+    fn jobs_stop_when_cancelled_and_report_panics() {
         // Counts calls instead of time, so that the load of the machine does not matter.
         let asked = Arc::new(AtomicUsize::new(0));
         let asking = Arc::clone(&asked);
@@ -445,7 +445,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_waits_is_called_at_the_end_and_a_second_wish_abandons() {
+    fn waiting_callers_are_woken_and_a_second_cancel_abandons() {
         let (calls, called) = channel();
         let mut job = Job::start("called", Wake::new(move || calls.send(()).unwrap()), |reporter| {
             endless(reporter)?;

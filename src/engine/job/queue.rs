@@ -156,7 +156,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn the_newest_request_replaces_the_one_that_waits_and_the_most_urgent_comes_first() {
+    fn new_requests_replace_waiting_ones_and_urgent_ones_come_first() {
         let (release, gate) = channel();
         let queue = Queue::new("test", 2, move |request: u32, reporter: &Reporter<u32>| {
             gate.recv().map_err(JobError::failed)?;

@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn a_job_gives_the_same_numbers_as_a_headless_run_to_the_last_bit() {
+    fn jobs_give_the_same_bits_as_headless_runs() {
         let table = "(axes: {Radius: (2e-3, 4e-3, Linear), Speed: (1.0, 10.0, Linear), Load: (1e5, 5e5, Linear), \
                      Alpha: (5e-9, 20e-9, Linear)}, fixed: {Modulus: 231e9, Viscosity: 0.01})";
         let store = Store::default();

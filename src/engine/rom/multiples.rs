@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn differences_count_from_the_polynomial_through_the_nodes_before() {
+    fn differences_refer_to_the_polynomial_through_earlier_nodes() {
         // A cubic along X times a parabola across is predicted exactly from the fifth line on.
         let (rows, across) = (40, 6);
         let value = |i: usize, j: usize| (i * i * i) as f64 - 40.0 + (j * j) as f64 * (i + 1) as f64;
@@ -388,7 +388,7 @@ mod tests {
         }
     }
     #[test]
-    fn numbers_of_different_sizes_are_sorted_and_come_back_in_fewer_bytes() {
+    fn sorted_numbers_of_mixed_size_take_fewer_bytes() {
         let mut rng = fastrand::Rng::with_seed(4);
         let size = |i: usize, k: usize| (7.0 + 6.0 * (0.02 * i as f64).sin() + 0.05 * k as f64).exp2() as i64;
         let column = |k: usize, rng: &mut fastrand::Rng| -> Vec<i64> {

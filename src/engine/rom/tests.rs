@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 /// `EHL_WRITE_MODELS=FOLDER cargo test --release --lib the_models_of_the_program` writes the embedded models in the
 /// current format. Use it after a change of the format, together with a reader of the previous format.
 #[test]
-fn the_models_of_the_program_are_intact_and_survive_a_round_trip() {
+fn embedded_models_survive_a_round_trip() {
     let folder = std::env::var_os("EHL_WRITE_MODELS").map(PathBuf::from);
     let steady = catalogue().iter().map(|entry| {
         let model = embedded(entry.name).unwrap();
@@ -59,7 +59,7 @@ fn damage_is_named_and_never_panics() {
 }
 
 #[test]
-fn everything_but_the_hash_itself_is_under_it_and_nothing_follows() {
+fn the_hash_covers_the_whole_file() {
     let model = embedded("line_shear").unwrap();
     let bytes = to_bytes(&model).unwrap();
     for place in (8..HEADER).chain([HEADER + 7]) {
@@ -120,7 +120,7 @@ fn a_payload_that_lies_is_refused_even_with_a_right_hash() {
 }
 
 #[test]
-fn the_law_of_rupture_and_the_scheme_survive_a_round_trip_and_must_fit_the_windows() {
+fn rupture_law_and_scheme_survive_a_round_trip() {
     for spec in [line(Sampling::QDeim, 50), sliding_oils(Sampling::QDeim, 60)] {
         let model = ReducedModel::clone(&trained(&spec.under(Cavitation::Complementarity)));
         let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
@@ -263,7 +263,7 @@ fn oils_that_thin_survive_a_round_trip_with_their_stresses() {
 }
 
 #[test]
-fn oils_and_anchors_survive_a_round_trip_and_must_fit_the_windows() {
+fn oils_and_anchors_survive_a_round_trip() {
     let model = ReducedModel::clone(&trained(&oils(Sampling::QDeim, 60).under(Cavitation::Complementarity)));
     let read = from_bytes(&to_bytes(&model).unwrap()).unwrap();
     assert_eq!(read.domain, model.domain);

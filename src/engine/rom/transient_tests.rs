@@ -123,7 +123,7 @@ fn damage_and_other_kinds_are_named() {
 }
 
 #[test]
-fn parts_that_contradict_each_other_are_refused_even_with_a_right_hash() {
+fn contradicting_parts_are_refused_despite_a_valid_hash() {
     let model = small();
     let refused = |spoil: &dyn Fn(&mut TrajectoryModel)| {
         let mut wrong = (*model).clone();

@@ -204,7 +204,7 @@ fn link_omits_what_equals_the_scene() {
 }
 
 #[test]
-fn a_roughness_is_stated_by_its_fields_and_brings_complementarity() {
+fn roughness_fields_are_read_and_set_complementarity() {
     let rough = moes(&[
         (Field::Roughness, "0.4 µm"),
         (Field::Asperities, "zhao-maietta-chang,0.05,0.01,5e9"),

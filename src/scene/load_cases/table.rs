@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_measured_film_thickness_is_a_length_above_zero_and_may_be_left_out() {
+    fn measured_film_thickness_is_positive_or_missing() {
         let cases = read("M,L,Measured h_c [nm]\n40,10,80\n40,10,0.1 µm\n40,10,\n40,10,3 N\n40,10,-1\n").unwrap();
         let films: Vec<_> = cases.iter().map(|case| case.measured_m.map(|film| (1e9 * film).round())).collect();
         assert_eq!(films, [Some(80.0), Some(100.0), None, None, None]);

@@ -48,7 +48,7 @@ fn a_drawing_becomes_a_page_of_pdf() {
 }
 
 #[test]
-fn an_elliptical_contact_is_called_so_and_a_format_follows_the_extension() {
+fn elliptical_contacts_are_named_and_formats_follow_extensions() {
     let spec =
         spec(&[(Field::Contact, "point"), (Field::MoesM, "100"), (Field::MoesL, "8"), (Field::RadiusY, "30 mm")]);
     let point = spec.request().unwrap().point;

@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn it_is_the_sum_of_all_sections_across_and_does_not_ask_who_slides() {
+    fn rolling_resistance_sums_all_sections_for_any_sliding() {
         let spec = GridSpec::Plane(PointGridSpec::uniform(0.08, 0.2, (-4.0, 2.0, -2.0)));
         let mut solver = ContactSolver::on(&spec.build().unwrap());
         let point = si_from_moes(&MoesRequest::new(ContactKind::Point, 30.0, 5.0)).unwrap();

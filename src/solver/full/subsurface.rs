@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn heavily_loaded_contacts_have_nearly_the_stress_of_the_dry_contact() {
+    fn heavy_contacts_have_nearly_the_stress_of_dry_ones() {
         for (kind, numbers) in [(ContactKind::Line, (200.0, 5.0)), (ContactKind::Point, (2000.0, 5.0))] {
             let solution = solved(kind, numbers, 0.0, Lubricant::default());
             let field = solution.subsurface_stress(0.3).unwrap();
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lightly_loaded_contact_has_its_maximum_below_its_wider_pressure() {
+    fn light_contacts_have_a_deeper_stress_maximum() {
         let solution = solved(ContactKind::Line, (2.0, 1.0), 0.0, Lubricant::default());
         let field = solution.subsurface_stress(0.3).unwrap();
         let own = field.maximum(StressMeasure::MaximumShear);

@@ -96,7 +96,7 @@ fn krylov_and_dense_newton_find_the_same_solution() {
 }
 
 #[test]
-fn heavy_load_tends_to_hertz_and_light_load_to_the_rigid_solution() {
+fn heavy_loads_tend_to_hertz_and_light_ones_to_rigid_bodies() {
     let deviation = |m: f64| {
         let s = solve(GridSpec::EXPLORER, &at(m, 5.0));
         s.x.iter()
@@ -123,7 +123,7 @@ fn heavy_load_tends_to_hertz_and_light_load_to_the_rigid_solution() {
 }
 
 #[test]
-fn only_the_dimensionless_groups_matter_to_an_incompressible_barus_fluid() {
+fn incompressible_barus_fluids_depend_on_moes_numbers_only() {
     let laws =
         Lubricant { density: DensityLaw::Incompressible, viscosity: ViscosityLaw::Barus, ..Lubricant::default() };
     for (mut solver, m, bar) in [
@@ -148,7 +148,7 @@ fn only_the_dimensionless_groups_matter_to_an_incompressible_barus_fluid() {
 }
 
 #[test]
-fn a_warm_start_is_much_cheaper_than_a_cold_one_also_from_another_grid() {
+fn warm_starts_are_cheaper_than_cold_ones() {
     let mut solver = FullSolver::new(GridSpec::DISSERTATION).unwrap();
     let point = at(30.0, 8.0);
     let cold = solver.solve(&point, Lubricant::default(), Start::Cold, &()).unwrap();
@@ -201,7 +201,7 @@ fn what_does_not_converge_says_so() {
 }
 
 #[test]
-fn a_step_that_changes_nothing_far_from_any_solution_ends_no_solve() {
+fn small_steps_far_from_a_solution_do_not_end_a_solve() {
     // The first initial guess has equations that differ by thirty orders of magnitude, with steps of 1e-20. One in
     // fifteen such contacts ended there, with film thicknesses of 0.06 to 0.26.
     let grid = GridSpec::Graded { nodes: 632, domain: (-20.0, 3.2), registered: true };

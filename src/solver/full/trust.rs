@@ -181,7 +181,7 @@ mod tests {
     /// Contacts on domains that end too early or with spacings that are too wide, the film of an endless domain, and
     /// what the sentence speaks of.
     #[test]
-    fn a_film_that_the_grid_moves_by_more_than_a_twentieth_carries_a_warning_and_the_grid_for_the_contact_does() {
+    fn large_grid_errors_are_warned_of() {
         for (m, l, dx, truth, word) in [
             (0.06, 5.0, 0.02, 261.0, "inlet"),
             (0.25, 5.86, 0.005, 16.7, "inlet"),
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_contact_whose_domain_is_too_small_or_coarse_carries_a_warning() {
+    fn small_domains_and_coarse_grids_of_points_are_warned_of() {
         let quick = PointGridSpec::uniform(0.08, 0.2, (-4.0, 2.0, -2.0));
         for (m, l, word) in [(1.1, 11.2, "ends of the domain"), (200.0, 10.0, "spacing")] {
             let warning = judged(GridSpec::Plane(quick), m, l).grid_warning().unwrap().to_string();

@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn contacts_beyond_a_limit_are_left_out_and_the_others_lie_inside() {
+    fn sampled_contacts_respect_the_limits() {
         let space = ParameterSpace::of([
             Axis::new(Quantity::M, (10.0, 200.0)),
             Axis::new(Quantity::L, (4.0, 11.0)),

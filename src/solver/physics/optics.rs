@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn the_phase_moves_the_fringes_and_the_visibility_their_contrast() {
+    fn phase_moves_fringes_and_visibility_sets_their_contrast() {
         let rig = Interferometer { visibility: 1.0, ..Interferometer::default() };
         assert!(rig.intensity(0.0, rig.wavelength_m) < 1e-12, "touching surfaces are dark");
         let bright = Interferometer { phase: 0.0, ..rig };

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn combinations_are_the_modes_of_pressures_within_the_shared_basis() {
+    fn combinations_are_modes_within_the_shared_basis() {
         let grid = GridSpec::Plane(PointGridSpec::uniform(0.1, 0.2, (-4.0, 2.0, -2.0))).build().unwrap();
         let weights = grid.weights();
         let pressures = bumps(&grid, 12, (0.02, 0.05));
@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn combinations_of_rounded_modes_miss_no_more_than_the_shared_basis_does() {
+    fn rounded_combinations_are_as_accurate_as_the_shared_basis() {
         let grid = GridSpec::Plane(PointGridSpec::uniform(0.05, 0.1, (-4.0, 2.0, -2.0))).build().unwrap();
         let weights = grid.weights();
         let pressures = bumps(&grid, 30, (0.01, 0.02));
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn a_field_in_single_precision_is_that_of_the_modes_to_seven_digits() {
+    fn single_precision_fields_have_seven_digits() {
         let grid = GridSpec::Plane(PointGridSpec::uniform(0.1, 0.2, (-4.0, 2.0, -2.0))).build().unwrap();
         let pressures = Mat::from_fn(grid.len(), 9, |i, k| ((i * (k + 2)) as f64 * 0.01).sin());
         let shared = PodBasis::new(pressures.as_ref(), grid.weights(), 0.0).unwrap();

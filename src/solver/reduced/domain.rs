@@ -386,7 +386,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_covers_the_contacts_that_share_the_numbers_of_one_of_its_own_and_no_others() {
+    fn a_box_covers_contacts_with_equal_numbers_only() {
         for (contact, space) in [(LINE, ParameterSpace::table_3_1()), (ContactKind::Point, ParameterSpace::table_3_4())]
         {
             let domain = Domain { contact, space: space.clone(), lubricant: Lubricant::default() };

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn the_state_error_vanishes_for_the_same_solution_and_sees_each_part() {
+    fn the_state_error_sees_each_part() {
         let options = ReducedOptions::default();
         for_solutions(Sampling::QDeim, options, |window, online, solved| {
             let full =

@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn starts_stay_as_they_are_when_they_are_kept_again_and_rare_modes_have_fewer_digits() {
+    fn rounding_of_starts_is_idempotent() {
         let size = |k: usize| [1.3, 2e-2, 1e-5][k];
         let coefficients = Mat::from_fn(40, 3, |i, k| size(k) * (1.0 + (i * (k + 2)) as f64 * 0.7).sin());
         let (scales, kept) = kept_coefficients(coefficients.clone(), 1e-3);

@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_kept_is_kept_when_it_is_kept_again_and_fields_change_by_the_accuracy() {
+    fn rounding_is_idempotent_within_its_accuracy() {
         let pressure = |k: usize, i: usize| {
             let x = 0.02 * i as f64 - 1.2 - 0.01 * k as f64;
             if x < 0.0 { 1e-6 * (4.0 * x).exp() } else { x * (-x * (1.0 + 0.1 * k as f64)).exp() }

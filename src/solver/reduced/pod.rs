@@ -107,7 +107,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn modes_are_orthonormal_under_the_weights_and_reproduce_the_snapshots() {
+    fn modes_are_orthonormal_and_reproduce_the_snapshots() {
         let weights: Vec<f64> = (0..30).map(|i| 0.01 + 0.002 * f64::from(i)).collect();
         let snapshots = Mat::from_fn(30, 6, |i, j| ((i + 1) as f64 * (j + 1) as f64 * 0.07).sin());
         let basis = PodBasis::new(snapshots.as_ref(), &weights, 0.0).unwrap();
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn emphasised_modes_miss_least_under_the_emphasis_and_are_orthonormal_without() {
+    fn emphasised_modes_are_best_under_their_weights() {
         let weights: Vec<f64> = (0..40).map(|i| 0.01 + 0.002 * f64::from(i)).collect();
         let strong: Vec<f64> = (0..40).map(|i| if i >= 30 { 1e4 * weights[i] } else { weights[i] }).collect();
         let snapshots = Mat::from_fn(40, 12, |i, j| (-(i as f64 / 40.0 - j as f64 / 12.0).powi(2) * 30.0).exp());

@@ -60,7 +60,7 @@ mod tests {
     use crate::solver::physics::contact::OperatingPoint;
 
     #[test]
-    fn sizes_are_difference_quotients_of_whole_rows_and_span_many_orders() {
+    fn row_sizes_are_difference_quotients() {
         let spec = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
         let step = 0.01;
         let load = Signal::Harmonic { amplitude: 0.1, period: 0.2 };

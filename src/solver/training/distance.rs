@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn a_solution_that_is_linear_in_l_gets_all_weight_on_its_difference() {
+    fn a_solution_linear_in_l_weights_only_its_difference() {
         let p = points();
         // ‖z_i − z_j‖ = 3 |ΔL| exactly.
         let z: Vec<Vec<f64>> = p.iter().map(|p| vec![3.0 * p.moes().l]).collect();

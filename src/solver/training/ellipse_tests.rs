@@ -36,7 +36,7 @@ fn worst(spec: &TrainingSpec, model: &Arc<ReducedModel>) -> f64 {
 }
 
 #[test]
-fn models_of_ellipses_are_near_full_solutions_with_all_rows_and_with_few() {
+fn ellipse_models_agree_with_full_solutions() {
     for sampling in [Sampling::All, Sampling::Cubature] {
         let (spec, model) = trained(sampling);
         assert_eq!((model.windows.len(), model.domain.space.radius_ratio()), (2, (0.5, 4.0)));
@@ -46,7 +46,7 @@ fn models_of_ellipses_are_near_full_solutions_with_all_rows_and_with_few() {
 }
 
 #[test]
-fn what_was_solved_before_does_not_matter_and_shapes_beyond_are_refused() {
+fn earlier_solves_do_not_matter_and_other_shapes_are_refused() {
     let (spec, model) = trained(Sampling::Cubature);
     let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());
     let points = random_points(&spec.range, spec.contact(), 4, 5);

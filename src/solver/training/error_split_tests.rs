@@ -58,7 +58,7 @@ fn the_parts_add_up_to_what_verification_and_extrapolation_see() {
 }
 
 #[test]
-fn with_all_rows_there_is_no_sampling_error_and_fewer_modes_cost_basis() {
+fn all_rows_have_no_sampling_error_and_few_modes_a_basis_error() {
     let model = model(Sampling::All);
     let few = ReducedOptions { pressure_modes: Some(20), ..ReducedOptions::default() };
     let point = points()[1];

@@ -75,7 +75,7 @@ fn reduced_contacts_with_heat_are_the_full_ones() {
 }
 
 #[test]
-fn the_whole_grids_rule_is_the_traction_of_the_fields_with_heat_as_well() {
+fn the_rule_on_all_nodes_gives_the_traction_with_heat() {
     for spec in [heated_bounded(), heated_balls(Sampling::Cubature, 24)] {
         let mut model = ReducedModel::clone(&trained(&spec));
         model.windows.iter_mut().for_each(|window| window.traction = Some(TractionRule::whole()));
@@ -121,7 +121,7 @@ fn reduced_balls_with_heat_are_the_full_ones() {
 }
 
 #[test]
-fn reduced_ellipses_of_many_oils_with_heat_are_the_full_ones_and_bounded() {
+fn reduced_thermal_ellipses_agree_with_full_ones() {
     let spec = heated_ellipses_bounded();
     let model = trained(&spec);
     assert!(model.of_ellipses() && model.domain.space == spec.range);
@@ -166,7 +166,7 @@ fn equal_but(point: &OperatingPoint, radius: f64, modulus: f64) -> OperatingPoin
 }
 
 #[test]
-fn contacts_of_equal_radius_over_cubed_modulus_are_alike_unless_their_stress_is_limited() {
+fn equal_radius_over_cubed_modulus_gives_equal_contacts() {
     let spec = heated_oils(Sampling::All, 8);
     let Windows::Anchored { grid, .. } = spec.windows else { panic!() };
     let free = Lubricant { limiting_stress: None, ..spec.lubricant };
@@ -263,7 +263,7 @@ fn of_a_film_hotter_than_lubricants_endure_nothing_is_promised() {
 }
 
 #[test]
-fn ranges_of_many_oils_with_heat_are_refused_with_their_field_and_hold_what_they_say() {
+fn invalid_thermal_ranges_are_refused_with_their_field() {
     let good = heated_oils(Sampling::All, 24);
     good.check().unwrap();
     assert_eq!(good.domain().space, good.range);
@@ -295,7 +295,7 @@ fn ranges_of_many_oils_with_heat_are_refused_with_their_field_and_hold_what_they
 }
 
 #[test]
-fn along_a_curve_contacts_are_those_found_alone_and_take_few_turns() {
+fn contacts_along_a_curve_equal_those_solved_alone() {
     let spec = heated_bounded();
     let model = trained(&spec);
     let mut online = online(&model);

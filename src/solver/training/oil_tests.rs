@@ -59,7 +59,7 @@ fn models_of_oils_are_near_full_solutions_of_every_oil() {
 }
 
 #[test]
-fn rows_that_are_too_few_are_made_more_until_they_tell_what_all_rows_tell() {
+fn rows_are_added_until_they_agree_with_all_rows() {
     let asked = TrainingSpec { rows_per_mode: 1.1, ..oils(Sampling::QDeim, 60) };
     let (model, _) = small::trained_with_state(&asked);
     let points = random_points(&asked.range, asked.contact(), 200, 77);
@@ -98,7 +98,7 @@ fn the_expected_film_is_moes_formula_in_the_solvers_units() {
 }
 
 #[test]
-fn models_of_points_share_a_basis_leave_thin_films_out_and_tell_what_their_grid_costs() {
+fn point_models_share_a_basis_and_state_their_grid_error() {
     let spec = oils_of_points(50);
     let (model, mut online) = trained(&spec);
     let shared: Vec<_> = model.windows.iter().map(|window| &window.pressure.combined().unwrap().shared).collect();
@@ -135,7 +135,7 @@ fn models_of_points_share_a_basis_leave_thin_films_out_and_tell_what_their_grid_
 }
 
 #[test]
-fn where_boundaries_lie_far_apart_every_window_still_solves_what_it_serves() {
+fn windows_with_distant_boundaries_solve_their_contacts() {
     // Thick films cavitate late: the cavitated region of some contacts contains a third of the outlet of others.
     let ends = [
         (Quantity::M, (2.0, 9.0)),

@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn farthest_points_are_spread_wider_than_random_ones_and_follow_the_seed() {
+    fn farthest_points_spread_wider_than_random_ones() {
         let table = ParameterSpace::table_3_1();
         let farthest = || Within::all(&table, LINE, false).farthest_points(&[], 60, &mut Rng::with_seed(3));
         let chosen = farthest();

@@ -103,7 +103,7 @@ fn a_training_stopped_and_resumed_gives_the_same_model() {
 }
 
 #[test]
-fn windows_around_anchors_resume_in_their_pool_and_behind_it_and_a_stopped_pool_makes_a_model() {
+fn windows_around_anchors_resume_at_every_stage() {
     let spec = oils(Sampling::QDeim, 40);
     stopped_and_resumed_is_the_same(&spec, &[1, 50, 70]);
     let stop = StopAt { solutions: 48, stopped: AtomicBool::new(false), written: Mutex::new(None) };
@@ -119,7 +119,7 @@ fn automatic(plan: Plan, modes: usize) -> TrainingSpec {
 }
 
 #[test]
-fn automatic_windows_are_split_until_they_fit_and_share_their_solutions() {
+fn automatic_windows_are_split_and_share_solutions() {
     let mut state = TrainingState::new(automatic(Plan::FarthestPoint { snapshots: 30 }, 12));
     let model = train_resumable(&mut state, &()).unwrap();
     assert!(model.windows.len() >= 2, "{:?}", model.log);
@@ -152,7 +152,7 @@ fn automatic_windows_resume_too_even_from_their_trials() {
 }
 
 #[test]
-fn a_training_that_is_stopped_in_its_trials_says_that_there_is_no_model_yet() {
+fn a_training_stopped_in_its_trials_has_no_model() {
     let stop = StopAt { solutions: 1, stopped: AtomicBool::new(false), written: Mutex::new(None) };
     let mut state = TrainingState::new(automatic(Plan::FarthestPoint { snapshots: 30 }, 12));
     train_resumable(&mut state, &stop).unwrap_err();
@@ -160,7 +160,7 @@ fn a_training_that_is_stopped_in_its_trials_says_that_there_is_no_model_yet() {
 }
 
 #[test]
-fn a_range_in_which_full_solves_fail_names_the_point_and_keeps_what_it_has() {
+fn failed_full_solves_name_their_point_and_keep_the_others() {
     // Films too thin for this grid at M above a few hundred.
     let mut spec = small(Plan::FarthestPoint { snapshots: 60 });
     spec.range = moes((20.0, 50_000.0), (0.05, 2.5), 1e12);
@@ -236,7 +236,7 @@ fn a_training_that_is_stopped_still_gives_a_model() {
 }
 
 #[test]
-fn what_was_hardly_begun_is_left_out_of_the_model_and_its_domain() {
+fn barely_started_windows_are_left_out_of_the_model() {
     let mut state = TrainingState::new(small(adaptive(vec![1e-2], 30)));
     train_resumable(&mut state, &()).unwrap();
     state.windows[1].solved.truncate(2);

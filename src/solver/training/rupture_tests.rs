@@ -70,7 +70,7 @@ fn missed_by_multiplier(fields: &Solution, grid: &ContactGrid) -> f64 {
 }
 
 #[test]
-fn line_models_are_near_full_complementarity_with_the_boundary_within_a_node() {
+fn line_models_agree_with_full_complementarity() {
     let uniform = GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) };
     for (grid, sampling) in [
         (line_grid(240), Sampling::All),
@@ -87,7 +87,7 @@ fn line_models_are_near_full_complementarity_with_the_boundary_within_a_node() {
 }
 
 #[test]
-fn a_boundary_that_begins_elsewhere_is_found_and_the_order_of_solves_does_not_matter() {
+fn the_boundary_is_found_from_any_start() {
     let spec = ruptured(line(Sampling::QDeim, 50));
     let model = trained(&spec);
     let points = random_points(&spec.range, ContactKind::Line, 6, 3);
@@ -118,7 +118,7 @@ fn point_models_are_near_full_complementarity() {
 }
 
 #[test]
-fn models_of_oils_that_thin_under_shear_are_near_full_complementarity() {
+fn shear_thinning_models_agree_with_full_complementarity() {
     for (spec, allowed) in [(sliding_oils(Sampling::QDeim, 60), 2e-3), (sliding_oils_of_points(70), 6e-3)] {
         let spec = ruptured(spec);
         let model = trained(&spec);

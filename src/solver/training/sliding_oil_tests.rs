@@ -37,7 +37,7 @@ fn apart(a: &Solution, b: &Solution) -> f64 {
 }
 
 #[test]
-fn contacts_of_equal_modulus_times_stress_have_equal_films_and_tractions_that_go_with_the_stress() {
+fn equal_modulus_times_stress_gives_equal_films() {
     let plane = GridSpec::Plane(POINT_GRID);
     for (kind, grid, tolerance) in [(ContactKind::Line, line_grid(240), 1e-11), (ContactKind::Point, plane, 1e-7)] {
         let mut solver = ContactSolver::on(&grid.build().unwrap());
@@ -87,7 +87,7 @@ fn equal_but(point: &OperatingPoint, stresses: f64) -> OperatingPoint {
 }
 
 #[test]
-fn sliding_contacts_of_every_oil_stress_and_limit_are_near_full_solutions() {
+fn sliding_contacts_of_all_oils_agree_with_full_solutions() {
     let spec = TrainingSpec { evidence: 110, ..sliding_oils(Sampling::QDeim, 80) };
     let (model, mut online) = trained(&spec);
     let mut full = ContactSolver::on(&model.windows[0].grid);

@@ -70,7 +70,7 @@ fn residual_minimisation_reproduces_the_training_solutions() {
 }
 
 #[test]
-fn all_rows_and_q_deim_agree_at_fresh_points_and_lie_near_full_solutions() {
+fn all_rows_and_q_deim_agree_with_full_solutions() {
     let exact = trained(&small(Sampling::All));
     let sampled = trained(&small(Sampling::QDeim));
     let points = random_points(&exact_range(), ContactKind::Line, 20, 9);
@@ -92,7 +92,7 @@ fn exact_range() -> ParameterSpace {
 }
 
 #[test]
-fn the_calibrated_bound_holds_against_full_solutions_and_is_not_idle() {
+fn calibrated_bounds_hold_and_are_sharp() {
     let spec = TrainingSpec { plan: Plan::FarthestPoint { snapshots: 30 }, evidence: 300, ..small(Sampling::QDeim) };
     let model = trained(&spec);
     let mut online = Online::new(Arc::clone(&model), ReducedOptions::default());

@@ -53,7 +53,7 @@ fn off(seen: &Trajectory, wanted: &Trajectory) -> f64 {
 }
 
 #[test]
-fn a_model_reproduces_its_training_in_every_frame_and_follows_an_unseen_load() {
+fn models_reproduce_their_training_and_follow_unseen_loads() {
     for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, Frame::Remeshed(Interpolation::CubicSpline)] {
         let (trainings, model) = trained(Cavitation::Penalty, frame);
         let (rows, modes) = (model.window.sampled_rows.len(), model.window.pressure.count());
@@ -68,7 +68,7 @@ fn a_model_reproduces_its_training_in_every_frame_and_follows_an_unseen_load() {
 }
 
 #[test]
-fn under_complementarity_it_follows_full_complementarity_with_the_boundary_where_it_is() {
+fn complementarity_models_follow_the_full_boundary() {
     for frame in [Frame::Fixed, Frame::ArbitraryLagrangianEulerian, Frame::Remeshed(Interpolation::CubicSpline)] {
         let (trainings, model) = trained(Cavitation::Complementarity, frame);
         assert!(model.window.sampled_rows.len() <= 2 * model.window.pressure.count());

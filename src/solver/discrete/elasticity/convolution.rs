@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_cannot_be_transformed_is_an_error_and_never_a_kernel_of_zeros() {
+    fn untransformable_kernels_are_errors() {
         let convolution = Convolution::new(100);
         assert_eq!((convolution.len(), convolution.frequencies()), (100, 51));
         assert!(convolution.kernel(&mut [1.0; 100]).is_ok());

@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn hertz_pressure_flattens_the_contact_and_leaves_the_known_gap_outside() {
+    fn hertz_pressure_gives_the_known_gap() {
         let uniform = PointGridSpec::uniform(0.02, 0.025, (-2.5, 2.0, -2.0));
         for refinement in [1.0, 3.0] {
             hertz_gap(PointGridSpec { refinement, ..uniform });

@@ -397,7 +397,7 @@ mod tests {
     }
 
     #[test]
-    fn usual_contacts_keep_the_usual_grids_and_others_get_longer_or_finer_ones() {
+    fn unusual_contacts_get_longer_or_finer_grids() {
         for (m, l) in [(2.0, 5.0), (40.0, 10.0), (500.0, 3.0)] {
             assert_eq!(GridSpec::explorer_for(&at(ContactKind::Line, m, l)), Ok(GridSpec::EXPLORER));
         }
@@ -420,7 +420,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_contact_reaches_farther_at_low_loads_and_its_pressure_goes_on_at_lower_ones() {
+    fn light_point_contacts_get_longer_domains() {
         let wide = PointGridSpec::DISSERTATION.for_contact(&at(ContactKind::Point, 5.0, 5.0)).unwrap();
         assert!(wide.domain.0 < -4.0 && wide.check().is_ok(), "{wide:?}");
         for (m, l) in [(1.1, 11.2), (0.3, 1.0), (1e-3, 0.0)] {
@@ -432,7 +432,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_ends_of_an_ellipse_cost_is_what_they_cost_a_circle_at_equal_radii() {
+    fn ellipses_of_equal_radii_have_the_end_errors_of_circles() {
         for (m, l) in [(5.0, 5.0), (20.0, 2.0), (100.0, 10.0)] {
             let fit = Fit::of(&at(ContactKind::Point, m, l));
             for reach in [3.0, 4.0, 8.0] {
@@ -457,7 +457,7 @@ mod tests {
     }
 
     #[test]
-    fn wide_and_light_ellipses_get_longer_inlets_and_narrow_ones_keep_theirs() {
+    fn wide_and_light_ellipses_get_longer_inlets() {
         let domain = |ratio: f64, m: f64| {
             let point = Quantity::RadiusRatio.at(&at(ContactKind::Point, m, 6.0), ratio);
             PointGridSpec::DISSERTATION.for_contact(&point).unwrap().domain
@@ -468,7 +468,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_contacts_grid_follows_a_thin_film_and_a_film_too_thin_for_any_plane_is_refused() {
+    fn grids_follow_thin_films_up_to_a_limit() {
         let thin = at(ContactKind::Line, 1e5, 0.1);
         let spec = GridSpec::explorer_for(&thin).unwrap();
         let grid = spec.line().unwrap();

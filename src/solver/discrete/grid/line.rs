@@ -459,7 +459,7 @@ mod tests {
     }
 
     #[test]
-    fn graded_nodes_increase_smoothly_and_are_fine_where_the_pressure_turns() {
+    fn graded_nodes_are_smooth_and_fine_at_the_pressure_spike() {
         let grid = GridSpec::Graded { nodes: 720, domain: (-8.0, 1.9), registered: false }.line().unwrap();
         let xi = &grid.xi;
         let steps: Vec<f64> = xi.windows(2).map(|w| w[1] - w[0]).collect();

@@ -335,7 +335,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_dissertations_grid_has_11960_unknowns_and_weighs_the_whole_domain() {
+    fn the_dissertations_grid_has_11960_unknowns() {
         let grid = PointGridSpec::DISSERTATION.build().unwrap();
         assert_eq!((grid.nx(), grid.ny(), grid.unknowns()), (301, 41, 11960));
         let area: f64 = grid.weights.iter().sum();
@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn the_side_lobes_of_a_thin_film_are_refined_at_the_edge_of_the_contact() {
+    fn side_lobes_of_thin_films_are_refined() {
         let grid = PointGridSpec { refinement: 20.0, ..PointGridSpec::DISSERTATION }.build().unwrap();
         let steps: Vec<f64> = grid.y.windows(2).map(|w| w[1] - w[0]).collect();
         let near = |y: f64| steps[grid.y.partition_point(|&node| node < y) - 1];

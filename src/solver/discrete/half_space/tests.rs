@@ -103,7 +103,7 @@ fn off(own: Stress, other: Stress) -> f64 {
 }
 
 #[test]
-fn below_a_hertzian_line_the_closed_form_holds_with_and_without_friction() {
+fn stress_below_a_hertzian_line_has_the_closed_form() {
     for friction in [0.0, 0.1, 0.3, -0.3] {
         let load = hertz(None, friction, 0.01);
         let field = stress_below(&load, &depths(), 0.3).unwrap();
@@ -149,7 +149,7 @@ fn halving_the_spacing_halves_the_error_of_a_line_at_least() {
 }
 
 #[test]
-fn below_a_circle_the_axis_and_the_sliding_stresses_are_the_published_ones() {
+fn stress_below_a_circle_has_published_values() {
     let poisson = 0.3;
     let load = hertz(Some(1.0), 0.0, 0.02);
     let field = stress_below(&load, &depths(), poisson).unwrap();

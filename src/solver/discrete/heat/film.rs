@@ -380,7 +380,7 @@ mod tests {
     const STATE: NodeState = NodeState { pressure: 0.3, gradient: [0.8, 0.0], film: 0.12 };
 
     #[test]
-    fn without_a_rise_of_temperature_the_node_is_the_one_without_heat() {
+    fn no_temperature_rise_gives_the_isothermal_node() {
         for problem in problems() {
             let warm = laws(&problem).node(STATE, &[0.0; RULE], &mut 0.0);
             let (fluid, lambda) = (&problem.fluid, problem.inverse_lambda);

@@ -411,7 +411,7 @@ mod tests {
     const Y: [f64; 3] = [-0.5, -0.2, 0.0];
 
     #[test]
-    fn what_flows_aside_is_differentiated_exactly_where_it_is_a_parabola_or_odd() {
+    fn side_flow_is_exact_for_parabolas_and_odd_profiles() {
         // The quotient is exact for y and y², not for 3y + 2y³.
         let all = lines([0.0; 3], Y.map(|y| 3.0 * y));
         for own in 0..3 {

@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_from_x_minus_3_to_plus_2_agree_with_finite_differences() {
+    fn derivatives_agree_with_finite_differences_everywhere() {
         for srr in [0.0, 0.02, -1.0] {
             let shear = scaled(CARREAU, srr);
             let (_, d_p, d_h) = evaluate(&shear, &PRESSURES, &FILMS);
@@ -348,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn without_thinning_it_is_the_newtonian_row_whatever_the_sliding() {
+    fn rows_without_thinning_are_newtonian_for_any_sliding() {
         let fluid = Lubricant::default().scaled(&OperatingPoint::TABLE_2_1).unwrap();
         let nodes: Vec<Node> = (2..6).map(|i| Node::new(&fluid, 100.0, PRESSURES[i], FILMS[i])).collect();
         let geometry = RowGeometry::new([X[2], X[3], X[4], X[5]]);

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_in_time_agree_with_finite_differences_from_either_side() {
+    fn time_derivatives_agree_with_one_sided_differences() {
         for (upstream, unknown) in [(Upstream::Inlet, 1), (Upstream::Outlet, 1), (Upstream::Edge, 2)] {
             let geometry = upstream.geometry(&X, unknown).in_time(0.7, 30.0, -0.2);
             let exact = evaluate(upstream, &geometry, &P, &H, unknown);

@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn manufactured_solution_converges_with_second_order_on_a_graded_grid() {
+    fn second_order_for_a_manufactured_solution_on_a_graded_grid() {
         // Incompressible Barus fluid with smooth P(x), H(x): compares the row with the analytic expression.
         let point = OperatingPoint { alpha_per_pa: 1e-10, ..OperatingPoint::TABLE_2_1 };
         let fluid =

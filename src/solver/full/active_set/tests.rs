@@ -12,7 +12,7 @@ fn word(set: &ActiveSet) -> String {
 }
 
 #[test]
-fn a_block_is_filled_from_either_end_as_far_as_the_inflow_reaches() {
+fn blocks_are_filled_from_both_ends_up_to_the_inflow() {
     // The inflow of the first cell exceeds its demand by 3. It fills the next two cells, but not the last one.
     let mut flooded = set("PPAAAA", &[0.0, 0.0, -3.0, 1.0, 1.0, 2.0]);
     assert!(flooded.release(&[1.0; 6], 1));
@@ -38,7 +38,7 @@ fn lines_are_filled_each_for_itself() {
 }
 
 #[test]
-fn a_set_that_keeps_returning_is_moved_node_by_node_from_then_on() {
+fn recurring_sets_are_then_moved_node_by_node() {
     let mut cycling = set("PPAAAA", &[0.0, 0.0, -3.0, 1.0, 1.0, 2.0]);
     for k in 0..1 + CYCLE {
         assert!(!cycling.cautious, "after {k} steps");

@@ -15,7 +15,7 @@ fn ball(srr: f64) -> OperatingPoint {
 }
 
 #[test]
-fn where_nothing_hangs_on_temperature_the_film_is_the_one_without_heat() {
+fn constant_properties_give_the_isothermal_film() {
     let mut solver = PointSolver::new(COARSE).unwrap();
     let oil = OilHeat { viscosity_temperature: 0.0, density_temperature: 0.0, ..OilHeat::default() };
     for (shear, cavitation) in [
@@ -34,7 +34,7 @@ fn where_nothing_hangs_on_temperature_the_film_is_the_one_without_heat() {
 }
 
 #[test]
-fn what_is_made_leaves_through_bodies_and_with_the_oil_in_a_plane_as_well() {
+fn generated_heat_leaves_through_bodies_and_oil() {
     for (shear, speed_m_per_s, bar) in [(ShearLaw::Newtonian, 2.0, 1e-3), (EYRING, 2.0, 1e-3), (EYRING, 10.0, 1e-2)] {
         let point = OperatingPoint { speed_m_per_s, ..ball(0.4) };
         let found = solved(&mut PointSolver::new(COARSE).unwrap(), &point, warm(shear, Heat::default()));
@@ -62,7 +62,7 @@ fn film_traction_and_temperature_converge_with_the_grid() {
 }
 
 #[test]
-fn a_ball_is_the_same_from_wherever_it_is_begun_and_whichever_body_is_faster() {
+fn solutions_do_not_depend_on_start_or_order_of_bodies() {
     let mut solver = PointSolver::new(COARSE).unwrap();
     let [glass, steel] = [Material::GLASS, Material::STEEL].map(|material| material.heat);
     let pair = |bodies| warm(EYRING, Heat { bodies, ..Heat::default() });
@@ -118,7 +118,7 @@ fn a_long_ellipse_is_a_line_contact_on_its_axis() {
 
 /// An inlet film thickness starves the inlet whatever was solved before: without it, with another one, thermal or not.
 #[test]
-fn a_starved_contact_has_the_film_of_a_cold_start_whatever_it_starts_from() {
+fn starved_films_do_not_depend_on_the_start() {
     let mut solver = PointSolver::new(COARSE).unwrap();
     let of = |supply_film_m: Option<f64>, heat: Option<Heat>| Lubricant {
         cavitation: Cavitation::MassConserving { supply_film_m },

@@ -73,7 +73,7 @@ fn independent_solutions_are_met() {
 }
 
 #[test]
-fn where_nothing_hangs_on_temperature_the_film_is_the_one_without_heat() {
+fn constant_properties_give_the_isothermal_film() {
     let mut solver = FullSolver::new(GRID).unwrap();
     let oil = OilHeat { viscosity_temperature: 0.0, density_temperature: 0.0, ..OilHeat::default() };
     for shear in [ShearLaw::Newtonian, EYRING] {
@@ -95,7 +95,7 @@ fn where_nothing_hangs_on_temperature_the_film_is_the_one_without_heat() {
 }
 
 #[test]
-fn a_contact_is_the_same_from_wherever_it_is_begun_and_whichever_body_is_faster() {
+fn solutions_do_not_depend_on_start_or_order_of_bodies() {
     let mut solver = FullSolver::new(GRID).unwrap();
     let [glass, steel] = [Material::GLASS, Material::STEEL].map(|material| material.heat);
     let pair = |bodies| warm(EYRING, Heat { bodies, ..Heat::default() });

@@ -125,7 +125,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_second_grid_is_finer_where_that_is_affordable_and_can_be_compared() {
+    fn the_second_grid_is_finer_where_affordable() {
         for (spec, nodes) in [
             (PointGridSpec::QUICK, (301, 81)),
             (PointGridSpec::DISSERTATION, (601, 81)),

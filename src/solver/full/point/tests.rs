@@ -60,7 +60,7 @@ fn jacobian_products_are_the_derivative_of_the_residual() {
 }
 
 #[test]
-fn without_thinning_the_generalized_rows_are_the_newtonian_ones_whatever_the_sliding() {
+fn generalized_rows_without_thinning_are_newtonian() {
     let newtonian = Problem::new(&at(60.0, 8.0), Lubricant::default()).unwrap();
     let (mut system, ..) = state(&newtonian);
     system.evaluate(&newtonian, PENALTY);
@@ -139,7 +139,7 @@ fn heavy_load_tends_to_hertz() {
 }
 
 #[test]
-fn a_warm_start_is_cheaper_than_a_cold_one_also_from_another_grid() {
+fn warm_starts_are_cheaper_than_cold_ones() {
     let fine = PointGridSpec { dy: 0.05, ..COARSE };
     let mut solver = PointSolver::new(fine).unwrap();
     let point = at(150.0, 8.0);
@@ -187,7 +187,7 @@ fn a_graded_grid_finds_the_films_of_a_much_finer_uniform_one() {
 }
 
 #[test]
-fn traction_is_the_integral_of_the_shear_stress_over_both_halves() {
+fn traction_integrates_the_shear_stress_over_both_halves() {
     let s = solve(COARSE, &at(50.0, 4.0));
     let point = s.problem.point;
     let (a, scale) = (point.hertz().half_width_m, point.film_scale_m());

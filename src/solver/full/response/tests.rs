@@ -37,7 +37,7 @@ fn differences_in_time_approach_the_exact_derivative() {
 }
 
 #[test]
-fn a_wave_that_travels_with_the_fluid_is_exact_along_the_characteristics() {
+fn waves_moving_with_the_fluid_are_exact_on_characteristics() {
     let (spacing, omega) = (0.01, 40.0);
     let upwind = [0.5, -2.0, 1.5].map(|weight| weight / spacing);
     let added = TimeDerivative::Characteristic { step: spacing }.added_weights(upwind, omega);
@@ -97,7 +97,7 @@ fn waves_that_the_grid_does_not_resolve_are_refused() {
 }
 
 #[test]
-fn contacts_beyond_the_linear_response_are_refused_with_the_reason() {
+fn unsupported_contacts_are_refused_with_the_reason() {
     let eyring = Lubricant { shear: ShearLaw::Eyring { critical_stress: 5e6, npr: 0.0 }, ..Lubricant::default() };
     assert!(check_lubricant(&eyring).unwrap_err().to_string().contains("Newtonian"));
     let conserving = Cavitation::MassConserving { supply_film_m: None };

@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_second_order_quotient_is_exact_for_quadratics_whatever_the_steps() {
+    fn second_order_quotients_are_exact_for_quadratics() {
         let (value, slope) = (|t: f64| 2.0 - 3.0 * t + 5.0 * t * t, |t: f64| -3.0 + 10.0 * t);
         for (step, step_before) in [(0.1, 0.1), (0.2, 0.1), (0.03, 0.1), (1e-3, 2.4e-3)] {
             let quotient = BackwardDifference::second_order(step, step_before);

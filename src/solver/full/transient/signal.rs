@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn no_signal_falls_below_what_its_constants_say_and_all_come_near_it() {
+    fn signals_reach_but_never_pass_their_lower_bound() {
         let sampled = Signal::Sampled { times: vec![0.2, 0.7, 1.9], values: vec![1.0, 0.3, 2.0] };
         for signal in [
             Signal::Constant,

@@ -194,7 +194,7 @@ fn a_step_that_no_part_of_can_be_taken_ends_the_march() {
 }
 
 #[test]
-fn a_controlled_march_that_stops_early_has_the_error_of_the_part_that_it_reached() {
+fn stopped_marches_report_the_error_so_far() {
     let fall = Signal::Sampled { times: vec![0.0, 0.1, 0.1001], values: vec![1.0, 1.0, 1e-9] };
     let time_step = TimeStep::Controlled(0.02);
     let transient = Transient { inputs: Inputs::load(fall), time_step, ..case_1(0.5, 0.01) };

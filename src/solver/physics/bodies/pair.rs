@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_in_a_groove_is_an_ellipse_across_the_rolling_direction() {
+    fn balls_in_grooves_are_ellipses_across_rolling() {
         // Ball of a 6206 bearing, 9.525 mm on a pitch diameter of 46 mm, on its inner race of 36.475 mm in a groove of
         // 4.953 mm (52 %).
         let Bodies([ball, race]) = bodies([4.7625e-3, 18.2375e-3], [1.0; 2]);
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn steel_on_steel_is_the_default_modulus_and_a_rigid_partner_doubles_it() {
+    fn a_rigid_partner_doubles_the_modulus_of_steel_on_steel() {
         let Bodies([first, second]) = bodies([0.01; 2], [1.0; 2]);
         let both = Bodies([first, second]).reduced_modulus_pa().unwrap();
         assert!((both - 230.77e9).abs() < 0.01e9, "{both}");

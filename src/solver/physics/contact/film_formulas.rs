@@ -175,7 +175,7 @@ mod tests {
     use crate::solver::physics::contact::{Moes, MoesRequest, si_from_moes};
 
     #[test]
-    fn the_point_formula_agrees_with_published_and_independent_films() {
+    fn point_formula_agrees_with_published_films() {
         // Film numbers extrapolated by an independent multigrid code (Roelands, compressible): within some per cent of
         // the fit.
         for (m, l, film) in [(20.0, 5.0, 2.99), (50.0, 10.0, 4.03), (100.0, 5.0, 2.74)] {
@@ -216,7 +216,7 @@ mod tests {
     ];
 
     #[test]
-    fn formulas_of_ellipses_have_the_films_of_an_independent_program_and_are_near_full_solutions() {
+    fn ellipse_formulas_agree_with_independent_values() {
         for (ratio, m, l, films, [central, minimum]) in ELLIPSES {
             let circle = si_from_moes(&MoesRequest::new(ContactKind::Point, m, l)).unwrap();
             let point = OperatingPoint { radius_y_m: Some(ratio * circle.radius_m), ..circle };

@@ -25,7 +25,7 @@ mod tests {
     use crate::solver::physics::contact::{MoesRequest, si_from_moes};
 
     #[test]
-    fn it_grows_with_the_root_of_a_light_load_and_hardly_with_a_heavy_one() {
+    fn resistance_grows_with_the_root_of_light_loads() {
         let at = |m: f64| si_from_moes(&MoesRequest::new(ContactKind::Line, m, 5.0)).unwrap();
         let group = |m: f64| {
             let point = at(m);

@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn an_oil_of_a_grade_at_a_temperature_is_a_viscosity_and_a_coefficient() {
+    fn grade_and_temperature_give_viscosity_and_coefficient() {
         let oil = Oil {
             grade: Grade::IsoVg(68.0),
             family: OilFamily::Mineral,
@@ -369,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn thermal_constants_are_slopes_of_the_laws_and_published_values() {
+    fn thermal_constants_are_slopes_and_published_values() {
         let oil = Oil {
             grade: Grade::IsoVg(68.0),
             family: OilFamily::Mineral,

@@ -182,7 +182,7 @@ fn a_cylindrical_roller_bearing_has_the_published_contact() {
 }
 
 #[test]
-fn the_path_runs_through_the_loaded_zone_and_is_heaviest_in_the_middle() {
+fn the_path_is_heaviest_amid_the_loaded_zone() {
     let bearing = Bearing::default();
     let path = bearing.path(STEEL, 41).unwrap();
     let heaviest = path.iter().map(|contact| contact.load).fold(0.0, f64::max);

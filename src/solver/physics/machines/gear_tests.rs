@@ -33,7 +33,7 @@ fn fzg_c_gears_have_the_published_geometry_and_pitch_point() {
 }
 
 #[test]
-fn the_load_stages_of_the_micropitting_test_have_their_published_pressures() {
+fn load_stages_of_micropitting_have_published_pressures() {
     // FVA 54/7, type C-GF (from memory): torque on the pinion [N m] and p_H at the pitch point [MPa].
     for (torque_n_m, published) in
         [(70.0, 795.1), (98.9, 945.1), (132.5, 1093.9), (171.6, 1244.9), (215.6, 1395.4), (265.1, 1547.3)]
@@ -45,7 +45,7 @@ fn the_load_stages_of_the_micropitting_test_have_their_published_pressures() {
 }
 
 #[test]
-fn the_working_angle_solves_its_equation_and_unshifted_gears_keep_theirs() {
+fn working_angles_solve_their_equation() {
     for angle in [0.05, 0.2, 0.35, 0.6, 1.0] {
         close(angle_of_involute(involute(angle)), angle, 1e-12, "inverse involute");
     }
@@ -71,7 +71,7 @@ fn the_contact_ratio_of_standard_spur_gears() {
 }
 
 #[test]
-fn curvature_and_sliding_along_the_path_follow_from_the_base_circles() {
+fn curvature_and_sliding_follow_from_the_base_circles() {
     for pair in [GearPair::default(), GearPair { helix_angle_deg: 20.0, ..GearPair::default() }] {
         let geometry = pair.geometry().unwrap();
         let path = pair.path(61).unwrap();

@@ -119,7 +119,7 @@ mod tests {
     use crate::solver::physics::surfaces::Roughness;
 
     #[test]
-    fn mean_height_of_gaussian_heights_is_the_integral_of_their_density() {
+    fn mean_height_of_gaussian_surfaces_is_their_integral() {
         // ∫ |z| φ(z) dz by the trapezoidal rule.
         let step = 1e-3;
         let density = |z: f64| (-0.5 * z * z).exp() / (2.0 * std::f64::consts::PI).sqrt();

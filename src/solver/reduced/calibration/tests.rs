@@ -104,7 +104,7 @@ fn windows_with_little_evidence_each_learn_together() {
 }
 
 #[test]
-fn windows_whose_errors_grow_in_other_directions_have_laws_of_their_own() {
+fn windows_have_error_laws_of_their_own() {
     let window = |k: usize, count: usize, seed: u64| -> Vec<Evidence> {
         let mut cases = signed(count, seed);
         let slope = if k.is_multiple_of(2) { 2.0 } else { -2.0 };
@@ -125,7 +125,7 @@ fn windows_whose_errors_grow_in_other_directions_have_laws_of_their_own() {
 }
 
 #[test]
-fn a_residual_beyond_the_evidence_raises_the_bound_in_proportion() {
+fn larger_residuals_raise_the_bound_in_proportion() {
     let evidence = synthetic(300, 3);
     let calibration = Calibration::fit(&evidence).unwrap();
     let mut features = evidence[0].features;

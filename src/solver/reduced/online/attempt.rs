@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_solve_that_is_stopped_at_any_attempt_says_so_and_the_next_one_knows_nothing_of_it() {
+    fn stopped_solves_do_not_affect_the_next_one() {
         let spec = oils(Sampling::QDeim, 60);
         let model = trained(&spec);
         let online = || Online::new(Arc::clone(&model), ReducedOptions::default());
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_start_with_fewer_modes_ends_where_a_model_with_no_more_of_them_does() {
+    fn starts_with_fewer_modes_match_smaller_models() {
         let spec = oils(Sampling::QDeim, 60);
         let model = trained(&spec);
         let options = ReducedOptions::default();
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn iterations_of_heavy_lines_begin_near_the_solutions_that_are_kept() {
+    fn heavy_lines_start_near_stored_solutions() {
         // The most heavily loaded corner of Table 3.1, α p_H up to 44.
         let corner = [(3e-3, 4e-3), (6.0, 10.0), (3e5, 5e5), (1.4e-8, 2e-8)];
         let corner = ParameterSpace::si_box(corner, 231e9, 0.01);

@@ -75,7 +75,7 @@ impl Part for Springs {
 }
 
 #[test]
-fn another_part_changes_the_laws_of_the_nodes_and_the_derivatives_of_the_rows() {
+fn a_part_changes_node_laws_and_row_derivatives() {
     let model = trained(&line(Sampling::QDeim, 50));
     let window = &model.windows[0];
     let known = &window.snapshots[0];

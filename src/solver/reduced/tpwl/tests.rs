@@ -195,7 +195,7 @@ fn case_1_of_table_4_5_is_reproduced_and_other_loads_are_met() {
 }
 
 #[test]
-fn a_training_that_ruptures_by_complementarity_does_as_well_as_one_by_the_penalty() {
+fn complementarity_training_is_as_accurate_as_the_penalty() {
     // Without the conversion of the multiplier to a pressure, H_c would have an error of 2e-2.
     let held = |transient: Transient| Transient {
         lubricant: Lubricant { cavitation: Cavitation::Complementarity, ..transient.lubricant },
@@ -219,7 +219,7 @@ fn a_training_that_ruptures_by_complementarity_does_as_well_as_one_by_the_penalt
 }
 
 #[test]
-fn few_modes_suffice_where_rows_are_balanced_and_the_rupture_is_not_locked() {
+fn balanced_rows_need_few_modes() {
     // With rows weighted by cell sizes only and the full penalty slope, H_c would have an error of 0.05.
     let model = model(&[&SINE], 40, STEP_SELECTION);
     for (name, signal, bar) in [("sine", sine(0.5), 5e-4), ("triangle", wave(0.0), 4e-3)] {

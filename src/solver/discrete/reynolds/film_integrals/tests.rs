@@ -124,7 +124,7 @@ fn derivatives_agree_with_finite_differences_to_1e_6() {
 }
 
 #[test]
-fn what_the_film_depends_on_moves_the_stress_at_mid_film_as_its_derivatives_say() {
+fn mid_film_stress_has_the_stated_derivatives() {
     for law in laws() {
         for load in loads().into_iter().filter(|load| load.sliding != 0.0) {
             let exact = film_integrals(&law, &PRODUCTION_RULE, load);
