@@ -160,7 +160,7 @@ fn circles_agree_with_an_independent_solution() {
 }
 
 #[test]
-fn vanishing_roughness_is_the_smooth_contact_and_none_is_the_same_problem() {
+fn vanishing_roughness_gives_the_smooth_contact() {
     let laws = Lubricant { cavitation: Cavitation::Complementarity, ..Lubricant::default() };
     let point = si_from_moes(&MoesRequest::new(ContactKind::Line, 40.0, 10.0)).unwrap();
     let mut solver = ContactSolver::on(&LINE.build().unwrap());
@@ -175,7 +175,7 @@ fn vanishing_roughness_is_the_smooth_contact_and_none_is_the_same_problem() {
 }
 
 #[test]
-fn the_rougher_of_both_surfaces_carries_more_lubricant_if_it_is_faster() {
+fn the_rougher_surface_carries_more_lubricant_if_faster() {
     let mut solver = ContactSolver::on(&GridSpec::Uniform { dx: 0.02, domain: (-4.0, 2.0) }.build().unwrap());
     let mut with = |srr: f64, shear_flow: f64| {
         let mut point = si_from_moes(&MoesRequest::new(ContactKind::Line, 30.0, 6.0)).unwrap();
@@ -302,7 +302,7 @@ fn a_sweep_of_the_speed_is_the_same_in_both_directions() {
 }
 
 #[test]
-fn an_ellipse_with_ridges_along_the_flow_has_a_thinner_film_than_one_with_ridges_across() {
+fn ridges_along_the_flow_thin_the_film_of_ellipses() {
     let contact = MoesRequest { radius_y_m: Some(0.03), ..MoesRequest::new(ContactKind::Point, 100.0, 8.0) };
     let point = si_from_moes(&contact).unwrap();
     let sigma = 0.5 * FilmFormula::NijenbanningVennerMoes.predict(&point).film_m;
@@ -365,6 +365,14 @@ fn a_slow_contact_has_a_real_contact_area_wears_and_is_elastic() {
     let largest = solution.asperity_pressures().fold(0.0, f64::max) * hertz.pressure_pa;
     let wear = mixed.wear_m_per_s.unwrap();
     assert!((wear / (1e-16 * largest * 1e-4) - 1.0).abs() < 1e-12, "{wear:e}");
+    // The same film at another sliding: friction and wear follow, everything else remains.
+    let mut faster = slow;
+    faster.sliding.slide_to_roll_ratio = -0.4;
+    let same_film = solution.clone().of_problem(Problem::new(&faster, lubricant).unwrap());
+    let moved = same_film.mixed_at_sliding(mixed);
+    assert_eq!(moved, same_film.mixed().unwrap());
+    assert!((moved.wear_m_per_s.unwrap() / wear - 4.0).abs() < 1e-12);
+    assert!((moved.boundary_traction + mixed.boundary_traction).abs() < 1e-15);
     // The nominal film is below zero, but the bodies flatten by much more than the mean gap.
     assert!(solution.scalars.h_c < 0.0);
     let ratios = ehl_explorer::scene::regime::Ratios::of(&solution);

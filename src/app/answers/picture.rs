@@ -130,7 +130,7 @@ impl Picture {
     pub fn of(key: Key, answer: Answer, cuts: Cuts) -> Option<Self> {
         let asked = Key { point: answer.request.point, lubricant: answer.request.lubricant };
         let (origin, traction) = (Origin::from(&answer.result), answer.result.traction?);
-        let warnings = answer.result.warnings.clone();
+        let (warnings, mixed) = (answer.result.warnings.clone(), answer.result.mixed);
         let solution = Arc::new(answer.into_fields()?);
         let of_nodes = |warning: &&Warning| {
             matches!(warning, Warning::DiscretisationError { .. } | Warning::DiscretisationErrorUnknown)
@@ -146,7 +146,7 @@ impl Picture {
             across: Across::default(),
             traction,
             unphysical: solution.problem.doubts_traction(traction, &solution.scalars),
-            mixed: solution.mixed(),
+            mixed,
             asperities: Vec::new(),
             rupture: solution.rupture(),
             meniscus: solution.meniscus(),
@@ -169,7 +169,7 @@ impl Picture {
         self.solution = of_contact(Arc::clone(&self.solution), &key);
         self.key = key;
         self.traction = self.solution.traction_coefficient();
-        self.mixed = self.solution.mixed();
+        self.mixed = self.mixed.map(|mixed| self.solution.mixed_at_sliding(mixed));
         let former = self.unphysical.map(Warning::from);
         self.unphysical = self.solution.problem.doubts_traction(self.traction, &self.solution.scalars);
         self.warnings.retain(|warning| Some(warning) != former.as_ref());

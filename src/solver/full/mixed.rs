@@ -117,10 +117,15 @@ impl Solution {
     /// Returns the part of the traction coefficient due to asperities: μ_b times their share of the load, with the sign
     /// of SRR.
     pub fn boundary_traction(&self) -> f64 {
+        self.boundary_traction_of(self.asperity_load_share())
+    }
+
+    /// Returns the part of the traction coefficient due to asperities that carry a share of the load, 0…1.
+    fn boundary_traction_of(&self, share: f64) -> f64 {
         let sliding = self.problem.point.sliding.slide_to_roll_ratio;
         match self.problem.rough {
             Some(ScaledRoughness { roughness, .. }) if sliding != 0.0 => {
-                roughness.boundary_friction * self.asperity_load_share() * sliding.signum()
+                roughness.boundary_friction * share * sliding.signum()
             }
             _ => 0.0,
         }
@@ -158,17 +163,33 @@ impl Solution {
         let rough = self.problem.rough?;
         let Scalars { h_c, h_min, .. } = self.scalars;
         let film_ratio_c = h_c / rough.sigma;
+        let asperity_load_share = self.asperity_load_share();
         Some(Mixed {
             film_ratio_c,
             film_ratio_min: h_min / rough.sigma,
             mean_gap_c: mean_gap(film_ratio_c).0,
-            asperity_load_share: self.asperity_load_share(),
+            asperity_load_share,
             p_a_c: self.problem.asperity_pressure(h_c),
-            boundary_traction: self.boundary_traction(),
+            boundary_traction: self.boundary_traction_of(asperity_load_share),
             fluid_traction: self.fluid_traction(),
             real_contact_area: self.real_contact_area(),
-            wear_m_per_s: self.wear_rates().map(|rates| rates.fold(0.0, f64::max)),
+            wear_m_per_s: self.largest_wear_rate(),
         })
+    }
+
+    /// Returns results of rough surfaces with friction and wear of this solution's sliding; the others do not depend on
+    /// it.
+    pub fn mixed_at_sliding(&self, mixed: Mixed) -> Mixed {
+        Mixed {
+            boundary_traction: self.boundary_traction_of(mixed.asperity_load_share),
+            fluid_traction: self.fluid_traction(),
+            wear_m_per_s: self.largest_wear_rate(),
+            ..mixed
+        }
+    }
+
+    fn largest_wear_rate(&self) -> Option<f64> {
+        self.wear_rates().map(|rates| rates.fold(0.0, f64::max))
     }
 
     /// Returns a warning if asperities touch at the ends of the domain.

@@ -206,8 +206,17 @@ impl Solution {
         let stress = |k: usize| self.fraction.get(k).copied().unwrap_or(1.0) * stress(k);
         // Integral across both halves; the value itself for a line contact.
         let at = |i: usize| {
-            let across = |j: usize| (stress(i * ny + j - 1) + stress(i * ny + j)) * (self.y[j] - self.y[j - 1]);
-            if ny == 1 { stress(i) } else { (1..ny).map(across).sum() }
+            let mut inner = stress(i * ny);
+            if ny == 1 {
+                return inner;
+            }
+            let across = |j: usize| {
+                let outer = stress(i * ny + j);
+                let part = (inner + outer) * (self.y[j] - self.y[j - 1]);
+                inner = outer;
+                part
+            };
+            (1..ny).map(across).sum()
         };
         let mut integral = 0.0;
         let mut upstream = at(self.first());

@@ -1,5 +1,8 @@
 //! Manual: a window with the pages of `assets/manual`.
 
+mod pictures;
+
+use self::pictures::Pictures;
 use egui::{Context, Frame, Label, Panel, Rect, RichText, ScrollArea, TextStyle, Ui, Window, vec2};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 
@@ -18,7 +21,7 @@ impl Page {
 
 macro_rules! pages {
     ($($file:literal),* $(,)?) => {
-        &[$(Page { file: $file, text: include_str!(concat!("../../assets/manual/", $file)) }),*]
+        &[$(Page { file: $file, text: include_str!(concat!("../../../assets/manual/", $file)) }),*]
     };
 }
 
@@ -71,6 +74,7 @@ pub struct Manual {
     open: bool,
     page: usize,
     cache: CommonMarkCache,
+    pictures: Pictures,
 }
 
 impl Manual {
@@ -131,8 +135,16 @@ impl Manual {
         });
     }
 
+    /// Draws text with the pictures between its paragraphs.
     fn prose(&mut self, ui: &mut Ui, text: &str) {
-        CommonMarkViewer::new().show(ui, &mut self.cache, text);
+        for (k, part) in text.split("\n![").enumerate() {
+            let picture = if k == 0 { None } else { pictures::reference(part) };
+            let text = picture.as_ref().map_or(part, |picture| picture.rest);
+            if let Some(picture) = picture {
+                self.pictures.ui(ui, &picture);
+            }
+            ui.push_id(k, |ui| CommonMarkViewer::new().show(ui, &mut self.cache, text));
+        }
         let followed = |page: &Page| self.cache.get_link_hook(page.file) == Some(true);
         if let Some(k) = PAGES.iter().position(followed) {
             self.page = k;
