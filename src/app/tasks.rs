@@ -5,7 +5,7 @@ use crate::app::figure::ToImage;
 use crate::app::reports::Solves;
 use crate::app::tabs::profiles::StressTask;
 use crate::app::tabs::training::TrainingTask;
-use crate::app::tabs::transient::{NumberTask, OtherRuleTask};
+use crate::app::tabs::transient::{AnimationTask, NumberTask, OtherRuleTask};
 use crate::engine::Store;
 use crate::engine::job::{Asked, Performer, Replayed, Task, perform as done};
 
@@ -19,5 +19,16 @@ pub fn perform(kind: &str, task: &[u8], store: &Store, performer: Performer) {
             }
         };
     }
-    of!(FullSolve, Asked, Replayed, TrainingTask, NumberTask, OtherRuleTask, ToImage, Solves, StressTask);
+    of!(
+        FullSolve,
+        Asked,
+        Replayed,
+        TrainingTask,
+        NumberTask,
+        OtherRuleTask,
+        ToImage,
+        Solves,
+        StressTask,
+        AnimationTask
+    );
 }

@@ -17,6 +17,7 @@ use crate::app::model_source::Models;
 use crate::app::notice::Notice;
 use crate::app::panels::headline::Headline;
 use crate::app::presentation::Presentation;
+use crate::app::purpose::{Purpose, Written};
 use crate::app::reports::Reports;
 use crate::app::tab::Tab;
 use crate::app::tabs::all::Tabs;
@@ -135,6 +136,9 @@ impl Desk {
             Some(Ok(file)) => self.ask_path(ctx, file),
             Some(Err(why)) => self.files.notice = Some(Notice::Wrong(format!("No report: {why}"))),
             None => {}
+        }
+        if let Some(file) = self.transient.animation.take() {
+            self.ask_path(ctx, Purpose::Write(Written::Png, file.into()));
         }
     }
 

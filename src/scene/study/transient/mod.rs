@@ -16,6 +16,7 @@ pub use data::{Drive, LinearisedTransient, ReducedTransient, TransientStudy};
 pub use march::{By, March, MarchedBy, series};
 pub use models::{Kind, Model};
 pub use published::PublishedMarch;
+pub(crate) use surfaces::read_profile;
 pub use surfaces::{SurfaceFeature, SurfaceShape};
 pub(crate) use timed_march::{Listener, Timed, timed_march};
 
