@@ -147,7 +147,7 @@ impl Explorer {
 
     /// Returns true while an animation is drawn.
     pub fn animating(&self) -> bool {
-        self.desk.transient.animation.standing().is_some()
+        self.desk.animations.standing().is_some()
     }
 
     /// Returns true while the study of the number of operating points runs.

@@ -1,11 +1,12 @@
 //! Tasks that another instance of the program may send.
 
+use crate::app::animations::AnimationTask;
 use crate::app::answers::jobs::FullSolve;
 use crate::app::figure::ToImage;
 use crate::app::reports::Solves;
 use crate::app::tabs::profiles::StressTask;
 use crate::app::tabs::training::TrainingTask;
-use crate::app::tabs::transient::{AnimationTask, NumberTask, OtherRuleTask};
+use crate::app::tabs::transient::{NumberTask, OtherRuleTask};
 use crate::engine::Store;
 use crate::engine::job::{Asked, Performer, Replayed, Task, perform as done};
 

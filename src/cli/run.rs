@@ -43,7 +43,7 @@ pub struct RunArgs {
     /// Write outcome (JSON), tables (CSV) and trained model (.rom) of every scene into this folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Write a transient scene as an animated PNG of 960×540 pixels, for slides
+    /// Write a transient scene, or a sweep over one quantity, as an animated PNG of 960×540 pixels, for slides
     #[arg(long, value_name = "FILE.png", conflicts_with = "all")]
     pub(super) animate: Option<PathBuf>,
     /// Print one JSON object per scene

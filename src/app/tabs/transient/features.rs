@@ -36,8 +36,13 @@ impl Features {
         let mut wanted = None;
         let chosen = &mut self.chosen;
         self.last = shared::edit(ui, (NAME, self.last), context, commands, |ui, form, study| {
-            heading(ui, "Add a feature");
-            if let Some(kind) = kinds_ui(ui) {
+            let added = if study.surfaces.is_empty() {
+                heading(ui, "Add a feature");
+                kinds_ui(ui)
+            } else {
+                ui.menu_button("Add another", kinds_ui).inner.flatten()
+            };
+            if let Some(kind) = added {
                 *chosen = study.surfaces.len();
                 match kind {
                     FeatureKind::Profile => wanted = Some(*chosen),
@@ -67,7 +72,11 @@ fn kinds_ui(ui: &mut Ui) -> Option<FeatureKind> {
     let button = |ui: &mut Ui, kind: FeatureKind| {
         let (name, tip) = kind.words();
         let name = if kind == FeatureKind::Profile { "Profile from CSV…" } else { name };
-        ui.button(name).on_hover_text(tip).clicked().then_some(kind)
+        let clicked = ui.button(name).on_hover_text(tip).clicked();
+        if clicked {
+            ui.close();
+        }
+        clicked.then_some(kind)
     };
     ui.horizontal_wrapped(|ui| FeatureKind::ALL.into_iter().filter_map(|kind| button(ui, kind)).last()).inner
 }

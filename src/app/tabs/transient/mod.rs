@@ -2,7 +2,6 @@
 
 mod advice;
 pub mod amplitude;
-mod animation;
 pub mod badge;
 mod cost;
 mod dials;
@@ -28,7 +27,6 @@ pub mod space_time;
 mod tab;
 mod tpwl;
 
-pub use animation::AnimationTask;
 pub use linearised::{NumberTask, OtherRuleTask};
 pub use run::Run;
 pub use runs::{TransientCommand, TransientRuns};

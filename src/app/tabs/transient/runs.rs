@@ -1,6 +1,5 @@
 //! Transient runs: the requested set-up, the results so far, and the displayed time.
 
-use super::animation::Animation;
 use super::player::Player;
 use super::run::Run;
 use super::setup::Setup;
@@ -37,8 +36,6 @@ pub enum TransientCommand {
     StudyNumber,
     /// Stop that study.
     StopNumber,
-    /// Draw an animation of the first full run.
-    Animate,
 }
 
 /// Transient runs and the displayed time. Several tabs read them.
@@ -52,8 +49,6 @@ pub struct TransientRuns {
     pub linearised: Option<Linearised>,
     /// Study of the number of operating points.
     pub number: NumberStudy,
-    /// Animation that is being drawn.
-    pub animation: Animation,
     /// Running job, and why the last one ended early.
     pub work: Background<StudyRow>,
     /// Seconds and time steps of the training runs of the last frame, if these are not the runs themselves.
@@ -89,7 +84,6 @@ impl TransientRuns {
     /// Receives the results since the last frame.
     pub fn receive(&mut self, store: &Store) {
         self.number.receive();
-        self.animation.receive();
         let (mut rows, works) = (Vec::new(), self.work.job().is_some());
         self.work.receive(|row| rows.push(row));
         for row in rows {
@@ -283,11 +277,6 @@ impl TransientRuns {
                 }
             }
             TransientCommand::StopNumber => self.number.work.stop(),
-            TransientCommand::Animate => {
-                if let Some(run) = self.animated() {
-                    self.animation.start(ctx, store, run.trajectory.clone());
-                }
-            }
         }
     }
 
@@ -296,9 +285,8 @@ impl TransientRuns {
         self.runs.iter().find(|run| run.by == MarchedBy::Full && run.trajectory.states.len() > 1)
     }
 
-    /// Stops the runs, the study of their linearised model and the animation, and keeps their results.
+    /// Stops the runs and the study of their linearised model, and keeps their results.
     pub fn stop(&mut self) {
-        self.animation.stop();
         self.following.rest();
         self.work.stop();
         self.number.work.stop();

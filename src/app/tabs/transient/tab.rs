@@ -106,7 +106,7 @@ impl View for Transient {
             Offer::new(
                 "Animation as APNG…",
                 "The first full run as a film of 960×540 pixels for slides and web pages",
-                view.animated().map(|_| || Command::Transient(TransientCommand::Animate)),
+                view.animated().map(|_| || Command::AnimateRun),
             ),
             self.amplitude.offer(),
         ]
@@ -126,7 +126,7 @@ impl View for Transient {
     fn jobs(&self, context: &Context<'_>) -> Vec<Standing> {
         let runs = context.transient;
         let following = [runs.replaying(), self.amplitude.standing()].into_iter().filter_map(view::lasting);
-        runs.standing().into_iter().chain(following).chain(runs.animation.standing()).collect()
+        runs.standing().into_iter().chain(following).collect()
     }
 
     fn stop(&mut self) {
@@ -152,8 +152,7 @@ impl Transient {
         });
         let of_dials = [("transient", Pane::SetUp), (features::NAME, Pane::Surfaces)];
         let hidden = of_dials.into_iter().filter(|(_, pane)| self.pane != Some(*pane));
-        let refused = hidden.filter_map(|(name, _)| context.entries.message(name));
-        shared::status(ui, context, refused.chain(context.transient.animation.message()));
+        shared::status(ui, context, hidden.filter_map(|(name, _)| context.entries.message(name)));
         let view = context.transient;
         if view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
             if !shared::is_coming(context) {
@@ -179,7 +178,11 @@ impl Transient {
         ui.horizontal_wrapped(|ui| {
             for (pane, name, tip) in [
                 (Pane::SetUp, "Set-up", "Shows or hides the inputs of the contact"),
-                (Pane::Surfaces, "Surfaces", "Shows or hides dents, bumps and waves that move through the contact"),
+                (
+                    Pane::Surfaces,
+                    "Moving surfaces",
+                    "Shows or hides dents, bumps and waves that move through the contact",
+                ),
             ] {
                 let mut on = self.pane == Some(pane);
                 if ui.toggle_value(&mut on, name).on_hover_text(tip).clicked() {

@@ -90,7 +90,7 @@ fn is_first(body: &u8) -> bool {
 }
 
 /// Refuses numbers that are not finite, lengths that are not positive, and other bodies.
-pub(super) fn check(surfaces: &[SurfaceFeature]) -> Checked {
+pub(crate) fn check(surfaces: &[SurfaceFeature]) -> Checked {
     count("study.surfaces (how many)", surfaces.len(), 0, MOST_FEATURES)?;
     for (k, SurfaceFeature { body, shape }) in surfaces.iter().enumerate() {
         let field = |name: &str| format!("study.surfaces.{k}.{name}");

@@ -1,33 +1,18 @@
-//! Animation of a transient contact for slides: profiles or the map of the film, with film thickness and pressure over
-//! time.
+//! Animation of a transient contact: profiles or the map of the film, with film thickness and pressure over time.
 
-use super::chart::{Chart, ChartAxis, Marks};
-use super::chart_page::{Page, drawn};
-use super::drawing::{AnimationError, Drawing, Lettering, Mark, Pen, Rgb, TextAnchor, Words, animated};
-use super::report::film_over_plane;
-use super::study::StudyRow;
-use super::study::transient::{MarchedBy, Row};
+use super::frame::{ALONG, FILM, PRESSURE, REFERENCE, add, composed, dot, encoded};
+use crate::scene::chart::{Chart, ChartAxis};
+use crate::scene::drawing::{AnimationError, Drawing, Rgb};
+use crate::scene::report::film_over_plane;
+use crate::scene::study::StudyRow;
+use crate::scene::study::transient::{MarchedBy, Row};
 use crate::solver::full::transient::{Moment, State, Trajectory};
-use crate::solver::observer::{Observer, Progress};
+use crate::solver::observer::Observer;
 
-/// Width and height of a frame in pixels, and their resolution in dots per inch.
-const PIXELS: [f64; 2] = [960.0, 540.0];
-const DPI: f64 = 144.0;
-/// Share of the width for the profiles or the map.
-const LEFT: f64 = 0.58;
-/// Height of the line with the time \[pt\], and its letters.
-const CAPTION: f64 = 16.0;
-const LETTERS: f64 = 8.5;
 /// Largest number of frames.
 const FRAMES: usize = 120;
-/// Abscissae X of the profiles.
-const ALONG: (f64, f64) = (-2.2, 1.6);
 /// Distance of the undeformed features below h = 0, in units of their largest height.
 const BELOW: f64 = 1.3;
-/// Colours of pressure, film thickness and references.
-const PRESSURE: Rgb = [0xd5, 0x5e, 0x00];
-const FILM: Rgb = [0x00, 0x72, 0xb2];
-const REFERENCE: Rgb = [0x88, 0x88, 0x88];
 
 /// Returns the first full march of a transient study with its moments and fields. `None` if it has none.
 pub fn full_march(rows: &[StudyRow]) -> Option<Trajectory> {
@@ -51,15 +36,10 @@ pub fn full_march(rows: &[StudyRow]) -> Option<Trajectory> {
 /// [`AnimationError`] if the march has no fields, or if the observer stops.
 pub fn of_march(march: &Trajectory, dark: bool, observer: &dyn Observer) -> Result<Vec<u8>, AnimationError> {
     let count = march.states.len().min(FRAMES);
-    let scene = Scenery::new(march, dark);
-    animated(count, |k| {
-        observer.progress(Progress { stage: "drawing".to_owned(), done: k, total: count });
-        if observer.cancelled() {
-            return Err(AnimationError::Drawing("the animation was cancelled".to_owned()));
-        }
-        let last = march.states.len() - 1;
-        let state = march.states.get(k * last / (count - 1).max(1)).ok_or(AnimationError::Frames(0))?;
-        scene.frame(state).to_pixels(DPI).map_err(|error| AnimationError::Drawing(error.to_string()))
+    let (scenery, last) = (Scenery::new(march, dark), march.states.len().saturating_sub(1));
+    encoded(count, observer, |k| {
+        let state = march.states.get(k * last / count.saturating_sub(1).max(1));
+        state.map(|state| scenery.frame(state)).ok_or(AnimationError::Frames(0))
     })
 }
 
@@ -94,43 +74,14 @@ impl<'a> Scenery<'a> {
     }
 
     fn frame(&self, state: &State) -> Drawing {
-        let size_mm = PIXELS.map(|pixels| 25.4 * pixels / DPI);
-        let [width, height] = size_mm;
-        let page = |share: f64| Page {
-            width_mm: share * width,
-            height_mm: height - CAPTION * 25.4 / 72.0,
-            dark: self.dark,
-            caption: String::new(),
-        };
         let (left, right): (Vec<Chart>, Vec<Chart>) = match self.map(state) {
             Some(map) => (vec![map], self.profiles(state).into()),
             None => (self.profiles(state).into(), self.series(state).into()),
         };
-        let mut drawing = drawn(&left, &page(LEFT));
-        let offset = [drawing.size()[0], 0.0];
-        let beside = drawn(&right, &page(1.0 - LEFT));
-        drawing.marks.extend(beside.marks.into_iter().map(|mark| mark.moved(offset)));
-        drawing.size_mm = size_mm;
-        drawing.marks.push(Mark::Words(self.caption(state, drawing.size()[1])));
-        drawing
-    }
-
-    fn caption(&self, state: &State, height: f64) -> Lettering {
-        let moes = self.march.problem.moes;
-        let time = state.time * self.units[3];
-        Lettering {
-            words: Words::marked(&format!(
-                "{{t}} = {time:.3} ms   {{T}} = {:.2}   {{M}} = {:.1}   {{L}} = {:.1}",
-                state.time, moes.m, moes.l
-            )),
-            at: [8.0, height - 0.35 * CAPTION],
-            beside: TextAnchor::Right,
-            upwards: false,
-            size: LETTERS,
-            bold: false,
-            color: if self.dark { [0xee; 3] } else { [0x22; 3] },
-            class: "caption".into(),
-        }
+        let (moes, time) = (self.march.problem.moes, state.time * self.units[3]);
+        let caption =
+            format!("{{t}} = {time:.3} ms   {{T}} = {:.2}   {{M}} = {:.1}   {{L}} = {:.1}", state.time, moes.m, moes.l);
+        composed((&left, &right), &caption, self.dark)
     }
 
     /// Returns X, P and H along the axis in the scales of the reference contact.
@@ -175,10 +126,7 @@ impl<'a> Scenery<'a> {
             add(&mut chart, "", (color, 1.4), points);
             let now = self.march.moments.iter().find(|moment| moment.time >= state.time);
             if let Some(now) = now {
-                chart.add("", Marks::Dots, [[ms * now.time, of(now)]]);
-                if let Some(series) = chart.series.last_mut() {
-                    series.pen = Some(Pen { color, opacity: 1.0, width: 2.0, dashes: Vec::new() });
-                }
+                dot(&mut chart, color, [ms * now.time, of(now)]);
             }
             chart
         };
@@ -195,14 +143,5 @@ impl<'a> Scenery<'a> {
         let [h_c, _, h_min, _] = self.most;
         let range = (h_min.max(0.0), 1.5 * h_c);
         Some(film_over_plane(&self.march.transient.point, (x, &y), &state.film, range))
-    }
-}
-
-/// Adds a line with its colour and width.
-fn add(chart: &mut Chart, name: &str, (color, width): (Rgb, f64), points: impl IntoIterator<Item = [f64; 2]>) {
-    let before = chart.series.len();
-    chart.add(name, Marks::Line, points);
-    if let Some(series) = chart.series.get_mut(before) {
-        series.pen = Some(Pen { color, opacity: 1.0, width, dashes: Vec::new() });
     }
 }
