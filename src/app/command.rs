@@ -49,6 +49,10 @@ pub enum Command {
     ExportProfiles,
     /// Writes a report of the contact.
     ExportReport(ReportFormat),
+    /// Draw the first full transient run as an animation.
+    AnimateRun,
+    /// Draw the contact under a range of loads as an animation.
+    AnimateLoad,
     /// Writes the worksheet of the running lesson.
     ExportWorksheet,
     /// Marks the lesson of this title as finished.
@@ -227,6 +231,15 @@ pub static MENUS: &[Item] = {
             "report sheet protocol print summary document page",
             None,
         ),
+        item(
+            "File",
+            2,
+            C::AnimateRun,
+            "Export animation of the transient run…",
+            "film movie video gif apng slides",
+            None,
+        ),
+        item("File", 2, C::AnimateLoad, "Export animation over load…", "film movie video gif apng slides sweep", None),
         item("File", 2, C::ExportProfiles, "Export profiles as CSV…", "table data pressure film thickness excel", None),
         item(
             "File",

@@ -15,6 +15,7 @@ use super::tab::Tab;
 use super::units::Units;
 use super::wake::wake;
 use super::{Explorer, export};
+use crate::app::animations::loads;
 use crate::app::refusal::Refusal;
 use crate::app::tabs::transient::Setup;
 use egui::{Context, ThemePreference, ViewportCommand};
@@ -55,6 +56,14 @@ impl Explorer {
                 if let Some(text) = export::profiles(&desk.answers, desk.display.cuts) {
                     self.execute(ctx, Command::csv(text));
                 }
+            }
+            Command::AnimateRun => {
+                let march = desk.transient.animated().map(|run| run.trajectory.clone());
+                march.into_iter().for_each(|march| desk.animations.march(ctx, desk.answers.store(), march));
+            }
+            Command::AnimateLoad => {
+                let scene = loads(&desk.document, &desk.answers);
+                scene.into_iter().for_each(|scene| desk.animations.sweep(ctx, desk.answers.store(), scene));
             }
             Command::ExportReport(form) => desk.reports.begin(ctx, (&desk.document, &desk.answers), form),
             Command::ExportWorksheet => match self.lessons.running().cloned() {

@@ -384,9 +384,10 @@ impl Explorer {
 
     /// Returns true if only transient views are visible. The read-outs then show their displayed time.
     fn shows_in_time(&self) -> bool {
+        // The map of a point contact shows the steady contact.
         let line = self.desk.document.point.kind == ContactKind::Line;
-        let in_time = |tab| matches!(tab, Tab::Transient | Tab::Tpwl | Tab::ContactMap);
-        line && self.desk.document.no_transient().is_none() && self.tabs_in_front().all(in_time)
+        let in_time = |tab| matches!(tab, Tab::Transient | Tab::Tpwl) || line && tab == Tab::ContactMap;
+        self.desk.document.no_transient().is_none() && self.tabs_in_front().all(in_time)
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` opens it as a native window.
 
+mod animations;
 mod answers;
 mod badge;
 mod caption;

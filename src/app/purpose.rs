@@ -11,6 +11,8 @@ pub enum Purpose {
     Save,
     /// Read inputs of a transient contact.
     Inputs,
+    /// Read the heights of a surface's feature with this index.
+    Profile(usize),
     /// Read a table of load cases.
     Cases,
     /// Read a reduced model for a comparison.
@@ -53,7 +55,7 @@ pub struct Words {
 impl Purpose {
     /// Returns true if a file is read. It must then exist, and no file is replaced.
     pub fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Inputs | Self::Cases | Self::ComparedModel)
+        matches!(self, Self::Open | Self::Inputs | Self::Profile(_) | Self::Cases | Self::ComparedModel)
     }
 
     /// Returns the texts of the dialog.
@@ -65,6 +67,7 @@ impl Purpose {
             }
             Self::Save => ("Save the scene", "Save", "Scene", &["ron"], "contact.ron"),
             Self::Inputs => ("Inputs from a table", "Read", "Table", &["csv"], ""),
+            Self::Profile(_) => ("Profile of a surface from a table", "Read", "Table", &["csv"], ""),
             Self::Cases => ("Load cases from a table", "Read", "Table", &["csv"], ""),
             Self::ComparedModel => ("Add a reduced model to the comparison", "Add", "Reduced model", &["rom"], ""),
             Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),

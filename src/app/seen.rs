@@ -140,6 +140,16 @@ impl Explorer {
         (view.is_current(), ended().count(), ended().filter(|run| run.replayed).count())
     }
 
+    /// Returns true if the amplitude curve is that of the contact on the screen.
+    pub fn has_amplitude_curve(&self) -> bool {
+        self.desk.tabs.transient.amplitude().is_of(&self.desk.document)
+    }
+
+    /// Returns true while an animation is drawn.
+    pub fn animating(&self) -> bool {
+        self.desk.animations.standing().is_some()
+    }
+
     /// Returns true while the study of the number of operating points runs.
     pub fn studying_points(&self) -> bool {
         self.desk.transient.number.work.standing().is_some()

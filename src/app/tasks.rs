@@ -1,5 +1,6 @@
 //! Tasks that another instance of the program may send.
 
+use crate::app::animations::AnimationTask;
 use crate::app::answers::jobs::FullSolve;
 use crate::app::figure::ToImage;
 use crate::app::reports::Solves;
@@ -19,5 +20,16 @@ pub fn perform(kind: &str, task: &[u8], store: &Store, performer: Performer) {
             }
         };
     }
-    of!(FullSolve, Asked, Replayed, TrainingTask, NumberTask, OtherRuleTask, ToImage, Solves, StressTask);
+    of!(
+        FullSolve,
+        Asked,
+        Replayed,
+        TrainingTask,
+        NumberTask,
+        OtherRuleTask,
+        ToImage,
+        Solves,
+        StressTask,
+        AnimationTask
+    );
 }

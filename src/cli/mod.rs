@@ -5,6 +5,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
+mod animate;
 mod bench;
 mod campaign;
 mod cases;

@@ -1,5 +1,6 @@
 //! Command `run`: runs scenes and checks their expectations.
 
+use super::animate;
 use super::failure::Failure;
 use super::output::{self, ProgressLine};
 use super::verdict::Verdict;
@@ -42,6 +43,9 @@ pub struct RunArgs {
     /// Write outcome (JSON), tables (CSV) and trained model (.rom) of every scene into this folder
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Write a transient scene, or a sweep over one quantity, as an animated PNG of 960×540 pixels, for slides
+    #[arg(long, value_name = "FILE.png", conflicts_with = "all")]
+    pub(super) animate: Option<PathBuf>,
     /// Print one JSON object per scene
     #[arg(long)]
     pub(super) json: bool,
@@ -53,6 +57,9 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
         return super::run_all::run(args);
     }
     let scenes = args.scenes.iter().map(|path| Scene::read(path)).collect::<Result<Vec<_>, _>>()?;
+    if args.animate.is_some() {
+        animate::check(&scenes)?;
+    }
     make_out(args)?;
     let store = Store::default();
     let mut verdict = Verdict::Done;
@@ -64,7 +71,10 @@ pub fn run(args: &RunArgs) -> Result<Verdict, Failure> {
         Workbench::on(&store, base(path)).check_models(scene).map_err(|reason| named(path, reason))?;
     }
     for (path, scene) in args.scenes.iter().zip(&scenes) {
-        let outcome = outcome_of(path, scene, &store).map_err(|reason| named(path, reason))?;
+        let outcome = match &args.animate {
+            Some(file) => animate::run(scene, &mut Workbench::on(&store, base(path)), file)?,
+            None => outcome_of(path, scene, &store).map_err(|reason| named(path, reason))?,
+        };
         if !outcome.passed() {
             verdict = Verdict::FellShort;
         }

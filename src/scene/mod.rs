@@ -7,6 +7,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
+pub mod animation;
 mod answer;
 pub mod at;
 pub mod atomic_file;

@@ -108,3 +108,27 @@ fn models_in_time_that_make_no_sense_are_refused_by_name() {
     let trains = folder.write("trains.ron", &scene("reduced: ()"));
     assert_refused(&["train", word(&trains), "--out", "/no/such/folder/x.rom"], "--out must name a file");
 }
+
+#[test]
+fn transient_scenes_and_sweeps_are_written_as_animations() {
+    let folder = Scratch::new("animation");
+    let sweep =
+        "Scene(version: 1, title: \"sweep\", at: Moes(m: 40.0, l: 10.0), grid: Uniform(dx: 0.02, domain: (-4.0, 2.0)),
+        study: Sweep(over: [(vary: M, values: Linear(from: 20.0, to: 40.0, n: 3))], methods: [Full]))";
+    let film = folder.join("film.png");
+    for (name, text, frames) in [("march", scene(""), 51), ("sweep", sweep.to_owned(), 3)] {
+        let output = program(&["run", word(&folder.write("scene.ron", &text)), "--animate", word(&film)]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", String::from_utf8_lossy(&output.stderr));
+        let file = std::io::Cursor::new(std::fs::read(&film).unwrap());
+        let reader = png::Decoder::new(file).read_info().unwrap();
+        let control = reader.info().animation_control().unwrap();
+        assert_eq!((reader.info().width, reader.info().height, control.num_frames), (960, 540, frames), "{name}");
+    }
+    let point = "Scene(version: 1, title: \"point\", study: Point(methods: [Full]))";
+    let point = folder.write("point.ron", point);
+    assert_refused(
+        &["run", word(&point), "--animate", word(&film)],
+        "--animate needs a scene with the study Transient",
+    );
+    assert_refused(&["run", word(&point), word(&point), "--animate", word(&film)], "--animate takes one scene, not 2");
+}

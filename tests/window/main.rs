@@ -29,5 +29,6 @@ mod surfaces;
 mod tpwl_tab;
 mod traction_tab;
 mod training_tab;
+mod transient_features;
 mod transient_tab;
 mod walk;

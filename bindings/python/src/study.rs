@@ -11,7 +11,7 @@ use ehl_explorer::scene::{
     At, Bench, ContactSweep, Grid, Method, ModelSource, Notice, Request, Scene, Steps, Study, TransientStudy, Varied,
     VariedError, Words,
 };
-use ehl_explorer::solver::full::transient::{Frame, Inputs, MarchProgress, Scheme, Signal, TimeStep, Transient, march};
+use ehl_explorer::solver::full::transient::{Inputs, MarchProgress, Signal, TimeStep, Transient, march};
 use ehl_explorer::solver::observer::Observer;
 use ehl_explorer::solver::parameters::{Axis, ParameterSpace, Quantity};
 use ehl_explorer::solver::physics::contact::ContactKind;
@@ -95,7 +95,8 @@ pub fn random_test<'py>(
 
 /// Solves a transient contact in full: the study ``Transient`` of scenes, with inputs R, u_m and load that vary around
 /// those of the contact. With ``model``, the ``.rom`` file of a transient reduced model, solves by this model alone; a
-/// contact with ``method="reduced"`` is solved by the embedded model. Leaving the trained range gives a warning.
+/// contact with ``method="reduced"`` is solved by the embedded model. Leaving the trained range gives a warning. Point
+/// contacts are solved in full only, with a constant radius.
 ///
 /// Times are in units of a/u_m. ``radius``, ``speed`` and ``load`` are pairs (T, values) of times and multiples of the
 /// contact's own value; quantities that are not given are constant. The time step is ``step``, or is adapted so that
@@ -140,25 +141,7 @@ pub fn transient<'py>(
     if let Some(source) = source {
         return by_model(py, &source, own, progress);
     }
-    let study = TransientStudy {
-        inputs,
-        sampled: None,
-        duration,
-        further: Vec::new(),
-        time_step,
-        separation: None,
-        surfaces: Vec::new(),
-        scheme: Scheme::Default,
-        frames: vec![Frame::Fixed],
-        window: None,
-        trainings: Vec::new(),
-        training_loads: Vec::new(),
-        training_contacts: Vec::new(),
-        reduced: None,
-        linearised: None,
-        mass_between: None,
-        published: Vec::new(),
-    };
+    let study = TransientStudy::new(inputs, duration, time_step);
     let mut scene = Scene {
         contact: request.point.kind,
         at: At::from(request.point),

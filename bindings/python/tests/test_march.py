@@ -96,3 +96,20 @@ def test_a_coarse_step_is_warned_of_and_a_tolerance_chooses_the_steps():
     for given in ({}, {"step": 0.1, "tolerance": 0.01}):
         with pytest.raises(ehl.EhlError, match="either step= or tolerance="):
             ehl.transient(CONTACT, duration=1, **given)
+
+
+def test_circular_contacts_are_marched_in_full():
+    ball = ehl.Contact.moes(20, 6, contact="point", dx=0.08, dy=0.1)
+    times = np.linspace(0, 2, 201)
+    load = (times, 1 + 0.1 * np.sin(2 * np.pi * times / 2))
+    march = ehl.transient(ball, duration=2, step=0.05, load=load)
+    assert len(march) == 41 and march["T"][-1] == pytest.approx(2)
+    # Hertz: the central pressure follows the load to the power of a third, up to the delay of the film.
+    assert march["P_c"].max() / march["P_c"][0] == pytest.approx(1.1 ** (1 / 3), abs=0.02)
+    assert np.ptp(march["H_c"]) > 0.01 * march["H_c"][0]
+    steady = ehl.transient(ball, duration=0.5, step=0.05)
+    np.testing.assert_allclose(steady["H_c"], march["H_c"][0], rtol=1e-5)
+    with pytest.raises(ehl.EhlError, match="constant radius"):
+        ehl.transient(ball, duration=2, step=0.05, radius=load)
+    with pytest.raises(ehl.EhlError, match="line contacts only"):
+        ehl.transient(ball.replace(method="reduced"), duration=2, step=0.05)

@@ -1,6 +1,7 @@
 //! Availability of commands, and the reasons why a command is not available.
 
 use super::workspace::Desk;
+use crate::app::animations::loads;
 use crate::app::answers::MOST_PINS;
 use crate::app::answers::jobs::JobKind;
 use crate::app::answers::picture::Origin;
@@ -39,6 +40,10 @@ impl Desk {
             }
             Command::Pin => (true, NO_PICTURE),
             Command::Unpin => (self.answers.pins().is_empty(), "Nothing is pinned"),
+            Command::AnimateRun => (self.transient.animated().is_none(), "There is no full transient run yet"),
+            Command::AnimateLoad => {
+                (loads(&self.document, &self.answers).is_none(), "The reduced model does not cover this contact")
+            }
             Command::Overlay | Command::Difference => {
                 let full = self.answers.picture().is_none_or(|picture| picture.origin == Origin::Full);
                 (full, "The picture is the full solution itself")

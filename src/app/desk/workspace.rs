@@ -3,6 +3,7 @@
 
 use super::files::Files;
 use super::opened::Opened;
+use crate::app::animations::Animations;
 use crate::app::answers::Answers;
 use crate::app::answers::picture::Cuts;
 use crate::app::caption;
@@ -59,6 +60,8 @@ pub struct Desk {
     pub finished: Vec<String>,
     /// Report that is being made.
     pub reports: Reports,
+    /// Animation that is being drawn.
+    pub animations: Animations,
     /// Running presentation, which shows only plots and sliders.
     pub presentation: Option<Presentation>,
     /// Item that was just opened and still has to be handled.
@@ -90,6 +93,7 @@ impl Desk {
             headline: None,
             finished: Vec::new(),
             reports: Reports::default(),
+            animations: Animations::default(),
             presentation: None,
             opened: None,
             fit_plots: true,
@@ -136,6 +140,11 @@ impl Desk {
             Some(Err(why)) => self.files.notice = Some(Notice::Wrong(format!("No report: {why}"))),
             None => {}
         }
+        match self.animations.receive() {
+            Some(Ok(file)) => self.ask_path(ctx, file),
+            Some(Err(why)) => self.files.notice = Some(Notice::Wrong(format!("No animation: {why}"))),
+            None => {}
+        }
     }
 
     /// Locks or unlocks the axes of a tab.
@@ -166,7 +175,7 @@ impl Desk {
     pub fn works(&self) -> Vec<Standing> {
         let context = self.context();
         let tabs = Tab::ALL.iter().flat_map(|tab| self.tabs.of(*tab).jobs(&context));
-        let made = [self.reports.standing(), self.figures.standing()];
+        let made = [self.reports.standing(), self.figures.standing(), self.animations.standing()];
         self.answers.standing().into_iter().chain(tabs).chain(made.into_iter().flatten()).collect()
     }
 
@@ -183,6 +192,7 @@ impl Desk {
         self.transient.stop();
         self.tabs.stop();
         self.reports.stop();
+        self.animations.stop();
         self.figures.stop();
     }
 

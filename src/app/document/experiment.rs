@@ -363,9 +363,9 @@ impl Document {
         if let Some(spec) = self.training.as_ref().filter(|_| self.saves_training()) {
             scene.study = Study::Training(spec.clone());
         }
-        if let Some(study) = self.transient.as_ref().filter(|_| self.saves_transient()) {
+        if self.transient.is_some() && self.saves_transient() {
             scene.grid = self.transient_grid();
-            scene.study = Study::Transient(study.clone());
+            scene.study = Study::Transient(self.transient_study());
         }
         if scene.point() != Ok(OperatingPoint { sliding: Sliding::NONE, ..self.point }) {
             scene.at = At::from(self.point);

@@ -3,6 +3,7 @@
 mod edit;
 mod engineering;
 mod experiment;
+pub mod features;
 mod held;
 mod history;
 pub mod input;

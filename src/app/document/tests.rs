@@ -247,7 +247,7 @@ fn history_goes_back_and_forth() {
 #[test]
 fn transient_refusals_agree_in_all_interfaces() {
     let reason = |document: &Document| {
-        let why = Unsupported::check(document.point.kind, &document.lubricant).unwrap_err().to_string();
+        let why = Unsupported::check_lubricant(&document.lubricant).unwrap_err().to_string();
         let said = document.no_transient().unwrap();
         assert!(said.to_lowercase().starts_with(&why.to_lowercase()) && said.contains("; "), "{said}");
         why
@@ -259,6 +259,29 @@ fn transient_refusals_agree_in_all_interfaces() {
     document = Document::default();
     document.switch_heat(true).unwrap();
     assert!(reason(&document).contains("isothermal"));
-    document.point.kind = ContactKind::Point;
-    assert!(reason(&document).contains("line contacts"));
+    // The full system marches point contacts, linearised models do not.
+    document = Document::default();
+    document.set_shape(Shape::Ball).unwrap();
+    assert_eq!((document.no_transient(), document.unsupported_in_time()), (None, None));
+    assert!(document.no_linearised().unwrap().contains("line contacts"));
+}
+
+#[test]
+fn transient_studies_are_adapted_to_point_contacts_and_back() {
+    let mut document = Document::default();
+    let reversing = Signal::Reversing { amplitude: 1.0, period: 20.0 };
+    let harmonic = Signal::Harmonic { amplitude: 0.2, period: 3.0 };
+    let inputs = Inputs { radius: harmonic.clone(), speed: reversing, load: harmonic.clone() };
+    let line = TransientStudy { inputs, ..document.transient_study() };
+    document.set_transient(line.clone()).unwrap();
+    document.set_shape(Shape::Ball).unwrap();
+    let ball = document.transient_study();
+    assert_eq!((ball.reduced, ball.linearised, ball.inputs), (None, None, Inputs::load(harmonic)));
+    let saved = Document::of_scene(document.to_scene()).unwrap();
+    assert_eq!(
+        (saved.transient_study(), saved.transient_grid()),
+        (document.transient_study(), document.transient_grid())
+    );
+    document.set_shape(Shape::Roller).unwrap();
+    assert_eq!(document.transient_study(), line);
 }

@@ -4,15 +4,24 @@ use crate::app::document::Document;
 use crate::app::in_use::question;
 use crate::app::refusal::Refusal;
 use crate::scene::{Grid, LinearisedTransient, ReducedTransient, Scene, Study, TransientStudy};
+use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::transient::{Frame, Inputs, Scheme, Signal, TimeStep, Unsupported};
+use crate::solver::physics::contact::ContactKind;
 
-/// Default grid, a compromise between accuracy and speed.
+/// Default grids of line and point contacts, a compromise between accuracy and speed.
 const GRID: Grid = Grid::Uniform { dx: 0.0075, domain: (-4.0, 2.0) };
+const PLANE: Grid = Grid::Plane(PointGridSpec::QUICK);
 
 impl Document {
-    /// Returns the transient contact that the tab shows: the document's, or a default.
+    /// Returns the transient contact that the tab shows: the document's, or a default. Without the parts that a point
+    /// contact does not have.
     pub fn transient_study(&self) -> TransientStudy {
-        self.transient.clone().unwrap_or_else(breathing)
+        match (self.point.kind, &self.transient) {
+            (ContactKind::Line, Some(study)) => study.clone(),
+            (ContactKind::Line, None) => breathing(),
+            (ContactKind::Point, Some(study)) => of_a_plane(study.clone()),
+            (ContactKind::Point, None) => breathing_ball(),
+        }
     }
 
     /// Sets the transient contact.
@@ -29,28 +38,31 @@ impl Document {
 
     /// Returns why transient runs do not support this contact. `None` if they do.
     pub fn no_transient(&self) -> Option<&'static str> {
-        Unsupported::check(self.point.kind, &self.lubricant).err().and_then(|why| match why {
-            Unsupported::PointContact => Some("Transient runs cover line contacts only; choose a line contact"),
+        Unsupported::check_lubricant(&self.lubricant).err().and_then(|why| match why {
             Unsupported::ShearThinning => Some(
                 "Transient runs cover Newtonian lubricants only, not shear-thinning ones; choose one without shear constants",
             ),
             Unsupported::Heat => Some("Transient runs cover isothermal contacts only; switch heat off"),
             Unsupported::Roughness => Some("Transient runs cover smooth surfaces only; set the roughness to zero"),
-            Unsupported::MassConservingModel | Unsupported::PointFrame | Unsupported::PointInputs => None,
+            Unsupported::PointContact
+            | Unsupported::MassConservingModel
+            | Unsupported::PointFrame
+            | Unsupported::PointInputs => None,
         })
+    }
+
+    /// Returns why linearised transient models do not support this contact. `None` if they do.
+    pub fn no_linearised(&self) -> Option<&'static str> {
+        let point = "The linearised model (TPWL) covers line contacts only; choose a line contact";
+        self.no_transient().or((self.point.kind == ContactKind::Point).then_some(point))
     }
 
     /// Returns why the transient study does not support the contact. `None` if it does.
     pub fn unsupported_in_time(&self) -> Option<Unsupported> {
-        let by_model = |study: &TransientStudy| study.reduced.is_some() || study.linearised.is_some();
-        let (lubricant, by_model) = (&self.lubricant, self.transient.as_ref().is_some_and(by_model));
-        // Full runs of scenes cover point contacts too; their grid is that of the scene.
-        let opened = |scene: &Scene| scene.contact == self.point.kind && matches!(scene.study, Study::Transient(_));
-        if !by_model && self.scene.as_ref().is_some_and(opened) {
-            return Unsupported::check_lubricant(lubricant).err();
-        }
-        let of_model = |()| if by_model { Unsupported::check_model(lubricant) } else { Ok(()) };
-        Unsupported::check(self.point.kind, lubricant).and_then(of_model).err()
+        let study = self.transient.as_ref().map(|_| self.transient_study());
+        let by_model = study.is_some_and(|study| study.reduced.is_some() || study.linearised.is_some());
+        let of_model = |()| if by_model { Unsupported::check_model(&self.lubricant) } else { Ok(()) };
+        Unsupported::check_lubricant(&self.lubricant).and_then(of_model).err()
     }
 
     /// Returns true if the file contains the transient contact. A scene with another study keeps that study, and an
@@ -60,33 +72,42 @@ impl Document {
         asked && self.unsupported_in_time().is_none()
     }
 
-    /// Returns the grid of transient contacts: that of a transient scene, otherwise the fast default.
+    /// Returns the grid of transient contacts: that of a transient scene of this kind of contact, otherwise the fast
+    /// default.
     pub fn transient_grid(&self) -> Grid {
-        let scene = self.scene.as_ref().filter(|scene| matches!(scene.study, Study::Transient(_)));
-        scene.map_or(GRID, |scene| scene.grid)
+        let kind = self.point.kind;
+        let asked = |scene: &&Scene| scene.contact == kind && matches!(scene.study, Study::Transient(_));
+        let default = if kind == ContactKind::Point { PLANE } else { GRID };
+        self.scene.as_ref().filter(asked).map_or(default, |scene| scene.grid)
     }
 }
 
 /// Returns the default study: a load with a harmonic variation of 10 %, as in Fig. 2.6 (right), but twice as long
 /// and with larger time steps. It uses all three methods with the built-in reduced model.
 fn breathing() -> TransientStudy {
+    let inputs = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 });
     TransientStudy {
-        inputs: Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 4.0 }),
-        sampled: None,
-        duration: 8.0,
-        further: Vec::new(),
-        time_step: TimeStep::Fixed(0.05),
-        separation: None,
-        surfaces: Vec::new(),
-        scheme: Scheme::Default,
-        frames: vec![Frame::Fixed],
-        window: None,
-        trainings: Vec::new(),
-        training_loads: Vec::new(),
-        training_contacts: Vec::new(),
         reduced: Some(ReducedTransient::embedded()),
         linearised: Some(LinearisedTransient::default()),
-        mass_between: None,
-        published: Vec::new(),
+        ..TransientStudy::new(inputs, 8.0, TimeStep::Fixed(0.05))
     }
+}
+
+/// Returns the default study of a point contact, which is marched by the full system alone.
+fn breathing_ball() -> TransientStudy {
+    let inputs = Inputs::load(Signal::Harmonic { amplitude: 0.1, period: 2.0 });
+    TransientStudy::new(inputs, 4.0, TimeStep::Fixed(0.04))
+}
+
+/// Returns a study without the frames, inputs, schemes and models that point contacts do not have.
+fn of_a_plane(mut study: TransientStudy) -> TransientStudy {
+    let Inputs { radius, speed, .. } = &mut study.inputs;
+    *radius = Signal::Constant;
+    if matches!(speed, Signal::Reversing { .. }) {
+        *speed = Signal::Constant;
+    }
+    (study.reduced, study.linearised, study.mass_between) = (None, None, None);
+    (study.frames, study.scheme) = (vec![Frame::Fixed], Scheme::Default);
+    (study.trainings, study.training_loads, study.training_contacts) = (Vec::new(), Vec::new(), Vec::new());
+    study
 }

@@ -68,21 +68,7 @@ pub(super) fn transient(machine: &Machine, document: &Document) -> Result<Transi
         load: signal(&|contact| contact.load / point.load),
     };
     let step = STEP.max(duration / MOST_STEPS);
-    let study = document.transient_study();
-    Ok(TransientStudy {
-        inputs,
-        sampled: None,
-        duration,
-        further: Vec::new(),
-        time_step: TimeStep::Fixed(step),
-        window: None,
-        trainings: Vec::new(),
-        training_loads: Vec::new(),
-        training_contacts: Vec::new(),
-        reduced: None,
-        linearised: None,
-        mass_between: None,
-        published: Vec::new(),
-        ..study
-    })
+    let TransientStudy { frames, separation, surfaces, scheme, .. } = document.transient_study();
+    let study = TransientStudy::new(inputs, duration, TimeStep::Fixed(step));
+    Ok(TransientStudy { frames, separation, surfaces, scheme, ..study })
 }

@@ -166,8 +166,9 @@ impl MachineWindow {
             let tip =
                 "Uses this contact, and lets R, u_m and w follow the path in the Transient tab. By the full solver";
             let transient = ui.add_enabled(ready && line, Button::new("Transient run along the path"));
-            let transient =
-                transient.on_hover_text(tip).on_disabled_hover_text("Transient runs cover line contacts only");
+            let transient = transient
+                .on_hover_text(tip)
+                .on_disabled_hover_text("Transient runs along a path cover line contacts only");
             if transient.clicked() {
                 // The form would hide the run.
                 match start_transient(&machine, document, commands) {

@@ -6,6 +6,7 @@ use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
 use crate::solver::full::transient::Quantity;
+use crate::solver::physics::contact::ContactKind;
 use egui::Ui;
 use std::sync::Arc;
 
@@ -34,8 +35,12 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
     let (name, si) = (symbol(ui, "P", "max"), numbers::pressure(p * pressure));
     cells.push(read(name, p, si, palette.pressure, "Maximum pressure at the displayed time"));
     let load = setup.point.load * setup.study.inputs.load.at(time);
-    let (name, unit) = (symbol(ui, "w", ""), "kN/m".to_owned());
-    cells.push(read(name, 1e-3 * load, unit, palette.text, "Load at the displayed time"));
+    let (load, unit) = match setup.point.kind {
+        ContactKind::Line => (1e-3 * load, "kN/m"),
+        ContactKind::Point => (load, "N"),
+    };
+    let name = symbol(ui, "w", "");
+    cells.push(read(name, load, unit.to_owned(), palette.text, "Load at the displayed time"));
     let tip = "Displayed time, and the method of these values";
     cells.push(read(symbol(ui, "T", ""), time, run.name(), palette.quiet, tip));
     ui.scope(|ui| {

@@ -3,6 +3,7 @@
 pub mod axes;
 pub mod color_bar;
 pub mod color_map;
+pub mod contours;
 pub mod cut_line;
 pub mod direction;
 pub mod frame;

@@ -4,12 +4,14 @@
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
+mod animation;
 mod color_map;
 mod pdf;
 mod png;
 mod svg;
 mod words;
 
+pub use animation::{AnimationError, animated};
 pub use color_map::viridis;
 pub use png::{DPI, PngError, encode};
 pub use svg::escaped;

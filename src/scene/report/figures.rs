@@ -5,7 +5,7 @@ use crate::scene::chart::{Chart, ChartAxis, ColorScale, Map, Marks};
 use crate::scene::drawing::{Pen, Pixels, viridis};
 use crate::solver::discrete::half_space::{Stress, StressMeasure};
 use crate::solver::full::{Solution, SubsurfaceStress};
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 
 /// Abscissae X of the profiles.
 const ALONG: (f64, f64) = (-2.0, 1.5);
@@ -51,20 +51,30 @@ fn colors() -> Vec<[u8; 3]> {
 
 /// Returns the film thickness of a point contact as a map over both halves.
 fn film_map(solution: &Solution) -> Chart {
-    let point = &solution.problem.point;
+    let range = (solution.scalars.h_min.max(0.0), BRIGHTEST * solution.scalars.h_c);
+    film_over_plane(&solution.problem.point, (&solution.x, &solution.y), &solution.film, range)
+}
+
+/// Returns a film thickness at nodes X and Y ≤ 0 of a point contact as a map over both halves. The colours extend over
+/// `range`.
+pub fn film_over_plane(
+    point: &OperatingPoint,
+    (nodes_x, nodes_y): (&[f64], &[f64]),
+    film: &[f64],
+    (lowest, highest): (f64, f64),
+) -> Chart {
     let hertz = point.hertz();
     let [a, b] = [hertz.half_width_m, hertz.half_length_m].map(|axis| 1e3 * axis);
     let (x, y) = ((-1.8, 1.4), (-1.4, 1.4));
-    let (lowest, highest) = (solution.scalars.h_min.max(0.0), BRIGHTEST * solution.scalars.h_c);
     let [columns, rows] = PIXELS;
     let place = |(from, to): (f64, f64), k: usize, count: usize| from + (to - from) * (k as f64 + 0.5) / count as f64;
     let mut rgb = Vec::with_capacity(3 * columns * rows);
     for row in 0..rows {
-        let line = Line::of(&solution.y, -place(y, row, rows).abs());
+        let line = Line::of(nodes_y, -place(y, row, rows).abs());
         for column in 0..columns {
-            let along = Line::of(&solution.x, place(x, column, columns));
-            let film = along.between(|i| line.between(|j| solution.film.get(i * solution.y.len() + j).copied()));
-            let share = (film.unwrap_or(highest) - lowest) / (highest - lowest);
+            let along = Line::of(nodes_x, place(x, column, columns));
+            let here = along.between(|i| line.between(|j| film.get(i * nodes_y.len() + j).copied()));
+            let share = (here.unwrap_or(highest) - lowest) / (highest - lowest);
             rgb.extend(viridis(share));
         }
     }

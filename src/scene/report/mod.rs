@@ -9,7 +9,7 @@ mod results;
 mod rows;
 mod stated;
 
-pub use figures::profiles;
+pub use figures::{film_over_plane, profiles};
 pub use stated::Stated;
 
 use super::answer::Answer;

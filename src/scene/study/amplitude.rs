@@ -12,6 +12,7 @@ use crate::solver::full::response::{
     ContactResponse, TimeDerivative, WaveResponse, check_lubricant, check_wavelength, published_reduction,
     reduction_parameter, widest_spacing,
 };
+use crate::solver::full::transient::MovingSurface;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -103,7 +104,7 @@ impl Derivative {
 impl Amplitude {
     /// Returns the speed of the wavy surface over u_m.
     fn speed(&self, slide_to_roll_ratio: f64) -> f64 {
-        if self.body == 1 { 1.0 - 0.5 * slide_to_roll_ratio } else { 1.0 + 0.5 * slide_to_roll_ratio }
+        MovingSurface::speed_of(self.body, slide_to_roll_ratio)
     }
 
     /// Returns the rows of a solved contact.

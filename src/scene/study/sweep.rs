@@ -4,6 +4,7 @@ use super::path::{self, Path, PathRow};
 use super::question::{
     Chart, ChartAxis, Checked, Divisible, Experiment, Findings, Question, RunError, Setting, Table, Tell,
 };
+use crate::scene::answer::Request;
 use crate::scene::axis::{Axis, Steps};
 use crate::scene::check::{self, MAX_POINTS, count, number, refuse};
 use crate::scene::contact_row::RefusedContact;
@@ -122,6 +123,19 @@ impl Divisible for Sweep {
     fn methods_mut(&mut self) -> &mut [Method] {
         &mut self.methods
     }
+}
+
+/// Returns the contacts of a sweep over one quantity as requests for its first method. Refused contacts are left out.
+///
+/// # Errors
+/// If a quantity cannot be varied.
+pub fn requests(sweep: &Sweep, experiment: &Experiment) -> Result<Vec<(f64, Request)>, RunError> {
+    let contacts = contacts_of(experiment, &sweep.over)?.into_iter();
+    let request = |point| match sweep.methods.first() {
+        Some(method) => Request { method: method.clone(), ..experiment.request_at(point) },
+        None => experiment.request_at(point),
+    };
+    Ok(contacts.filter_map(|(values, point)| Some((*values.first()?, request(point.ok()?)))).collect())
 }
 
 /// Values of the axes, and their contact or the reason why it is refused.

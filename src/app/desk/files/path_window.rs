@@ -160,6 +160,10 @@ impl Desk {
                 .document
                 .read_inputs(&path)
                 .map(|()| self.files.notice = Some(Notice::Done(format!("Read {}", path.display())))),
+            Purpose::Profile(k) => self
+                .document
+                .read_profile(k, &path)
+                .map(|()| self.files.notice = Some(Notice::Done(format!("Read {}", path.display())))),
             Purpose::Cases => self.load_cases.read(&path),
             Purpose::ComparedModel => self.tabs.training.work.add_beside(self.answers.store(), &path),
             Purpose::Write(what, bytes) => {

@@ -1,12 +1,12 @@
 //! Image and contour lines of the map, updated only when the solution or its display changes.
 
-use super::contours::Field;
 use super::map_view::{MapView, Shown, mid_film_rises};
 use crate::app::answers::picture::Picture;
 use crate::app::figure::{Texture, pixels};
 use crate::app::numbers;
 use crate::app::plot::color_bar::UNITS;
 use crate::app::plot::color_map;
+use crate::app::plot::contours::Field;
 use crate::app::plot::raster::Raster;
 use crate::scene::drawing::encode;
 use crate::solver::full::Solution;

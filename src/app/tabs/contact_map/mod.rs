@@ -1,6 +1,5 @@
 //! Film thickness or pressure over the plane of a point contact, and its interferogram.
 
-mod contours;
 mod export;
 mod images;
 mod map_view;

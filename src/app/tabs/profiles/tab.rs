@@ -7,6 +7,7 @@ use super::plots::{difference_plot, film_plot, pressure_plot};
 use super::stress::{self, StressImage};
 use super::temperatures::{self, TemperatureImage};
 use super::why::Facts;
+use crate::app::animations::loads;
 use crate::app::answers::Answers;
 use crate::app::answers::picture::{Origin, Picture};
 use crate::app::command::Command;
@@ -200,6 +201,9 @@ impl View for Profiles {
                 export::commented(&[export::describe(picture), answers.means()], &table)
             }));
         }
+        let there = loads(context.document, answers).map(|_| || Command::AnimateLoad);
+        let tip = "Profiles while the load moves through its range, by the reduced model, as a film of 960×540 pixels";
+        offers.push(Offer::new("Animation over load as APNG…", tip, there));
         offers
     }
 

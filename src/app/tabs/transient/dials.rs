@@ -1,5 +1,6 @@
 //! Sliders of amplitude and period of the input that varies.
 
+use super::feature_dials;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{RangeSlider, named};
@@ -50,9 +51,13 @@ fn shape(signal: &Signal) -> &'static str {
     }
 }
 
-/// Draws the sliders of the first input that varies. If none varies, draws a button that makes the load harmonic.
+/// Draws the sliders of the first feature, otherwise of the first input that varies. If there is neither, draws a button
+/// that makes the load harmonic.
 pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
     let before = context.document.transient_study();
+    if !before.surfaces.is_empty() {
+        return feature_dials::ui(ui, context, commands);
+    }
     let mut study = before.clone();
     let swings = Input::ALL.into_iter().find(|input| swing(input.of_mut(&mut study.inputs)).is_some());
     let Some(input) = swings else {

@@ -1,10 +1,12 @@
 //! Export of the transient contact: the time series of all runs, and their profiles at the displayed time.
 
 use super::runs::TransientRuns;
+use crate::app::document::features::{FeatureKind, place_of, sizes_of};
 use crate::app::tabs::transient::{Run, Setup, method};
 use crate::app::{export, numbers};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
+use crate::solver::physics::contact::ContactKind;
 
 /// Block of columns: its name and its rows.
 type Block = (String, Vec<Vec<Option<f64>>>);
@@ -103,13 +105,21 @@ pub fn inputs(setup: &Setup) -> String {
     let Inputs { radius, speed, load } = &setup.study.inputs;
     let varied = [("load", load), ("speed", speed), ("radius", radius)];
     let varied = varied.into_iter().filter_map(|(name, signal)| Some(format!("{name} {}", words(signal)?)));
-    varied.chain([format!("T up to {}", number(setup.study.duration))]).collect::<Vec<_>>().join("; ")
+    varied
+        .chain(features(setup))
+        .chain([format!("T up to {}", number(setup.study.duration))])
+        .collect::<Vec<_>>()
+        .join("; ")
 }
 
 /// Returns the set-up as lines above a table.
 pub fn describe(setup: &Setup) -> Vec<String> {
     let Inputs { radius, speed, load } = &setup.study.inputs;
-    let grid = match setup.grid.spec() {
+    let grid = match setup.grid.point_spec().filter(|_| setup.point.kind == ContactKind::Point).map(GridSpec::Plane) {
+        Some(spec) => Some(spec),
+        None => setup.grid.spec(),
+    };
+    let grid = match grid {
         Some(GridSpec::Uniform { dx, domain }) => format!("uniform grid of {dx} over {domain:?}"),
         Some(GridSpec::Graded { nodes, domain, .. }) => format!("{nodes} graded nodes over {domain:?}"),
         Some(GridSpec::Plane(spec)) => format!("spacings of {} and {} over {:?}", spec.dx, spec.dy, spec.domain),
@@ -120,9 +130,25 @@ pub fn describe(setup: &Setup) -> Vec<String> {
         Signal::Sampled { times, .. } => format!("{} given values", times.len()),
         other => format!("{other:?}"),
     };
-    vec![
+    let mut lines = vec![
         export::describe_contact(&setup.point, &setup.lubricant),
         format!("radius {}; speed {}; load {}", described(radius), described(speed), described(load)),
         format!("duration {}; time step {:?}; {grid}", setup.study.duration, setup.study.time_step),
-    ]
+    ];
+    lines.extend(features(setup));
+    lines
+}
+
+/// Returns a description of each feature of the surfaces.
+fn features(setup: &Setup) -> impl Iterator<Item = String> {
+    let srr = setup.point.sliding.slide_to_roll_ratio;
+    setup.study.surfaces.iter().map(move |feature| {
+        let kind = FeatureKind::of(&feature.shape).words().0.to_lowercase();
+        let (mut shape, mut sizes) = (feature.shape.clone(), String::new());
+        if let Some((height, length)) = sizes_of(&mut shape) {
+            sizes = format!(" of {} over {}", numbers::length(*height), numbers::length(*length));
+        }
+        let from = place_of(&mut shape).map_or(String::new(), |at| format!(" from X {}", numbers::digits(*at, 3)));
+        format!("{kind}{sizes}{from} on body {}, speed {} u_m", feature.body, numbers::digits(feature.speed(srr), 3))
+    })
 }

@@ -15,6 +15,7 @@ use crate::app::tabs::transient::shared::edit;
 use crate::app::theme::Palette;
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupported};
+use crate::solver::physics::contact::ContactKind;
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
 
@@ -66,10 +67,11 @@ fn names(input: Input) -> Names {
 /// Draws the form. `last` is the field that was changed last.
 pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &mut Commands) {
     let mut read_table = false;
+    let point = context.document.point.kind == ContactKind::Point;
     *last = edit(ui, ("transient", *last), context, commands, |ui, form, study| {
         heading(ui, "Inputs");
-        for input in Input::ALL {
-            signal_ui(ui, form, &names(input), input.of_mut(&mut study.inputs));
+        for input in Input::ALL.into_iter().filter(|input| !(point && *input == Input::Radius)) {
+            signal_ui(ui, form, (&names(input), point), input.of_mut(&mut study.inputs));
         }
         let tip = "A table with a title line: T and any of radius, speed, load, relative to the sliders, or with units: time [s]; load [N/mm]";
         read_table = ui.button("Inputs from CSV…").on_hover_text(tip).clicked();
@@ -82,8 +84,13 @@ pub fn ui(ui: &mut Ui, last: &mut LastField, context: &Context<'_>, commands: &m
             ui.weak(format!("Headless runs follow further inputs too: {}.", names.join(", ")));
         }
         time_ui(ui, form, study);
-        frames_ui(ui, form, &mut study.frames);
-        methods::ui(ui, form, study);
+        if point {
+            heading(ui, "Methods");
+            ui.weak("Point contacts run by the full system, in the fixed frame and with a constant radius.");
+        } else {
+            frames_ui(ui, form, &mut study.frames);
+            methods::ui(ui, form, study);
+        }
     });
     if !context.document.saves_transient() && context.document.transient.is_some() {
         ui.weak(match context.document.unsupported_in_time() {
@@ -160,12 +167,12 @@ impl Kind {
     }
 }
 
-/// Draws one input: the kind of function and its constants.
-fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signal) {
+/// Draws one input: the kind of function and its constants. The speed of a point contact cannot reverse.
+fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, (names, point): (&Names, bool), signal: &mut Signal) {
     let kind = Kind::of(signal);
     let mut wanted = kind;
     let mut options = Kind::GIVEN.to_vec();
-    if names.kind == SPEED {
+    if names.kind == SPEED && !point {
         options.push(Kind::Reversing);
     }
     if matches!(kind, Kind::Sampled | Kind::Reversing) && !options.contains(&kind) {

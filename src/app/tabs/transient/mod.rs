@@ -1,15 +1,19 @@
 //! Transient contacts: their runs, and the views of them (time series, profiles, space and time, linearised model).
 
 mod advice;
+pub mod amplitude;
 pub mod badge;
 mod cost;
 mod dials;
 pub mod export;
+mod feature_dials;
+mod features;
 mod follow;
 mod form;
 pub mod linearised;
 pub mod method;
 pub mod methods;
+mod plane_map;
 mod player;
 mod profiles;
 pub mod projection;

@@ -148,11 +148,14 @@ impl Run {
         self.trajectory.states.get(next.saturating_sub(1))
     }
 
-    /// Returns X, P and H of stored fields in the scales of the reference contact, without the node outside the
-    /// inlet.
+    /// Returns X, P and H of stored fields along the axis Y = 0 in the scales of the reference contact, without the first
+    /// node, which lies outside the inlet of a line contact.
     pub fn profile<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (f64, f64, f64)> + 'a {
         let scales = state.scales;
-        let fields = self.trajectory.x.iter().zip(&state.pressure).zip(&state.film).skip(1);
+        // Nodes of a point contact run from the outer edge to the axis first.
+        let column = (state.pressure.len() / self.trajectory.x.len().max(1)).max(1);
+        let on_axis = move |field: &'a [f64]| field.iter().skip(column - 1).step_by(column);
+        let fields = self.trajectory.x.iter().zip(on_axis(&state.pressure)).zip(on_axis(&state.film)).skip(1);
         fields.map(move |((x, p), h)| (x * scales.half_width, p * scales.pressure, h * scales.film))
     }
 

@@ -280,6 +280,11 @@ impl TransientRuns {
         }
     }
 
+    /// Returns the run of an animation: the first full one with fields.
+    pub fn animated(&self) -> Option<&Run> {
+        self.runs.iter().find(|run| run.by == MarchedBy::Full && run.trajectory.states.len() > 1)
+    }
+
     /// Stops the runs and the study of their linearised model, and keeps their results.
     pub fn stop(&mut self) {
         self.following.rest();

@@ -6,7 +6,7 @@ use crate::engine::line_in_time;
 use crate::scene::{Grid, LinearisedTransient, ModelSource, ReducedTransient, Scene, Study, TransientStudy};
 use crate::solver::full::Problem;
 use crate::solver::full::transient::TimeStep;
-use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::contact::{ContactKind, OperatingPoint};
 use crate::solver::physics::lubricant::Lubricant;
 use std::path::{Path, PathBuf};
 
@@ -52,6 +52,8 @@ pub fn model_in_use(document: &Document) -> Option<String> {
 
 /// Maximum product of nodes and time steps of all full runs for an automatic start. It takes about two seconds.
 const QUICK: f64 = 5e5;
+/// Computing time of a node of a point contact relative to that of a line contact.
+const OF_A_PLANE: f64 = 5.0;
 
 impl Setup {
     /// Returns the set-up of a document. A path of an input table is relative to the folder of the document's file.
@@ -105,6 +107,10 @@ impl Setup {
             other => other.longest(self.study.duration),
         };
         let nodes = match self.grid {
+            _ if self.point.kind == ContactKind::Point => {
+                let nodes = self.grid.point_spec().and_then(|spec| spec.nodes().ok());
+                nodes.map_or(f64::INFINITY, |(along, across)| OF_A_PLANE * (along * across) as f64)
+            }
             Grid::Uniform { dx, domain } => (domain.1 - domain.0) / dx,
             Grid::GradedNodes { nodes, .. } => nodes as f64,
             _ => 600.0,

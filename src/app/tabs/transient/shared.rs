@@ -52,6 +52,7 @@ fn elsewhere(ui: &mut Ui, context: &Context<'_>, why: &str, commands: &mut Comma
     ui.weak(sentence(why));
     let tip = "A line contact with the same quantities";
     if context.document.point.kind == ContactKind::Point
+        && context.document.no_transient().is_none()
         && ui.button("Show a line contact").on_hover_text(tip).clicked()
     {
         commands.edit(Edit::Shape(Shape::Roller), "contact");
@@ -152,16 +153,17 @@ fn sentences<'a>(
     said
 }
 
-/// Draws a tab: its form, if it has a width, next to its plots, which scroll if necessary, above the time bar.
+/// Draws a tab: its form, if it has a width, next to its plots, which scroll if necessary, above the time bar. If the
+/// contact is refused, draws the reason instead.
 pub fn page<T>(
     ui: &mut Ui,
     tab: &mut T,
-    (name, form_width): (&str, Option<f32>),
+    (name, form_width, refused): (&str, Option<f32>, Option<&'static str>),
     (context, commands): (&Context<'_>, &mut Commands),
     form: impl FnOnce(&mut T, &mut Ui, &mut Commands),
     pictures: impl FnOnce(&mut T, &mut Ui, &mut Commands),
 ) {
-    if let Some(why) = context.document.no_transient() {
+    if let Some(why) = refused {
         elsewhere(ui, context, why, commands);
         return;
     }

@@ -1,6 +1,7 @@
 //! Map of film thickness or pressure of a line contact over space and time: X is horizontal, T vertical. Dragging
 //! moves the displayed time to the pointer.
 
+use super::profiles::dry;
 use super::runs::TransientRuns;
 use crate::app::context::Context;
 use crate::app::figure::Texture;
@@ -278,7 +279,8 @@ impl SpaceTime {
             .default_y_bounds(0.0, duration)
             .label_formatter(hover);
         let edges = |sign: f64| -> Vec<PlotPoint> {
-            let edge = |m: &crate::solver::full::transient::Moment| sign * (m.input.load * m.input.radius).sqrt();
+            let kind = run.trajectory.transient.point.kind;
+            let edge = |m: &crate::solver::full::transient::Moment| sign * dry(kind, m).0;
             run.trajectory.moments.iter().map(|m| PlotPoint::new(edge(m), m.time)).collect()
         };
         let drawn = axes::show(plot, ui, self.field.name(), |plot| {
@@ -287,6 +289,12 @@ impl SpaceTime {
                 let edge = Line::new("", PlotPoints::Owned(axes::thinned(edges(sign)))).id(name);
                 let edge = edge.color(faded(Color32::WHITE, 0.75)).width(1.0).style(LineStyle::dashed_dense());
                 plot.line(edge.allow_hover(false));
+            }
+            for (k, surface) in run.trajectory.transient.surfaces.iter().enumerate() {
+                let path = [0.0, end].map(|time| PlotPoint::new(surface.at + surface.speed * time, time));
+                let path = Line::new("", PlotPoints::Owned(path.to_vec())).id(("feature", k));
+                let path = path.color(faded(Color32::WHITE, 0.75)).width(1.0).style(LineStyle::dotted_dense());
+                plot.line(path.allow_hover(false));
             }
             let now = HLine::new("", view.player.time()).id("now").color(Color32::WHITE).width(1.6);
             plot.hline(now.allow_hover(false));

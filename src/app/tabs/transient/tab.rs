@@ -1,6 +1,9 @@
 //! Transient tab: the inputs of the contact, the response of film thickness and pressure, and the difference
 //! between frames.
 
+use super::amplitude::AmplitudeCurve;
+use super::features::{self, Features};
+use super::plane_map::PlaneMap;
 use super::runs::{TransientCommand, TransientRuns};
 use super::{badge, cost, dials, form, profiles};
 use crate::app::command::Command;
@@ -10,7 +13,9 @@ use crate::app::tabs::transient::space_time::{self, SpaceTime};
 use crate::app::tabs::transient::{export, series, shared};
 use crate::app::tabs::{About, Offer, View, view};
 use crate::engine::job::Standing;
+use crate::solver::physics::contact::ContactKind;
 use egui::Ui;
+use serde::{Deserialize, Serialize};
 
 /// Width of the form.
 const FORM_WIDTH: f32 = 300.0;
@@ -21,17 +26,40 @@ const HEADS: f32 = 48.0;
 /// Minimum height of a readable plot.
 const LEAST_HEIGHT: f32 = 96.0;
 
-/// Transient tab: its form with the state of its entries, and its plots.
+/// Form next to the plots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pane {
+    /// Inputs, steps, frames and methods.
+    SetUp,
+    /// Features of the surfaces.
+    Surfaces,
+}
+
+/// Content of the tab.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+enum Page {
+    /// Runs of the transient contact.
+    #[default]
+    Runs,
+    /// Amplitude of wavy surfaces over the wavelength.
+    Amplitude,
+}
+
+/// Transient tab: its forms with the state of their entries, and its plots.
 #[derive(Default)]
 pub struct Transient {
-    form: bool,
+    page: Page,
+    pane: Option<Pane>,
     last: LastField,
+    features: Features,
     along: series::Along,
     map: SpaceTime,
+    plane: PlaneMap,
+    amplitude: AmplitudeCurve,
 }
 
 const ABOUT: About = About {
-    keywords: "time load speed radius frames cam gear harmonic",
+    keywords: "time load speed radius frames cam gear harmonic surfaces dent bump ridge wave roughness amplitude reduction",
     page: "transient.md",
     has_units: true,
     why: "When load, speed or curvature change quickly, the contact still contains oil that entered before the change. \
@@ -46,9 +74,15 @@ impl View for Transient {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        let page = ("transient", self.form.then_some(FORM_WIDTH));
-        let form = |tab: &mut Self, ui: &mut Ui, commands: &mut Commands| {
-            form::ui(ui, &mut tab.last, context, commands);
+        if self.page == Page::Amplitude {
+            ui.horizontal_wrapped(|ui| self.page_button(ui));
+            self.amplitude.ui(ui, context, commands);
+            return;
+        }
+        let page = ("transient", self.pane.map(|_| FORM_WIDTH), context.document.no_transient());
+        let form = |tab: &mut Self, ui: &mut Ui, commands: &mut Commands| match tab.pane {
+            Some(Pane::Surfaces) => tab.features.ui(ui, context, commands),
+            Some(Pane::SetUp) | None => form::ui(ui, &mut tab.last, context, commands),
         };
         shared::page(ui, self, page, (context, commands), form, |tab, ui, commands| tab.results(ui, context, commands));
     }
@@ -69,16 +103,42 @@ impl View for Transient {
                 export::profiles,
             ),
             space_time::offer(context),
+            Offer::new(
+                "Animation as APNG…",
+                "The first full run as a film of 960×540 pixels for slides and web pages",
+                view.animated().map(|_| || Command::AnimateRun),
+            ),
+            self.amplitude.offer(),
         ]
     }
 
     fn caption(&self, context: &Context<'_>) -> Option<String> {
-        shared::caption(context.transient)
+        match self.page {
+            Page::Runs => shared::caption(context.transient),
+            Page::Amplitude => self.amplitude.caption(),
+        }
+    }
+
+    fn receive(&mut self) {
+        self.amplitude.receive();
     }
 
     fn jobs(&self, context: &Context<'_>) -> Vec<Standing> {
         let runs = context.transient;
-        runs.standing().into_iter().chain(view::lasting(runs.replaying())).collect()
+        let following = [runs.replaying(), self.amplitude.standing()].into_iter().filter_map(view::lasting);
+        runs.standing().into_iter().chain(following).collect()
+    }
+
+    fn stop(&mut self) {
+        self.amplitude.stop();
+    }
+
+    fn kept(&self) -> Option<String> {
+        view::kept(&self.page)
+    }
+
+    fn restore(&mut self, text: &str) -> bool {
+        view::restore(&mut self.page, text, |_| true)
     }
 }
 
@@ -90,7 +150,9 @@ impl Transient {
             dials::ui(ui, context, commands);
             badge::ui(ui, context);
         });
-        shared::status(ui, context, context.entries.message("transient").filter(|_| !self.form));
+        let of_dials = [("transient", Pane::SetUp), (features::NAME, Pane::Surfaces)];
+        let hidden = of_dials.into_iter().filter(|(_, pane)| self.pane != Some(*pane));
+        shared::status(ui, context, hidden.filter_map(|(name, _)| context.entries.message(name)));
         let view = context.transient;
         if view.runs.iter().all(|run| run.trajectory.moments.is_empty()) {
             if !shared::is_coming(context) {
@@ -114,15 +176,42 @@ impl Transient {
 
     fn buttons(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
-            ui.toggle_value(&mut self.form, "Set-up").on_hover_text("Shows or hides the inputs of the contact");
+            for (pane, name, tip) in [
+                (Pane::SetUp, "Set-up", "Shows or hides the inputs of the contact"),
+                (
+                    Pane::Surfaces,
+                    "Moving surfaces",
+                    "Shows or hides dents, bumps and waves that move through the contact",
+                ),
+            ] {
+                let mut on = self.pane == Some(pane);
+                if ui.toggle_value(&mut on, name).on_hover_text(tip).clicked() {
+                    self.pane = on.then_some(pane);
+                }
+            }
+            self.page_button(ui);
             shared::run_button(ui, context, commands);
         });
+    }
+
+    /// Returns the amplitude curve.
+    pub fn amplitude(&self) -> &AmplitudeCurve {
+        &self.amplitude
+    }
+
+    /// Draws the button that switches between runs and amplitude curve.
+    fn page_button(&mut self, ui: &mut Ui) {
+        let mut on = self.page == Page::Amplitude;
+        let tip = "What remains in the film of a wavy surface, over its wavelength";
+        if ui.toggle_value(&mut on, "Amplitude curve").on_hover_text(tip).clicked() {
+            self.page = if on { Page::Amplitude } else { Page::Runs };
+        }
     }
 }
 
 impl Transient {
-    /// Draws the map over space and time next to the profiles, and the time series below. Returns the time of a
-    /// click.
+    /// Draws the map over space and time, or that of a point contact, next to the profiles, and the time series below.
+    /// Returns the time of a click.
     fn plots(&mut self, ui: &mut Ui, context: &Context<'_>, height: f32) -> Option<f64> {
         let view = context.transient;
         let several = view.setup.as_ref().is_some_and(|setup| setup.runs() > 1);
@@ -130,15 +219,20 @@ impl Transient {
         let [upper, middle, lower] = parts.map(|part| (part * (height - HEADS)).max(LEAST_HEIGHT));
         let upper = upper.max(2.0 * LEAST_HEIGHT);
         let width = ui.available_width();
+        let kind = view.setup.as_ref().map_or(ContactKind::Line, |setup| setup.point.kind);
+        let draw_map = |tab: &mut Self, ui: &mut Ui| match kind {
+            ContactKind::Line => tab.map.ui(ui, context, upper),
+            ContactKind::Point => tab.plane.ui(ui, context, &mut tab.map, upper),
+        };
         let map = if width < SIDE_BY_SIDE {
-            let map = self.map.ui(ui, context, upper);
+            let map = draw_map(self, ui);
             profiles::ui(ui, view, context.fit, 0.5 * upper);
             map
         } else {
             let both = ui.horizontal_top(|ui| {
                 let map = ui.vertical(|ui| {
                     ui.set_width(0.5 * width);
-                    self.map.ui(ui, context, upper)
+                    draw_map(self, ui)
                 });
                 ui.vertical(|ui| profiles::ui(ui, view, context.fit, 0.5 * upper));
                 map.inner

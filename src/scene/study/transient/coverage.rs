@@ -56,14 +56,16 @@ pub(super) fn check_full(experiment: &Experiment, by_model: bool, balances: bool
     Ok(())
 }
 
-/// Refuses a request that transient runs do not support, full ones or those by a reduced model.
+/// Refuses a request that transient runs do not support, full ones or those by a reduced model. Full runs support point
+/// contacts.
 ///
 /// # Errors
 /// With the field, and what is accepted.
 pub fn check_request(request: &Request) -> Result<(), Refusal> {
     let by_model = request.method.model().is_some();
     let of_model = || if by_model { Unsupported::check_model(&request.lubricant) } else { Ok(()) };
-    Unsupported::check(request.point.kind, &request.lubricant).and_then(|()| of_model()).map_err(|why| {
+    let kind = if by_model { request.point.kind } else { ContactKind::Line };
+    Unsupported::check(kind, &request.lubricant).and_then(|()| of_model()).map_err(|why| {
         let (field, wanted) = match why {
             Unsupported::PointContact | Unsupported::PointFrame | Unsupported::PointInputs => {
                 (Field::Contact, "<contact> must be line")

@@ -273,6 +273,29 @@ impl LinearisedTransient {
 }
 
 impl TransientStudy {
+    /// Creates a study of the full system in the fixed frame.
+    pub fn new(inputs: Inputs, duration: f64, time_step: TimeStep) -> Self {
+        Self {
+            inputs,
+            sampled: None,
+            duration,
+            further: Vec::new(),
+            time_step,
+            separation: None,
+            surfaces: Vec::new(),
+            scheme: Scheme::Default,
+            frames: fixed(),
+            window: None,
+            trainings: Vec::new(),
+            training_loads: Vec::new(),
+            training_contacts: Vec::new(),
+            reduced: None,
+            linearised: None,
+            mass_between: None,
+            published: Vec::new(),
+        }
+    }
+
     /// Refuses values that are not finite or out of range, and names the field.
     ///
     /// # Errors

@@ -17,6 +17,7 @@ pub use march::{By, March, MarchedBy, series};
 pub use models::{Kind, Model};
 pub use published::PublishedMarch;
 pub use surfaces::{SurfaceFeature, SurfaceShape};
+pub(crate) use surfaces::{check as check_surfaces, read_profile};
 pub(crate) use timed_march::{Listener, Timed, timed_march};
 
 use super::{StudyObserver, StudyRow};

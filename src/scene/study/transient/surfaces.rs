@@ -65,6 +65,15 @@ pub enum SurfaceShape {
     /// CSV file with the columns x and height \[m\]; x is measured from X = 0 at T = 0. A relative path refers to this
     /// scene's folder.
     Profile(PathBuf),
+    /// Given heights over distances from the place.
+    Sampled {
+        /// Distances \[m\], increasing.
+        places: Vec<f64>,
+        /// Height at each of them \[m\].
+        heights: Vec<f64>,
+        /// X of the distance 0 at T = 0.
+        at: f64,
+    },
 }
 
 /// Largest number of features of a study.
@@ -81,7 +90,7 @@ fn is_first(body: &u8) -> bool {
 }
 
 /// Refuses numbers that are not finite, lengths that are not positive, and other bodies.
-pub(super) fn check(surfaces: &[SurfaceFeature]) -> Checked {
+pub(crate) fn check(surfaces: &[SurfaceFeature]) -> Checked {
     count("study.surfaces (how many)", surfaces.len(), 0, MOST_FEATURES)?;
     for (k, SurfaceFeature { body, shape }) in surfaces.iter().enumerate() {
         let field = |name: &str| format!("study.surfaces.{k}.{name}");
@@ -104,12 +113,29 @@ pub(super) fn check(surfaces: &[SurfaceFeature]) -> Checked {
                 Err(refuse(field("shape"), "names no file"))
             }
             SurfaceShape::Profile(_) => Ok(()),
+            SurfaceShape::Sampled { ref places, ref heights, at } => {
+                count(&field("shape.places (how many)"), places.len(), 2, MOST_POINTS)?;
+                count(&field("shape.heights (how many)"), heights.len(), places.len(), places.len())?;
+                let finite = |name: &str, values: &[f64]| {
+                    values.iter().try_for_each(|value| number(&field(name), *value, -1.0, 1.0))
+                };
+                finite("shape.places", places).and_then(|()| finite("shape.heights", heights))?;
+                if !places.is_sorted_by(|former, next| former < next) {
+                    return Err(refuse(field("shape.places"), "must increase"));
+                }
+                place(at)
+            }
         }?;
     }
     Ok(())
 }
 
 impl SurfaceFeature {
+    /// Returns the speed of its body over u_m for a slide-to-roll ratio.
+    pub fn speed(&self, slide_to_roll_ratio: f64) -> f64 {
+        MovingSurface::speed_of(self.body, slide_to_roll_ratio)
+    }
+
     /// Converts the feature to the units of a contact, whose sliding sets the speed. `read` returns the points of a
     /// profile in metres.
     ///
@@ -121,8 +147,7 @@ impl SurfaceFeature {
         read: impl Fn(&Path) -> Result<Vec<[f64; 2]>, E>,
     ) -> Result<MovingSurface, E> {
         let (a, film) = (point.hertz().half_width_m, point.film_scale_m());
-        let slide = 0.5 * point.sliding.slide_to_roll_ratio;
-        let speed = if self.body == 1 { 1.0 - slide } else { 1.0 + slide };
+        let speed = self.speed(point.sliding.slide_to_roll_ratio);
         let (at, shape) = match self.shape {
             SurfaceShape::Gauss { height, width, at } => (at, Shape::Gauss { height: height / film, width: width / a }),
             SurfaceShape::Venner { height, width, at } => {
@@ -137,6 +162,10 @@ impl SurfaceFeature {
                 let (places, heights) = read(path)?.into_iter().map(|[x, height]| (x / a, height / film)).unzip();
                 (0.0, Shape::Profile { places, heights })
             }
+            SurfaceShape::Sampled { ref places, ref heights, at } => {
+                let over = |values: &[f64], unit: f64| values.iter().map(|value| value / unit).collect();
+                (at, Shape::Profile { places: over(places, a), heights: over(heights, film) })
+            }
         };
         Ok(MovingSurface { speed, at, shape })
     }
@@ -146,7 +175,7 @@ impl SurfaceFeature {
 ///
 /// # Errors
 /// If the file cannot be read, or with the first invalid line.
-pub(super) fn read_profile(path: &Path) -> Result<Vec<[f64; 2]>, SampledError> {
+pub(crate) fn read_profile(path: &Path) -> Result<Vec<[f64; 2]>, SampledError> {
     let unreadable = |reason: String| SampledError::Read { path: path.to_owned(), reason };
     let bytes = files::read_at_most(path, MAX_SAMPLED_BYTES + 1).map_err(|error| unreadable(error.to_string()))?;
     let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;

@@ -135,7 +135,7 @@ impl PointGridSpec {
     }
 
     /// Returns the ordinates from the outer edge to the axis, at equal distances in the cell count.
-    fn ordinates(&self, ny: usize) -> Vec<f64> {
+    pub fn ordinates(&self, ny: usize) -> Vec<f64> {
         let edge = self.domain.2;
         let all = self.cells_beyond(edge);
         let at = |j: usize| {

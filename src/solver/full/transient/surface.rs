@@ -86,6 +86,11 @@ const FEWEST: f64 = 4.0;
 const ROUNDING: f64 = 1e-6;
 
 impl MovingSurface {
+    /// Returns the speed of body 1 or 2 over u_m for a slide-to-roll ratio.
+    pub fn speed_of(body: u8, slide_to_roll_ratio: f64) -> f64 {
+        if body == 1 { 1.0 - 0.5 * slide_to_roll_ratio } else { 1.0 + 0.5 * slide_to_roll_ratio }
+    }
+
     /// Returns the height at (X, Y) in units of a, and T. Gaussian features and dents of a ball are round and lie on the
     /// axis Y = 0; all others are ridges across it.
     pub fn height(&self, x: f64, across: f64, time: f64) -> f64 {
@@ -159,7 +164,7 @@ impl Shape {
     }
 
     /// Returns the largest height or depth.
-    fn greatest(&self) -> f64 {
+    pub fn greatest(&self) -> f64 {
         match self {
             Self::Gauss { height, .. } | Self::Venner { height, .. } | Self::Wave { height, .. } => height.abs(),
             Self::Dent { depth, .. } => depth.abs(),

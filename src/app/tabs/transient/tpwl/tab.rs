@@ -185,7 +185,7 @@ impl View for Tpwl {
     }
 
     fn ui(&mut self, ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
-        let page = ("tpwl", self.form.then_some(FORM_WIDTH));
+        let page = ("tpwl", self.form.then_some(FORM_WIDTH), context.document.no_linearised());
         let form = |tab: &mut Self, ui: &mut Ui, commands: &mut Commands| tab.form_ui(ui, context, commands);
         shared::page(ui, self, page, (context, commands), form, |tab, ui, commands| tab.results(ui, context, commands));
     }
