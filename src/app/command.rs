@@ -1,5 +1,6 @@
 //! List of all commands that menus, keys and the command palette offer.
 
+use crate::solver::physics::engineering::UnitSystem;
 use super::answers::picture::Cuts;
 use super::display::Thresholds;
 use super::document::Edit;
@@ -87,8 +88,10 @@ pub enum Command {
     Lessons,
     /// Shows or hides the explanation in every tab.
     ShowWhy,
-    /// Switches plots and exports between SI and dimensionless units.
-    SiUnits,
+    /// Switches plots and exports between dimensionless values and units.
+    SwitchUnits,
+    /// Selects a system of units.
+    System(UnitSystem),
     /// Locks or unlocks the axes of the tabs in front.
     LockAxes,
     /// Locks or unlocks the axes of a tab.
@@ -292,11 +295,14 @@ pub static MENUS: &[Item] = {
         item(
             "View",
             5,
-            C::SiUnits,
-            "SI units",
-            "dimensionless micrometre gigapascal millimetre",
+            C::SwitchUnits,
+            "Units on axes",
+            "dimensionless SI micrometre gigapascal millimetre",
             Some((PLAIN, Key::F7)),
         ),
+        item("View", 5, C::System(UnitSystem::Si), "Units: SI", "system metre pascal kelvin", None),
+        item("View", 5, C::System(UnitSystem::Engineering), "Units: Engineering", "system mm GPa metric", None),
+        item("View", 5, C::System(UnitSystem::Imperial), "Units: Imperial", "system inch psi ksi lbf Fahrenheit US", None),
         item("View", 5, C::LockAxes, "Lock axes", "still zoom scale hold", Some((PLAIN, Key::F8))),
         item("View", 5, C::FitPlots, "Fit plots to data", "zoom reset axes", Some((PLAIN, Key::F2))),
         item("View", 5, C::ResetLayout, "Reset layout", "tabs panels windows", None),

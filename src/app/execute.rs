@@ -12,7 +12,7 @@ use super::presentation::{Presentation, enlargement};
 use super::purpose::Purpose;
 use super::session::Place;
 use super::tab::Tab;
-use super::units::Units;
+use super::units::{self, Units};
 use super::wake::wake;
 use super::{Explorer, export};
 use crate::app::refusal::Refusal;
@@ -85,7 +85,7 @@ impl Explorer {
                 desk.history.redo(&mut desk.document);
                 desk.entries.clear();
             }
-            Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers)),
+            Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers, desk.display.system)),
             Command::Pin => desk.answers.pin(),
             Command::Unpin => desk.answers.unpin_all(),
             Command::Settings => self.settings.open = true,
@@ -106,7 +106,7 @@ impl Explorer {
                 self.tree = layout.tree(ctx.content_rect().width());
                 desk.tabs.regimes.choices.training_points = layout == Layout::ModelReduction;
                 if layout == Layout::Engineer {
-                    self.desk.display.units = Units::Si;
+                    self.desk.display.units = Units::Dimensional;
                 }
                 self.hold_axes();
             }
@@ -117,7 +117,13 @@ impl Explorer {
             Command::PointAt(control) => show(ctx, control),
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
-            Command::SiUnits => desk.display.units = desk.display.units.other(),
+            Command::SwitchUnits => desk.display.units = desk.display.units.other(),
+            Command::System(system) => {
+                desk.display.system = system;
+                // Texts that are being edited have the former units.
+                desk.entries.clear();
+                units::set_system(ctx, system);
+            }
             Command::LockAxes => {
                 let front: Vec<Tab> = self.tabs_in_front().collect();
                 let locked = !front.iter().all(|tab| self.desk.locked.contains(tab));

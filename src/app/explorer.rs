@@ -2,6 +2,7 @@
 //!
 //! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` opens it as a native window.
 
+use crate::app::units;
 use crate::app::command::Command;
 use crate::app::context::Commands;
 use crate::app::controls::point_at;
@@ -138,6 +139,7 @@ impl Explorer {
             self.desk.tabs.training.work.look(&ctx);
         }
         self.scale(&ctx);
+        units::set_system(&ctx, self.desk.display.system);
         self.palette.begin(&ctx);
         self.desk.figures.begin(ui);
         drawn::begin(&ctx);
@@ -349,9 +351,9 @@ impl Explorer {
             let sliders = Panel::left("sliders").default_size(width).size_range(least..=most).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     panels::operating_point::ui(ui, &context, &mut entries, commands);
-                    panels::bodies::ui(ui, context.document, &mut entries, commands);
+                    panels::bodies::ui(ui, &context, &mut entries, commands);
                     panels::surfaces::ui(ui, &context, &mut entries, commands);
-                    panels::lubricant::ui(ui, context.document, &mut own_laws, &mut entries, commands);
+                    panels::lubricant::ui(ui, &context, &mut own_laws, &mut entries, commands);
                     panels::model::ui(ui, &context, commands);
                     panels::plane::ui(ui, &context, commands);
                     ui.add_space(8.0);

@@ -1,5 +1,6 @@
 //! Command `solve`: one operating point.
 
+use crate::solver::physics::engineering::UnitSystem;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output;
@@ -86,6 +87,9 @@ pub struct SolveArgs {
     /// Paper of the report
     #[arg(long, requires = "report", default_value = "a4", value_parser = ["a4", "letter"])]
     paper: String,
+    /// System of units of the report
+    #[arg(long, requires = "report", default_value = "engineering", value_parser = UnitSystem::ALL.map(UnitSystem::word))]
+    units: String,
     /// Estimate the discretisation error of H_c and H_min of a point contact by a second solve on another grid
     #[arg(long)]
     accuracy: bool,
@@ -128,7 +132,8 @@ impl SolveArgs {
             let kind = request.point.kind.name();
             format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""))
         };
-        let stated = Stated::of_spec(self.title.clone().unwrap_or_else(title), &self.point.0);
+        let units = UnitSystem::of_word(&self.units).unwrap_or_default();
+        let stated = Stated::of_spec(self.title.clone().unwrap_or_else(title), &self.point.0, units);
         Stated { author: self.author.clone(), company: self.company.clone(), ..stated }
     }
 }

@@ -110,6 +110,7 @@ impl Desk {
             why: self.display.why,
             presenting: self.presentation.is_some(),
             fit: self.fit_plots,
+            system: self.display.system,
         }
     }
 
@@ -189,7 +190,7 @@ impl Desk {
     /// Returns the parameters of the plots of a tab, for the caption of a figure.
     fn caption(&self, tab: Tab) -> String {
         let own = self.tabs.of(tab).caption(&self.context());
-        own.unwrap_or_else(|| caption::contact(&self.document.point, &self.document.lubricant))
+        own.unwrap_or_else(|| caption::contact(&self.document.point, &self.document.lubricant, self.display.system))
     }
 
     /// Runs the study of the scene on the screen.

@@ -1,6 +1,7 @@
 //! Worksheet of a lesson as a page of HTML for print: on the first page the questions with space for answers and the
 //! picture of the first contact; from the second page on the solutions with a picture after each step.
 
+use crate::solver::physics::engineering::UnitSystem;
 use super::text::{Lesson, Step};
 use crate::app::document::{Document, Edit, Key};
 use crate::app::refusal::Refusal;
@@ -93,7 +94,7 @@ fn figures(answer: &Answer) -> String {
     let moes = answer.request.point.moes();
     let caption = format!("M {:.3}, L {:.3}", moes.m, moes.l);
     let page = Page { width_mm: 80.0, height_mm: 52.0, caption, ..Page::default() };
-    let charts = profiles(std::slice::from_ref(answer)).map(|figure| figure.to_svg(&page));
+    let charts = profiles(std::slice::from_ref(answer), UnitSystem::default()).map(|figure| figure.to_svg(&page));
     format!("<div>\n{}\n</div>\n", charts.join("\n"))
 }
 

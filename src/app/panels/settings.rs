@@ -7,7 +7,7 @@ use crate::app::desk::Desk;
 use crate::app::display::{Display, Thresholds};
 use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
-use crate::solver::physics::engineering::{self, Dimension};
+use crate::solver::physics::engineering::{self, Dimension, UnitSystem};
 use egui::{Context, Id, ThemePreference, Ui, Window};
 
 /// Label, tooltip and accessible name of the fields of the thresholds.
@@ -44,6 +44,8 @@ impl Settings {
             ui.set_width(360.0);
             heading(ui, "The badge");
             self.thresholds_ui(ui, desk.display.thresholds, commands);
+            heading(ui, "Units");
+            system_ui(ui, desk.display.system, commands);
             heading(ui, "Appearance");
             appearance_ui(ui, &desk.display, commands);
         });
@@ -81,6 +83,20 @@ impl Settings {
             commands.push(Command::SetThresholds(usual));
         }
     }
+}
+
+fn system_ui(ui: &mut Ui, present: UnitSystem, commands: &mut Commands) {
+    ui.horizontal(|ui| {
+        let tip = "Units of panels, axes, tables and reports. A number without a unit is read in them; every field also \
+                   accepts other units";
+        row_name(ui, name_and_symbol(ui, "System", "", ""), tip);
+        for system in UnitSystem::ALL {
+            if ui.selectable_label(present == system, system.name()).on_hover_text(system.about()).clicked() {
+                commands.push(Command::System(system));
+            }
+        }
+    });
+    ui.weak(present.about());
 }
 
 fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {

@@ -1,4 +1,4 @@
-//! Report of one contact on one page: inputs in engineering units, results, how they were checked, figures. Written as
+//! Report of one contact on one page: inputs, results, how they were checked, figures. Written as
 //! HTML or PDF, for A4 or Letter paper.
 
 mod figures;
@@ -108,7 +108,7 @@ impl Report {
                 report.warnings.push(warning);
             }
         }
-        report.figures = figures::of(solved, field.as_ref());
+        report.figures = figures::of(solved, field.as_ref(), stated.system);
         report
     }
 

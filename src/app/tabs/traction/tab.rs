@@ -109,9 +109,9 @@ impl View for Traction {
         vec![Offer::table("Curve as CSV…", tip, there.then_some(view), text)]
     }
 
-    fn caption(&self, _: &Context<'_>) -> Option<String> {
+    fn caption(&self, context: &Context<'_>) -> Option<String> {
         let (key, notes) = export::parameters(&self.sweeps)?;
-        let contact = caption::contact(&key.point, &key.lubricant);
+        let contact = caption::contact(&key.point, &key.lubricant, context.system);
         Some(std::iter::once(contact).chain(notes).collect::<Vec<_>>().join("; "))
     }
 

@@ -1,6 +1,7 @@
 //! Form of the transient contact: the three inputs with a preview, duration, time steps and frames. Invalid entries
 //! are refused next to their field.
 
+use crate::solver::physics::engineering::QuantityKind;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::heading;
@@ -179,7 +180,7 @@ fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, names: &Names, signal: &mut Signa
     form.message(ui, names.kind);
     const AMPLITUDE: &str = "Relative to the reference";
     const PERIOD: &str = "In units of a/u_m of the reference contact";
-    let plain = ("", 1.0);
+    let plain = QuantityKind::Number;
     match signal {
         Signal::Constant => {}
         Signal::Harmonic { amplitude, period } | Signal::Reversing { amplitude, period } => {
@@ -247,7 +248,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
 
 fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     heading(ui, "Time");
-    let plain = ("", 1.0);
+    let plain = QuantityKind::Number;
     form.row(ui, "Duration {T}", plain, &mut study.duration, "The last T, in units of a/u_m of the reference contact");
     study.window = study.window.filter(|window| window.1 <= study.duration);
     let mut rule = StepRule::of(study.time_step);

@@ -1,5 +1,6 @@
 //! Parts that the transient tabs share: form, run button, status line and time bar.
 
+use crate::solver::physics::engineering::UnitSystem;
 use super::advice::advice;
 use super::export;
 use super::runs::{TransientCommand, TransientRuns};
@@ -261,7 +262,7 @@ pub fn faster(times: f64) -> String {
 }
 
 /// Returns the contact and the inputs of the runs on the screen, for the caption of a figure.
-pub fn caption(view: &TransientRuns) -> Option<String> {
+pub fn caption(view: &TransientRuns, system: UnitSystem) -> Option<String> {
     let setup = view.setup.as_ref()?;
-    Some(format!("{}; {}", caption::contact(&setup.point, &setup.lubricant), export::inputs(setup)))
+    Some(format!("{}; {}", caption::contact(&setup.point, &setup.lubricant, system), export::inputs(setup)))
 }
