@@ -1,6 +1,5 @@
 //! List of all commands that menus, keys and the command palette offer.
 
-use crate::solver::physics::engineering::UnitSystem;
 use super::answers::picture::Cuts;
 use super::display::Thresholds;
 use super::document::Edit;
@@ -10,11 +9,13 @@ use super::machines::MachineKind;
 use super::panels::sliders::ChosenSliders;
 use super::purpose::{Purpose, Written};
 use super::tab::Tab;
+use crate::app::reports::ReportSettings;
 use crate::app::tabs::training::TrainingCommand;
 use crate::app::tabs::transient::TransientCommand;
 use crate::host::browser;
 use crate::scene::ReportFormat;
 use crate::scene::Scene;
+use crate::solver::physics::engineering::UnitSystem;
 use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Popup, ThemePreference};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -90,6 +91,8 @@ pub enum Command {
     ShowWhy,
     /// Switches plots and exports between dimensionless values and units.
     SwitchUnits,
+    /// Sets author, company and paper of reports.
+    Reports(ReportSettings),
     /// Selects a system of units.
     System(UnitSystem),
     /// Locks or unlocks the axes of the tabs in front.
@@ -302,7 +305,14 @@ pub static MENUS: &[Item] = {
         ),
         item("View", 5, C::System(UnitSystem::Si), "Units: SI", "system metre pascal kelvin", None),
         item("View", 5, C::System(UnitSystem::Engineering), "Units: Engineering", "system mm GPa metric", None),
-        item("View", 5, C::System(UnitSystem::Imperial), "Units: Imperial", "system inch psi ksi lbf Fahrenheit US", None),
+        item(
+            "View",
+            5,
+            C::System(UnitSystem::Imperial),
+            "Units: Imperial",
+            "system inch psi ksi lbf Fahrenheit US",
+            None,
+        ),
         item("View", 5, C::LockAxes, "Lock axes", "still zoom scale hold", Some((PLAIN, Key::F8))),
         item("View", 5, C::FitPlots, "Fit plots to data", "zoom reset axes", Some((PLAIN, Key::F2))),
         item("View", 5, C::ResetLayout, "Reset layout", "tabs panels windows", None),

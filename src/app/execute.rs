@@ -56,7 +56,9 @@ impl Explorer {
                     self.execute(ctx, Command::csv(text));
                 }
             }
-            Command::ExportReport(form) => desk.reports.begin(ctx, (&desk.document, &desk.answers), form),
+            Command::ExportReport(form) => {
+                desk.reports.begin(ctx, (&desk.document, &desk.answers), form, desk.display.system);
+            }
             Command::ExportWorksheet => match self.lessons.running().cloned() {
                 Some(lesson) => {
                     if let Err(why) = desk.reports.begin_worksheet(ctx, (&desk.document, &desk.answers), lesson) {
@@ -118,6 +120,7 @@ impl Explorer {
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
             Command::SwitchUnits => desk.display.units = desk.display.units.other(),
+            Command::Reports(settings) => desk.reports.settings = settings,
             Command::System(system) => {
                 desk.display.system = system;
                 // Texts that are being edited have the former units.

@@ -2,7 +2,6 @@
 //!
 //! [`Explorer`] is the whole window as a function of an [`egui::Ui`]; `run` opens it as a native window.
 
-use crate::app::units;
 use crate::app::command::Command;
 use crate::app::context::Commands;
 use crate::app::controls::point_at;
@@ -23,6 +22,7 @@ use crate::app::refusal::Refusal;
 use crate::app::session::{self, Keeper, Place};
 use crate::app::tab::Tab;
 use crate::app::tabs::frame::Frame;
+use crate::app::units;
 use crate::app::wake::wake;
 use crate::app::{panels, theme};
 use crate::engine::Store;

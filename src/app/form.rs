@@ -101,14 +101,7 @@ impl<'a> Form<'a> {
     }
 
     /// Draws a row with both ends of an interval and their unit.
-    pub fn interval(
-        &mut self,
-        ui: &mut Ui,
-        field: &'static str,
-        kind: QuantityKind,
-        ends: &mut (f64, f64),
-        tip: &str,
-    ) {
+    pub fn interval(&mut self, ui: &mut Ui, field: &'static str, kind: QuantityKind, ends: &mut (f64, f64), tip: &str) {
         let unit = kind.unit(units::system(ui.ctx()));
         row(ui, field, tip, |ui| {
             self.number(ui, field, &format!("{} from", plain(field)), &mut ends.0, unit, tip);

@@ -229,7 +229,11 @@ mod tests {
             (UnitSystem::Imperial, "166.3 ksi", "8.976 µin", "176.0 °F"),
             (UnitSystem::Si, "1.147e9 Pa", "2.280e−7 m", "353.1 K"),
         ] {
-            let texts = [pressure(1.1469e9, system), length(2.28e-7, system), shown(QuantityKind::Temperature, 353.149, system)];
+            let texts = [
+                pressure(1.1469e9, system),
+                length(2.28e-7, system),
+                shown(QuantityKind::Temperature, 353.149, system),
+            ];
             assert_eq!(texts, [p, h, t].map(|text| text.replace(' ', &THIN.to_string())));
         }
         assert_eq!(slide_to_roll(0.1), "10.0\u{2009}%");

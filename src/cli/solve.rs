@@ -1,6 +1,5 @@
 //! Command `solve`: one operating point.
 
-use crate::solver::physics::engineering::UnitSystem;
 use super::failure::Failure;
 use super::options::PointOptions;
 use super::output;
@@ -17,6 +16,7 @@ use crate::solver::full::response::{Dynamics, Maxwell, check_lubricant};
 use crate::solver::observer::{NewtonStep, Observer, WalkStep};
 use crate::solver::physics::bodies::Material;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::training::TrainingObserver;
 use clap::Args;
 use serde::Serialize;

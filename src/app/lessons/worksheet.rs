@@ -1,12 +1,12 @@
 //! Worksheet of a lesson as a page of HTML for print: on the first page the questions with space for answers and the
 //! picture of the first contact; from the second page on the solutions with a picture after each step.
 
-use crate::solver::physics::engineering::UnitSystem;
 use super::text::{Lesson, Step};
 use crate::app::document::{Document, Edit, Key};
 use crate::app::refusal::Refusal;
 use crate::engine::Answer;
 use crate::scene::{Page, profiles};
+use crate::solver::physics::engineering::UnitSystem;
 use std::fmt::Write as _;
 
 impl Lesson {

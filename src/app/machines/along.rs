@@ -30,7 +30,8 @@ pub(super) fn load_cases(machine: &Machine, document: &Document) -> Result<Strin
         ContactKind::Line => ("line", "w [N/mm]"),
         ContactKind::Point => ("point", "w [N]"),
     };
-    let mut text = format!("name;#position [{}];contact;R [mm];R_y [mm];u1 [m/s];u2 [m/s];{load};E' [GPa]\n", unit.name);
+    let mut text =
+        format!("name;#position [{}];contact;R [mm];R_y [mm];u1 [m/s];u2 [m/s];{load};E' [GPa]\n", unit.name);
     for (k, contact) in machine.path(modulus_pa, LINES)?.iter().enumerate() {
         let Ok(point) = contact.operating_point(base, document.point) else { continue };
         let [first, second] = point.surface_speeds();

@@ -31,7 +31,11 @@ pub(super) fn of_contact(point: &OperatingPoint, contact: &MachineContact, syste
     };
     rows.push(("w", numbers::load(point.load, point.kind, system), load));
     if let Some(long) = contact.length_m {
-        rows.push(("Force", in_field_unit(QuantityKind::Force, point.load * long, system), "Load per length times the length of the contact"));
+        rows.push((
+            "Force",
+            in_field_unit(QuantityKind::Force, point.load * long, system),
+            "Load per length times the length of the contact",
+        ));
     }
     rows.push(("p_H", numbers::pressure(hertz.pressure_pa, system), "Hertzian pressure"));
     rows
@@ -51,11 +55,7 @@ pub(super) fn of_machine(machine: &Machine, modulus_pa: f64, system: UnitSystem)
             vec![
                 ("Q_max", shown(QuantityKind::Force, state.largest_load_n), "Load of the heaviest element"),
                 ("Contact angle", angle(state.contact_angle), "Contact angle of the heaviest element under load"),
-                (
-                    "Loaded zone",
-                    format!("±{}", angle(state.loaded_zone)),
-                    "Orbit angles at which elements carry load",
-                ),
+                ("Loaded zone", format!("±{}", angle(state.loaded_zone)), "Orbit angles at which elements carry load"),
                 ("Cage", shown(QuantityKind::Rotation, state.cage_speed), "Speed of the cage"),
             ]
         }
@@ -63,11 +63,7 @@ pub(super) fn of_machine(machine: &Machine, modulus_pa: f64, system: UnitSystem)
             let geometry = pair.geometry()?;
             vec![
                 ("Centre distance", length(geometry.centre_distance_m), "Without backlash"),
-                (
-                    "Working angle",
-                    angle(geometry.working_angle),
-                    "Working transverse pressure angle",
-                ),
+                ("Working angle", angle(geometry.working_angle), "Working transverse pressure angle"),
                 ("ε_α", quantity(geometry.contact_ratio, ""), "Transverse contact ratio"),
                 ("ε_β", quantity(geometry.overlap_ratio, ""), "Overlap ratio"),
                 (

@@ -45,7 +45,8 @@ impl<M> Field<M> {
                 "plane" | "none" | "∞" | "inf" if dimension == Dimension::Length => Ok(f64::INFINITY),
                 _ => Ok(unit.number(engineering::parse(text, dimension, unit.name)?)),
             };
-            if let Some(typed) = typed_field(ui, entries, self.name, unit.number(value * stored), 84.0, self.tip, read) {
+            if let Some(typed) = typed_field(ui, entries, self.name, unit.number(value * stored), 84.0, self.tip, read)
+            {
                 (self.set)(machine, unit.si(typed) / stored);
                 entries.answer(self.name, Ok(()));
             }

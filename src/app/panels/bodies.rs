@@ -136,13 +136,7 @@ fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
 
 impl Field {
     /// Draws the values of both bodies. Returns the name of the field that was changed.
-    fn ui(
-        &self,
-        ui: &mut Ui,
-        bodies: &mut Bodies,
-        system: UnitSystem,
-        entries: &mut Entries,
-    ) -> Option<&'static str> {
+    fn ui(&self, ui: &mut Ui, bodies: &mut Bodies, system: UnitSystem, entries: &mut Entries) -> Option<&'static str> {
         let mut entered = None;
         let unit = self.kind.unit(system);
         ui.horizontal(|ui| {

@@ -24,9 +24,13 @@ pub(super) const CONSTANTS: [Constant; 6] = [
     constant("Inlet temperature", ("Inlet", "T", "0"), QuantityKind::Temperature, INLET_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.inlet_temperature)
     }),
-    constant("Viscosity's temperature coefficient", ("Viscosity", "β", ""), QuantityKind::PerKelvin, VISCOSITY_TIP, |l| {
-        l.heat.as_mut().map(|heat| &mut heat.oil.viscosity_temperature)
-    }),
+    constant(
+        "Viscosity's temperature coefficient",
+        ("Viscosity", "β", ""),
+        QuantityKind::PerKelvin,
+        VISCOSITY_TIP,
+        |l| l.heat.as_mut().map(|heat| &mut heat.oil.viscosity_temperature),
+    ),
     constant("Density's temperature coefficient", ("Density", "β", "ρ"), QuantityKind::PerKelvin, DENSITY_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.oil.density_temperature)
     }),

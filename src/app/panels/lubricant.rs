@@ -49,13 +49,7 @@ enum Pick {
 }
 
 /// Draws the group Lubricant.
-pub fn ui(
-    ui: &mut Ui,
-    context: &Context<'_>,
-    own_laws: &mut bool,
-    entries: &mut Entries,
-    commands: &mut Commands,
-) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, own_laws: &mut bool, entries: &mut Entries, commands: &mut Commands) {
     let (document, system) = (context.document, context.system);
     let (laws, kind) = (&document.lubricant, document.point.kind);
     heading(ui, "Lubricant");
@@ -297,7 +291,12 @@ pub(super) fn constants_ui(
 }
 
 /// Draws the limiting shear stress with its switch.
-fn limiting_stress(ui: &mut Ui, (laws, system): (&Lubricant, UnitSystem), entries: &mut Entries, commands: &mut Commands) {
+fn limiting_stress(
+    ui: &mut Ui,
+    (laws, system): (&Lubricant, UnitSystem),
+    entries: &mut Entries,
+    commands: &mut Commands,
+) {
     let before = *laws;
     let mut wanted = before;
     let mut on = wanted.limiting_stress.is_some();

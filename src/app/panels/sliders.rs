@@ -248,7 +248,8 @@ pub fn side_by_side(
     let mut wanted = None;
     ui.horizontal(|ui| {
         for row in rows {
-            let moved = ui.add_enabled_ui(free(row.quantity), |ui| row.ui(ui, context.system, entries, (width, named))).inner;
+            let moved =
+                ui.add_enabled_ui(free(row.quantity), |ui| row.ui(ui, context.system, entries, (width, named))).inner;
             wanted = moved.or(wanted);
             ui.add_space(8.0);
         }
@@ -261,7 +262,13 @@ pub fn side_by_side(
 
 impl Row {
     /// Draws the name or only its symbol, the slider and the number field. Returns the requested value.
-    fn ui(&self, ui: &mut Ui, system: UnitSystem, entries: &mut Entries, (width, named): (f32, bool)) -> Option<Wanted> {
+    fn ui(
+        &self,
+        ui: &mut Ui,
+        system: UnitSystem,
+        entries: &mut Entries,
+        (width, named): (f32, bool),
+    ) -> Option<Wanted> {
         let tip = self.slider.tooltip;
         let (sign, subscript) = self.quantity.symbol();
         let name = if named { word(self.quantity) } else { "" };

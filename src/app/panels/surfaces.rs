@@ -61,16 +61,24 @@ const CONSTANTS: [Constant; 7] = [
             AsperityLaw::Exponential { .. } => None,
         }
     }),
-    constant("Hardness", ("Hardness", "H", "d"), QuantityKind::Pressure, HARDNESS_TIP, |laws| match asperities(laws)? {
-        AsperityLaw::ZhaoMaiettaChang { hardness, .. } => Some(hardness),
-        AsperityLaw::GreenwoodTripp { .. } | AsperityLaw::Exponential { .. } => None,
+    constant("Hardness", ("Hardness", "H", "d"), QuantityKind::Pressure, HARDNESS_TIP, |laws| {
+        match asperities(laws)? {
+            AsperityLaw::ZhaoMaiettaChang { hardness, .. } => Some(hardness),
+            AsperityLaw::GreenwoodTripp { .. } | AsperityLaw::Exponential { .. } => None,
+        }
     }),
     constant("Asperity pressure", ("Pressure", "p", "0"), QuantityKind::Stress, "Asperity pressure at h = 0", |laws| {
         if let AsperityLaw::Exponential { pressure, .. } = asperities(laws)? { Some(pressure) } else { None }
     }),
-    constant("Decay", ("Decay", "c", ""), QuantityKind::Number, "h/σ over which the asperity pressure falls by e", |laws| {
-        if let AsperityLaw::Exponential { decay, .. } = asperities(laws)? { Some(decay) } else { None }
-    }),
+    constant(
+        "Decay",
+        ("Decay", "c", ""),
+        QuantityKind::Number,
+        "h/σ over which the asperity pressure falls by e",
+        |laws| {
+            if let AsperityLaw::Exponential { decay, .. } = asperities(laws)? { Some(decay) } else { None }
+        },
+    ),
 ];
 
 fn asperities(laws: &mut Lubricant) -> Option<&mut AsperityLaw> {
@@ -142,7 +150,12 @@ fn finishes_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
             let text = present.map_or("Own", |finish| finish.name);
             let response = ComboBox::from_id_salt(name).width(78.0).selected_text(text).show_ui(ui, |ui| {
                 for finish in FINISHES {
-                    let text = format!("{}, Rq {} {}", finish.name, numbers::digits(unit.number(finish.rms_m()), 2), unit.name);
+                    let text = format!(
+                        "{}, Rq {} {}",
+                        finish.name,
+                        numbers::digits(unit.number(finish.rms_m()), 2),
+                        unit.name
+                    );
                     if ui.selectable_label(present == Some(finish), text).on_hover_text(finish.source).clicked() {
                         *rms = finish.rms_m();
                     }

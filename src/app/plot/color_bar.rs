@@ -83,7 +83,11 @@ pub fn strips(table: &[Color32]) -> Vec<Color32> {
 /// Returns a value in SI units as a short text.
 pub fn short(kind: QuantityKind, si: f64, system: UnitSystem) -> String {
     let unit = kind.unit_of(system, si);
-    if si == 0.0 { "0".to_owned() } else { format!("{}{}{}", numbers::digits(unit.number(si), 3), numbers::THIN, unit.name) }
+    if si == 0.0 {
+        "0".to_owned()
+    } else {
+        format!("{}{}{}", numbers::digits(unit.number(si), 3), numbers::THIN, unit.name)
+    }
 }
 
 #[cfg(test)]

@@ -24,7 +24,8 @@ fn units_ui(ui: &mut Ui, there: bool, units: Units, commands: &mut Commands) {
     let switch = egui::Button::selectable(units == Units::Dimensional && there, "Units");
     let switch = ui.add_enabled(there, switch);
     let tip = "Axes and exports with units, or dimensionless (F7). Settings chooses the system";
-    let none = "Errors, ratios and counts have no unit, and all other quantities of this tab are always shown with units";
+    let none =
+        "Errors, ratios and counts have no unit, and all other quantities of this tab are always shown with units";
     if switch.on_hover_text(tip).on_disabled_hover_text(none).clicked() {
         commands.push(Command::SwitchUnits);
     }

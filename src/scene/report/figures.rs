@@ -21,7 +21,11 @@ const PIXELS: [usize; 2] = [280, 240];
 pub fn of(solved: &[Answer], stress: Option<&SubsurfaceStress>, system: UnitSystem) -> Vec<Chart> {
     let Some(solution) = solved.first().and_then(Answer::fields) else { return Vec::new() };
     let map = (solution.problem.point.kind == ContactKind::Point).then(|| film_map(solution, system));
-    profiles(solved, system).into_iter().chain(map).chain(stress.map(|field| stress_map(solution, field, system))).collect()
+    profiles(solved, system)
+        .into_iter()
+        .chain(map)
+        .chain(stress.map(|field| stress_map(solution, field, system)))
+        .collect()
 }
 
 /// Returns an axis with a unit.
@@ -44,10 +48,16 @@ pub fn profiles(solved: &[Answer], system: UnitSystem) -> [Chart; 2] {
         let name = if solved.len() > 1 { result.method } else { "" };
         pressure.add(name, Marks::Line, near().map(|(x, p, _)| [x * a, pressures.number(p * hertz.pressure_pa)]));
         let most = HIGHEST * solution.scalars.h_c;
-        film.add(name, Marks::Line, near().filter(|(.., h)| *h <= most).map(|(x, _, h)| [x * a, films.number(h * scale)]));
+        film.add(
+            name,
+            Marks::Line,
+            near().filter(|(.., h)| *h <= most).map(|(x, _, h)| [x * a, films.number(h * scale)]),
+        );
     }
-    film.y.ends =
-        Some((0.0, HIGHEST * films.number(solved.first().and_then(|answer| answer.result.value("h_c_m")).unwrap_or(0.0))));
+    film.y.ends = Some((
+        0.0,
+        HIGHEST * films.number(solved.first().and_then(|answer| answer.result.value("h_c_m")).unwrap_or(0.0)),
+    ));
     [pressure, film]
 }
 
@@ -77,8 +87,7 @@ fn film_map(solution: &Solution, system: UnitSystem) -> Chart {
         }
     }
     let scale = films.number(point.film_scale_m());
-    let mut chart =
-        Chart::new("Film thickness of the contact", axis("x", length), axis("y", length));
+    let mut chart = Chart::new("Film thickness of the contact", axis("x", length), axis("y", length));
     (chart.equal, chart.marked) = (true, true);
     chart.map = Some(Map {
         x: (a * x.0, a * x.1),
@@ -102,8 +111,7 @@ fn stress_map(solution: &Solution, field: &SubsurfaceStress, system: UnitSystem)
     let ((left, right), (_, deepest)) = (ends(&field.x), ends(&field.z));
     let largest = field.maximum(StressMeasure::VonMises);
     let pixel = |stress: &Stress| viridis(stress.von_mises() / largest.stress_pa);
-    let mut chart =
-        Chart::new("Von Mises stress below body 1", axis("x", length), axis("z", length));
+    let mut chart = Chart::new("Von Mises stress below body 1", axis("x", length), axis("z", length));
     chart.marked = true;
     chart.map = Some(Map {
         x: (left, right),

@@ -1,11 +1,11 @@
 //! Inputs of a contact.
 
-use crate::solver::physics::engineering::{QuantityKind as K, UnitSystem};
 use super::rows::{Section, measured, number, percent};
 use super::stated::Stated;
 use crate::scene::answer::Answer;
 use crate::scene::regime::{Ratios, RegimeMap};
 use crate::solver::physics::contact::{ContactKind, FilmShape, OperatingPoint};
+use crate::solver::physics::engineering::{QuantityKind as K, UnitSystem};
 use crate::solver::physics::lubricant::{Cavitation, DensityLaw, Lubricant, ShearLaw, ViscosityLaw};
 use crate::solver::physics::surfaces::{AsperityLaw, Roughness};
 

@@ -44,7 +44,8 @@ fn film(stated: &Stated, solved: &Answer) -> Section {
         (ContactKind::Line, _) => part.measure("Half width {a}", hertz.half_width_m, K::Length),
         (ContactKind::Point, false) => part.measure("Contact radius {a}", hertz.half_width_m, K::Length),
         (ContactKind::Point, true) => {
-            let [along, across] = [hertz.half_width_m, hertz.half_length_m].map(|axis| measured(K::Length, axis, stated.system));
+            let [along, across] =
+                [hertz.half_width_m, hertz.half_length_m].map(|axis| measured(K::Length, axis, stated.system));
             part.row("Semi-axes {a}, {b}", format!("{along}, {across}"));
         }
     }

@@ -38,10 +38,9 @@ impl Stated {
     /// Returns the oil and the bodies of a contact by its fields.
     pub fn of_spec(title: impl Into<String>, spec: &ContactSpec, system: UnitSystem) -> Self {
         let shown = |kind, si| measured(kind, si, system);
-        let grade = spec
-            .oil
-            .zip(spec.temperature)
-            .map(|(OilGrade(grade), temperature)| format!("ISO VG {grade}, mineral, at {}", shown(K::Temperature, temperature)));
+        let grade = spec.oil.zip(spec.temperature).map(|(OilGrade(grade), temperature)| {
+            format!("ISO VG {grade}, mineral, at {}", shown(K::Temperature, temperature))
+        });
         let named = spec.lubricant.map(|named| named.title.to_owned());
         let [first, second] = [spec.radius1, spec.radius2];
         let stated = first.is_some() || second.is_some();

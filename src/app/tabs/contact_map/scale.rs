@@ -16,9 +16,7 @@ pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, heigh
     let rise = Scale::of(QuantityKind::TemperatureRise, system, 1.0);
     let (title, name, dimensional) = match view.shown {
         Shown::Pressure => ("{P}", "Pressure {P}", (scales.pressure, "Pressure {p}")),
-        Shown::Asperities => {
-            ("{P_a}", "Asperity pressure {P_a}", (scales.pressure, "Asperity pressure {p_a}"))
-        }
+        Shown::Asperities => ("{P_a}", "Asperity pressure {P_a}", (scales.pressure, "Asperity pressure {p_a}")),
         Shown::Temperature => ("K", "Rise at mid-film / K", (rise, "Rise at mid-film")),
         _ => ("{H}", "Film {H}", (scales.film, "Film {h}")),
     };
@@ -33,7 +31,7 @@ pub fn si(picture: &Picture, view: &MapView, value: f64, system: UnitSystem) -> 
     match view.shown {
         Shown::Pressure | Shown::Asperities => {
             color_bar::short(QuantityKind::Pressure, value * point.hertz().pressure_pa, system)
-        },
+        }
         Shown::Temperature => color_bar::short(QuantityKind::TemperatureRise, value, system),
         _ => color_bar::short(QuantityKind::FilmThickness, value * point.film_scale_m(), system),
     }

@@ -332,7 +332,9 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>, system: Unit
                 let rise = |node: usize| Some(Rises::of(heat.rise_k.get(node)?).mid_film_k);
                 solution.value_at(rise, position.x, y)
             })
-            .map_or_else(String::new, |rise| format!("\nrise {}", numbers::shown(QuantityKind::TemperatureRise, rise, system))),
+            .map_or_else(String::new, |rise| {
+                format!("\nrise {}", numbers::shown(QuantityKind::TemperatureRise, rise, system))
+            }),
         _ => String::new(),
     };
     Some(format!(
@@ -353,7 +355,10 @@ fn spoken(picture: &Picture, view: &MapView, system: UnitSystem) -> String {
     let (s, scale) = (picture.solution.scalars, picture.key.point.film_scale_m());
     let heat = picture.solution.heat.as_deref();
     let warms = heat.map_or_else(String::new, |heat| {
-        format!(", maximum temperature rise {}", numbers::shown(QuantityKind::TemperatureRise, heat.largest.mid_film_k, system))
+        format!(
+            ", maximum temperature rise {}",
+            numbers::shown(QuantityKind::TemperatureRise, heat.largest.mid_film_k, system)
+        )
     });
     format!(
         "{} of {}: central film thickness {}, minimum {} at X {}, Y ±{}{warms}",

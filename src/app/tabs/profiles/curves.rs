@@ -70,7 +70,8 @@ impl<'a> Scene<'a> {
             let other = Scales::of(&picture.key.point, system);
             match units {
                 Units::Dimensional if other != own => {
-                    let (x, y) = (direction.length(other).factor / direction.length(own).factor, unit(other) / unit(own));
+                    let (x, y) =
+                        (direction.length(other).factor / direction.length(own).factor, unit(other) / unit(own));
                     let points = of(picture).iter().map(|point| PlotPoint::new(x * point.x, y * point.y));
                     PlotPoints::Owned(points.collect())
                 }

@@ -99,8 +99,13 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
                 cavitated(plot, picture, &palette);
             }
             roughness(plot, scene, direction, &palette);
-            let live =
-                scene.curves(plot, (&palette, palette.film), direction, move |of| direction.film(of), |of| of.film.factor);
+            let live = scene.curves(
+                plot,
+                (&palette, palette.film),
+                direction,
+                move |of| direction.film(of),
+                |of| of.film.factor,
+            );
             if elsewhere == 0.0 {
                 mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
             }

@@ -205,7 +205,11 @@ impl View for Profiles {
 
     fn caption(&self, context: &Context<'_>) -> Option<String> {
         let key = context.answers.picture()?.key;
-        Some(format!("{}; {}", caption::contact(&key.point, &key.lubricant, context.system), caption::means(context.answers)?))
+        Some(format!(
+            "{}; {}",
+            caption::contact(&key.point, &key.lubricant, context.system),
+            caption::means(context.answers)?
+        ))
     }
 
     fn receive(&mut self) {

@@ -138,7 +138,9 @@ const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the
 /// Returns the friction force as text.
 fn friction(picture: &Picture, system: UnitSystem) -> String {
     let force = picture.traction * picture.key.point.load;
-    picture.unphysical.map_or_else(|| numbers::load(force, picture.key.point.kind, system), |doubt| doubt.mark().to_owned())
+    picture
+        .unphysical
+        .map_or_else(|| numbers::load(force, picture.key.point.kind, system), |doubt| doubt.mark().to_owned())
 }
 
 /// Returns the picture, and the full solution of the same contact if it is another one.

@@ -7,8 +7,8 @@ use crate::app::plot::axes;
 use crate::app::plot::frame::PlotFrame;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
 use crate::app::units::{self, Scale};
-use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::full::{Problem, Solution};
+use crate::solver::physics::engineering::QuantityKind;
 use egui::{Align2, Ui};
 use egui_plot::{HoverPosition, Line, LineStyle, PlotPoint, Span, Text, VLine};
 use std::sync::Arc;
@@ -97,16 +97,22 @@ fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
         (0..SAMPLES).map(|k| end * k as f64 / (SAMPLES - 1) as f64).map(|p| [p, viscosity(p).log10()]).collect();
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 8.0));
     axes::show(
-        logarithmic(ui, "viscosity and pressure", height, "Pressure {p}", &format!("Low-shear viscosity µ in {}", unit.name))
-            .marks_x(marks)
-            .always_x(Scale::of(QuantityKind::Pressure, system, 1.0), "Pressure {p}")
-            .label_formatter(|at| {
-                Some(format!(
-                    "p = {}\nµ = {}",
-                    numbers::pressure(place(at)[0], system),
-                    numbers::quantity(10f64.powf(place(at)[1]), unit.name)
-                ))
-            }),
+        logarithmic(
+            ui,
+            "viscosity and pressure",
+            height,
+            "Pressure {p}",
+            &format!("Low-shear viscosity µ in {}", unit.name),
+        )
+        .marks_x(marks)
+        .always_x(Scale::of(QuantityKind::Pressure, system, 1.0), "Pressure {p}")
+        .label_formatter(|at| {
+            Some(format!(
+                "p = {}\nµ = {}",
+                numbers::pressure(place(at)[0], system),
+                numbers::quantity(10f64.powf(place(at)[1]), unit.name)
+            ))
+        }),
         ui,
         "Viscosity against pressure",
         |plot| {
@@ -148,8 +154,9 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     let curve = |p: f64| -> Vec<[f64; 2]> {
         let at_rest = viscosity_unit.number(problem.point.viscosity_pa_s * problem.fluid.at(p).viscosity);
         let log = |k: usize| from + (to - from) * k as f64 / (SAMPLES - 1) as f64;
-        let fluidity =
-            |log: f64| problem.shear.map_or(1.0, |law| law.fluidity.at(unit.si(10f64.powf(log)) / law.stress_scale_pa).0);
+        let fluidity = |log: f64| {
+            problem.shear.map_or(1.0, |law| law.fluidity.at(unit.si(10f64.powf(log)) / law.stress_scale_pa).0)
+        };
         (0..SAMPLES).map(log).map(|log| [log, (at_rest / fluidity(log)).log10()]).collect()
     };
     let hertz_pa = problem.point.hertz().pressure_pa;

@@ -331,8 +331,8 @@ fn said(
         },
     );
     let place = choices.against.of(&context.document.key());
-    if choices.against == Against::SlideToRoll && choices.slide == SlideView::Near && place > NEAR_SRR {
-        let place = numbers::quantity(place, "%");
+    if choices.against == Against::SlideToRoll && choices.slide == SlideView::Near && 100.0 * place > NEAR_SRR {
+        let place = numbers::slide_to_roll(place);
         ui.weak(format!("The contact on the screen slides at {place}, outside this view"));
     }
     standing_ui(ui, view.full.standing(), "Progress of the full solutions");

@@ -1,6 +1,5 @@
 //! Form of a training: presets, range, plan, reduction. Invalid entries are refused next to their field.
 
-use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use super::tab::TrainingTab;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{heading, named};
@@ -10,6 +9,7 @@ use crate::app::tabs::training::presets;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use crate::solver::reduced::{Sampling, Scheme};
 use crate::solver::training::{Indicator, Plan, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
@@ -303,7 +303,14 @@ fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
     row(ui, "Tolerances", tip, |ui| {
         ui.vertical(|ui| {
             for (k, tolerance) in tolerances.iter_mut().enumerate() {
-                form.number(ui, "Tolerances", &format!("Tolerance {}", k + 1), tolerance, PLAIN.unit(UnitSystem::Si), tip);
+                form.number(
+                    ui,
+                    "Tolerances",
+                    &format!("Tolerance {}", k + 1),
+                    tolerance,
+                    PLAIN.unit(UnitSystem::Si),
+                    tip,
+                );
             }
             ui.horizontal(|ui| {
                 let more = ui.small_button("+");

@@ -1,7 +1,6 @@
 //! Form of the transient contact: the three inputs with a preview, duration, time steps and frames. Invalid entries
 //! are refused next to their field.
 
-use crate::solver::physics::engineering::QuantityKind;
 use crate::app::command::Command;
 use crate::app::context::{Commands, Context};
 use crate::app::controls::heading;
@@ -16,6 +15,7 @@ use crate::app::tabs::transient::shared::edit;
 use crate::app::theme::Palette;
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupported};
+use crate::solver::physics::engineering::QuantityKind;
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
 

@@ -1,14 +1,14 @@
 //! Form of the methods of a transient contact: the full system, which trains and checks the models, the reduced and
 //! the linearised model with their settings, and their training inputs.
 
-use crate::solver::physics::engineering::QuantityKind;
-use crate::app::numbers;
-use crate::app::units;
-use crate::solver::physics::contact::ContactKind;
 use crate::app::controls::heading;
 use crate::app::form::{Form, choose};
+use crate::app::numbers;
 use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
+use crate::app::units;
 use crate::scene::{Drive, LinearisedTransient, ModelSource, ReducedTransient, TransientStudy};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Checkbox, Ui};
 
@@ -130,7 +130,8 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy
         count => format!("Trained on {count} other inputs."),
     });
     if !study.training_loads.is_empty() {
-        let loads = study.training_loads.iter().map(|load| numbers::load(*load, ContactKind::Line, units::system(ui.ctx())));
+        let loads =
+            study.training_loads.iter().map(|load| numbers::load(*load, ContactKind::Line, units::system(ui.ctx())));
         ui.weak(format!("At reference loads of {}.", loads.collect::<Vec<_>>().join(", ")));
     }
     if !study.training_contacts.is_empty() {

@@ -1,6 +1,5 @@
 //! Parts that the transient tabs share: form, run button, status line and time bar.
 
-use crate::solver::physics::engineering::UnitSystem;
 use super::advice::advice;
 use super::export;
 use super::runs::{TransientCommand, TransientRuns};
@@ -17,6 +16,7 @@ use crate::scene::TransientStudy;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::reduced::tpwl::{TpwlRecord, Weighting};
 use crate::solver::warning::Warning;
 use egui::text::{LayoutJob, TextFormat};

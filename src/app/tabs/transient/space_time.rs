@@ -10,10 +10,10 @@ use crate::app::tabs::transient::export::describe;
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::theme::faded;
 use crate::app::units::{self, Scale, Scales};
-use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use crate::app::{export, numbers};
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Frame;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Color32, ColorImage, Ui, Vec2};
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints};
 use std::sync::Arc;
@@ -63,12 +63,8 @@ impl Field {
 
     fn si(self, setup: &Setup, value: f64, system: UnitSystem) -> String {
         match self {
-            Self::Film => {
-                color_bar::short(QuantityKind::FilmThickness, value * setup.point.film_scale_m(), system)
-            },
-            Self::Pressure => {
-                color_bar::short(QuantityKind::Pressure, value * setup.point.hertz().pressure_pa, system)
-            },
+            Self::Film => color_bar::short(QuantityKind::FilmThickness, value * setup.point.film_scale_m(), system),
+            Self::Pressure => color_bar::short(QuantityKind::Pressure, value * setup.point.hertz().pressure_pa, system),
         }
     }
 }
