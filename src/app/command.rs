@@ -31,6 +31,10 @@ pub enum Command {
     Examples,
     /// Solves a table of load cases.
     LoadCases,
+    /// Opens the window of measured data.
+    Measured,
+    /// Solves a table of load cases in the Results tab. The document stays.
+    SolveCases(Arc<Scene>),
     /// Opens the form of a machine.
     Machine(MachineKind),
     /// Puts a text into the window of load cases and opens it.
@@ -205,6 +209,14 @@ pub static MENUS: &[Item] = {
         item("File", 0, C::Open, "Open…", "load file scene", Some((CTRL, Key::O))),
         item("File", 0, C::Examples, "Examples…", "scenes tables figures dissertation search", None),
         item("File", 0, C::LoadCases, "Load cases…", "table csv paste bearings gears batch spreadsheet excel", None),
+        item(
+            "File",
+            0,
+            C::Measured,
+            "Measured data…",
+            "table csv fit rig experiment film friction traction alpha Eyring oil estimate",
+            None,
+        ),
         item("File", 0, C::OpenLink, "Open link…", "address url share fragment", None),
         item("File", 1, C::Save, "Save", "file scene store", Some((CTRL, Key::S))),
         item("File", 1, C::SaveAs, "Save as…", "file scene store", Some((CTRL_SHIFT, Key::S))),

@@ -7,6 +7,7 @@ use super::controls::Entries;
 use super::display::Thresholds;
 use super::document::{Document, Edit};
 use crate::app::tabs::transient::TransientRuns;
+use crate::scene::MeasuredPoint;
 use crate::scene::regime::{Ratios, RegimeMap};
 use crate::solver::physics::contact::FilmShape;
 use crate::solver::physics::engineering::UnitSystem;
@@ -37,6 +38,8 @@ pub struct Context<'a> {
     pub fit: bool,
     /// System of units of the window.
     pub system: UnitSystem,
+    /// Measured points of the document.
+    pub measured: &'a [MeasuredPoint],
 }
 
 impl Context<'_> {

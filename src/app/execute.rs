@@ -36,6 +36,11 @@ impl Explorer {
             Command::Open => desk.request(ctx, Pending::OpenDialog),
             Command::Examples => self.examples.open(),
             Command::LoadCases => desk.load_cases.open(),
+            Command::Measured => desk.measured.open(),
+            Command::SolveCases(scene) => {
+                desk.solve_cases(&scene, wake(ctx));
+                self.show(Tab::Results);
+            }
             Command::OpenLoadCases(text) => desk.load_cases.paste(text),
             Command::Machine(kind) => desk.machines.open(kind, &desk.document),
             Command::CopyLink => match Fragment::link(&desk.document, &self.tree) {
@@ -169,6 +174,7 @@ impl Explorer {
             Command::Cancel if self.examples.is_open() => self.examples.close(),
             Command::Cancel if desk.machines.is_open() => desk.machines.close(),
             Command::Cancel if desk.load_cases.is_open() => desk.load_cases.close(),
+            Command::Cancel if desk.measured.is_open() => desk.measured.close(),
             Command::Cancel if self.help.about => self.help.about = false,
             Command::Cancel if self.help.manual.is_open() => self.help.manual.close(),
             Command::Cancel if self.lessons.is_open() => self.lessons.close(),

@@ -185,6 +185,9 @@ impl Explorer {
         self.examples.ui(&ctx, &mut commands);
         self.desk.machines.ui(&ctx, &self.desk.document, &mut commands);
         self.desk.load_cases.ui(&ctx, &self.desk.document, &mut commands);
+        let mut measured = std::mem::take(&mut self.desk.measured);
+        measured.ui(&ctx, &self.desk.context(), &self.desk.entries, &mut commands);
+        self.desk.measured = measured;
         commands.extend(self.palette.ui(&ctx, &self.desk));
         self.settle(&ctx);
         self.execute_all(&ctx, &mut commands);

@@ -13,6 +13,8 @@ pub enum Purpose {
     Inputs,
     /// Read a table of load cases.
     Cases,
+    /// Read a table of measured values.
+    Measured,
     /// Read a reduced model for a comparison.
     ComparedModel,
     /// Write a file with this content.
@@ -53,7 +55,7 @@ pub struct Words {
 impl Purpose {
     /// Returns true if a file is read. It must then exist, and no file is replaced.
     pub fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Inputs | Self::Cases | Self::ComparedModel)
+        matches!(self, Self::Open | Self::Inputs | Self::Cases | Self::Measured | Self::ComparedModel)
     }
 
     /// Returns the texts of the dialog.
@@ -66,6 +68,7 @@ impl Purpose {
             Self::Save => ("Save the scene", "Save", "Scene", &["ron"], "contact.ron"),
             Self::Inputs => ("Inputs from a table", "Read", "Table", &["csv"], ""),
             Self::Cases => ("Load cases from a table", "Read", "Table", &["csv"], ""),
+            Self::Measured => ("Measured data from a table", "Read", "Table", &["csv", "txt"], ""),
             Self::ComparedModel => ("Add a reduced model to the comparison", "Add", "Reduced model", &["rom"], ""),
             Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),
             Self::Write(Written::Table, _) => ("Export the data as CSV", "Export", "Table", &["csv"], "profiles.csv"),

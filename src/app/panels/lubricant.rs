@@ -3,7 +3,7 @@
 use super::{heat, oil};
 use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, named, row_name, sentence, typed_field};
-use crate::app::document::Edit;
+use crate::app::document::{Document, Edit};
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
@@ -45,6 +45,8 @@ pub const GROUP: &str = "lubricant";
 #[derive(Clone, Copy, PartialEq)]
 enum Pick {
     Named(&'static str),
+    /// Lubricant of the scene, by its position.
+    Kept(usize),
     Own,
 }
 
@@ -54,8 +56,9 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, own_laws: &mut bool, entries: &mut
     let (laws, kind) = (&document.lubricant, document.point.kind);
     heading(ui, "Lubricant");
     let known = named_lubricant::of_laws(laws, &document.point).filter(|_| !*own_laws);
-    picker(ui, own_laws, commands, known);
-    match known {
+    let kept = document.view.lubricants.iter().position(|kept| kept.is_of(&document.point, laws) && !*own_laws);
+    picker(ui, own_laws, (document, commands), (known, kept));
+    match known.filter(|_| kept.is_none()) {
         Some(lubricant) => {
             ui.weak(sentence(lubricant.about));
             let tip = "Bodies, speed and load of the contact in its source. Undo restores the present ones";
@@ -76,16 +79,25 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, own_laws: &mut bool, entries: &mut
     entries.reserved_ui(ui, constants.chain([GROUP]));
 }
 
-fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Option<&'static NamedLubricant>) {
-    let before = known.map_or(Pick::Own, |lubricant| Pick::Named(lubricant.name));
+fn picker(
+    ui: &mut Ui,
+    own_laws: &mut bool,
+    (document, commands): (&Document, &mut Commands),
+    (known, kept): (Option<&'static NamedLubricant>, Option<usize>),
+) {
+    let known = known.map_or(Pick::Own, |lubricant| Pick::Named(lubricant.name));
+    let before = kept.map_or(known, Pick::Kept);
     let mut wanted = before;
-    let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain([Pick::Own]).collect();
+    let own = &document.view.lubricants;
+    let kept = (0..own.len()).map(Pick::Kept);
+    let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain(kept).chain([Pick::Own]).collect();
     let of = |name: &str| NAMED.iter().find(|named| named.name == name);
     Grid::new("lubricant").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let tip = "Laws of density, viscosity and shear. A lubricant that defines its viscosity also sets it; the \
                    contact does not change";
         choice(ui, "Fluid", tip, &mut wanted, &options, |pick| match pick {
             Pick::Named(name) => of(name).map_or(("", ""), |named| (named.title, named.about)),
+            Pick::Kept(k) => (own.get(k).map_or("", |kept| kept.name.as_str()), "Lubricant that this scene keeps"),
             Pick::Own => ("Own", "Custom laws and constants, starting from those of the present lubricant"),
         });
     });
@@ -94,6 +106,13 @@ fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Opti
     }
     match wanted {
         Pick::Own => *own_laws = true,
+        Pick::Kept(k) => {
+            *own_laws = false;
+            if let Some(kept) = own.get(k) {
+                let (point, laws) = kept.in_place(&document.point, &document.lubricant);
+                commands.edit(Edit::Contact(point, Box::new(laws)), GROUP);
+            }
+        }
         Pick::Named(name) => {
             *own_laws = false;
             of(name).into_iter().for_each(|named| commands.edit(Edit::Named(named), GROUP));

@@ -10,6 +10,7 @@ use crate::app::plot::axes;
 use crate::app::plot::frame::PlotFrame;
 use crate::app::tabs::traction::{Against, Companion, Curve, Sample, Sweep};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
+use crate::scene::MeasuredPoint;
 use crate::solver::full::{Lubrication, Mixed, PLAUSIBLE_TRACTION, TractionDoubt};
 use crate::solver::physics::engineering::{QuantityKind, Unit, UnitSystem};
 use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
@@ -203,6 +204,7 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
         unit: number,
         curves: &curves,
         here: here.map(|picture| (picture.traction.abs(), picture.unphysical.is_some())),
+        measured: Points2::new(),
     };
     let film = LinkedPlot {
         below: &below,
@@ -221,6 +223,7 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
             Some(mixed) => Some((gap_m(mixed, picture.central_film_m())?, false)),
             None => Some((picture.central_film_m(), false)),
         }),
+        measured: Points2::new(),
     };
     let share = LinkedPlot {
         below: &below,
@@ -230,7 +233,10 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
         unit: percent,
         curves: &[drawn("load share of asperities", CARRIED, palette.pressure, LIVE_WIDTH)],
         here: here.and_then(|picture| Some((picture.mixed?.asperity_load_share, false))),
+        measured: Points2::new(),
     };
+    let (traction, film) =
+        (traction.with(&axes, context, |point| point.friction), film.with(&axes, context, |p| p.film_m));
     let mut pressed = traction.show(ui, context, &axes, shown, unit);
     pressed = film.show(ui, context, &axes, shown, unit).or(pressed);
     if rough {
@@ -262,9 +268,22 @@ struct LinkedPlot<'a> {
     curves: &'a [Drawn],
     /// Value of the contact on the screen in SI units, and whether it is unphysical.
     here: Option<(f64, bool)>,
+    /// Measured values over the quantity of the horizontal axis, in SI units.
+    measured: Points2,
 }
 
 impl LinkedPlot<'_> {
+    /// Returns the plot with the measured values of a quantity.
+    fn with(self, axes: &Axes<'_>, context: &Context<'_>, of: fn(&MeasuredPoint) -> Option<f64>) -> Self {
+        let along = |point: &MeasuredPoint| match axes.against {
+            Against::SlideToRoll => point.srr.map(f64::abs),
+            Against::Speed => point.speed_m_per_s,
+            _ => None,
+        };
+        let measured = context.measured.iter().filter_map(|point| Some([along(point)?, of(point)?])).collect();
+        Self { measured, ..self }
+    }
+
     fn show(
         &self,
         ui: &mut Ui,
@@ -296,6 +315,12 @@ impl LinkedPlot<'_> {
                     rings(plot, axes.points(&markers.samples, (curve.of, self.unit)), color, k);
                 }
             }
+            let place = |[x, y]: &[f64; 2]| Some([axes.along(*x)?, drawn(self.unit.number(*y), axes.logarithmic.1)?]);
+            let measured: Points2 = self.measured.iter().filter_map(place).collect();
+            if !measured.is_empty() {
+                let measured = Points::new("measured", measured).color(palette.text).radius(4.0);
+                plot.points(measured.shape(MarkerShape::Diamond).id((self.id, "measured")));
+            }
             if let (Some(place), Some((value, unphysical))) = (current, self.here)
                 && let Some(value) = drawn(self.unit.number(value), axes.logarithmic.1)
             {
@@ -323,7 +348,9 @@ impl LinkedPlot<'_> {
         let samples = samples.filter(seen).filter(|sample| !traction || sample.unphysical.is_none());
         let of_curves = samples.flat_map(|sample| self.curves.iter().filter_map(|curve| (curve.of)(sample)));
         let here = self.here.filter(|(_, unphysical)| here && !unphysical).map(|(value, _)| value);
-        let (from, to) = axes.up(of_curves.chain(here).map(|value| self.unit.number(value)));
+        let measured = self.measured.iter().filter(|[x, _]| axes.along(*x).is_some_and(|place| axes.shows(place)));
+        let measured = measured.map(|[_, y]| *y);
+        let (from, to) = axes.up(of_curves.chain(here).chain(measured).map(|value| self.unit.number(value)));
         (from, if self.id == "share" { to.min(100.0) } else { to })
     }
 
