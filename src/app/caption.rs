@@ -4,38 +4,39 @@ use crate::app::answers::Answers;
 use crate::app::answers::picture::Origin;
 use crate::app::numbers;
 use crate::scene::named_lubricant;
-use crate::solver::physics::contact::{ContactKind, OperatingPoint};
-use crate::solver::physics::engineering::KELVIN;
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use crate::solver::physics::lubricant::{Cavitation, Lubricant, ShearLaw};
 
 /// Returns a contact with its lubricant in one line.
-pub fn contact(point: &OperatingPoint, lubricant: &Lubricant) -> String {
-    let significant = numbers::significant;
-    let load = match point.kind {
-        ContactKind::Line => format!("{} N/mm", significant(1e-3 * point.load)),
-        ContactKind::Point => format!("{} N", significant(point.load)),
-    };
+pub fn contact(point: &OperatingPoint, lubricant: &Lubricant, system: UnitSystem) -> String {
+    let shown = |kind, si| numbers::shown(kind, si, system).replace(numbers::THIN, " ");
     let laws = named_lubricant::of_laws(lubricant, point)
         .map_or_else(|| laws_alone(lubricant).describe(), |named| named.title.to_owned());
     let limit = lubricant.limiting_stress.map_or_else(String::new, |limit| {
-        format!(", limiting stress {} MPa + {} p", significant(1e-6 * limit.ambient), significant(limit.slope))
+        let ambient = shown(QuantityKind::Stress, limit.ambient);
+        format!(", limiting stress {ambient} + {} p", numbers::significant(limit.slope))
     });
-    let conditions = conditions(lubricant);
+    let conditions = conditions(lubricant, system);
     let plateau = point.sliding.newtonian_plateau_ratio.unwrap_or(lubricant.shear.plateau());
-    let slides = match (point.sliding.slide_to_roll_ratio, lubricant.shear) {
+    let srr = point.sliding.slide_to_roll_ratio;
+    let slides = match (srr, lubricant.shear) {
         (0.0, ShearLaw::Newtonian) => String::new(),
-        (srr, ShearLaw::Newtonian) => format!(", SRR {}", significant(srr)),
-        (srr, _) => format!(", SRR {}, NPR {}", significant(srr), significant(plateau)),
+        (_, ShearLaw::Newtonian) => format!(", SRR {}", numbers::slide_to_roll(srr)),
+        _ => format!(", SRR {}, NPR {}", numbers::slide_to_roll(srr), numbers::significant(plateau)),
     };
-    let across = point.radius_y_m.map_or_else(String::new, |radius_y| format!(", R_y {}", numbers::length(radius_y)));
+    let across = point.radius_y_m.map(|radius_y| format!(", R_y {}", numbers::length(radius_y, system)));
     format!(
-        "{}, R {}{across}, speed {} m/s, load {load}, E' {} GPa, η₀ {} Pa·s, α {} 1/GPa, {laws}{limit}{slides}{conditions}",
+        "{}, R {}{}, speed {}, load {}, E' {}, η₀ {}, α {}, {laws}{limit}{slides}{conditions}",
         numbers::moes(point.moes()),
-        numbers::length(point.radius_m),
-        significant(point.speed_m_per_s),
-        significant(1e-9 * point.modulus_pa),
-        significant(point.viscosity_pa_s),
-        significant(1e9 * point.alpha_per_pa)
+        numbers::length(point.radius_m, system),
+        across.unwrap_or_default(),
+        shown(QuantityKind::Speed, point.speed_m_per_s),
+        shown(Quantity::Load.kind(point.kind), point.load),
+        shown(QuantityKind::Pressure, point.modulus_pa),
+        shown(QuantityKind::Viscosity, point.viscosity_pa_s),
+        shown(QuantityKind::PressureCoefficient, point.alpha_per_pa)
     )
 }
 
@@ -45,12 +46,13 @@ fn laws_alone(lubricant: &Lubricant) -> Lubricant {
 }
 
 /// Returns roughness, oil supply and heat, each after a comma; empty for a smooth, flooded and isothermal contact.
-fn conditions(lubricant: &Lubricant) -> String {
+fn conditions(lubricant: &Lubricant, system: UnitSystem) -> String {
     let rough = lubricant.roughness.filter(|_| lubricant.is_rough());
-    let rough = rough.map(|rough| format!(", roughness σ {}", numbers::length(rough.sigma)));
+    let rough = rough.map(|rough| format!(", roughness σ {}", numbers::length(rough.sigma, system)));
     let supply = lubricant.cavitation.supply_film_m();
-    let supply = supply.map(|film| format!(", starved with an inlet film of {}", numbers::length(film)));
-    let heat = lubricant.heat.map(|heat| format!(", heat from {:.1} °C at the inlet", heat.inlet_temperature - KELVIN));
+    let supply = supply.map(|film| format!(", starved with an inlet film of {}", numbers::length(film, system)));
+    let temperature = |kelvin: f64| numbers::shown(QuantityKind::Temperature, kelvin, system);
+    let heat = lubricant.heat.map(|heat| format!(", heat from {} at the inlet", temperature(heat.inlet_temperature)));
     [rough, supply, heat].into_iter().flatten().collect()
 }
 

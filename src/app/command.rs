@@ -9,11 +9,13 @@ use super::machines::MachineKind;
 use super::panels::sliders::ChosenSliders;
 use super::purpose::{Purpose, Written};
 use super::tab::Tab;
+use crate::app::reports::ReportSettings;
 use crate::app::tabs::training::TrainingCommand;
 use crate::app::tabs::transient::TransientCommand;
 use crate::host::browser;
 use crate::scene::ReportFormat;
 use crate::scene::Scene;
+use crate::solver::physics::engineering::UnitSystem;
 use egui::{Context, Id, Key, KeyboardShortcut, Modifiers, Popup, ThemePreference};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -29,6 +31,10 @@ pub enum Command {
     Examples,
     /// Solves a table of load cases.
     LoadCases,
+    /// Opens the window of measured data.
+    Measured,
+    /// Solves a table of load cases in the Results tab. The document stays.
+    SolveCases(Arc<Scene>),
     /// Opens the form of a machine.
     Machine(MachineKind),
     /// Puts a text into the window of load cases and opens it.
@@ -91,8 +97,12 @@ pub enum Command {
     Lessons,
     /// Shows or hides the explanation in every tab.
     ShowWhy,
-    /// Switches plots and exports between SI and dimensionless units.
-    SiUnits,
+    /// Switches plots and exports between dimensionless values and units.
+    SwitchUnits,
+    /// Sets author, company and paper of reports.
+    Reports(ReportSettings),
+    /// Selects a system of units.
+    System(UnitSystem),
     /// Locks or unlocks the axes of the tabs in front.
     LockAxes,
     /// Locks or unlocks the axes of a tab.
@@ -203,6 +213,14 @@ pub static MENUS: &[Item] = {
         item("File", 0, C::Open, "Open…", "load file scene", Some((CTRL, Key::O))),
         item("File", 0, C::Examples, "Examples…", "scenes tables figures dissertation search", None),
         item("File", 0, C::LoadCases, "Load cases…", "table csv paste bearings gears batch spreadsheet excel", None),
+        item(
+            "File",
+            0,
+            C::Measured,
+            "Measured data…",
+            "table csv fit rig experiment film friction traction alpha Eyring oil estimate",
+            None,
+        ),
         item("File", 0, C::OpenLink, "Open link…", "address url share fragment", None),
         item("File", 1, C::Save, "Save", "file scene store", Some((CTRL, Key::S))),
         item("File", 1, C::SaveAs, "Save as…", "file scene store", Some((CTRL_SHIFT, Key::S))),
@@ -305,10 +323,20 @@ pub static MENUS: &[Item] = {
         item(
             "View",
             5,
-            C::SiUnits,
-            "SI units",
-            "dimensionless micrometre gigapascal millimetre",
+            C::SwitchUnits,
+            "Units on axes",
+            "dimensionless SI micrometre gigapascal millimetre",
             Some((PLAIN, Key::F7)),
+        ),
+        item("View", 5, C::System(UnitSystem::Si), "Units: SI", "system metre pascal kelvin", None),
+        item("View", 5, C::System(UnitSystem::Engineering), "Units: Engineering", "system mm GPa metric", None),
+        item(
+            "View",
+            5,
+            C::System(UnitSystem::Imperial),
+            "Units: Imperial",
+            "system inch psi ksi lbf Fahrenheit US",
+            None,
         ),
         item("View", 5, C::LockAxes, "Lock axes", "still zoom scale hold", Some((PLAIN, Key::F8))),
         item("View", 5, C::FitPlots, "Fit plots to data", "zoom reset axes", Some((PLAIN, Key::F2))),

@@ -7,8 +7,10 @@ use super::controls::Entries;
 use super::display::Thresholds;
 use super::document::{Document, Edit};
 use crate::app::tabs::transient::TransientRuns;
+use crate::scene::MeasuredPoint;
 use crate::scene::regime::{Ratios, RegimeMap};
 use crate::solver::physics::contact::FilmShape;
+use crate::solver::physics::engineering::UnitSystem;
 use std::path::Path;
 
 /// Read-only state of the window.
@@ -34,6 +36,10 @@ pub struct Context<'a> {
     pub presenting: bool,
     /// True if plots shall be fitted to their data in this frame.
     pub fit: bool,
+    /// System of units of the window.
+    pub system: UnitSystem,
+    /// Measured points of the document.
+    pub measured: &'a [MeasuredPoint],
 }
 
 impl Context<'_> {

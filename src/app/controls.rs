@@ -208,13 +208,13 @@ pub fn described(ui: &Ui, response: Response, description: &str) -> Response {
 const CHOICE_WIDTH: f32 = 164.0;
 
 /// Draws a row with a name and a choice box. Every option has a name and a tooltip.
-pub fn choice<T: Copy + PartialEq>(
+pub fn choice<'a, T: Copy + PartialEq>(
     ui: &mut Ui,
     name: impl Into<WidgetText>,
     tooltip: &str,
     value: &mut T,
     options: &[T],
-    describe: impl Fn(T) -> (&'static str, &'static str),
+    describe: impl Fn(T) -> (&'a str, &'a str),
 ) {
     let name = name.into();
     let text = name.text().to_owned();

@@ -5,6 +5,7 @@ use super::numbers;
 use super::units::Units;
 use crate::app::panels::sliders::ChosenSliders;
 use crate::app::refusal::Refusal;
+use crate::solver::physics::engineering::UnitSystem;
 use serde::{Deserialize, Serialize};
 
 /// Relative errors of the film thickness at which the badge changes its title.
@@ -67,6 +68,8 @@ pub struct Display {
     pub light_presentation: bool,
     /// Units of plots and exports.
     pub units: Units,
+    /// System of units of panels, axes, tables and reports.
+    pub system: UnitSystem,
     /// Sliders of presentations.
     pub sliders: ChosenSliders,
 }
@@ -87,6 +90,7 @@ impl Default for Display {
             why: false,
             light_presentation: true,
             units: Units::default(),
+            system: UnitSystem::default(),
             sliders: ChosenSliders::default(),
         }
     }

@@ -4,6 +4,7 @@
 use super::context::Context;
 use super::document::Key;
 use super::in_use::InUse;
+use super::load_cases;
 use crate::app::tabs::transient::Setup;
 use crate::scene::Scene;
 use crate::solver::training::TrainingSpec;
@@ -27,6 +28,8 @@ pub enum Owner {
     Training(Box<TrainingSpec>),
     /// Question of a scene.
     Question(Box<Scene>),
+    /// Table of load cases.
+    Cases(Box<Scene>),
 }
 
 impl Owner {
@@ -41,6 +44,7 @@ impl Owner {
             Self::Transient(setup) => **setup == Setup::of(document, context.file),
             Self::Training(spec) => document.training_spec() == Some(spec.as_ref()),
             Self::Question(scene) => asks_the_same(scene, &document.to_scene()),
+            Self::Cases(scene) => asks_the_same(scene, &load_cases::scene_like(document, scene)),
         }
     }
 }

@@ -12,7 +12,7 @@ use super::presentation::{Presentation, enlargement};
 use super::purpose::Purpose;
 use super::session::Place;
 use super::tab::Tab;
-use super::units::Units;
+use super::units::{self, Units};
 use super::wake::wake;
 use super::{Explorer, export};
 use crate::app::animations::loads;
@@ -37,6 +37,11 @@ impl Explorer {
             Command::Open => desk.request(ctx, Pending::OpenDialog),
             Command::Examples => self.examples.open(),
             Command::LoadCases => desk.load_cases.open(),
+            Command::Measured => desk.measured.open(),
+            Command::SolveCases(scene) => {
+                desk.solve_cases(&scene, wake(ctx));
+                self.show(Tab::Results);
+            }
             Command::OpenLoadCases(text) => desk.load_cases.paste(text),
             Command::Machine(kind) => desk.machines.open(kind, &desk.document),
             Command::CopyLink => match Fragment::link(&desk.document, &self.tree) {
@@ -65,7 +70,9 @@ impl Explorer {
                 let scene = loads(&desk.document, &desk.answers);
                 scene.into_iter().for_each(|scene| desk.animations.sweep(ctx, desk.answers.store(), scene));
             }
-            Command::ExportReport(form) => desk.reports.begin(ctx, (&desk.document, &desk.answers), form),
+            Command::ExportReport(form) => {
+                desk.reports.begin(ctx, (&desk.document, &desk.answers), form, desk.display.system);
+            }
             Command::ExportWorksheet => match self.lessons.running().cloned() {
                 Some(lesson) => {
                     if let Err(why) = desk.reports.begin_worksheet(ctx, (&desk.document, &desk.answers), lesson) {
@@ -94,7 +101,7 @@ impl Explorer {
                 desk.history.redo(&mut desk.document);
                 desk.entries.clear();
             }
-            Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers)),
+            Command::CopyReadouts => ctx.copy_text(export::readouts_table(&desk.answers, desk.display.system)),
             Command::Pin => desk.answers.pin(),
             Command::Unpin => desk.answers.unpin_all(),
             Command::Settings => self.settings.open = true,
@@ -115,7 +122,7 @@ impl Explorer {
                 self.tree = layout.tree(ctx.content_rect().width());
                 desk.tabs.regimes.choices.training_points = layout == Layout::ModelReduction;
                 if layout == Layout::Engineer {
-                    self.desk.display.units = Units::Si;
+                    self.desk.display.units = Units::Dimensional;
                 }
                 self.hold_axes();
             }
@@ -126,7 +133,14 @@ impl Explorer {
             Command::PointAt(control) => show(ctx, control),
             Command::ShowWhy => desk.display.why = !desk.display.why,
             Command::FitPlots => desk.fit_plots = true,
-            Command::SiUnits => desk.display.units = desk.display.units.other(),
+            Command::SwitchUnits => desk.display.units = desk.display.units.other(),
+            Command::Reports(settings) => desk.reports.settings = settings,
+            Command::System(system) => {
+                desk.display.system = system;
+                // Texts that are being edited have the former units.
+                desk.entries.clear();
+                units::set_system(ctx, system);
+            }
             Command::LockAxes => {
                 let front: Vec<Tab> = self.tabs_in_front().collect();
                 let locked = !front.iter().all(|tab| self.desk.locked.contains(tab));
@@ -169,6 +183,7 @@ impl Explorer {
             Command::Cancel if self.examples.is_open() => self.examples.close(),
             Command::Cancel if desk.machines.is_open() => desk.machines.close(),
             Command::Cancel if desk.load_cases.is_open() => desk.load_cases.close(),
+            Command::Cancel if desk.measured.is_open() => desk.measured.close(),
             Command::Cancel if self.help.about => self.help.about = false,
             Command::Cancel if self.help.manual.is_open() => self.help.manual.close(),
             Command::Cancel if self.lessons.is_open() => self.lessons.close(),

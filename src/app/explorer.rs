@@ -22,6 +22,7 @@ use crate::app::refusal::Refusal;
 use crate::app::session::{self, Keeper, Place};
 use crate::app::tab::Tab;
 use crate::app::tabs::frame::Frame;
+use crate::app::units;
 use crate::app::wake::wake;
 use crate::app::{panels, theme};
 use crate::engine::Store;
@@ -138,6 +139,7 @@ impl Explorer {
             self.desk.tabs.training.work.look(&ctx);
         }
         self.scale(&ctx);
+        units::set_system(&ctx, self.desk.display.system);
         self.palette.begin(&ctx);
         self.desk.figures.begin(ui);
         drawn::begin(&ctx);
@@ -183,6 +185,9 @@ impl Explorer {
         self.examples.ui(&ctx, &mut commands);
         self.desk.machines.ui(&ctx, &self.desk.document, &mut commands);
         self.desk.load_cases.ui(&ctx, &self.desk.document, &mut commands);
+        let mut measured = std::mem::take(&mut self.desk.measured);
+        measured.ui(&ctx, &self.desk.context(), &self.desk.entries, &mut commands);
+        self.desk.measured = measured;
         commands.extend(self.palette.ui(&ctx, &self.desk));
         self.settle(&ctx);
         self.execute_all(&ctx, &mut commands);
@@ -349,9 +354,9 @@ impl Explorer {
             let sliders = Panel::left("sliders").default_size(width).size_range(least..=most).show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     panels::operating_point::ui(ui, &context, &mut entries, commands);
-                    panels::bodies::ui(ui, context.document, &mut entries, commands);
+                    panels::bodies::ui(ui, &context, &mut entries, commands);
                     panels::surfaces::ui(ui, &context, &mut entries, commands);
-                    panels::lubricant::ui(ui, context.document, &mut own_laws, &mut entries, commands);
+                    panels::lubricant::ui(ui, &context, &mut own_laws, &mut entries, commands);
                     panels::model::ui(ui, &context, commands);
                     panels::plane::ui(ui, &context, commands);
                     ui.add_space(8.0);

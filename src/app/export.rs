@@ -6,6 +6,7 @@ use super::numbers;
 use crate::engine::Table;
 use crate::solver::full::heat::Rises;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use egui_plot::PlotPoint;
 use std::fmt::Write as _;
@@ -154,16 +155,16 @@ pub fn profile_across(answers: &Answers, x: f64) -> String {
 }
 
 /// Returns the read-outs as a tab-separated table for the clipboard.
-pub fn readouts_table(answers: &Answers) -> String {
+pub fn readouts_table(answers: &Answers, system: UnitSystem) -> String {
     let mut out = String::from("quantity\tdimensionless\tdimensional\n");
     let Some(picture) = answers.picture() else { return out };
     let (moes, s) = (picture.key.point.moes(), &picture.solution.scalars);
     let rows = [
         ("M", moes.m, String::new()),
         ("L", moes.l, String::new()),
-        ("H_c", s.h_c, numbers::length(picture.central_film_m())),
-        ("H_min", s.h_min, numbers::length(picture.minimum_film_m())),
-        ("P_max", s.p_max, numbers::pressure(picture.largest_pressure_pa())),
+        ("H_c", s.h_c, numbers::length(picture.central_film_m(), system)),
+        ("H_min", s.h_min, numbers::length(picture.minimum_film_m(), system)),
+        ("P_max", s.p_max, numbers::pressure(picture.largest_pressure_pa(), system)),
         ("traction", picture.traction, String::new()),
     ];
     for (name, value, unit) in rows {

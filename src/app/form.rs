@@ -7,6 +7,8 @@ use super::controls::{Entries, choice, explained, named};
 use super::document::Edit;
 use super::numbers;
 use super::theme::rich;
+use super::units;
+use crate::solver::physics::engineering::{QuantityKind, Unit};
 use egui::{DragValue, Ui};
 
 /// Width of the column of names.
@@ -58,9 +60,9 @@ impl<'a> Form<'a> {
         }
     }
 
-    /// Draws a number that can be dragged or typed. `scale` is the SI value of one displayed unit.
-    pub fn number(&mut self, ui: &mut Ui, field: &'static str, name: &str, value: &mut f64, scale: f64, tip: &str) {
-        let mut shown = *value / scale;
+    /// Draws a number that can be dragged or typed in a unit.
+    pub fn number(&mut self, ui: &mut Ui, field: &'static str, name: &str, value: &mut f64, unit: Unit, tip: &str) {
+        let mut shown = unit.number(*value);
         let before = shown;
         let drag = DragValue::new(&mut shown)
             .speed((0.01 * before.abs()).max(1e-12))
@@ -72,7 +74,7 @@ impl<'a> Form<'a> {
         let response = named(ui, response, name).on_hover_text(tip);
         // Leaving a field without a change must not round its value to the displayed digits.
         if response.changed() && short(shown) != short(before) {
-            *value = shown * scale;
+            *value = unit.si(shown);
             self.changed = Some(field);
         }
     }
@@ -89,21 +91,23 @@ impl<'a> Form<'a> {
     }
 
     /// Draws a row with a number and its unit.
-    pub fn row(&mut self, ui: &mut Ui, field: &'static str, unit: (&str, f64), value: &mut f64, tip: &str) {
+    pub fn row(&mut self, ui: &mut Ui, field: &'static str, kind: QuantityKind, value: &mut f64, tip: &str) {
+        let unit = kind.unit(units::system(ui.ctx()));
         row(ui, field, tip, |ui| {
-            self.number(ui, field, &plain(field), value, unit.1, tip);
-            ui.label(unit.0);
+            self.number(ui, field, &plain(field), value, unit, tip);
+            ui.label(unit.name);
         });
         self.message(ui, field);
     }
 
     /// Draws a row with both ends of an interval and their unit.
-    pub fn interval(&mut self, ui: &mut Ui, field: &'static str, unit: (&str, f64), ends: &mut (f64, f64), tip: &str) {
+    pub fn interval(&mut self, ui: &mut Ui, field: &'static str, kind: QuantityKind, ends: &mut (f64, f64), tip: &str) {
+        let unit = kind.unit(units::system(ui.ctx()));
         row(ui, field, tip, |ui| {
-            self.number(ui, field, &format!("{} from", plain(field)), &mut ends.0, unit.1, tip);
+            self.number(ui, field, &format!("{} from", plain(field)), &mut ends.0, unit, tip);
             ui.label("…");
-            self.number(ui, field, &format!("{} to", plain(field)), &mut ends.1, unit.1, tip);
-            ui.label(unit.0);
+            self.number(ui, field, &format!("{} to", plain(field)), &mut ends.1, unit, tip);
+            ui.label(unit.name);
         });
         self.message(ui, field);
     }

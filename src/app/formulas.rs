@@ -120,7 +120,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
             let text = |t: String| if prediction.in_range { RichText::new(t) } else { RichText::new(t).weak() };
             ui.label(text(formula.name().to_owned())).on_hover_text(&tip);
             ui.label(symbol(ui, "h", name));
-            ui.label(text(numbers::length(prediction.film_m))).on_hover_text(&tip);
+            ui.label(text(numbers::length(prediction.film_m, context.system))).on_hover_text(&tip);
             let against = own.map_or_else(|| "–".to_owned(), |h| numbers::percent(prediction.film_m / h - 1.0));
             ui.label(text(against)).on_hover_text(&tip);
             ui.end_row();
@@ -129,7 +129,7 @@ pub fn table(ui: &mut Ui, context: &Context<'_>) {
         for (name, subscript, own) in [("This contact", "c", central), ("This contact", "min", minimum)] {
             ui.strong(name);
             ui.label(symbol(ui, "h", subscript));
-            ui.strong(own.map_or_else(|| "–".to_owned(), numbers::length));
+            ui.strong(own.map_or_else(|| "–".to_owned(), |h| numbers::length(h, context.system)));
             ui.label("");
             ui.end_row();
         }
@@ -153,7 +153,7 @@ fn reduced_rows(ui: &mut Ui, context: &Context<'_>, central: Option<f64>) {
         let tip = format!("Moes’ film thickness with thermal reduction: {}{outside}", by.source());
         ui.label(text(format!("× {} {}", numbers::digits(factor, 3), by.name()))).on_hover_text(&tip);
         ui.label(symbol(ui, "h", "c"));
-        ui.label(text(numbers::length(film))).on_hover_text(&tip);
+        ui.label(text(numbers::length(film, context.system))).on_hover_text(&tip);
         let against = central.map_or_else(|| "–".to_owned(), |h| numbers::percent(film / h - 1.0));
         ui.label(text(against)).on_hover_text(&tip);
         ui.end_row();

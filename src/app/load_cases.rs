@@ -145,6 +145,11 @@ impl LoadCasesWindow {
         }
     }
 
+    fn methods(&self) -> Vec<Method> {
+        let methods = [(self.full, Method::Full), (self.reduced, Method::EMBEDDED)];
+        methods.into_iter().filter_map(|(wanted, method)| wanted.then_some(method)).collect()
+    }
+
     fn solve_ui(&mut self, ui: &mut Ui, document: &Document, commands: &mut Commands) {
         let cases = self.read.as_ref().and_then(|read| read.cases.as_ref().ok());
         let good = cases.map_or(0, |cases| cases.iter().filter(|case| case.request.is_ok()).count());
@@ -154,14 +159,23 @@ impl LoadCasesWindow {
             ui.add(Checkbox::new(&mut self.reduced, "Reduced")).on_hover_text(tip);
             let ready = good > 0 && (self.full || self.reduced);
             if ui.add_enabled(ready, Button::new("Solve all")).clicked() {
-                let methods = [(self.full, Method::Full), (self.reduced, Method::EMBEDDED)];
-                let methods = methods.into_iter().filter_map(|(wanted, method)| wanted.then_some(method)).collect();
-                commands.push(Command::OpenScene(Arc::new(scene(document, self.text.clone(), methods))));
+                let methods = self.methods();
+                commands.push(Command::SolveCases(Arc::new(scene(document, self.text.clone(), methods))));
+                self.open = false;
+            }
+            let tip = "Opens the table as a scene that can be saved, in place of the present one";
+            if ui.add_enabled(ready, Button::new("Open as a scene")).on_hover_text(tip).clicked() {
+                commands.push(Command::OpenScene(Arc::new(scene(document, self.text.clone(), self.methods()))));
                 self.open = false;
             }
             ui.weak("The Results tab shows the table and exports it as CSV");
         });
     }
+}
+
+/// Returns the load cases of a scene with the missing quantities of another document.
+pub fn scene_like(document: &Document, of: &Scene) -> Scene {
+    Scene { title: of.title.clone(), study: of.study.clone(), ..scene(document, String::new(), Vec::new()) }
 }
 
 /// Returns the scene that solves a table. Quantities missing in a line are taken from the document's contact.

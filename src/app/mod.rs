@@ -27,6 +27,7 @@ mod links;
 mod load_cases;
 mod machines;
 mod manual;
+mod measured;
 mod model_source;
 mod notice;
 mod numbers;

@@ -4,7 +4,9 @@
 use crate::app::refusal::Refusal;
 use crate::engine::job::Standing;
 use crate::scene::table::is_whole;
-use crate::solver::physics::contact::{Moes, OperatingPoint};
+use crate::solver::parameters::Quantity;
+use crate::solver::physics::contact::{ContactKind, Moes, OperatingPoint};
+use crate::solver::physics::engineering::{Digits, QuantityKind, Unit, UnitSystem};
 
 /// Thin space between a number and its unit.
 pub const THIN: char = '\u{2009}';
@@ -51,21 +53,44 @@ pub fn quantity(value: f64, unit: &str) -> String {
     if unit.is_empty() { significant(value) } else { format!("{}{THIN}{unit}", significant(value)) }
 }
 
-/// Returns a pressure in Pa as text in GPa or MPa.
-pub fn pressure(pascal: f64) -> String {
-    if pascal.abs() >= 1e8 { quantity(pascal * 1e-9, "GPa") } else { quantity(pascal * 1e-6, "MPa") }
+/// Returns a value in SI units as text, in the largest unit of the system that fits.
+pub fn shown(kind: QuantityKind, si: f64, system: UnitSystem) -> String {
+    in_unit(kind, si, kind.unit_of(system, si))
 }
 
-/// Returns a length in m as text in mm, µm or nm.
-pub fn length(metre: f64) -> String {
-    let size = metre.abs();
-    if size >= 1e-3 {
-        quantity(metre * 1e3, "mm")
-    } else if size >= 1e-7 || size == 0.0 {
-        quantity(metre * 1e6, "µm")
-    } else {
-        quantity(metre * 1e9, "nm")
-    }
+/// Returns a value in SI units as text, in the unit that fields of its kind have.
+pub fn in_field_unit(kind: QuantityKind, si: f64, system: UnitSystem) -> String {
+    in_unit(kind, si, kind.unit(system))
+}
+
+fn in_unit(kind: QuantityKind, si: f64, unit: Unit) -> String {
+    let number = unit.number(si);
+    let text = match kind.digits() {
+        Digits::Significant(count) => digits(number, count),
+        Digits::Decimals(count) if number.is_finite() => format!("{number:.count$}").replace('-', "−"),
+        Digits::Decimals(_) => "–".to_owned(),
+    };
+    if unit.name.is_empty() { text } else { format!("{text}{THIN}{}", unit.name) }
+}
+
+/// Returns a pressure in Pa as text.
+pub fn pressure(pascal: f64, system: UnitSystem) -> String {
+    shown(QuantityKind::Pressure, pascal, system)
+}
+
+/// Returns a length in m as text.
+pub fn length(metre: f64, system: UnitSystem) -> String {
+    shown(QuantityKind::Length, metre, system)
+}
+
+/// Returns the load of a line or a point contact as text.
+pub fn load(si: f64, kind: ContactKind, system: UnitSystem) -> String {
+    in_field_unit(Quantity::Load.kind(kind), si, system)
+}
+
+/// Returns a slide-to-roll ratio as text in percent.
+pub fn slide_to_roll(ratio: f64) -> String {
+    shown(QuantityKind::Percent, ratio, UnitSystem::default())
 }
 
 /// Returns a time in s as text in µs, ms or s.
@@ -199,8 +224,19 @@ mod tests {
             assert_eq!(counted(value), text);
         }
         assert_eq!([rounded(0.123_45, 3), rounded(-98_765.0, 2), rounded(0.0, 3)], [0.123, -99_000.0, 0.0]);
-        assert_eq!(pressure(1.1469e9), "1.147\u{2009}GPa");
-        assert_eq!(length(2.28e-7), "0.2280\u{2009}µm");
+        for (system, p, h, t) in [
+            (UnitSystem::Engineering, "1.147 GPa", "0.2280 µm", "80.0 °C"),
+            (UnitSystem::Imperial, "166.3 ksi", "8.976 µin", "176.0 °F"),
+            (UnitSystem::Si, "1.147e9 Pa", "2.280e−7 m", "353.1 K"),
+        ] {
+            let texts = [
+                pressure(1.1469e9, system),
+                length(2.28e-7, system),
+                shown(QuantityKind::Temperature, 353.149, system),
+            ];
+            assert_eq!(texts, [p, h, t].map(|text| text.replace(' ', &THIN.to_string())));
+        }
+        assert_eq!(slide_to_roll(0.1), "10.0\u{2009}%");
     }
 
     #[test]

@@ -15,6 +15,8 @@ pub enum Purpose {
     Profile(usize),
     /// Read a table of load cases.
     Cases,
+    /// Read a table of measured values.
+    Measured,
     /// Read a reduced model for a comparison.
     ComparedModel,
     /// Write a file with this content.
@@ -55,7 +57,10 @@ pub struct Words {
 impl Purpose {
     /// Returns true if a file is read. It must then exist, and no file is replaced.
     pub fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Inputs | Self::Profile(_) | Self::Cases | Self::ComparedModel)
+        matches!(
+            self,
+            Self::Open | Self::Inputs | Self::Profile(_) | Self::Cases | Self::Measured | Self::ComparedModel
+        )
     }
 
     /// Returns the texts of the dialog.
@@ -69,6 +74,7 @@ impl Purpose {
             Self::Inputs => ("Inputs from a table", "Read", "Table", &["csv"], ""),
             Self::Profile(_) => ("Profile of a surface from a table", "Read", "Table", &["csv"], ""),
             Self::Cases => ("Load cases from a table", "Read", "Table", &["csv"], ""),
+            Self::Measured => ("Measured data from a table", "Read", "Table", &["csv", "txt"], ""),
             Self::ComparedModel => ("Add a reduced model to the comparison", "Add", "Reduced model", &["rom"], ""),
             Self::Write(Written::Model, _) => ("Save the reduced model", "Save", "Reduced model", &["rom"], "line.rom"),
             Self::Write(Written::Table, _) => ("Export the data as CSV", "Export", "Table", &["csv"], "profiles.csv"),

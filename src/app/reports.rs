@@ -10,13 +10,36 @@ use crate::app::refusal::Refusal;
 use crate::engine::job::{Background, Ending, Given, Job, Reporter, Standing, Task};
 use crate::engine::{Store, Workbench};
 use crate::scene::{Answer, Method, Paper, Report, ReportFormat, Request, Stated, answer_or_full};
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::reduced::Trust;
 use egui::Context;
 use serde::{Deserialize, Serialize};
 
+/// Author, company and paper of reports. They are stored with the session.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ReportSettings {
+    /// Name of the author; may be empty.
+    pub author: String,
+    /// Company; may be empty.
+    pub company: String,
+    pub paper: Paper,
+}
+
+impl ReportSettings {
+    /// Largest number of letters of a name.
+    pub const LONGEST: usize = 120;
+
+    /// Returns true if the names fit into the heading of a report.
+    pub fn is_sound(&self) -> bool {
+        [&self.author, &self.company].iter().all(|name| name.chars().count() <= Self::LONGEST)
+    }
+}
+
 /// Report that is being made.
 #[derive(Default)]
 pub struct Reports {
+    pub settings: ReportSettings,
     of: Option<Of>,
     work: Background<Progress>,
 }
@@ -69,7 +92,13 @@ impl Task for Solves {
 
 impl Reports {
     /// Starts the report of a document's contact.
-    pub fn begin(&mut self, ctx: &Context, (document, answers): (&Document, &Answers), format: ReportFormat) {
+    pub fn begin(
+        &mut self,
+        ctx: &Context,
+        (document, answers): (&Document, &Answers),
+        format: ReportFormat,
+        system: UnitSystem,
+    ) {
         let (key, grid) = (document.key(), document.grid);
         let (mut methods, mut model) = (vec![Method::Full], None);
         if let Some(in_use) = answers.in_use(document).filter(|_| answers.trust(document) == Some(Trust::Trained)) {
@@ -80,9 +109,10 @@ impl Reports {
             .into_iter()
             .map(|method| Request { extent: document.extent(), ..key.request(grid, method) })
             .collect();
+        let ReportSettings { author, company, .. } = self.settings.clone();
         self.of = Some(Of {
             format,
-            stated: Stated { title: document.title.clone(), ..Stated::default() }
+            stated: Stated { title: document.title.clone(), author, company, system, ..Stated::default() }
                 .with(document.bodies_in_force(), document.view.oil.filter(|_| document.oil_counts()))
                 .with_lubricant(&document.point, &document.lubricant),
             answers: Vec::new(),
@@ -124,7 +154,7 @@ impl Reports {
                 let page = lesson.worksheet(&answers, &indices);
                 return Some(Ok(Purpose::Write(Written::Html, page.into_bytes().into())));
             }
-            let file = Report::new(&stated, &answers, Paper::default()).file(format);
+            let file = Report::new(&stated, &answers, self.settings.paper).file(format);
             let written = match format {
                 ReportFormat::Html => Written::Html,
                 ReportFormat::Pdf => Written::Pdf,

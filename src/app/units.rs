@@ -1,6 +1,7 @@
 //! Units of plots and exports, and locking of axes.
 
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Context, Id};
 use serde::{Deserialize, Serialize};
 
@@ -10,8 +11,8 @@ pub enum Units {
     /// Ratios to the quantities of the dry contact.
     #[default]
     Dimensionless,
-    /// Millimetres, gigapascals, micrometres.
-    Si,
+    /// Units of the chosen system.
+    Dimensional,
 }
 
 /// Plot settings of a tab.
@@ -47,34 +48,63 @@ impl Units {
 
     pub fn other(self) -> Self {
         match self {
-            Self::Dimensionless => Self::Si,
-            Self::Si => Self::Dimensionless,
+            Self::Dimensionless => Self::Dimensional,
+            Self::Dimensional => Self::Dimensionless,
         }
+    }
+}
+
+fn system_id() -> Id {
+    Id::unique("system of units")
+}
+
+/// Sets the system of units for everything that is drawn next.
+pub fn set_system(ctx: &Context, system: UnitSystem) {
+    ctx.data_mut(|data| data.insert_temp(system_id(), system));
+}
+
+/// Returns the system of units of the window.
+pub fn system(ctx: &Context) -> UnitSystem {
+    ctx.data(|data| data.get_temp(system_id())).unwrap_or_default()
+}
+
+/// Unit of an axis, and the factor from the values of a plot to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    pub factor: f64,
+    pub unit: &'static str,
+}
+
+impl Scale {
+    /// Returns the scale of plotted values of which one is `si` in SI units.
+    pub fn of(kind: QuantityKind, system: UnitSystem, si: f64) -> Self {
+        let unit = kind.unit(system);
+        Self { factor: si / unit.size, unit: unit.name }
     }
 }
 
 /// Factors from dimensionless values of a contact to the units of plots.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
-    /// Factor of lengths along the contact, a \[mm\].
-    pub length_mm: f64,
-    /// Factor of lengths across the contact, b \[mm\].
-    pub across_mm: f64,
-    /// Factor of pressures \[GPa\].
-    pub pressure_gpa: f64,
-    /// Factor of film thicknesses \[µm\].
-    pub film_um: f64,
+    /// Lengths along the contact, in units of a.
+    pub along: Scale,
+    /// Lengths across the contact, in units of b.
+    pub across: Scale,
+    /// Pressures.
+    pub pressure: Scale,
+    /// Film thicknesses.
+    pub film: Scale,
 }
 
 impl Scales {
     /// Returns the factors of a contact.
-    pub fn of(point: &OperatingPoint) -> Self {
+    pub fn of(point: &OperatingPoint, system: UnitSystem) -> Self {
         let hertz = point.hertz();
         Self {
-            length_mm: 1e3 * hertz.half_width_m,
-            across_mm: 1e3 * hertz.half_length_m,
-            pressure_gpa: 1e-9 * hertz.pressure_pa,
-            film_um: 1e6 * point.film_scale_m(),
+            along: Scale::of(QuantityKind::Length, system, hertz.half_width_m),
+            across: Scale::of(QuantityKind::Length, system, hertz.half_length_m),
+            pressure: Scale::of(QuantityKind::Pressure, system, hertz.pressure_pa),
+            film: Scale::of(QuantityKind::FilmThickness, system, point.film_scale_m()),
         }
     }
 }

@@ -16,6 +16,7 @@ use crate::solver::full::response::{Dynamics, Maxwell, check_lubricant};
 use crate::solver::observer::{NewtonStep, Observer, WalkStep};
 use crate::solver::physics::bodies::Material;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::training::TrainingObserver;
 use clap::Args;
 use serde::Serialize;
@@ -86,6 +87,9 @@ pub struct SolveArgs {
     /// Paper of the report
     #[arg(long, requires = "report", default_value = "a4", value_parser = ["a4", "letter"])]
     paper: String,
+    /// System of units of the report
+    #[arg(long, requires = "report", default_value = "engineering", value_parser = UnitSystem::ALL.map(UnitSystem::word))]
+    units: String,
     /// Estimate the discretisation error of H_c and H_min of a point contact by a second solve on another grid
     #[arg(long)]
     accuracy: bool,
@@ -128,7 +132,8 @@ impl SolveArgs {
             let kind = request.point.kind.name();
             format!("{}{} contact", kind.get(..1).unwrap_or("").to_uppercase(), kind.get(1..).unwrap_or(""))
         };
-        let stated = Stated::of_spec(self.title.clone().unwrap_or_else(title), &self.point.0);
+        let units = UnitSystem::of_word(&self.units).unwrap_or_default();
+        let stated = Stated::of_spec(self.title.clone().unwrap_or_else(title), &self.point.0, units);
         Stated { author: self.author.clone(), company: self.company.clone(), ..stated }
     }
 }

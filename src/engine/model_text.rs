@@ -4,6 +4,7 @@ use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
 use crate::solver::limits::digits;
 use crate::solver::parameters::Quantity;
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::lubricant::{Cavitation, Lubricant};
 use crate::solver::reduced::transient::TrajectoryModel;
 use crate::solver::reduced::{Domain, ReducedModel, Scheme, Window};
@@ -94,9 +95,9 @@ fn grid_of(window: &Window) -> String {
 /// Describes the varied, limited and fixed quantities of a trained range, and the laws of its lubricant, one per line.
 fn describe_domain(domain: &Domain) -> String {
     let interval = |quantity: Quantity, (low, high): (f64, f64)| {
-        let (unit, scale) = quantity.reading_unit(domain.contact);
-        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-        let [low, high] = [low, high].map(|value| digits(value / scale));
+        let shown = quantity.kind(domain.contact).unit(UnitSystem::Engineering);
+        let unit = if shown.name.is_empty() { String::new() } else { format!(" {}", shown.name) };
+        let [low, high] = [low, high].map(|value| digits(shown.number(value)));
         let ends = if low == high { low } else { format!("{low}…{high}") };
         format!("{} {ends}{unit}", quantity.short())
     };

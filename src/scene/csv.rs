@@ -1,4 +1,5 @@
-//! Reads tables as text: cells of CSV files and of cells pasted from a spreadsheet, and units in titles.
+//! Reads tables as text: cells of CSV files and of cells pasted from a spreadsheet, numbers without holes, and units in
+//! titles.
 
 use csv_core::ReadFieldResult;
 
@@ -44,5 +45,49 @@ pub(super) fn split_title(cell: &str) -> (&str, &str) {
     match cell.split_once(['[', '(']) {
         Some((word, unit)) => (word.trim(), unit.trim().trim_end_matches([']', ')']).trim()),
         None => (cell.trim(), ""),
+    }
+}
+
+/// Line of a text, from 1, and what is wrong there.
+pub(super) type LineProblem = (usize, String);
+
+/// Table of numbers without holes.
+pub(super) struct Numbers {
+    /// Titles, and the line on which they stand.
+    pub titles: Vec<String>,
+    pub title_line: usize,
+    /// Lines with as many numbers as there are titles.
+    pub lines: Vec<(usize, Vec<f64>)>,
+}
+
+/// Reads a table of numbers. Decimal signs are points or commas. Columns whose title begins with # may hold anything;
+/// their numbers are NaN.
+///
+/// # Errors
+/// With the first line that is empty, too long or too short, or that holds something else.
+pub(super) fn numbers(text: &str) -> Result<Numbers, LineProblem> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let filled = |cells: &Vec<String>| cells.iter().any(|cell| !cell.trim().is_empty());
+    let mut records = records(text).into_iter().filter(|(_, cells)| filled(cells));
+    let (title_line, titles) = records.next().ok_or((1, "the table is empty; it needs a line of titles".to_owned()))?;
+    let titles: Vec<String> = titles.iter().map(|title| title.trim().to_owned()).collect();
+    let line = |(line, cells): (usize, Vec<String>)| {
+        if cells.len() != titles.len() {
+            let (wanted, found) = (titles.len(), cells.len());
+            return Err((line, format!("{wanted} columns are needed as in the title line, but there are {found}")));
+        }
+        let numbers = titles.iter().zip(&cells).map(|(title, cell)| number(title, cell.trim()));
+        Ok((line, numbers.collect::<Result<Vec<f64>, String>>().map_err(|problem| (line, problem))?))
+    };
+    let lines = records.map(line).collect::<Result<Vec<_>, LineProblem>>()?;
+    Ok(Numbers { titles, title_line, lines })
+}
+
+fn number(title: &str, cell: &str) -> Result<f64, String> {
+    match cell.replace(',', ".").replace('−', "-").parse::<f64>() {
+        _ if title.starts_with('#') => Ok(f64::NAN),
+        _ if cell.is_empty() => Err(format!("`{title}` is missing")),
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(format!("`{title}` is `{cell}`, but must be a finite number")),
     }
 }

@@ -3,7 +3,7 @@
 //! Without units, times are in units of a_ref/u_ref and the other columns are relative to the reference contact. With
 //! a unit in the title, as in `time [ms]` or `load [N/mm]`, they are quantities.
 
-use super::csv::{records, split_title};
+use super::csv::{LineProblem, Numbers, numbers, split_title};
 use crate::host::files;
 use crate::solver::full::transient::{Inputs, Signal};
 use crate::solver::physics::contact::OperatingPoint;
@@ -118,17 +118,13 @@ fn column(title: &str, reference: &Reference) -> Result<(Column, f64), String> {
 }
 
 /// Same for a text. An error is the line number, from 1, and the problem.
-fn parse_into(inputs: &mut Inputs, text: &str, reference: &Reference) -> Result<f64, (usize, String)> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let filled = |cells: &Vec<String>| cells.iter().any(|cell| !cell.trim().is_empty());
-    let mut records = records(text).into_iter().filter(|(_, cells)| filled(cells));
-    let (title_line, titles) =
-        records.next().ok_or((1, "the file is empty; it needs a title line `T,load`".to_owned()))?;
+fn parse_into(inputs: &mut Inputs, text: &str, reference: &Reference) -> Result<f64, LineProblem> {
+    let Numbers { titles, title_line, lines } = numbers(text)?;
     let mut columns: Vec<(Column, f64)> = Vec::new();
     for title in &titles {
-        let (column, factor) = column(title.trim(), reference).map_err(|problem| (title_line, problem))?;
+        let (column, factor) = column(title, reference).map_err(|problem| (title_line, problem))?;
         if columns.iter().any(|(other, _)| *other == column) {
-            return Err((title_line, format!("the column `{}` occurs twice", title.trim())));
+            return Err((title_line, format!("the column `{title}` occurs twice")));
         }
         columns.push((column, factor));
     }
@@ -137,19 +133,8 @@ fn parse_into(inputs: &mut Inputs, text: &str, reference: &Reference) -> Result<
         return Err((title_line, "a column T and at least one of radius, speed, load are needed".to_owned()));
     };
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); titles.len()];
-    for (line, cells) in records {
-        if cells.len() != titles.len() {
-            let problem =
-                format!("{} columns are needed as in the title line, but there are {}", titles.len(), cells.len());
-            return Err((line, problem));
-        }
-        for (((cell, title), (column, factor)), values) in cells.iter().zip(&titles).zip(&columns).zip(&mut values) {
-            let (cell, title) = (cell.trim(), title.trim());
-            let value = match cell.replace(',', ".").replace('−', "-").parse::<f64>() {
-                _ if cell.is_empty() => return Err((line, format!("`{title}` is missing"))),
-                Ok(value) if value.is_finite() => value,
-                _ => return Err((line, format!("`{title}` is `{cell}`, but must be a finite number"))),
-            };
+    for (line, numbers) in lines {
+        for (((value, title), (column, factor)), values) in numbers.iter().zip(&titles).zip(&columns).zip(&mut values) {
             let scaled = value * factor;
             if let (Column::Time, Some(before)) = (column, values.last())
                 && scaled <= *before
@@ -157,7 +142,7 @@ fn parse_into(inputs: &mut Inputs, text: &str, reference: &Reference) -> Result<
                 let before = before / factor;
                 return Err((line, format!("{title} is {value}, but must be greater than the previous {before}")));
             }
-            if matches!(column, Column::Radius | Column::Load) && value <= 0.0 {
+            if matches!(column, Column::Radius | Column::Load) && *value <= 0.0 {
                 return Err((line, format!("`{title}` is {value}, but must be above zero")));
             }
             values.push(scaled);

@@ -1,10 +1,13 @@
 //! Checks all values of a scene before anything is computed from it.
 
+use super::check::count;
 use super::check::{Checked, number, refuse};
 use super::document::{Scene, TrainedModel};
 use super::error::SceneError;
 use super::expectation::{Expectation, Within};
 use super::grid;
+use super::kept_lubricant::KeptLubricant;
+use super::measured_data::measured_points;
 use super::study::Study;
 use super::view::View;
 use crate::solver::limits::plain;
@@ -69,6 +72,17 @@ fn view(view: &View) -> Checked {
     let (low, high) = Quantity::RadiusY.range();
     for rms in view.surfaces.iter().flatten() {
         number("view.surfaces", *rms, 0.0, LARGEST_RMS)?;
+    }
+    for table in &view.measured {
+        measured_points(&table.text).map_err(|error| refuse("view.measured", format!("is refused: {error}")))?;
+    }
+    count("view.lubricants (how many)", view.lubricants.len(), 0, KeptLubricant::MOST)?;
+    for KeptLubricant { name, viscosity_pa_s, alpha_per_pa, .. } in &view.lubricants {
+        count("view.lubricants.name (letters)", name.chars().count(), 1, KeptLubricant::LONGEST)?;
+        let ends = |quantity: Quantity| quantity.range();
+        let (viscosity, alpha) = (ends(Quantity::Viscosity), ends(Quantity::Alpha));
+        number("view.lubricants.viscosity_pa_s", *viscosity_pa_s, viscosity.0, viscosity.1)?;
+        number("view.lubricants.alpha_per_pa", *alpha_per_pa, alpha.0, alpha.1)?;
     }
     view.radius_y_m.iter().try_for_each(|&radius_y| number("view.radius_y_m", radius_y, low, high))?;
     if !view.when_m_moves.partners().contains(&view.when_l_moves) {

@@ -1,5 +1,7 @@
 //! Settings that the explorer stores with a scene, so that the scene opens as it was saved.
 
+use super::kept_lubricant::KeptLubricant;
+use super::measured_data::MeasuredTable;
 use super::written::is_default;
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::bodies::Bodies;
@@ -40,6 +42,12 @@ pub struct View {
     /// Bearing, gear pair or cam from which bodies and load were entered.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub machine: Option<Machine>,
+    /// Measured film thicknesses and friction coefficients.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub measured: Vec<MeasuredTable>,
+    /// Lubricants kept under a name, such as fitted ones.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lubricants: Vec<KeptLubricant>,
     /// R_y \[m\] of the last elliptical contact, stored while a line or circular contact is selected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_y_m: Option<f64>,
@@ -189,6 +197,8 @@ impl LubricantFollower {
 mod tests {
     use super::super::Scene;
     use super::*;
+    use crate::solver::physics::contact::OperatingPoint;
+    use crate::solver::physics::lubricant::Lubricant;
     use crate::solver::physics::machines::CamFollower;
 
     fn scene(view: View) -> Scene {
@@ -207,6 +217,8 @@ mod tests {
             surfaces: Some([1e-7, 2e-7]),
             height_measure: HeightMeasure::Ra,
             machine: Some(Machine::Cam(CamFollower::default())),
+            measured: vec![MeasuredTable { text: "speed,film [nm]\n1,60\n".to_owned() }],
+            lubricants: vec![KeptLubricant::of("Oil A", &OperatingPoint::TABLE_2_1, &Lubricant::default())],
             radius_y_m: Some(0.02),
             pressure_loss: Some(1.25e-7),
             deformation_loss: Some(3e-9),

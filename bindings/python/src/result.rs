@@ -8,6 +8,7 @@ use ehl_explorer::scene::{ContactSpec, Paper, Report, ReportFormat, Stated, Subs
 use ehl_explorer::solver::discrete::half_space::Stress;
 use ehl_explorer::solver::full::Solution;
 use ehl_explorer::solver::physics::contact::ContactKind;
+use ehl_explorer::solver::physics::engineering::UnitSystem;
 use pyo3::exceptions::{PyAttributeError, PyKeyError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -234,9 +235,17 @@ impl Result {
         Ok(py.import("copy")?.call_method1("deepcopy", (self.values(py)?,))?.cast_into::<PyDict>()?)
     }
 
-    /// Writes a report of one page. The extension of ``path`` selects HTML or PDF.
-    #[pyo3(signature = (path, title=None, author="", company="", paper="a4"))]
-    fn report(&self, path: PathBuf, title: Option<&str>, author: &str, company: &str, paper: &str) -> PyResult<()> {
+    /// Writes a report of one page. The extension of ``path`` selects HTML or PDF; ``units`` is si, engineering or imperial.
+    #[pyo3(signature = (path, title=None, author="", company="", paper="a4", units="engineering"))]
+    fn report(
+        &self,
+        path: PathBuf,
+        title: Option<&str>,
+        author: &str,
+        company: &str,
+        paper: &str,
+        units: &str,
+    ) -> PyResult<()> {
         let (answer, spec) = self.solved()?;
         let accepted =
             || refused(format!("{} has an unsupported file extension; accepted are html, pdf", path.display()));
@@ -247,7 +256,9 @@ impl Result {
             word => return Err(refused(format!("paper=\"{word}\" is not valid; accepted are a4, letter"))),
         };
         let title = title.map_or_else(|| format!("{} contact", answer.result.point.kind.name()), str::to_owned);
-        let stated = Stated::of_spec(title, spec);
+        let system = UnitSystem::of_word(units)
+            .ok_or_else(|| refused(format!("units=\"{units}\" is not valid; accepted are si, engineering, imperial")))?;
+        let stated = Stated::of_spec(title, spec, system);
         let stated = Stated { author: author.to_owned(), company: company.to_owned(), ..stated };
         let file = Report::new(&stated, std::slice::from_ref(answer), paper).file(format);
         atomic_file::replace(&path, &file).map_err(refused)

@@ -14,6 +14,7 @@ use crate::app::document::{Document, Edit, History};
 use crate::app::figure::Figures;
 use crate::app::load_cases::LoadCasesWindow;
 use crate::app::machines::MachineWindow;
+use crate::app::measured::{MeasuredPoints, MeasuredWindow};
 use crate::app::model_source::Models;
 use crate::app::notice::Notice;
 use crate::app::panels::headline::Headline;
@@ -24,6 +25,7 @@ use crate::app::tabs::all::Tabs;
 use crate::app::tabs::transient::TransientRuns;
 use crate::engine::job::{Standing, Wake};
 use crate::engine::{Store, Workbench};
+use crate::scene::Scene;
 use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::reduced::ReducedModel;
 use std::path::{Path, PathBuf};
@@ -52,6 +54,10 @@ pub struct Desk {
     pub figures: Figures,
     /// Tables of load cases.
     pub load_cases: LoadCasesWindow,
+    /// Measured data and fits.
+    pub measured: MeasuredWindow,
+    /// Points of the measured data of the document.
+    pub measured_points: MeasuredPoints,
     /// Forms of bearings, gears and cams.
     pub machines: MachineWindow,
     /// Question of the example scene that was opened.
@@ -89,6 +95,8 @@ impl Desk {
             tabs: Tabs::default(),
             figures: Figures::default(),
             load_cases: LoadCasesWindow::default(),
+            measured: MeasuredWindow::default(),
+            measured_points: MeasuredPoints::default(),
             machines: MachineWindow::default(),
             headline: None,
             finished: Vec::new(),
@@ -114,6 +122,8 @@ impl Desk {
             why: self.display.why,
             presenting: self.presentation.is_some(),
             fit: self.fit_plots,
+            system: self.display.system,
+            measured: self.measured_points.all(),
         }
     }
 
@@ -175,7 +185,8 @@ impl Desk {
     pub fn works(&self) -> Vec<Standing> {
         let context = self.context();
         let tabs = Tab::ALL.iter().flat_map(|tab| self.tabs.of(*tab).jobs(&context));
-        let made = [self.reports.standing(), self.figures.standing(), self.animations.standing()];
+        let (tables, animated) = (self.measured.standing(), self.animations.standing());
+        let made = [self.reports.standing(), self.figures.standing(), animated, tables];
         self.answers.standing().into_iter().chain(tabs).chain(made.into_iter().flatten()).collect()
     }
 
@@ -184,6 +195,8 @@ impl Desk {
         self.answers.receive();
         self.transient.receive(self.answers.store());
         self.tabs.receive();
+        self.measured.receive();
+        self.measured_points.follow(&self.document.view.measured);
     }
 
     /// Stops all jobs and keeps the results so far.
@@ -193,13 +206,14 @@ impl Desk {
         self.tabs.stop();
         self.reports.stop();
         self.animations.stop();
+        self.measured.stop();
         self.figures.stop();
     }
 
     /// Returns the parameters of the plots of a tab, for the caption of a figure.
     fn caption(&self, tab: Tab) -> String {
         let own = self.tabs.of(tab).caption(&self.context());
-        own.unwrap_or_else(|| caption::contact(&self.document.point, &self.document.lubricant))
+        own.unwrap_or_else(|| caption::contact(&self.document.point, &self.document.lubricant, self.display.system))
     }
 
     /// Runs the study of the scene on the screen.
@@ -207,6 +221,12 @@ impl Desk {
         let base = self.files.path.as_deref().and_then(Path::parent).unwrap_or(Path::new("")).to_owned();
         let bench = Workbench::on(self.answers.store(), base);
         self.tabs.results.start(self.document.to_scene(), bench, wake);
+    }
+
+    /// Solves a table of load cases in the Results tab.
+    pub fn solve_cases(&mut self, scene: &Scene, wake: Wake) {
+        let bench = Workbench::on(self.answers.store(), "");
+        self.tabs.results.solve_cases(scene.clone(), bench, wake);
     }
 
     /// Watches a campaign of the scene on the screen.

@@ -39,6 +39,7 @@ pub fn question(scene: &Scene) -> String {
         Study::LoadCases(_) => "What are film thickness and friction of each contact of a table?".to_owned(),
         Study::FormulaComparison(_) => "How large are the errors of a published film formula?".to_owned(),
         Study::MeasuredFilm(_) => "How close is the film thickness to published values?".to_owned(),
+        Study::Fit(_) => "Which constants of the lubricant explain measured film and friction?".to_owned(),
         Study::Starvation(_) => "How thin is the film of a starved contact?".to_owned(),
         Study::Transition(_) => "How does a rigid, lightly loaded contact approach the dry contact?".to_owned(),
         Study::InformationLoss(_) => "How many modes do transient pressures need, and in which frame?".to_owned(),

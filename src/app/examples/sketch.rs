@@ -152,6 +152,12 @@ pub(super) fn marks(scene: &Scene) -> Vec<Mark> {
             let film = |x: f32| 0.25 + 2.0 * (x - 0.45).powi(4) + if x > 0.8 { -0.1 } else { 0.0 };
             vec![Line(Film, curve(film)), Dots(Quiet, dots(9, |x| film(x) + 0.03))]
         }
+        Study::Fit(_) => {
+            let law = |x: f32| 0.1 + 0.75 * x.powf(0.7);
+            let off = [0.05, -0.04, 0.03, -0.05, 0.04, -0.02, 0.05, -0.03];
+            let measured = |x: f32| law(x) + off[((8.0 * x) as usize).min(7)];
+            vec![Line(Film, curve(law)), Dots(Quiet, dots(8, measured))]
+        }
         Study::Starvation(_) => {
             let law = |x: f32| 0.85 * 1.6 * x / (1.0 + (1.6 * x).powi(3)).powf(1.0 / 3.0);
             vec![Line(Quiet, curve(law)), Dots(Film, dots(8, law))]

@@ -334,7 +334,7 @@ impl Dialog {
             ui.label("Units");
             ui.horizontal(|ui| {
                 ui.selectable_value(&mut settings.units, Units::Dimensionless, "Dimensionless");
-                ui.selectable_value(&mut settings.units, Units::Si, "SI");
+                ui.selectable_value(&mut settings.units, Units::Dimensional, "With units");
             });
             ui.end_row();
         });

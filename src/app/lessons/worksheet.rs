@@ -6,6 +6,7 @@ use crate::app::document::{Document, Edit, Key};
 use crate::app::refusal::Refusal;
 use crate::engine::Answer;
 use crate::scene::{Page, profiles};
+use crate::solver::physics::engineering::UnitSystem;
 use std::fmt::Write as _;
 
 impl Lesson {
@@ -93,7 +94,7 @@ fn figures(answer: &Answer) -> String {
     let moes = answer.request.point.moes();
     let caption = format!("M {:.3}, L {:.3}", moes.m, moes.l);
     let page = Page { width_mm: 80.0, height_mm: 52.0, caption, ..Page::default() };
-    let charts = profiles(std::slice::from_ref(answer)).map(|figure| figure.to_svg(&page));
+    let charts = profiles(std::slice::from_ref(answer), UnitSystem::default()).map(|figure| figure.to_svg(&page));
     format!("<div>\n{}\n</div>\n", charts.join("\n"))
 }
 

@@ -6,6 +6,7 @@ use crate::app::refusal::Refusal;
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::{Inputs, Signal, TimeStep};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::machines::{Machine, MachineContact};
 
 /// Number of lines of a table of load cases.
@@ -23,18 +24,20 @@ const MOST_STEPS: f64 = 2000.0;
 pub(super) fn load_cases(machine: &Machine, document: &Document) -> Result<String, Refusal> {
     let base = document.bodies();
     let modulus_pa = base.reduced_modulus_pa()?;
-    let (_, unit, size) = MachineKind::of(machine).position();
+    let (_, position) = MachineKind::of(machine).position();
+    let unit = position.unit(UnitSystem::Engineering);
     let (kind, load) = match machine.kind() {
         ContactKind::Line => ("line", "w [N/mm]"),
         ContactKind::Point => ("point", "w [N]"),
     };
-    let mut text = format!("name;#position [{unit}];contact;R [mm];R_y [mm];u1 [m/s];u2 [m/s];{load};E' [GPa]\n");
+    let mut text =
+        format!("name;#position [{}];contact;R [mm];R_y [mm];u1 [m/s];u2 [m/s];{load};E' [GPa]\n", unit.name);
     for (k, contact) in machine.path(modulus_pa, LINES)?.iter().enumerate() {
         let Ok(point) = contact.operating_point(base, document.point) else { continue };
         let [first, second] = point.surface_speeds();
         let across = point.radius_y_m.map_or(String::new(), |radius| format!("{:.9}", 1e3 * radius));
         let load = if point.kind == ContactKind::Line { 1e-3 * point.load } else { point.load };
-        let (name, place, modulus) = (machine.name(), contact.position / size, 1e-9 * point.modulus_pa);
+        let (name, place, modulus) = (machine.name(), unit.number(contact.position), 1e-9 * point.modulus_pa);
         let radius = 1e3 * point.radius_m;
         text += &format!(
             "{name} {};{place:.4};{kind};{radius:.9};{across};{first:.9};{second:.9};{load:.9};{modulus:.9}\n",

@@ -1,8 +1,8 @@
 //! Form of a rolling bearing.
 
-use super::field::{DEGREE, Field, MICRO, MM, NEWTON, NONE, RPM, whole};
+use super::field::{CLEARANCE, DEGREE, FORCE, Field, LENGTH, NUMBER, RPM, whole};
 use crate::app::controls::{Entries, NAME_WIDTH, choice};
-use crate::solver::physics::engineering::Dimension;
+use crate::solver::physics::engineering::{Dimension, QuantityKind};
 use crate::solver::physics::machines::{Bearing, Element, Race};
 use egui::{Grid, Ui};
 
@@ -13,7 +13,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Pitch diameter",
         row: ("Pitch diameter", "d", "m"),
-        unit: MM,
+        stored: LENGTH,
         tip: "Mean of the diameters of both raceways at their bottom",
         dimension: |_| Dimension::Length,
         get: |b| Some(b.pitch_diameter_m),
@@ -22,7 +22,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Element diameter",
         row: ("Ball, roller", "D", ""),
-        unit: MM,
+        stored: LENGTH,
         tip: "Diameter of the balls or rollers",
         dimension: |_| Dimension::Length,
         get: |b| Some(b.element_diameter_m),
@@ -31,7 +31,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Number of elements",
         row: ("Number", "Z", ""),
-        unit: NONE,
+        stored: NUMBER,
         tip: "Number of balls or rollers",
         dimension: |_| Dimension::Ratio,
         get: |b| Some(f64::from(b.elements)),
@@ -40,7 +40,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Inner conformity",
         row: ("Groove, inner", "f", "i"),
-        unit: ("%", 0.01, 0.01),
+        stored: (QuantityKind::Percent, 1.0),
         tip: "Radius of the inner groove over the diameter of the ball, usually 51 to 53 %",
         dimension: |_| Dimension::Ratio,
         get: |b| ball(&mut { b.element }).map(|(inner, ..)| *inner),
@@ -49,7 +49,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Outer conformity",
         row: ("Groove, outer", "f", "o"),
-        unit: ("%", 0.01, 0.01),
+        stored: (QuantityKind::Percent, 1.0),
         tip: "Radius of the outer groove over the diameter of the ball, usually 51 to 54 %",
         dimension: |_| Dimension::Ratio,
         get: |b| ball(&mut { b.element }).map(|(_, outer, _)| *outer),
@@ -58,7 +58,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Contact angle",
         row: ("Contact angle", "α", ""),
-        unit: DEGREE,
+        stored: DEGREE,
         tip: "Contact angle of the unloaded bearing without clearance; 0 for a deep-groove bearing",
         dimension: |_| Dimension::Angle,
         get: |b| ball(&mut { b.element }).map(|(.., angle)| *angle),
@@ -67,7 +67,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Roller length",
         row: ("Length", "l", ""),
-        unit: MM,
+        stored: LENGTH,
         tip: "Effective length of the rollers",
         dimension: |_| Dimension::Length,
         get: |b| roller(&mut { b.element }).map(|(length, _)| *length),
@@ -76,7 +76,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Crown radius",
         row: ("Crown radius", "", ""),
-        unit: MM,
+        stored: LENGTH,
         tip: "Radius of the crown of the rollers. The contact is then elliptical. “none” for a line contact",
         dimension: |_| Dimension::Length,
         get: |b| roller(&mut { b.element }).map(|(_, crown)| crown.unwrap_or(f64::INFINITY)),
@@ -85,7 +85,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Diametral clearance",
         row: ("Clearance", "P", "d"),
-        unit: MICRO,
+        stored: CLEARANCE,
         tip: "Diametral clearance of the mounted bearing; negative for a radial preload",
         dimension: |_| Dimension::Length,
         get: |b| Some(b.clearance_m),
@@ -94,7 +94,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Inner speed",
         row: ("Inner speed", "n", "i"),
-        unit: RPM,
+        stored: RPM,
         tip: "Speed of the inner ring",
         dimension: |_| Dimension::Rotation,
         get: |b| Some(b.inner_rpm),
@@ -103,7 +103,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Outer speed",
         row: ("Outer speed", "n", "o"),
-        unit: RPM,
+        stored: RPM,
         tip: "Speed of the outer ring",
         dimension: |_| Dimension::Rotation,
         get: |b| Some(b.outer_rpm),
@@ -112,7 +112,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Radial load",
         row: ("Radial load", "F", "r"),
-        unit: NEWTON,
+        stored: FORCE,
         tip: "Radial load of the bearing",
         dimension: |_| Dimension::Force,
         get: |b| Some(b.radial_n),
@@ -121,7 +121,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Axial load",
         row: ("Axial load", "F", "a"),
-        unit: NEWTON,
+        stored: FORCE,
         tip: "Axial load of the bearing",
         dimension: |_| Dimension::Force,
         get: |b| ball(&mut { b.element }).map(|_| b.axial_n),
@@ -130,7 +130,7 @@ const FIELDS: [Field<Bearing>; 14] = [
     Field {
         name: "Orbit angle",
         row: ("Orbit angle", "ψ", ""),
-        unit: DEGREE,
+        stored: DEGREE,
         tip: "Angle of the element from the direction of the radial load; 0 is the heaviest contact",
         dimension: |_| Dimension::Angle,
         get: |b| Some(b.orbit_deg),

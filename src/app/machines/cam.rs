@@ -1,8 +1,8 @@
 //! Form of a cam with its follower.
 
-use super::field::{DEGREE, Field, MM, NEWTON, RPM};
+use super::field::{DEGREE, FORCE, Field, LENGTH, RPM};
 use crate::app::controls::{Entries, NAME_WIDTH, choice, named};
-use crate::solver::physics::engineering::Dimension;
+use crate::solver::physics::engineering::{Dimension, QuantityKind};
 use crate::solver::physics::machines::{CamFollower, Follower, Lift, lift_table};
 use egui::{FontId, Grid, ScrollArea, TextEdit, Ui};
 
@@ -15,7 +15,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Base circle radius",
         row: ("Base circle", "r", "b"),
-        unit: MM,
+        stored: LENGTH,
         tip: "Radius of the base circle",
         dimension: |_| Dimension::Length,
         get: |c| Some(c.base_radius_m),
@@ -24,7 +24,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Roller radius",
         row: ("Roller radius", "r", "r"),
-        unit: MM,
+        stored: LENGTH,
         tip: "Radius of the roller of the follower",
         dimension: |_| Dimension::Length,
         get: |c| if let Follower::Roller { radius_m } = c.follower { Some(radius_m) } else { None },
@@ -33,7 +33,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Largest lift",
         row: ("Lift", "L", ""),
-        unit: MM,
+        stored: LENGTH,
         tip: "Largest lift of the follower",
         dimension: |_| Dimension::Length,
         get: |c| if let Lift::Polynomial { lift_m, .. } = c.lift { Some(lift_m) } else { None },
@@ -46,7 +46,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Half of the event",
         row: ("Half event", "β", ""),
-        unit: DEGREE,
+        stored: DEGREE,
         tip: "Cam angle between the begin of the lift and its maximum",
         dimension: |_| Dimension::Angle,
         get: |c| if let Lift::Polynomial { half_event_deg, .. } = c.lift { Some(half_event_deg) } else { None },
@@ -59,7 +59,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Eccentricity",
         row: ("Eccentricity", "e", ""),
-        unit: MM,
+        stored: LENGTH,
         tip: "Distance of the centre of the circular cam from its axis; the lift is 2e",
         dimension: |_| Dimension::Length,
         get: |c| if let Lift::Eccentric { eccentricity_m } = c.lift { Some(eccentricity_m) } else { None },
@@ -68,7 +68,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Cam width",
         row: ("Width", "b", ""),
-        unit: MM,
+        stored: LENGTH,
         tip: "Width of the contact between cam and follower",
         dimension: |_| Dimension::Length,
         get: |c| Some(c.width_m),
@@ -77,7 +77,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Cam speed",
         row: ("Cam speed", "n", ""),
-        unit: RPM,
+        stored: RPM,
         tip: "Speed of the cam",
         dimension: |_| Dimension::Rotation,
         get: |c| Some(c.rpm),
@@ -86,7 +86,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Spring preload",
         row: ("Preload", "F", "0"),
-        unit: NEWTON,
+        stored: FORCE,
         tip: "Force of the spring at zero lift",
         dimension: |_| Dimension::Force,
         get: |c| Some(c.preload_n),
@@ -95,7 +95,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Spring rate",
         row: ("Spring rate", "k", ""),
-        unit: ("N/mm", 1e3, 1e3),
+        stored: (QuantityKind::Stiffness, 1.0),
         tip: "Stiffness of the spring",
         dimension: |_| Dimension::Stiffness,
         get: |c| Some(c.spring_n_per_m),
@@ -104,7 +104,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Moving mass",
         row: ("Moving mass", "m", ""),
-        unit: ("kg", 1.0, 1.0),
+        stored: (QuantityKind::Mass, 1.0),
         tip: "Mass that moves with the follower, with a third of the spring",
         dimension: |_| Dimension::Mass,
         get: |c| Some(c.mass_kg),
@@ -113,7 +113,7 @@ const FIELDS: [Field<CamFollower>; 11] = [
     Field {
         name: "Cam angle",
         row: ("Cam angle", "θ", ""),
-        unit: DEGREE,
+        stored: DEGREE,
         tip: "Cam angle of the contact; 0 is the nose of the laws of lift",
         dimension: |_| Dimension::Angle,
         get: |c| Some(c.angle_deg),

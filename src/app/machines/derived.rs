@@ -1,15 +1,18 @@
 //! Values that follow from a machine, shown next to its form.
 
-use crate::app::numbers::{length, pressure, quantity};
+use crate::app::numbers::{self, in_field_unit, quantity, slide_to_roll};
 use crate::app::refusal::Refusal;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use crate::solver::physics::machines::{Machine, MachineContact};
 
 /// Row of the derived values: name, value, tooltip.
 pub(super) type Row = (&'static str, String, &'static str);
 
 /// Returns the values of the contact.
-pub(super) fn of_contact(point: &OperatingPoint, contact: &MachineContact) -> Vec<Row> {
+pub(super) fn of_contact(point: &OperatingPoint, contact: &MachineContact, system: UnitSystem) -> Vec<Row> {
+    let length = |metre: f64| numbers::length(metre, system);
+    let speed = |si: f64| in_field_unit(QuantityKind::Speed, si, system);
     let hertz = point.hertz();
     let [first, second] = point.surface_speeds();
     let mut rows = vec![("R", length(point.radius_m), "Reduced radius along the rolling direction")];
@@ -17,19 +20,24 @@ pub(super) fn of_contact(point: &OperatingPoint, contact: &MachineContact) -> Ve
         rows.push(("R_y", length(radius_y), "Reduced radius across the rolling direction"));
     }
     rows.extend([
-        ("u_1", quantity(first, "m/s"), "Speed of body 1 relative to the contact"),
-        ("u_2", quantity(second, "m/s"), "Speed of body 2 relative to the contact"),
-        ("u_m", quantity(point.speed_m_per_s, "m/s"), "Mean entrainment speed"),
-        ("SRR", quantity(100.0 * point.sliding.slide_to_roll_ratio, "%"), "(u₂ − u₁)/u_m"),
+        ("u_1", speed(first), "Speed of body 1 relative to the contact"),
+        ("u_2", speed(second), "Speed of body 2 relative to the contact"),
+        ("u_m", speed(point.speed_m_per_s), "Mean entrainment speed"),
+        ("SRR", slide_to_roll(point.sliding.slide_to_roll_ratio), "(u₂ − u₁)/u_m"),
     ]);
-    rows.push(match point.kind {
-        ContactKind::Line => ("w", quantity(1e-3 * point.load, "N/mm"), "Load per length"),
-        ContactKind::Point => ("w", quantity(point.load, "N"), "Load of this contact"),
-    });
+    let load = match point.kind {
+        ContactKind::Line => "Load per length",
+        ContactKind::Point => "Load of this contact",
+    };
+    rows.push(("w", numbers::load(point.load, point.kind, system), load));
     if let Some(long) = contact.length_m {
-        rows.push(("Force", quantity(point.load * long, "N"), "Load per length times the length of the contact"));
+        rows.push((
+            "Force",
+            in_field_unit(QuantityKind::Force, point.load * long, system),
+            "Load per length times the length of the contact",
+        ));
     }
-    rows.push(("p_H", pressure(hertz.pressure_pa), "Hertzian pressure"));
+    rows.push(("p_H", numbers::pressure(hertz.pressure_pa, system), "Hertzian pressure"));
     rows
 }
 
@@ -37,36 +45,30 @@ pub(super) fn of_contact(point: &OperatingPoint, contact: &MachineContact) -> Ve
 ///
 /// # Errors
 /// A sentence if the machine does not exist.
-pub(super) fn of_machine(machine: &Machine, modulus_pa: f64) -> Result<Vec<Row>, Refusal> {
+pub(super) fn of_machine(machine: &Machine, modulus_pa: f64, system: UnitSystem) -> Result<Vec<Row>, Refusal> {
+    let shown = |kind, si| in_field_unit(kind, si, system);
+    let length = |metre: f64| numbers::length(metre, system);
+    let angle = |radians: f64| shown(QuantityKind::Angle, radians);
     Ok(match machine {
         Machine::Bearing(bearing) => {
             let state = bearing.state(modulus_pa)?;
-            let degrees = |angle: f64| quantity(angle.to_degrees(), "°");
             vec![
-                ("Q_max", quantity(state.largest_load_n, "N"), "Load of the heaviest element"),
-                ("Contact angle", degrees(state.contact_angle), "Contact angle of the heaviest element under load"),
-                (
-                    "Loaded zone",
-                    format!("±{}", degrees(state.loaded_zone)),
-                    "Orbit angles at which elements carry load",
-                ),
-                ("Cage", quantity(state.cage_speed * 30.0 / std::f64::consts::PI, "rpm"), "Speed of the cage"),
+                ("Q_max", shown(QuantityKind::Force, state.largest_load_n), "Load of the heaviest element"),
+                ("Contact angle", angle(state.contact_angle), "Contact angle of the heaviest element under load"),
+                ("Loaded zone", format!("±{}", angle(state.loaded_zone)), "Orbit angles at which elements carry load"),
+                ("Cage", shown(QuantityKind::Rotation, state.cage_speed), "Speed of the cage"),
             ]
         }
         Machine::Gear(pair) => {
             let geometry = pair.geometry()?;
             vec![
                 ("Centre distance", length(geometry.centre_distance_m), "Without backlash"),
-                (
-                    "Working angle",
-                    quantity(geometry.working_angle.to_degrees(), "°"),
-                    "Working transverse pressure angle",
-                ),
+                ("Working angle", angle(geometry.working_angle), "Working transverse pressure angle"),
                 ("ε_α", quantity(geometry.contact_ratio, ""), "Transverse contact ratio"),
                 ("ε_β", quantity(geometry.overlap_ratio, ""), "Overlap ratio"),
                 (
                     "Load share",
-                    quantity(100.0 * geometry.share(pair.position_m), "%"),
+                    shown(QuantityKind::Percent, geometry.share(pair.position_m)),
                     "Share of a single pair of spur teeth",
                 ),
             ]
@@ -75,8 +77,8 @@ pub(super) fn of_machine(machine: &Machine, modulus_pa: f64) -> Result<Vec<Row>,
             let state = cam.state()?;
             vec![
                 ("Lift", length(state.lift_m), "Lift at this cam angle"),
-                ("Acceleration", quantity(state.acceleration, "m/s²"), "Acceleration of the follower"),
-                ("Pressure angle", quantity(state.pressure_angle.to_degrees(), "°"), "Between force and motion"),
+                ("Acceleration", shown(QuantityKind::Acceleration, state.acceleration), "Acceleration of the follower"),
+                ("Pressure angle", angle(state.pressure_angle), "Between force and motion"),
             ]
         }
     })

@@ -1,8 +1,8 @@
 //! Form of a gear pair.
 
-use super::field::{DEGREE, Field, MM, NONE, RPM, whole};
+use super::field::{DEGREE, Field, LENGTH, NUMBER, RPM, whole};
 use crate::app::controls::Entries;
-use crate::solver::physics::engineering::Dimension;
+use crate::solver::physics::engineering::{Dimension, QuantityKind};
 use crate::solver::physics::machines::GearPair;
 use egui::Ui;
 use std::f64::consts::PI;
@@ -11,7 +11,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Teeth of the pinion",
         row: ("Pinion teeth", "z", "1"),
-        unit: NONE,
+        stored: NUMBER,
         tip: "Number of teeth of the pinion, which drives. It is body 1",
         dimension: |_| Dimension::Ratio,
         get: |p| Some(f64::from(p.teeth.0)),
@@ -20,7 +20,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Teeth of the wheel",
         row: ("Wheel teeth", "z", "2"),
-        unit: NONE,
+        stored: NUMBER,
         tip: "Number of teeth of the wheel. It is body 2",
         dimension: |_| Dimension::Ratio,
         get: |p| Some(f64::from(p.teeth.1)),
@@ -29,7 +29,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Module",
         row: ("Module", "m", "n"),
-        unit: MM,
+        stored: LENGTH,
         tip: "Normal module",
         dimension: |_| Dimension::Length,
         get: |p| Some(p.module_m),
@@ -38,7 +38,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Pressure angle",
         row: ("Pressure angle", "α", "n"),
-        unit: DEGREE,
+        stored: DEGREE,
         tip: "Normal pressure angle of the basic rack, usually 20°",
         dimension: |_| Dimension::Angle,
         get: |p| Some(p.pressure_angle_deg),
@@ -47,7 +47,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Helix angle",
         row: ("Helix angle", "β", ""),
-        unit: DEGREE,
+        stored: DEGREE,
         tip: "Helix angle at the reference cylinder; 0 for spur gears",
         dimension: |_| Dimension::Angle,
         get: |p| Some(p.helix_angle_deg),
@@ -56,7 +56,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Profile shift of the pinion",
         row: ("Profile shift", "x", "1"),
-        unit: NONE,
+        stored: NUMBER,
         tip: "Profile shift coefficient of the pinion. Both shifts determine the centre distance without backlash",
         dimension: |_| Dimension::Ratio,
         get: |p| Some(p.shifts.0),
@@ -65,7 +65,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Profile shift of the wheel",
         row: ("Profile shift", "x", "2"),
-        unit: NONE,
+        stored: NUMBER,
         tip: "Profile shift coefficient of the wheel",
         dimension: |_| Dimension::Ratio,
         get: |p| Some(p.shifts.1),
@@ -74,7 +74,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Face width",
         row: ("Face width", "b", ""),
-        unit: MM,
+        stored: LENGTH,
         tip: "Common face width of both gears",
         dimension: |_| Dimension::Length,
         get: |p| Some(p.face_width_m),
@@ -83,7 +83,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Pinion speed",
         row: ("Pinion speed", "n", "1"),
-        unit: RPM,
+        stored: RPM,
         tip: "Speed of the pinion",
         dimension: |_| Dimension::Rotation,
         get: |p| Some(p.pinion_rpm),
@@ -92,7 +92,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Pinion torque",
         row: ("Torque, power", "T", "1"),
-        unit: ("N m", 1.0, 1.0),
+        stored: (QuantityKind::Torque, 1.0),
         tip: "Torque on the pinion, or the transmitted power with its unit: 30 kW",
         dimension: |p| Dimension::Torque { turning: Some(p.pinion_rpm * PI / 30.0) },
         get: |p| Some(p.torque_n_m),
@@ -101,7 +101,7 @@ const FIELDS: [Field<GearPair>; 11] = [
     Field {
         name: "Distance from the pitch point",
         row: ("Position", "g", ""),
-        unit: MM,
+        stored: LENGTH,
         tip: "Distance from the pitch point along the path of contact; negative where the teeth approach",
         dimension: |_| Dimension::Length,
         get: |p| Some(p.position_m),

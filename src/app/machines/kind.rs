@@ -1,5 +1,6 @@
 //! Kinds of machines that have a form.
 
+use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::physics::machines::{Bearing, CamFollower, GearPair, Machine};
 
 /// Kind of a machine.
@@ -52,12 +53,12 @@ impl MachineKind {
         }
     }
 
-    /// Returns the name of the position along the path, its unit, and the value of that unit as it is stored.
-    pub(super) fn position(self) -> (&'static str, &'static str, f64) {
+    /// Returns the name of the position along the path and its kind.
+    pub(super) fn position(self) -> (&'static str, QuantityKind) {
         match self {
-            Self::Bearing => ("Orbit angle", "°", 1f64.to_radians()),
-            Self::Gear => ("Distance from the pitch point", "mm", 1e-3),
-            Self::Cam => ("Cam angle", "°", 1f64.to_radians()),
+            Self::Bearing => ("Orbit angle", QuantityKind::Angle),
+            Self::Gear => ("Distance from the pitch point", QuantityKind::Length),
+            Self::Cam => ("Cam angle", QuantityKind::Angle),
         }
     }
 }

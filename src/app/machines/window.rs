@@ -8,10 +8,13 @@ use crate::app::command::Command;
 use crate::app::context::Commands;
 use crate::app::controls::{Entries, RangeSlider, message_ui};
 use crate::app::document::{Document, Edit};
+use crate::app::numbers;
 use crate::app::refusal::Refusal;
 use crate::app::tab::Tab;
 use crate::app::theme::rich;
+use crate::app::units;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::machines::Machine;
 use egui::{Button, Context, Grid, ScrollArea, TextStyle, Ui, Window};
 
@@ -126,7 +129,7 @@ impl MachineWindow {
     fn derived_ui(&mut self, ui: &mut Ui, kind: MachineKind, document: &Document) -> bool {
         self.slider_ui(ui, kind, document);
         let machine = self.drafts[kind as usize].clone();
-        let shown = trial(&machine, document);
+        let shown = trial(&machine, document, units::system(ui.ctx()));
         let modulus = document.bodies().reduced_modulus_pa().unwrap_or(document.point.modulus_pa);
         sketch::ui(ui, &machine, modulus, DERIVED - 10.0);
         ui.scope(|ui| {
@@ -185,37 +188,39 @@ impl MachineWindow {
     /// Draws the slider along the path, and keeps the position on the path.
     fn slider_ui(&mut self, ui: &mut Ui, kind: MachineKind, document: &Document) {
         let draft = &mut self.drafts[kind as usize];
-        let (name, unit, size) = kind.position();
+        let (name, position) = kind.position();
+        let unit = position.unit(units::system(ui.ctx()));
         let modulus = document.bodies().reduced_modulus_pa().unwrap_or(document.point.modulus_pa);
         let Ok((from, to)) = draft.extent(modulus) else { return };
         let here = match draft {
-            Machine::Bearing(bearing) => bearing.orbit_deg,
-            Machine::Gear(pair) => 1e3 * pair.position_m,
-            Machine::Cam(cam) => cam.angle_deg,
+            Machine::Bearing(bearing) => bearing.orbit_deg.to_radians(),
+            Machine::Gear(pair) => pair.position_m,
+            Machine::Cam(cam) => cam.angle_deg.to_radians(),
         };
-        ui.label(format!("{name}, {:.1} to {:.1} {unit}", from / size, to / size));
+        let ends = [from, to].map(|end| numbers::digits(unit.number(end), 3));
+        ui.label(format!("{name}, {} to {} {}", ends[0], ends[1], unit.name));
         let slider = RangeSlider {
             name: "Position along the path",
-            range: from / size..=to / size,
+            range: unit.number(from)..=unit.number(to),
             marked: None,
             home: 0.0,
             tooltip: "Position of the contact along its path; a double click sets 0",
             logarithmic: false,
         };
-        if let Some(moved) = slider.show(ui, here, DERIVED - 20.0) {
-            *draft = draft.at(moved.clamp(from / size, to / size) * size);
+        if let Some(moved) = slider.show(ui, unit.number(here), DERIVED - 20.0) {
+            *draft = draft.at(unit.si(moved).clamp(from, to));
             self.entries.clear();
         }
     }
 }
 
 /// Returns the values of a machine as it would be used now, or why the document cannot take it.
-fn trial(machine: &Machine, document: &Document) -> Result<Vec<Row>, Refusal> {
+fn trial(machine: &Machine, document: &Document, system: UnitSystem) -> Result<Vec<Row>, Refusal> {
     let mut with = document.clone();
     with.set_machine(machine.clone())?;
     let modulus_pa = document.bodies().reduced_modulus_pa()?;
-    let mut rows = derived::of_contact(&with.point, &machine.contact(modulus_pa)?);
-    rows.extend(derived::of_machine(machine, modulus_pa)?);
+    let mut rows = derived::of_contact(&with.point, &machine.contact(modulus_pa)?, system);
+    rows.extend(derived::of_machine(machine, modulus_pa, system)?);
     Ok(rows)
 }
 

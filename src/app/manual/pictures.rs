@@ -3,6 +3,7 @@
 use egui::{ColorImage, Context, Image, RichText, TextureHandle, TextureOptions, Ui};
 use std::collections::HashMap;
 
+#[cfg(feature = "desktop")]
 macro_rules! pictures {
     ($($file:literal),* $(,)?) => {
         &[$(($file, include_bytes!(concat!("../../../assets/manual/pictures/", $file)))),*]

@@ -2,15 +2,14 @@
 //! thermal contact, the thermal constants.
 
 use crate::app::command::Command;
-use crate::app::context::Commands;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, named, ringed, row_name, typed_field, warning_ui};
 use crate::app::document::{Document, Edit};
 use crate::app::machines::MachineKind;
-use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
 use crate::solver::physics::bodies::{Bodies, Body, MATERIALS, Material};
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::{self, Dimension};
+use crate::solver::physics::engineering::{self, Dimension, QuantityKind, UnitSystem};
 use egui::{CollapsingHeader, ComboBox, Ui};
 
 /// Name under which refusals of the bodies are stored.
@@ -20,7 +19,7 @@ const GROUP: &str = "bodies";
 struct Field {
     names: [&'static str; 2],
     row: &'static str,
-    unit: (&'static str, f64),
+    kind: QuantityKind,
     tip: &'static str,
     dimension: fn(&Body) -> Dimension,
     get: fn(&Body) -> Option<f64>,
@@ -31,7 +30,7 @@ const ROWS: [Field; 3] = [
     Field {
         names: ["Radius of body 1", "Radius of body 2"],
         row: "Radius",
-        unit: ("mm", 1e-3),
+        kind: QuantityKind::Length,
         tip: "Radius of curvature along the rolling direction; negative for a concave surface, “plane” for none (2.3)",
         dimension: |_| Dimension::Length,
         get: |body| body.radius_m,
@@ -40,7 +39,7 @@ const ROWS: [Field; 3] = [
     Field {
         names: ["Radius across of body 1", "Radius across of body 2"],
         row: ACROSS,
-        unit: ("mm", 1e-3),
+        kind: QuantityKind::Length,
         tip: "Radius of curvature across the rolling direction; negative for a groove, “plane” for none. If it equals \
               the radius along, the body is round and stays round",
         dimension: |_| Dimension::Length,
@@ -50,7 +49,7 @@ const ROWS: [Field; 3] = [
     Field {
         names: ["Speed of body 1", "Speed of body 2"],
         row: "Speed",
-        unit: ("m/s", 1.0),
+        kind: QuantityKind::Speed,
         tip: "Speed of the surface through the contact; “1500 rpm” of a body with a radius (2.1)",
         dimension: |body| Dimension::Speed { radius_m: body.radius_m.map(f64::abs) },
         get: |body| Some(body.speed_m_per_s),
@@ -62,7 +61,8 @@ const ROWS: [Field; 3] = [
 const ACROSS: &str = "Across";
 
 /// Draws the group. It is collapsed until bodies have been entered.
-pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+    let document = context.document;
     let bodies = CollapsingHeader::new("Two bodies").default_open(document.view.bodies.is_some());
     let shown = bodies.show(ui, |ui| {
         let before = document.bodies();
@@ -70,7 +70,7 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
         let mut field = materials_ui(ui, &mut wanted);
         let line = document.point.kind == ContactKind::Line;
         for row in ROWS.iter().filter(|row| !(line && row.row == ACROSS)) {
-            field = row.ui(ui, &mut wanted, entries).or(field);
+            field = row.ui(ui, &mut wanted, context.system, entries).or(field);
         }
         if let Some(field) = field.filter(|_| wanted != before) {
             commands.edit(Edit::Bodies(wanted), field);
@@ -136,9 +136,9 @@ fn materials_ui(ui: &mut Ui, bodies: &mut Bodies) -> Option<&'static str> {
 
 impl Field {
     /// Draws the values of both bodies. Returns the name of the field that was changed.
-    fn ui(&self, ui: &mut Ui, bodies: &mut Bodies, entries: &mut Entries) -> Option<&'static str> {
+    fn ui(&self, ui: &mut Ui, bodies: &mut Bodies, system: UnitSystem, entries: &mut Entries) -> Option<&'static str> {
         let mut entered = None;
-        let (unit, scale) = self.unit;
+        let unit = self.kind.unit(system);
         ui.horizontal(|ui| {
             row_name(ui, name_and_symbol(ui, self.row, "", ""), self.tip);
             for (body, name) in bodies.0.iter_mut().zip(self.names) {
@@ -146,15 +146,15 @@ impl Field {
                 // A plane has no radius. It is shown and typed as infinite.
                 let read = |text: &str| match text.trim().to_lowercase().as_str() {
                     "plane" | "flat" | "∞" | "inf" => Ok(f64::INFINITY),
-                    _ => engineering::parse(text, dimension, unit).map(|si| si / scale).map_err(Refusal::from),
+                    _ => Ok(unit.number(engineering::parse(text, dimension, unit.name)?)),
                 };
-                let value = (self.get)(body).map_or(f64::INFINITY, |si| si / scale);
+                let value = (self.get)(body).map_or(f64::INFINITY, |si| unit.number(si));
                 if let Some(typed) = typed_field(ui, entries, name, value, 66.0, self.tip, read) {
-                    (self.set)(body, Some(typed * scale).filter(|si| si.is_finite()));
+                    (self.set)(body, Some(unit.si(typed)).filter(|si| si.is_finite()));
                     entered = Some(name);
                 }
             }
-            ui.label(unit);
+            ui.label(unit.name);
         });
         entered
     }

@@ -1,10 +1,11 @@
 //! Panel of the thermal contact: the switch for temperatures, and the constants of the oil and of both bodies.
 
 use super::lubricant::{Constant, GROUP, constant, constants_ui};
-use crate::app::context::Commands;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, NAME_WIDTH, choice, named};
-use crate::app::document::{Document, Edit};
+use crate::app::document::Edit;
 use crate::solver::physics::bodies::{BodyHeat, MATERIALS, Material};
+use crate::solver::physics::engineering::QuantityKind;
 use egui::{Checkbox, Grid, Ui};
 
 const TIP: &str = "Computes temperatures across and along the film and of both bodies, and their effect on film \
@@ -20,29 +21,33 @@ const OIL_DENSITY_TIP: &str = "Density of the oil at ambient pressure and inlet 
 
 /// Constants of the oil.
 pub(super) const CONSTANTS: [Constant; 6] = [
-    constant("Inlet temperature", ("Inlet", "T", "0"), ("K", 1.0), INLET_TIP, |l| {
+    constant("Inlet temperature", ("Inlet", "T", "0"), QuantityKind::Temperature, INLET_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.inlet_temperature)
     }),
-    constant("Viscosity's temperature coefficient", ("Viscosity", "β", ""), ("1/K", 1.0), VISCOSITY_TIP, |l| {
-        l.heat.as_mut().map(|heat| &mut heat.oil.viscosity_temperature)
-    }),
-    constant("Density's temperature coefficient", ("Density", "β", "ρ"), ("1/K", 1.0), DENSITY_TIP, |l| {
+    constant(
+        "Viscosity's temperature coefficient",
+        ("Viscosity", "β", ""),
+        QuantityKind::PerKelvin,
+        VISCOSITY_TIP,
+        |l| l.heat.as_mut().map(|heat| &mut heat.oil.viscosity_temperature),
+    ),
+    constant("Density's temperature coefficient", ("Density", "β", "ρ"), QuantityKind::PerKelvin, DENSITY_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.oil.density_temperature)
     }),
-    constant("Thermal conductivity", ("Conductivity", "k", ""), ("W/(m K)", 1.0), CONDUCTIVITY_TIP, |l| {
+    constant("Thermal conductivity", ("Conductivity", "k", ""), QuantityKind::Conductivity, CONDUCTIVITY_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.oil.conductivity)
     }),
-    constant("Heat capacity", ("Heat capacity", "c", "p"), ("J/(kg K)", 1.0), CAPACITY_TIP, |l| {
+    constant("Heat capacity", ("Heat capacity", "c", "p"), QuantityKind::HeatCapacity, CAPACITY_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.oil.heat_capacity)
     }),
-    constant("Density of the oil", ("Density", "ρ", "0"), ("kg/m³", 1.0), OIL_DENSITY_TIP, |l| {
+    constant("Density of the oil", ("Density", "ρ", "0"), QuantityKind::Density, OIL_DENSITY_TIP, |l| {
         l.heat.as_mut().map(|heat| &mut heat.oil.density)
     }),
 ];
 
 /// Draws the switch and, if it is on, the constants.
-pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
-    let before = document.lubricant;
+pub(super) fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+    let before = context.document.lubricant;
     let mut on = before.heat.is_some();
     let heat = ui.add(Checkbox::new(&mut on, "Heat"));
     if named(ui, heat, "Heat").on_hover_text(TIP).changed() {
@@ -51,7 +56,7 @@ pub(super) fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, comman
     let Some(heat) = before.heat else { return };
     materials_ui(ui, &heat.bodies, commands);
     let mut wanted = before;
-    let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted);
+    let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted, context.system);
     if wanted != before {
         commands.edit(Edit::Laws(Box::new(wanted)), field);
     }

@@ -1,14 +1,13 @@
 //! Panel of the lubricant: a named lubricant or custom laws and constants, and the limiting shear stress.
 
 use super::{heat, oil};
-use crate::app::context::Commands;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, NAME_WIDTH, choice, heading, named, row_name, sentence, typed_field};
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
-use crate::app::refusal::Refusal;
 use crate::app::theme::name_and_symbol;
 use crate::scene::named_lubricant::{self, NAMED, NamedLubricant};
-use crate::solver::physics::engineering::{Dimension, parse};
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use crate::solver::physics::lubricant::{
     Cavitation, DensityLaw, Doolittle, LimitingStress, Lubricant, ShearLaw, Tait, ViscosityLaw,
 };
@@ -46,16 +45,20 @@ pub const GROUP: &str = "lubricant";
 #[derive(Clone, Copy, PartialEq)]
 enum Pick {
     Named(&'static str),
+    /// Lubricant of the scene, by its position.
+    Kept(usize),
     Own,
 }
 
 /// Draws the group Lubricant.
-pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut Entries, commands: &mut Commands) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, own_laws: &mut bool, entries: &mut Entries, commands: &mut Commands) {
+    let (document, system) = (context.document, context.system);
     let (laws, kind) = (&document.lubricant, document.point.kind);
     heading(ui, "Lubricant");
     let known = named_lubricant::of_laws(laws, &document.point).filter(|_| !*own_laws);
-    picker(ui, own_laws, commands, known);
-    match known {
+    let kept = document.view.lubricants.iter().position(|kept| kept.is_of(&document.point, laws) && !*own_laws);
+    picker(ui, own_laws, (document, commands), (known, kept));
+    match known.filter(|_| kept.is_none()) {
         Some(lubricant) => {
             ui.weak(sentence(lubricant.about));
             let tip = "Bodies, speed and load of the contact in its source. Undo restores the present ones";
@@ -65,27 +68,36 @@ pub fn ui(ui: &mut Ui, document: &Document, own_laws: &mut bool, entries: &mut E
                 commands.edit(Edit::Contact(point, Box::new(*laws)), GROUP);
             }
         }
-        None => own(ui, laws, entries, commands),
+        None => own(ui, (laws, system), entries, commands),
     }
-    oil::ui(ui, document, entries, commands);
-    limiting_stress(ui, laws, entries, commands);
-    rupture(ui, laws, entries, commands);
-    heat::ui(ui, document, entries, commands);
+    oil::ui(ui, context, entries, commands);
+    limiting_stress(ui, (laws, system), entries, commands);
+    rupture(ui, (laws, system), entries, commands);
+    heat::ui(ui, context, entries, commands);
     let constants =
         CONSTANTS.iter().chain(&LIMITS).chain(&SUPPLY).chain(&heat::CONSTANTS).map(|constant| constant.name);
     entries.reserved_ui(ui, constants.chain([GROUP]));
 }
 
-fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Option<&'static NamedLubricant>) {
-    let before = known.map_or(Pick::Own, |lubricant| Pick::Named(lubricant.name));
+fn picker(
+    ui: &mut Ui,
+    own_laws: &mut bool,
+    (document, commands): (&Document, &mut Commands),
+    (known, kept): (Option<&'static NamedLubricant>, Option<usize>),
+) {
+    let known = known.map_or(Pick::Own, |lubricant| Pick::Named(lubricant.name));
+    let before = kept.map_or(known, Pick::Kept);
     let mut wanted = before;
-    let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain([Pick::Own]).collect();
+    let own = &document.view.lubricants;
+    let kept = (0..own.len()).map(Pick::Kept);
+    let options: Vec<Pick> = NAMED.iter().map(|named| Pick::Named(named.name)).chain(kept).chain([Pick::Own]).collect();
     let of = |name: &str| NAMED.iter().find(|named| named.name == name);
     Grid::new("lubricant").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
         let tip = "Laws of density, viscosity and shear. A lubricant that defines its viscosity also sets it; the \
                    contact does not change";
         choice(ui, "Fluid", tip, &mut wanted, &options, |pick| match pick {
             Pick::Named(name) => of(name).map_or(("", ""), |named| (named.title, named.about)),
+            Pick::Kept(k) => (own.get(k).map_or("", |kept| kept.name.as_str()), "Lubricant that this scene keeps"),
             Pick::Own => ("Own", "Custom laws and constants, starting from those of the present lubricant"),
         });
     });
@@ -94,6 +106,13 @@ fn picker(ui: &mut Ui, own_laws: &mut bool, commands: &mut Commands, known: Opti
     }
     match wanted {
         Pick::Own => *own_laws = true,
+        Pick::Kept(k) => {
+            *own_laws = false;
+            if let Some(kept) = own.get(k) {
+                let (point, laws) = kept.in_place(&document.point, &document.lubricant);
+                commands.edit(Edit::Contact(point, Box::new(laws)), GROUP);
+            }
+        }
         Pick::Named(name) => {
             *own_laws = false;
             of(name).into_iter().for_each(|named| commands.edit(Edit::Named(named), GROUP));
@@ -106,8 +125,7 @@ pub(super) struct Constant {
     name: &'static str,
     /// Name in the row, and base and subscript of the symbol.
     row: (&'static str, &'static str, &'static str),
-    /// Displayed unit, and its value in SI units.
-    unit: (&'static str, f64),
+    kind: QuantityKind,
     tip: &'static str,
     /// Returns the constant. `None` if no law in use has it.
     of: fn(&mut Lubricant) -> Option<&mut f64>,
@@ -123,17 +141,16 @@ impl Constant {
 pub(super) const fn constant(
     name: &'static str,
     row: (&'static str, &'static str, &'static str),
-    unit: (&'static str, f64),
+    kind: QuantityKind,
     tip: &'static str,
     of: fn(&mut Lubricant) -> Option<&mut f64>,
 ) -> Constant {
-    Constant { name, row, unit, tip, of }
+    Constant { name, row, kind, tip, of }
 }
 
-const GPA: (&str, f64) = ("GPa", 1e9);
-const MPA: (&str, f64) = ("MPa", 1e6);
-const NUMBER: (&str, f64) = ("", 1.0);
-const NANOMETRES: (&str, f64) = ("nm", 1e-9);
+const MODULUS: QuantityKind = QuantityKind::Pressure;
+const STRESS: QuantityKind = QuantityKind::Stress;
+const NUMBER: QuantityKind = QuantityKind::Number;
 
 const BULK_TIP: &str = "Tait’s initial bulk modulus K₀ (3.37)";
 const RATE_TIP: &str = "Rate of change of the bulk modulus with pressure, K’₀ (3.37)";
@@ -148,19 +165,19 @@ const BETA_TIP: &str = "How sharply the viscosity turns at the critical stress, 
 const N_TIP: &str = "Power-law exponent, stress over rate, n_c of (3.40); 1 is Newtonian";
 
 const CONSTANTS: [Constant; 9] = [
-    constant("Bulk modulus K_0", ("Bulk modulus", "K", "0"), GPA, BULK_TIP, |l| Some(&mut density_volume(l)?.k_0)),
+    constant("Bulk modulus K_0", ("Bulk modulus", "K", "0"), MODULUS, BULK_TIP, |l| Some(&mut density_volume(l)?.k_0)),
     constant("Rate of change K_0'", ("Its rate", "K'", "0"), NUMBER, RATE_TIP, |l| {
         Some(&mut density_volume(l)?.k_0_prime)
     }),
     constant("Doolittle's parameter B", ("Parameter", "B", ""), NUMBER, B_TIP, |l| Some(&mut doolittle(l)?.b)),
     constant("Occupied volume R_0", ("Occupied", "R", "0"), NUMBER, OCCUPIED_TIP, |l| Some(&mut doolittle(l)?.r_0)),
-    constant("Volume's bulk modulus", ("Of volume", "K", "0"), GPA, VOLUME_BULK_TIP, |l| {
+    constant("Volume's bulk modulus", ("Of volume", "K", "0"), MODULUS, VOLUME_BULK_TIP, |l| {
         Some(&mut other_volume(l)?.k_0)
     }),
     constant("Volume's rate of change", ("Its rate", "K'", "0"), NUMBER, VOLUME_RATE_TIP, |l| {
         Some(&mut other_volume(l)?.k_0_prime)
     }),
-    constant("Critical stress", ("Critical stress", "G", "c"), MPA, CRITICAL_TIP, critical_stress),
+    constant("Critical stress", ("Critical stress", "G", "c"), STRESS, CRITICAL_TIP, critical_stress),
     constant("Exponent beta_c", ("Exponent", "β", "c"), NUMBER, BETA_TIP, beta),
     constant("Exponent n_c", ("Exponent", "n", "c"), NUMBER, N_TIP, exponent),
 ];
@@ -172,19 +189,19 @@ const SLOPE_TIP: &str = "Λ, how the limit rises with pressure";
 
 /// Constants of the limiting shear stress.
 const LIMITS: [Constant; 3] = [
-    constant("Ambient limiting stress", ("At ambient", "τ", "L0"), MPA, AMBIENT_TIP, |l| {
+    constant("Ambient limiting stress", ("At ambient", "τ", "L0"), STRESS, AMBIENT_TIP, |l| {
         Some(&mut l.limiting_stress.as_mut()?.ambient)
     }),
     constant("Slope of the limiting stress", ("Slope", "Λ", ""), NUMBER, SLOPE_TIP, |l| {
         Some(&mut l.limiting_stress.as_mut()?.slope)
     }),
-    constant("Eyring stress of the traction", ("Eyring", "τ", "E"), MPA, EYRING_TIP, |l| {
+    constant("Eyring stress of the traction", ("Eyring", "τ", "E"), STRESS, EYRING_TIP, |l| {
         l.limiting_stress.as_mut()?.eyring.as_mut()
     }),
 ];
 
 const SUPPLY: [Constant; 1] =
-    [constant("Inlet film thickness", ("Inlet film", "h", "in"), NANOMETRES, SUPPLY_TIP, |l| {
+    [constant("Inlet film thickness", ("Inlet film", "h", "in"), QuantityKind::FilmThickness, SUPPLY_TIP, |l| {
         match &mut l.cavitation {
             Cavitation::MassConserving { supply_film_m } => supply_film_m.as_mut(),
             Cavitation::Penalty | Cavitation::Complementarity => None,
@@ -226,7 +243,7 @@ fn other_volume(laws: &mut Lubricant) -> Option<&mut Tait> {
 }
 
 /// Draws the laws and constants for editing.
-fn own(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
+fn own(ui: &mut Ui, (laws, system): (&Lubricant, UnitSystem), entries: &mut Entries, commands: &mut Commands) {
     let before = *laws;
     let mut wanted = before;
     Grid::new("laws").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
@@ -251,7 +268,7 @@ fn own(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Comm
         let options = [ShearLaw::Newtonian, or(CARREAU), or(ELLIS), or(EYRING)];
         choice(ui, "Shear", "How the viscosity falls with shear stress", &mut wanted.shear, &options, shear_law);
     });
-    let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted);
+    let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted, system);
     // If both laws share the constants of the volume, they keep sharing them.
     if let (DensityLaw::Tait(volume), DensityLaw::Tait(former)) = (wanted.density, before.density)
         && let Some(law) = doolittle(&mut wanted).filter(|law| law.volume == former)
@@ -270,36 +287,35 @@ pub(super) fn constants_ui(
     entries: &mut Entries,
     constants: &[Constant],
     laws: &mut Lubricant,
+    system: UnitSystem,
 ) -> &'static str {
     let mut field = GROUP;
-    for Constant { name, row: (row, base, subscript), unit: (unit, scale), tip, of } in constants {
+    for Constant { name, row: (row, base, subscript), kind, tip, of } in constants {
         let Some(value) = of(laws) else { continue };
+        let unit = kind.unit(system);
         ui.horizontal(|ui| {
             row_name(ui, name_and_symbol(ui, row, base, subscript), tip);
-            let read = |text: &str| read(text, unit, *scale);
-            if let Some(entered) = typed_field(ui, entries, name, *value / scale, 96.0, tip, read) {
-                *value = entered * scale;
+            let read = |text: &str| match kind {
+                QuantityKind::Number => numbers::parse(text),
+                _ => Ok(unit.number(kind.read(text, system)?)),
+            };
+            if let Some(entered) = typed_field(ui, entries, name, unit.number(*value), 96.0, tip, read) {
+                *value = unit.si(entered);
                 field = name;
             }
-            ui.label(*unit);
+            ui.label(unit.name);
         });
     }
     field
 }
 
-/// Returns a typed number in the unit of its field. A text may have another unit if the dimension has several.
-fn read(text: &str, unit: &str, scale: f64) -> Result<f64, Refusal> {
-    const DIMENSIONS: [Dimension; 5] =
-        [Dimension::Pressure, Dimension::Length, Dimension::Temperature, Dimension::PerKelvin, Dimension::Density];
-    let of_unit = |dimension: &Dimension| dimension.units().iter().any(|(known, _)| *known == unit);
-    match DIMENSIONS.into_iter().find(of_unit) {
-        Some(dimension) => Ok(parse(text, dimension, unit)? / scale),
-        None => numbers::parse(text),
-    }
-}
-
 /// Draws the limiting shear stress with its switch.
-fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
+fn limiting_stress(
+    ui: &mut Ui,
+    (laws, system): (&Lubricant, UnitSystem),
+    entries: &mut Entries,
+    commands: &mut Commands,
+) {
     let before = *laws;
     let mut wanted = before;
     let mut on = wanted.limiting_stress.is_some();
@@ -315,14 +331,14 @@ fn limiting_stress(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, command
             limit.eyring = bends.then_some(EYRING_STRESS_PA);
         }
     }
-    let field = constants_ui(ui, entries, &LIMITS, &mut wanted);
+    let field = constants_ui(ui, entries, &LIMITS, &mut wanted, system);
     if wanted != before {
         commands.edit(Edit::Laws(Box::new(wanted)), field);
     }
 }
 
 /// Draws the cavitation model of full solutions.
-fn rupture(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut Commands) {
+fn rupture(ui: &mut Ui, (laws, system): (&Lubricant, UnitSystem), entries: &mut Entries, commands: &mut Commands) {
     let supplied = Cavitation::MassConserving { supply_film_m: laws.cavitation.supply_film_m() };
     let mut wanted = laws.cavitation;
     Grid::new("rupture").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
@@ -346,7 +362,7 @@ fn rupture(ui: &mut Ui, laws: &Lubricant, entries: &mut Entries, commands: &mut 
         if ui.add(Checkbox::new(&mut starves, "Starved inlet")).on_hover_text(SUPPLY_TIP).changed() {
             *supply_film_m = starves.then_some(SUPPLY_M);
         }
-        field = constants_ui(ui, entries, &SUPPLY, &mut wanted);
+        field = constants_ui(ui, entries, &SUPPLY, &mut wanted, system);
     }
     if wanted != *laws {
         commands.edit(Edit::Laws(Box::new(wanted)), field);

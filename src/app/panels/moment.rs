@@ -6,7 +6,7 @@ use crate::app::drawn::{self, Owner};
 use crate::app::numbers;
 use crate::app::theme::{Palette, symbol};
 use crate::solver::full::transient::Quantity;
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::parameters::Quantity::Load;
 use egui::Ui;
 use std::sync::Arc;
 
@@ -18,6 +18,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
     let (Some(setup), Some((run, h_c))) = (&view.setup, there(Quantity::CentralFilm)) else { return false };
     let value = |quantity| run.trajectory.at(quantity, time).unwrap_or(f64::NAN);
     let palette = Palette::of(ui);
+    let system = context.system;
     let (film, pressure) = (setup.point.film_scale_m(), setup.point.hertz().pressure_pa);
     let films = [
         ("c", h_c, "Central film thickness at the displayed time"),
@@ -29,18 +30,15 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) -> bool {
     };
     let mut cells: Vec<Cell> = films
         .into_iter()
-        .map(|(index, h, tip)| read(symbol(ui, "H", index), h, numbers::length(h * film), palette.film, tip))
+        .map(|(index, h, tip)| read(symbol(ui, "H", index), h, numbers::length(h * film, system), palette.film, tip))
         .collect();
     let p = value(Quantity::MaximumPressure);
-    let (name, si) = (symbol(ui, "P", "max"), numbers::pressure(p * pressure));
+    let (name, si) = (symbol(ui, "P", "max"), numbers::pressure(p * pressure, system));
     cells.push(read(name, p, si, palette.pressure, "Maximum pressure at the displayed time"));
     let load = setup.point.load * setup.study.inputs.load.at(time);
-    let (load, unit) = match setup.point.kind {
-        ContactKind::Line => (1e-3 * load, "kN/m"),
-        ContactKind::Point => (load, "N"),
-    };
-    let name = symbol(ui, "w", "");
-    cells.push(read(name, load, unit.to_owned(), palette.text, "Load at the displayed time"));
+    let unit = Load.kind(setup.point.kind).unit(system);
+    let cell = (symbol(ui, "w", ""), unit.number(load), unit.name.to_owned());
+    cells.push(read(cell.0, cell.1, cell.2, palette.text, "Load at the displayed time"));
     let tip = "Displayed time, and the method of these values";
     cells.push(read(symbol(ui, "T", ""), time, run.name(), palette.quiet, tip));
     ui.scope(|ui| {

@@ -1,11 +1,11 @@
 //! Panel of the oil: its grade and temperature determine η₀ and α.
 
-use crate::app::context::Commands;
+use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, NAME_WIDTH, choice, named, row_name, sentence, typed_field, warning_ui};
-use crate::app::document::{Document, Edit};
+use crate::app::document::Edit;
 use crate::app::numbers;
 use crate::app::theme::name_and_symbol;
-use crate::solver::physics::engineering::{self, Dimension, Grade, ISO_VG, KELVIN, Oil, OilFamily};
+use crate::solver::physics::engineering::{Grade, ISO_VG, KELVIN, Oil, OilFamily, QuantityKind, UnitSystem};
 use egui::{Grid, Ui};
 
 /// Name under which refusals of the oil are stored.
@@ -34,63 +34,53 @@ enum Choice {
 struct Field {
     name: &'static str,
     row: &'static str,
-    dimension: Dimension,
-    /// Displayed unit, and its value in SI units.
-    unit: (&'static str, f64),
+    kind: QuantityKind,
     tip: &'static str,
     of: fn(&mut Oil) -> Option<&mut f64>,
 }
 
-const KINEMATIC: (&str, f64) = ("mm²/s", 1e-6);
-const CELSIUS: (&str, f64) = ("°C", 1.0);
 const AT_TIP: &str = "The temperature of that viscosity";
 
 const ROWS: [Field; 6] = [
     Field {
         name: FIELDS[3],
         row: "Viscosity",
-        dimension: Dimension::KinematicViscosity,
-        unit: KINEMATIC,
+        kind: QuantityKind::KinematicViscosity,
         tip: "Kinematic viscosity at the first temperature",
         of: |oil| Some(&mut two(oil)?.0.1),
     },
     Field {
         name: FIELDS[4],
         row: "at",
-        dimension: Dimension::Temperature,
-        unit: CELSIUS,
+        kind: QuantityKind::Temperature,
         tip: AT_TIP,
         of: |oil| Some(&mut two(oil)?.0.0),
     },
     Field {
         name: FIELDS[5],
         row: "Viscosity",
-        dimension: Dimension::KinematicViscosity,
-        unit: KINEMATIC,
+        kind: QuantityKind::KinematicViscosity,
         tip: "Kinematic viscosity at the second temperature",
         of: |oil| Some(&mut two(oil)?.1.1),
     },
     Field {
         name: FIELDS[6],
         row: "at",
-        dimension: Dimension::Temperature,
-        unit: CELSIUS,
+        kind: QuantityKind::Temperature,
         tip: AT_TIP,
         of: |oil| Some(&mut two(oil)?.1.0),
     },
     Field {
         name: FIELDS[1],
         row: "Temperature",
-        dimension: Dimension::Temperature,
-        unit: CELSIUS,
+        kind: QuantityKind::Temperature,
         tip: "Temperature of the oil as it enters the contact",
         of: |oil| Some(&mut oil.temperature_k),
     },
     Field {
         name: FIELDS[2],
         row: "Density, 15 °C",
-        dimension: Dimension::Density,
-        unit: ("kg/m³", 1.0),
+        kind: QuantityKind::Density,
         tip: "Density at 15 °C; it expands as lubricating oils do (ASTM D1250)",
         of: |oil| Some(&mut oil.density_15),
     },
@@ -103,7 +93,8 @@ fn two(oil: &mut Oil) -> Option<Points<'_>> {
 }
 
 /// Draws the group of the oil.
-pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
+pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+    let document = context.document;
     if document.lubricant.own_coefficient().is_some() {
         return;
     }
@@ -121,16 +112,16 @@ pub fn ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mu
     });
     let mut field = GROUP;
     if let Some(oil) = &mut wanted {
-        field = fields_ui(ui, oil, entries).unwrap_or(field);
+        field = fields_ui(ui, oil, context.system, entries).unwrap_or(field);
     }
     if let Some(oil) = &mut wanted {
-        field = measured_ui(ui, oil, entries).unwrap_or(field);
+        field = measured_ui(ui, oil, context.system, entries).unwrap_or(field);
     }
     if wanted != before {
         commands.edit(Edit::Oil(wanted), field);
     }
     if let Some(oil) = before {
-        state_ui(ui, document, oil, commands);
+        state_ui(ui, context, oil, commands);
         entries.reserved_ui(ui, FIELDS);
     }
 }
@@ -195,29 +186,26 @@ fn grade_name(grade: f64) -> &'static str {
 }
 
 /// Draws a row for each value that can be typed. Returns the name of the field that was changed.
-fn fields_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'static str> {
+fn fields_ui(ui: &mut Ui, oil: &mut Oil, system: UnitSystem, entries: &mut Entries) -> Option<&'static str> {
     let mut entered = None;
-    for Field { name, row, dimension, unit: (unit, scale), tip, of } in &ROWS {
+    for Field { name, row, kind, tip, of } in &ROWS {
         let Some(value) = of(oil) else { continue };
-        let zero = if *dimension == Dimension::Temperature { KELVIN } else { 0.0 };
+        let unit = kind.unit(system);
         ui.horizontal(|ui| {
             row_name(ui, name_and_symbol(ui, row, "", ""), tip);
-            let read = |text: &str| {
-                let si = engineering::parse(text, *dimension, unit)?;
-                Ok((si - zero) / scale)
-            };
-            if let Some(typed) = typed_field(ui, entries, name, (*value - zero) / scale, 78.0, tip, read) {
-                *value = typed * scale + zero;
+            let read = |text: &str| Ok(unit.number(kind.read(text, system)?));
+            if let Some(typed) = typed_field(ui, entries, name, unit.number(*value), 78.0, tip, read) {
+                *value = unit.si(typed);
                 entered = Some(*name);
             }
-            ui.label(*unit);
+            ui.label(unit.name);
         });
     }
     entered
 }
 
 /// Draws the choice between the estimate of α and a measured value. Returns the name of the field that was changed.
-fn measured_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'static str> {
+fn measured_ui(ui: &mut Ui, oil: &mut Oil, system: UnitSystem, entries: &mut Entries) -> Option<&'static str> {
     let mut entered = None;
     ui.horizontal(|ui| {
         let tip = "Switch on to type the α of a data sheet at the temperature of the oil. Otherwise it is estimated";
@@ -229,32 +217,31 @@ fn measured_ui(ui: &mut Ui, oil: &mut Oil, entries: &mut Entries) -> Option<&'st
             entered = Some(FIELDS[7]);
         }
         if let Some(alpha) = &mut oil.alpha_per_pa {
-            let read = |text: &str| {
-                let si = engineering::parse(text, Dimension::PressureCoefficient, "1/GPa")?;
-                Ok(1e9 * si)
-            };
-            if let Some(typed) = typed_field(ui, entries, FIELDS[7], 1e9 * *alpha, 78.0, tip, read) {
-                *alpha = 1e-9 * typed;
+            let unit = QuantityKind::PressureCoefficient.unit(system);
+            let read = |text: &str| Ok(unit.number(QuantityKind::PressureCoefficient.read(text, system)?));
+            if let Some(typed) = typed_field(ui, entries, FIELDS[7], unit.number(*alpha), 78.0, tip, read) {
+                *alpha = unit.si(typed);
                 entered = Some(FIELDS[7]);
             }
-            ui.label("1/GPa");
+            ui.label(unit.name);
         }
     });
     entered
 }
 
 /// Draws the values that follow from the oil, and a warning if the contact no longer has them.
-fn state_ui(ui: &mut Ui, document: &Document, oil: Oil, commands: &mut Commands) {
+fn state_ui(ui: &mut Ui, context: &Context<'_>, oil: Oil, commands: &mut Commands) {
     if let Ok(state) = oil.state() {
+        let shown = |kind, si| numbers::in_field_unit(kind, si, context.system);
         let text = format!(
             "η₀ {}, α {}, ρ {}",
-            numbers::quantity(1e3 * state.viscosity_pa_s, "mPa·s"),
-            numbers::quantity(1e9 * state.alpha_per_pa, "1/GPa"),
-            numbers::quantity(state.density, "kg/m³")
+            shown(QuantityKind::Viscosity, state.viscosity_pa_s),
+            shown(QuantityKind::PressureCoefficient, state.alpha_per_pa),
+            shown(QuantityKind::Density, state.density)
         );
         ui.weak(text).on_hover_text(sentence(oil.family.source()));
     }
-    if !document.oil_counts() {
+    if !context.document.oil_counts() {
         warning_ui(ui, "η₀ or α have been changed and no longer match this oil");
         if ui.button("Use the oil’s values").clicked() {
             commands.edit(Edit::Oil(Some(oil)), GROUP);

@@ -14,7 +14,7 @@ use crate::engine::Warning;
 use crate::scene::{ShapeKeeps, View};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering;
+use crate::solver::physics::engineering::{self, QuantityKind, UnitSystem};
 use egui::{Grid, RichText, TextWrapMode, Ui};
 
 /// Shapes and their tooltips.
@@ -44,8 +44,8 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &
     shape_ui(ui, Shape::of(&context.document.point), commands);
     sliders::column(ui, context, entries, commands);
     followers_ui(ui, context.document, commands);
-    si_ui(ui, context.document, entries, commands);
-    hertz_ui(ui, context.document);
+    si_ui(ui, context, entries, commands);
+    hertz_ui(ui, context);
 }
 
 /// Draws the choice of the shape.
@@ -106,28 +106,29 @@ pub const FIELDS: [(Quantity, &str); 7] = [
     (Quantity::Alpha, "Coefficient α"),
 ];
 
-fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
+fn si_ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+    let (document, system) = (context.document, context.system);
     ui.add_space(4.0);
     let own_alpha = document.lubricant.own_coefficient().is_some();
     let kind = document.point.kind;
     for (quantity, field) in FIELDS {
         let Some(si) = quantity.of(&document.point) else { continue };
-        let ((base, subscript), (unit, scale)) = (quantity.symbol(), quantity.reading_unit(kind));
+        let ((base, subscript), unit) = (quantity.symbol(), quantity.kind(kind).unit(system));
         let meaning = quantity.meaning(kind);
         ui.horizontal(|ui| {
             let name = field.split(' ').next().unwrap_or(field);
             row_name(ui, name_and_symbol(ui, name, base, subscript), meaning);
             if quantity == Quantity::Alpha && own_alpha {
                 let tip = "α* follows from the lubricant’s own viscosity law: 1/α* = ∫ η₀/μ dp, Blok 1963";
-                ui.label(numbers::significant(si / scale)).on_hover_text(tip);
-                ui.label(unit);
+                ui.label(numbers::significant(unit.number(si))).on_hover_text(tip);
+                ui.label(unit.name);
                 return;
             }
-            let read = |text: &str| read(text, quantity, kind).map(|si| si / scale);
-            if let Some(value) = typed_field(ui, entries, field, si / scale, 70.0, meaning, read) {
-                commands.edit(Edit::Typed(quantity, value * scale), field);
+            let read = |text: &str| read(text, quantity, kind, system).map(|si| unit.number(si));
+            if let Some(value) = typed_field(ui, entries, field, unit.number(si), 70.0, meaning, read) {
+                commands.edit(Edit::Typed(quantity, unit.si(value)), field);
             }
-            ui.label(unit);
+            ui.label(unit.name);
             if quantity == Quantity::RadiusY && Shape::of(&document.point) == Shape::Ball {
                 ui.add_sized(HELD, egui::Label::new(RichText::new("as R").small().weak())).on_hover_text(
                     "A ball has the same radius across and along. Another value gives an elliptical contact",
@@ -138,7 +139,7 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
         });
     }
     if kind == ContactKind::Line {
-        length_ui(ui, document, entries, commands);
+        length_ui(ui, context, entries, commands);
     }
     entries.reserved_ui(ui, FIELDS.map(|(_, field)| field).into_iter().chain(sliders::FIELDS).chain([SHAPE, LENGTH]));
 }
@@ -147,25 +148,27 @@ fn si_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut
 const LENGTH: &str = "Length";
 
 /// Draws the field of the length of a line contact. Zero means none.
-fn length_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
+fn length_ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+    let (document, system) = (context.document, context.system);
+    let unit = QuantityKind::Length.unit(system);
     let meaning = "Length of the line contact, for the friction force, the torques and the power loss of the whole \
                    contact; 0 for values per length";
     ui.horizontal(|ui| {
         row_name(ui, name_and_symbol(ui, LENGTH, "", ""), meaning);
         let read = |text: &str| {
-            let length = engineering::parse(text, engineering::Dimension::Length, "mm")?;
+            let length = QuantityKind::Length.read(text, system)?;
             let (least, most) = engineering::Extent::LENGTHS_M;
             if length == 0.0 || (least..=most).contains(&length) {
-                return Ok(1e3 * length);
+                return Ok(unit.number(length));
             }
-            let [least, most] = [least, most].map(numbers::length);
+            let [least, most] = [least, most].map(|length| numbers::length(length, system));
             Err(Refusal::new(format!("the length must be 0 (none) or from {least} to {most}")))
         };
-        let value = 1e3 * document.length_m.unwrap_or(0.0);
+        let value = unit.number(document.length_m.unwrap_or(0.0));
         if let Some(length) = typed_field(ui, entries, LENGTH, value, 70.0, meaning, read) {
-            commands.edit(Edit::Length(Some(1e-3 * length).filter(|length| *length > 0.0)), LENGTH);
+            commands.edit(Edit::Length(Some(unit.si(length)).filter(|length| *length > 0.0)), LENGTH);
         }
-        ui.label("mm");
+        ui.label(unit.name);
     });
 }
 
@@ -192,20 +195,20 @@ fn held_ui(ui: &mut Ui, document: &Document, (quantity, field): (Quantity, &'sta
 const HELD: [f32; 2] = [62.0, 22.0];
 
 /// Parses a text with or without unit. Returns the value in SI units if it is in the accepted range.
-fn read(text: &str, quantity: Quantity, kind: ContactKind) -> Result<f64, Refusal> {
-    let (unit, scale) = quantity.reading_unit(kind);
-    let value = engineering::parse(text, quantity.dimension(kind), unit)?;
+fn read(text: &str, quantity: Quantity, contact: ContactKind, system: UnitSystem) -> Result<f64, Refusal> {
+    let kind = quantity.kind(contact);
+    let value = kind.read(text, system)?;
     let (low, high) = quantity.range();
     if (low..=high).contains(&value) {
         return Ok(value);
     }
-    let [low, high] = [low, high].map(|end| numbers::quantity(end / scale, unit));
-    let value = numbers::quantity(value / scale, unit);
+    let [low, high] = [low, high].map(|end| numbers::in_field_unit(kind, end, system));
+    let value = numbers::in_field_unit(kind, value, system);
     Err(Refusal::new(format!("{} is {value}; {low} to {high} are accepted", quantity.name())))
 }
 
-fn hertz_ui(ui: &mut Ui, document: &Document) {
-    let point = &document.point;
+fn hertz_ui(ui: &mut Ui, context: &Context<'_>) {
+    let (point, system) = (&context.document.point, context.system);
     let hertz = point.hertz();
     let (width_name, width_tip, pressure_tip, stiffening_tip) = match Shape::of(point) {
         Shape::Roller => (
@@ -230,10 +233,10 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
     };
     let width = match Shape::of(point) {
         Shape::Ellipse => {
-            let [a, b] = [hertz.half_width_m, hertz.half_length_m].map(numbers::length);
+            let [a, b] = [hertz.half_width_m, hertz.half_length_m].map(|axis| numbers::length(axis, system));
             format!("{a}, {b}; κ {}", numbers::digits(point.ellipse().kappa, 3))
         }
-        _ => numbers::length(hertz.half_width_m),
+        _ => numbers::length(hertz.half_width_m, system),
     };
     let axes = if Shape::of(point) == Shape::Ellipse { "a, b" } else { "a" };
     ui.add_space(4.0);
@@ -241,14 +244,14 @@ fn hertz_ui(ui: &mut Ui, document: &Document) {
         let shear = engineering::largest_shear(point, 0.3);
         let deepest = format!(
             "{} at {}",
-            numbers::pressure(shear.over_hertz_pressure * hertz.pressure_pa),
-            numbers::length(shear.depth_over_half_width * hertz.half_width_m)
+            numbers::pressure(shear.over_hertz_pressure * hertz.pressure_pa, system),
+            numbers::length(shear.depth_over_half_width * hertz.half_width_m, system)
         );
         let shear_tip =
             "Maximum subsurface shear stress of the dry contact and its depth, where rolling fatigue begins; ν = 0.3";
         let rows = [
             ((width_name, axes, ""), width, width_tip),
-            (("Hertz pressure", "p", "H"), numbers::pressure(hertz.pressure_pa), pressure_tip),
+            (("Hertz pressure", "p", "H"), numbers::pressure(hertz.pressure_pa, system), pressure_tip),
             (("Piezoviscous", "αp", "H"), numbers::significant(point.alpha_hertz()), stiffening_tip),
             (("Max. shear", "τ", "max"), deepest, shear_tip),
         ];

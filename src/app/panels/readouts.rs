@@ -11,7 +11,7 @@ use crate::app::theme::{Palette, symbol};
 use crate::solver::full::Lubrication;
 use crate::solver::physics::bodies::film_regime;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::{Extent, Losses};
+use crate::solver::physics::engineering::{Extent, Losses, QuantityKind};
 use egui::text::LayoutJob;
 use egui::{Color32, FontId, RichText, TextStyle, Ui};
 use std::borrow::Cow;
@@ -38,7 +38,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         Cell {
             name: symbol(ui, "H", "c"),
             value: numbers::significant(s.h_c) + &off(grid_error.map(|e| e.h_c_error)),
-            unit: numbers::length(picture.central_film_m()),
+            unit: numbers::length(picture.central_film_m(), context.system),
             color: palette.film,
             delta: delta(&|p| p.central_film_m()),
             tip:
@@ -48,7 +48,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         Cell {
             name: symbol(ui, "H", "min"),
             value: numbers::significant(s.h_min) + &off(grid_error.map(|e| e.h_min_error)),
-            unit: numbers::length(picture.minimum_film_m()),
+            unit: numbers::length(picture.minimum_film_m(), context.system),
             color: palette.film,
             delta: delta(&|p| p.minimum_film_m()),
             tip: "Minimum film thickness of the contact zone; in a heavily loaded point contact it occurs in the side \
@@ -58,14 +58,14 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         Cell {
             name: symbol(ui, "P", "max"),
             value: numbers::significant(s.p_max),
-            unit: numbers::pressure(picture.largest_pressure_pa()),
+            unit: numbers::pressure(picture.largest_pressure_pa(), context.system),
             color: palette.pressure,
             delta: delta(&|p| p.largest_pressure_pa()),
             tip: "Maximum pressure, P = p/p_H (2.22)".into(),
         },
     ];
     cells.extend(film_ratio(ui, picture, document, &palette));
-    cells.extend(friction(ui, (picture, document), delta(&|p| p.traction), &palette));
+    cells.extend(friction(ui, (picture, context), delta(&|p| p.traction), &palette));
     ui.scope(|ui| {
         if stale {
             ui.disable();
@@ -78,7 +78,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
 /// loss.
 fn friction(
     ui: &Ui,
-    (picture, document): (&Picture, &Document),
+    (picture, context): (&Picture, &Context<'_>),
     traction_change: Option<f64>,
     palette: &Palette,
 ) -> Vec<Cell> {
@@ -90,7 +90,7 @@ fn friction(
         value: numbers::significant(picture.traction),
         unit: format!(
             "at SRR {}{}",
-            numbers::digits(srr, 3),
+            numbers::slide_to_roll(srr),
             doubt.map_or_else(String::new, |why| format!(", {}", why.mark()))
         ),
         color: if doubt.is_some() { palette.reference } else { palette.traction },
@@ -98,27 +98,34 @@ fn friction(
         tip: doubt.map_or_else(|| tip.to_owned(), |why| sentence(&why.to_string())).into(),
     }];
     let point = &picture.key.point;
-    // Without a length the values of a line contact are per mm.
-    let own = document.extent();
+    let own = context.document.extent();
     let whole = point.kind == ContactKind::Point || own.length_m.is_some();
-    let extent = Extent { length_m: own.length_m.or(Some(1e-3)), ..own };
+    // Without a length the values of a line contact are per length.
+    let extent = Extent { length_m: own.length_m.or(Some(1.0)), ..own };
     let losses = Losses::of(point, picture.traction, picture.solution.rolling_resistance(), &extent);
     if let Some(losses) = losses.filter(|losses| doubt.is_none() && losses.friction_n != 0.0) {
-        let per = if whole { "" } else { "/mm" };
-        let torques: Vec<String> = losses.torques_nm.iter().flatten().map(|t| numbers::digits(*t, 3)).collect();
+        let kinds = match whole {
+            true => [QuantityKind::Force, QuantityKind::Power],
+            false => [QuantityKind::LineLoad, QuantityKind::PowerPerLength],
+        };
+        let [force, power] = kinds.map(|kind| move |si: f64| numbers::in_field_unit(kind, si, context.system));
+        let torques = losses.torques_nm.iter().flatten().filter(|_| whole);
+        let torque = |si: &f64| numbers::in_field_unit(QuantityKind::Torque, *si, context.system);
+        let torques: Vec<String> = torques.map(torque).collect();
         let torques = match torques.as_slice() {
             [] => String::new(),
-            torques => format!("; torques of the bodies {} N m{per}", torques.join(", ")),
+            torques => format!("; torques of the bodies {}", torques.join(", ")),
         };
         let tip = format!(
-            "Friction force F = µw, and the power loss F SRR u_m + 2 F_r u_m with the rolling resistance F_r = {} N{per} \
-             of each body{torques}",
-            numbers::digits(losses.rolling_n, 3)
+            "Friction force F = µw, and the power loss F SRR u_m + 2 F_r u_m with the rolling resistance F_r = {} of \
+             each body{torques}",
+            force(losses.rolling_n)
         );
+        let unit = kinds[0].unit(context.system);
         cells.push(Cell {
             name: symbol(ui, "F", ""),
-            value: numbers::significant(losses.friction_n),
-            unit: format!("N{per}, {} W{per} lost", numbers::digits(losses.power_w, 3)),
+            value: numbers::significant(unit.number(losses.friction_n)),
+            unit: format!("{}, {} lost", unit.name, power(losses.power_w)),
             color: palette.traction,
             delta: None,
             tip: tip.into(),
@@ -161,9 +168,9 @@ pub fn spoken(context: &Context<'_>) -> Option<String> {
     let Some(picture) = answers.current_picture() else { return answers.failure().map(|_| badge) };
     Some(format!(
         "{badge} Central film thickness {}, minimum film thickness {}, maximum pressure {}, traction coefficient {}.",
-        numbers::length(picture.central_film_m()),
-        numbers::length(picture.minimum_film_m()),
-        numbers::pressure(picture.largest_pressure_pa()),
+        numbers::length(picture.central_film_m(), context.system),
+        numbers::length(picture.minimum_film_m(), context.system),
+        numbers::pressure(picture.largest_pressure_pa(), context.system),
         numbers::significant(picture.traction),
     ))
 }

@@ -2,13 +2,15 @@
 
 use crate::app::command::Command;
 use crate::app::context::Commands;
-use crate::app::controls::{Entries, heading, row_name, typed_field};
+use crate::app::controls::{Entries, heading, named, row_name, typed_field};
 use crate::app::desk::Desk;
 use crate::app::display::{Display, Thresholds};
 use crate::app::refusal::Refusal;
+use crate::app::reports::ReportSettings;
 use crate::app::theme::name_and_symbol;
-use crate::solver::physics::engineering::{self, Dimension};
-use egui::{Context, Id, ThemePreference, Ui, Window};
+use crate::scene::Paper;
+use crate::solver::physics::engineering::{self, Dimension, UnitSystem};
+use egui::{Context, Id, TextEdit, ThemePreference, Ui, Window};
 
 /// Label, tooltip and accessible name of the fields of the thresholds.
 const THRESHOLDS: [(&str, &str, &str); 2] = [
@@ -44,6 +46,10 @@ impl Settings {
             ui.set_width(360.0);
             heading(ui, "The badge");
             self.thresholds_ui(ui, desk.display.thresholds, commands);
+            heading(ui, "Units");
+            system_ui(ui, desk.display.system, commands);
+            heading(ui, "Report");
+            report_ui(ui, &desk.reports.settings, commands);
             heading(ui, "Appearance");
             appearance_ui(ui, &desk.display, commands);
         });
@@ -81,6 +87,42 @@ impl Settings {
             commands.push(Command::SetThresholds(usual));
         }
     }
+}
+
+fn report_ui(ui: &mut Ui, present: &ReportSettings, commands: &mut Commands) {
+    let mut wanted = present.clone();
+    let tip = "In the heading of a report; it may stay empty";
+    for (name, text) in [("Author", &mut wanted.author), ("Company", &mut wanted.company)] {
+        ui.horizontal(|ui| {
+            row_name(ui, name_and_symbol(ui, name, "", ""), tip);
+            let field = TextEdit::singleline(text).char_limit(ReportSettings::LONGEST).desired_width(200.0);
+            let field = ui.add(field);
+            named(ui, field, name).on_hover_text(tip);
+        });
+    }
+    ui.horizontal(|ui| {
+        row_name(ui, name_and_symbol(ui, "Paper", "", ""), "Size of the page of a report");
+        for paper in Paper::ALL {
+            ui.selectable_value(&mut wanted.paper, paper, paper.name());
+        }
+    });
+    if wanted != *present {
+        commands.push(Command::Reports(wanted));
+    }
+}
+
+fn system_ui(ui: &mut Ui, present: UnitSystem, commands: &mut Commands) {
+    ui.horizontal(|ui| {
+        let tip = "Units of panels, axes, tables and reports. A number without a unit is read in them; every field also \
+                   accepts other units";
+        row_name(ui, name_and_symbol(ui, "System", "", ""), tip);
+        for system in UnitSystem::ALL {
+            if ui.selectable_label(present == system, system.name()).on_hover_text(system.about()).clicked() {
+                commands.push(Command::System(system));
+            }
+        }
+    });
+    ui.weak(present.about());
 }
 
 fn appearance_ui(ui: &mut Ui, display: &Display, commands: &mut Commands) {

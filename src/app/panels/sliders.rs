@@ -5,16 +5,14 @@ use crate::app::context::{Commands, Context};
 use crate::app::controls::{Entries, RangeSlider, described, explained, named, typed_field};
 use crate::app::document::{Document, Edit, HOME, Shape};
 use crate::app::numbers;
-use crate::app::refusal::Refusal;
 use crate::app::theme::{name_and_symbol, rich};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::{self, Dimension, KELVIN, Oil};
+use crate::solver::physics::engineering::{KELVIN, Oil, QuantityKind, Unit, UnitSystem};
 use crate::solver::physics::lubricant::{Heat, Lubricant, ShearLaw};
 use crate::solver::reduced::Domain;
 use egui::{Grid, Slider, TextStyle, Ui};
 use serde::{Deserialize, Serialize};
-use std::ops::RangeInclusive;
 
 const M_TIP: &str = "Load number M = w/(E’R) · (2η₀u_m/(E’R))^(−1/2): how heavily the contact is loaded for its speed. \
     Small: nearly rigid bodies; large: nearly Hertzian. Double click: M 40";
@@ -83,8 +81,9 @@ const SYMBOL_WIDTH: f32 = 34.0;
 const ROOM_FOR_NAME: f32 = 270.0;
 const ENTRY_WIDTH: f32 = 70.0;
 const GAPS: f32 = 24.0;
-/// Width of a unit.
+/// Width of a unit, and of the sign of percent.
 const UNIT_WIDTH: f32 = 44.0;
+const PERCENT_WIDTH: f32 = 16.0;
 
 /// Slider with its name and number field.
 struct Row {
@@ -93,113 +92,91 @@ struct Row {
     slider: RangeSlider<'static>,
     /// Value in the unit of the slider.
     value: f64,
-    /// Unit of the slider, with its zero and its size in SI units.
-    unit: (&'static str, f64, f64),
+    /// Kind, which determines how a text is read.
+    kind: QuantityKind,
+    /// Unit of the slider.
+    unit: Unit,
 }
-
-/// Unit of a slider of a number.
-const NUMBER: (&str, f64, f64) = ("", 0.0, 1.0);
 
 /// Requested value, and the field of the request.
 type Wanted = (Quantity, &'static str, f64);
-
-/// Returns the ends of a slider.
-fn range(quantity: Quantity) -> RangeInclusive<f64> {
-    let (low, high) = quantity.usual_range();
-    low..=high
-}
 
 fn is_shear_thinning(document: &Document) -> bool {
     document.lubricant.shear != ShearLaw::Newtonian
 }
 
-fn rows(Context { document, answers, .. }: &Context<'_>) -> Vec<Row> {
+fn rows(Context { document, answers, system, .. }: &Context<'_>) -> Vec<Row> {
     let (moes, kind) = (document.point.moes(), document.point.kind);
     // The trained range of a model of circular contacts is not marked for elliptical contacts.
     let domain = answers.model(document).filter(|model| model.is_of(&document.point)).map(|model| &model.domain);
     let srr = document.point.sliding.slide_to_roll_ratio;
     let (npr, own_npr) = (document.plateau_ratio(), document.lubricant.shear.plateau());
     let trained = |quantity| domain.and_then(|domain| domain.interval(quantity));
-    let slider = |quantity: Quantity, marked, home, tooltip| RangeSlider {
-        name: quantity.label(),
-        range: range(quantity),
-        marked,
-        home,
-        tooltip,
-        logarithmic: matches!(quantity, Quantity::M | Quantity::L | Quantity::RadiusRatio),
+    let row = |quantity: Quantity, entry, value: f64, marked: Option<(f64, f64)>, home: f64, tooltip| {
+        let kind = quantity.kind(kind);
+        let unit = kind.unit(*system);
+        let (low, high) = quantity.usual_range();
+        let slider = RangeSlider {
+            name: quantity.label(),
+            range: unit.number(low)..=unit.number(high),
+            marked: marked.map(|(low, high)| (unit.number(low), unit.number(high))),
+            home: unit.number(home),
+            tooltip,
+            logarithmic: matches!(quantity, Quantity::M | Quantity::L | Quantity::RadiusRatio),
+        };
+        Row { quantity, entry, slider, value: unit.number(value), kind, unit }
     };
     let m_tip = if kind == ContactKind::Line { M_TIP } else { M_POINT_TIP };
     let srr_tip = if is_shear_thinning(document) { SRR_TIP } else { SRR_NEWTONIAN_TIP };
-    let m = slider(Quantity::M, trained(Quantity::M), HOME.m, m_tip);
-    let l = slider(Quantity::L, trained(Quantity::L), HOME.l, L_TIP);
-    let marked = domain.and_then(Domain::srr);
-    let slide = slider(Quantity::SlideToRollRatio, marked, 0.0, srr_tip);
-    let marked = trained(Quantity::NewtonianPlateauRatio);
-    let plateau = slider(Quantity::NewtonianPlateauRatio, marked, own_npr, NPR_TIP);
-    let ratio = trained(Quantity::RadiusRatio);
-    // A circular contact has the ratio 1. Moving this slider makes it elliptical.
-    let ellipse = (kind == ContactKind::Point).then(|| Row {
-        quantity: Quantity::RadiusRatio,
-        entry: "R_y/R value",
-        slider: slider(Quantity::RadiusRatio, ratio, 1.0, RATIO_TIP),
-        value: document.point.radius_ratio(),
-        unit: NUMBER,
-    });
+    let (slides, plateaus) = (domain.and_then(Domain::srr), trained(Quantity::NewtonianPlateauRatio));
     let mut rows = vec![
-        Row { quantity: Quantity::M, entry: "M value", slider: m, value: moes.m, unit: NUMBER },
-        Row { quantity: Quantity::L, entry: "L value", slider: l, value: moes.l, unit: NUMBER },
+        row(Quantity::M, "M value", moes.m, trained(Quantity::M), HOME.m, m_tip),
+        row(Quantity::L, "L value", moes.l, trained(Quantity::L), HOME.l, L_TIP),
     ];
-    rows.extend(ellipse);
-    rows.extend([
-        Row { quantity: Quantity::SlideToRollRatio, entry: "SRR value", slider: slide, value: srr, unit: NUMBER },
-        Row {
-            quantity: Quantity::NewtonianPlateauRatio,
-            entry: "NPR value",
-            slider: plateau,
-            value: npr,
-            unit: NUMBER,
-        },
-    ]);
+    // A circular contact has the ratio 1. Moving this slider makes it elliptical.
+    if kind == ContactKind::Point {
+        let (ratio, ratios) = (document.point.radius_ratio(), trained(Quantity::RadiusRatio));
+        rows.push(row(Quantity::RadiusRatio, "R_y/R value", ratio, ratios, 1.0, RATIO_TIP));
+    }
+    rows.push(row(Quantity::SlideToRollRatio, "SRR value", srr, slides, 0.0, srr_tip));
+    rows.push(row(Quantity::NewtonianPlateauRatio, "NPR value", npr, plateaus, own_npr, NPR_TIP));
     rows
 }
 
 /// Returns the sliders of SI quantities and of the oil's temperature, as far as the contact has them.
-fn si_rows(document: &Document) -> Vec<Row> {
-    let kind = document.point.kind;
-    let row = |quantity: Quantity, entry, (name, ends): (&'static str, (f64, f64))| {
-        let (unit, scale) = quantity.reading_unit(kind);
-        let value = quantity.of(&document.point)? / scale;
+fn si_rows(document: &Document, system: UnitSystem) -> Vec<Row> {
+    let contact = document.point.kind;
+    let row = |quantity: Quantity, value: Option<f64>, entry, (name, ends): (&'static str, (f64, f64)), tooltip| {
+        let (kind, value) = (quantity.kind(contact), value?);
+        let unit = kind.unit(system);
+        let temperature = quantity == Quantity::InletTemperature;
         let slider = RangeSlider {
             name,
-            range: ends.0..=ends.1,
+            range: unit.number(ends.0)..=unit.number(ends.1),
             marked: None,
-            home: value,
-            tooltip: quantity.meaning(kind),
-            logarithmic: true,
+            home: unit.number(if temperature { KELVIN + 40.0 } else { value }),
+            tooltip,
+            logarithmic: !temperature,
         };
-        Some(Row { quantity, entry, slider, value, unit: (unit, 0.0, scale) })
+        Some(Row { quantity, entry, slider, value: unit.number(value), kind, unit })
     };
-    let loads = if kind == ContactKind::Line { (1.0, 5000.0) } else { (0.1, 5000.0) };
-    let temperature = temperature_k(document).map(|kelvin| Row {
-        quantity: Quantity::InletTemperature,
-        entry: "T value",
-        slider: RangeSlider {
-            name: "Slider of the oil temperature",
-            range: 0.0..=150.0,
-            marked: None,
-            home: 40.0,
-            tooltip: "Temperature of the oil as it enters the contact",
-            logarithmic: false,
-        },
-        value: kelvin - KELVIN,
-        unit: ("°C", KELVIN, 1.0),
-    });
+    let of_point = |quantity: Quantity, entry, named| {
+        row(quantity, quantity.of(&document.point), entry, named, quantity.meaning(contact))
+    };
+    let loads = if contact == ContactKind::Line { (1e3, 5e6) } else { (0.1, 5000.0) };
+    let temperatures = (KELVIN, KELVIN + 150.0);
     [
-        row(Quantity::Speed, "u_m value", ("Slider of the speed", (1e-3, 100.0))),
-        row(Quantity::Load, "w value", ("Slider of the load", loads)),
-        row(Quantity::Radius, "R value", ("Slider of the radius", (0.5, 500.0))),
-        row(Quantity::Viscosity, "η₀ value", ("Slider of the viscosity", (1.0, 2000.0))),
-        temperature,
+        of_point(Quantity::Speed, "u_m value", ("Slider of the speed", (1e-3, 100.0))),
+        of_point(Quantity::Load, "w value", ("Slider of the load", loads)),
+        of_point(Quantity::Radius, "R value", ("Slider of the radius", (5e-4, 0.5))),
+        of_point(Quantity::Viscosity, "η₀ value", ("Slider of the viscosity", (1e-3, 2.0))),
+        row(
+            Quantity::InletTemperature,
+            temperature_k(document),
+            "T value",
+            ("Slider of the oil temperature", temperatures),
+            "Temperature of the oil as it enters the contact",
+        ),
     ]
     .into_iter()
     .flatten()
@@ -214,14 +191,14 @@ fn temperature_k(document: &Document) -> Option<f64> {
 
 /// Draws all sliders, one below the other.
 pub fn column(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
-    let width = (ui.available_width() - NAME_WIDTH - ENTRY_WIDTH - GAPS).clamp(70.0, 420.0);
+    let width = (ui.available_width() - NAME_WIDTH - ENTRY_WIDTH - PERCENT_WIDTH - GAPS).clamp(70.0, 420.0);
     let mut wanted = None;
     Grid::new("sliders").num_columns(3).spacing([8.0, 6.0]).show(ui, |ui| {
         for row in rows(context) {
             if row.quantity == Quantity::NewtonianPlateauRatio && !is_shear_thinning(context.document) {
                 disabled_plateau(ui, width);
             } else {
-                wanted = row.ui(ui, context.document.point.kind, entries, (width, true)).or(wanted);
+                wanted = row.ui(ui, context.system, entries, (width, true)).or(wanted);
             }
             ui.end_row();
         }
@@ -261,18 +238,18 @@ pub fn side_by_side(
     entries: &mut Entries,
     commands: &mut Commands,
 ) {
-    let rows = rows(context).into_iter().chain(si_rows(context.document));
+    let rows = rows(context).into_iter().chain(si_rows(context.document, context.system));
     let rows: Vec<Row> = rows.filter(|row| chosen(row.quantity)).collect();
     let each = ui.available_width() / rows.len() as f32;
     let named = each >= ROOM_FOR_NAME;
     let name = if named { NAME_WIDTH } else { SYMBOL_WIDTH };
-    let unit = if rows.iter().any(|row| !row.unit.0.is_empty()) { UNIT_WIDTH } else { 0.0 };
+    let unit = if rows.iter().any(|row| !row.unit.name.is_empty()) { UNIT_WIDTH } else { 0.0 };
     let width = (each - name - ENTRY_WIDTH - GAPS - unit).max(40.0);
-    let kind = context.document.point.kind;
     let mut wanted = None;
     ui.horizontal(|ui| {
         for row in rows {
-            let moved = ui.add_enabled_ui(free(row.quantity), |ui| row.ui(ui, kind, entries, (width, named))).inner;
+            let moved =
+                ui.add_enabled_ui(free(row.quantity), |ui| row.ui(ui, context.system, entries, (width, named))).inner;
             wanted = moved.or(wanted);
             ui.add_space(8.0);
         }
@@ -285,7 +262,13 @@ pub fn side_by_side(
 
 impl Row {
     /// Draws the name or only its symbol, the slider and the number field. Returns the requested value.
-    fn ui(&self, ui: &mut Ui, kind: ContactKind, entries: &mut Entries, (width, named): (f32, bool)) -> Option<Wanted> {
+    fn ui(
+        &self,
+        ui: &mut Ui,
+        system: UnitSystem,
+        entries: &mut Entries,
+        (width, named): (f32, bool),
+    ) -> Option<Wanted> {
         let tip = self.slider.tooltip;
         let (sign, subscript) = self.quantity.symbol();
         let name = if named { word(self.quantity) } else { "" };
@@ -299,26 +282,21 @@ impl Row {
         };
         explained(ui, name, tip);
         let moved = self.slider.show(ui, self.value, width).map(|value| (sign, value));
-        let ratio = matches!(self.quantity, Quantity::SlideToRollRatio | Quantity::RadiusRatio);
-        let read = |text: &str| match ratio {
-            true => engineering::parse(text, Dimension::Ratio, "").map_err(Refusal::from),
-            false if !self.unit.0.is_empty() => self.read(text, kind),
-            false => numbers::parse(text),
+        let read = |text: &str| match self.quantity {
+            Quantity::M | Quantity::L | Quantity::NewtonianPlateauRatio => numbers::parse(text),
+            _ => Ok(self.unit.number(self.kind.read(text, system)?)),
         };
-        let entered = typed_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip, read);
-        let (unit, zero, size) = self.unit;
-        if !unit.is_empty() {
-            ui.label(unit);
-        }
+        let entered = ui.horizontal(|ui| {
+            let entered = typed_field(ui, entries, self.entry, self.value, ENTRY_WIDTH, tip, read);
+            if !self.unit.name.is_empty() {
+                ui.spacing_mut().item_spacing.x = 3.0;
+                ui.label(self.unit.name);
+            }
+            entered
+        });
+        let entered = entered.inner;
         let (field, value) = moved.or(entered.map(|value| (self.entry, value)))?;
-        Some((self.quantity, field, value * size + zero))
-    }
-
-    /// Reads a text with a unit. Returns the number in the unit of the slider.
-    fn read(&self, text: &str, kind: ContactKind) -> Result<f64, Refusal> {
-        let (unit, zero, size) = self.unit;
-        let si = engineering::parse(text, self.quantity.dimension(kind), unit)?;
-        Ok((si - zero) / size)
+        Some((self.quantity, field, self.unit.si(value)))
     }
 }
 
@@ -395,8 +373,8 @@ fn disabled_plateau(ui: &mut Ui, width: f32) {
     let tip = NPR_NEWTONIAN_TIP;
     ui.add_enabled(false, egui::Label::new("Plateau NPR")).on_disabled_hover_text(tip);
     ui.spacing_mut().slider_width = width;
-    let response =
-        ui.add_enabled(false, Slider::new(&mut 1.0, range(Quantity::NewtonianPlateauRatio)).show_value(false));
+    let (low, high) = Quantity::NewtonianPlateauRatio.usual_range();
+    let response = ui.add_enabled(false, Slider::new(&mut 1.0, low..=high).show_value(false));
     let response = described(ui, named(ui, response, Quantity::NewtonianPlateauRatio.label()), tip);
     response.on_disabled_hover_text(tip);
     ui.weak("Newtonian").on_hover_text(tip);

@@ -8,10 +8,9 @@ use crate::app::controls::{
 };
 use crate::app::document::{Document, Edit};
 use crate::app::numbers;
-use crate::app::refusal::Refusal;
 use crate::app::theme::{name_and_symbol, rich};
 use crate::scene::View;
-use crate::solver::physics::engineering::{self, Dimension};
+use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::physics::lubricant::Lubricant;
 use crate::solver::physics::surfaces::{AsperityLaw, FINISHES, Finish, HeightMeasure, Roughness};
 use egui::{Checkbox, CollapsingHeader, ComboBox, Grid, TextStyle, Ui};
@@ -20,10 +19,10 @@ use egui::{Checkbox, CollapsingHeader, ComboBox, Grid, TextStyle, Ui};
 const GROUP: &str = "surfaces";
 const FIELDS: [&str; 2] = ["Roughness of body 1", "Roughness of body 2"];
 const FINISH_FIELDS: [&str; 2] = ["Finish of body 1", "Finish of body 2"];
-/// Metres per micrometre, the unit of the fields.
-const MICRO: f64 = 1e-6;
-/// Range of the slider of the composite roughness \[µm\].
-const SLIDER_UM: (f64, f64) = (5e-3, 5.0);
+/// Kind of the fields.
+const HEIGHT: QuantityKind = QuantityKind::FilmThickness;
+/// Range of the slider of the composite roughness \[m\].
+const SLIDER_M: (f64, f64) = (5e-9, 5e-6);
 /// Film ratio h_min/σ below which asperities carry a noticeable part of the load.
 const TOUCHES: f64 = 3.0;
 /// Default elastic–plastic law and exponential law: constants of the library's default law, and the hardness of bearing
@@ -44,34 +43,42 @@ const RADIUS_TIP: &str = "σ over the radius of the summits; 0.0001 (smooth) …
 const HARDNESS_TIP: &str = "Hardness of the softer body; bearing steel 7…8 GPa";
 
 const CONSTANTS: [Constant; 7] = [
-    constant("Boundary friction", ("Boundary friction", "µ", "b"), ("", 1.0), FRICTION_TIP, |laws| {
+    constant("Boundary friction", ("Boundary friction", "µ", "b"), QuantityKind::Number, FRICTION_TIP, |laws| {
         Some(&mut laws.roughness.as_mut()?.boundary_friction)
     }),
-    constant("Peklenik number", ("Lay", "γ", ""), ("", 1.0), PEKLENIK_TIP, |laws| {
+    constant("Peklenik number", ("Lay", "γ", ""), QuantityKind::Number, PEKLENIK_TIP, |laws| {
         Some(&mut laws.roughness.as_mut()?.peklenik)
     }),
-    constant("Summits", ("Summits", "ηβσ", ""), ("", 1.0), SUMMITS_TIP, |laws| match asperities(laws)? {
+    constant("Summits", ("Summits", "ηβσ", ""), QuantityKind::Number, SUMMITS_TIP, |laws| match asperities(laws)? {
         AsperityLaw::GreenwoodTripp { eta_beta_sigma: summits, .. }
         | AsperityLaw::ZhaoMaiettaChang { n_beta_sigma: summits, .. } => Some(summits),
         AsperityLaw::Exponential { .. } => None,
     }),
-    constant("Roughness over summit radius", ("Slope", "σ/β", ""), ("", 1.0), RADIUS_TIP, |laws| {
+    constant("Roughness over summit radius", ("Slope", "σ/β", ""), QuantityKind::Number, RADIUS_TIP, |laws| {
         match asperities(laws)? {
             AsperityLaw::GreenwoodTripp { sigma_over_beta, .. }
             | AsperityLaw::ZhaoMaiettaChang { sigma_over_beta, .. } => Some(sigma_over_beta),
             AsperityLaw::Exponential { .. } => None,
         }
     }),
-    constant("Hardness", ("Hardness", "H", "d"), ("GPa", 1e9), HARDNESS_TIP, |laws| match asperities(laws)? {
-        AsperityLaw::ZhaoMaiettaChang { hardness, .. } => Some(hardness),
-        AsperityLaw::GreenwoodTripp { .. } | AsperityLaw::Exponential { .. } => None,
+    constant("Hardness", ("Hardness", "H", "d"), QuantityKind::Pressure, HARDNESS_TIP, |laws| {
+        match asperities(laws)? {
+            AsperityLaw::ZhaoMaiettaChang { hardness, .. } => Some(hardness),
+            AsperityLaw::GreenwoodTripp { .. } | AsperityLaw::Exponential { .. } => None,
+        }
     }),
-    constant("Asperity pressure", ("Pressure", "p", "0"), ("MPa", 1e6), "Asperity pressure at h = 0", |laws| {
+    constant("Asperity pressure", ("Pressure", "p", "0"), QuantityKind::Stress, "Asperity pressure at h = 0", |laws| {
         if let AsperityLaw::Exponential { pressure, .. } = asperities(laws)? { Some(pressure) } else { None }
     }),
-    constant("Decay", ("Decay", "c", ""), ("", 1.0), "h/σ over which the asperity pressure falls by e", |laws| {
-        if let AsperityLaw::Exponential { decay, .. } = asperities(laws)? { Some(decay) } else { None }
-    }),
+    constant(
+        "Decay",
+        ("Decay", "c", ""),
+        QuantityKind::Number,
+        "h/σ over which the asperity pressure falls by e",
+        |laws| {
+            if let AsperityLaw::Exponential { decay, .. } = asperities(laws)? { Some(decay) } else { None }
+        },
+    ),
 ];
 
 fn asperities(laws: &mut Lubricant) -> Option<&mut AsperityLaw> {
@@ -86,11 +93,11 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &
         Grid::new("surfaces").num_columns(2).min_col_width(NAME_WIDTH).spacing([8.0, 4.0]).show(ui, |ui| {
             measure_ui(ui, document, commands);
         });
-        heights_ui(ui, document, entries, commands);
-        finishes_ui(ui, document, commands);
-        composite_ui(ui, document, commands);
+        heights_ui(ui, context, entries, commands);
+        finishes_ui(ui, context, commands);
+        composite_ui(ui, context, commands);
         state_ui(ui, context);
-        mixed_ui(ui, document, entries, commands);
+        mixed_ui(ui, context, entries, commands);
         entries.reserved_ui(ui, FIELDS.into_iter().chain(CONSTANTS.iter().map(Constant::name)).chain([GROUP]));
     });
     ringed(ui, shown.header_response, "Surfaces");
@@ -107,22 +114,22 @@ fn measure_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
     }
 }
 
-fn heights_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
+fn heights_ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+    let (document, system) = (context.document, context.system);
+    let unit = HEIGHT.unit(system);
     let (measure, present) = (document.view.height_measure, document.surfaces());
     let mut wanted = present;
     ui.horizontal(|ui| {
         let name = format!("Roughness {{{}}}", measure.name());
         row_name(ui, rich(&name, TextStyle::Body.resolve(ui.style()).size, ui.visuals().text_color()), TIP);
-        let read = |text: &str| {
-            engineering::parse(text, Dimension::Length, "µm").map(|metres| metres / MICRO).map_err(Refusal::from)
-        };
+        let read = |text: &str| Ok(unit.number(HEIGHT.read(text, system)?));
         for (field, rms) in FIELDS.into_iter().zip(&mut wanted) {
-            let shown = *rms * measure.of_rms() / MICRO;
+            let shown = unit.number(*rms * measure.of_rms());
             if let Some(typed) = typed_field(ui, entries, field, shown, 66.0, TIP, read) {
-                *rms = typed * MICRO / measure.of_rms();
+                *rms = unit.si(typed) / measure.of_rms();
             }
         }
-        ui.label("µm");
+        ui.label(unit.name);
     });
     for (k, field) in FIELDS.into_iter().enumerate() {
         if wanted[k] != present[k] {
@@ -131,7 +138,9 @@ fn heights_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands:
     }
 }
 
-fn finishes_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
+fn finishes_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let document = context.document;
+    let unit = HEIGHT.unit(context.system);
     let mut wanted = document.surfaces();
     ui.horizontal(|ui| {
         let tip = "Usual roughness of a finish, the middle of its range";
@@ -141,7 +150,12 @@ fn finishes_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
             let text = present.map_or("Own", |finish| finish.name);
             let response = ComboBox::from_id_salt(name).width(78.0).selected_text(text).show_ui(ui, |ui| {
                 for finish in FINISHES {
-                    let text = format!("{}, Rq {} µm", finish.name, numbers::digits(finish.rms_m() / MICRO, 2));
+                    let text = format!(
+                        "{}, Rq {} {}",
+                        finish.name,
+                        numbers::digits(unit.number(finish.rms_m()), 2),
+                        unit.name
+                    );
                     if ui.selectable_label(present == Some(finish), text).on_hover_text(finish.source).clicked() {
                         *rms = finish.rms_m();
                     }
@@ -156,28 +170,30 @@ fn finishes_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
 }
 
 /// Draws the slider of the composite roughness.
-fn composite_ui(ui: &mut Ui, document: &Document, commands: &mut Commands) {
+fn composite_ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
+    let document = context.document;
+    let unit = HEIGHT.unit(context.system);
     let ([first, second], sigma) = (document.surfaces(), document.composite_roughness_m());
     let usual = Finish::rms_m(&FINISHES[1]) * std::f64::consts::SQRT_2;
     ui.horizontal(|ui| {
         row_name(ui, name_and_symbol(ui, "Composite", "σ", ""), SIGMA_TIP);
         let slider = RangeSlider {
             name: "Composite roughness",
-            range: SLIDER_UM.0..=SLIDER_UM.1,
+            range: unit.number(SLIDER_M.0)..=unit.number(SLIDER_M.1),
             marked: None,
-            home: usual / MICRO,
+            home: unit.number(usual),
             tooltip: SIGMA_TIP,
             logarithmic: true,
         };
-        if let Some(moved) = slider.show(ui, sigma / MICRO, 96.0) {
-            let wanted = numbers::rounded(moved, 3) * MICRO;
+        if let Some(moved) = slider.show(ui, unit.number(sigma), 96.0) {
+            let wanted = unit.si(numbers::rounded(moved, 3));
             let surfaces = match sigma {
                 0.0 => [wanted / std::f64::consts::SQRT_2; 2],
                 sigma => [first, second].map(|rms| rms * wanted / sigma),
             };
             commands.edit(Edit::Surfaces(surfaces), GROUP);
         }
-        let text = format!("{}{}µm", numbers::digits(sigma / MICRO, 3), numbers::THIN);
+        let text = format!("{}{}{}", numbers::digits(unit.number(sigma), 3), numbers::THIN, unit.name);
         ui.label(text).on_hover_text(SIGMA_TIP);
     });
 }
@@ -207,8 +223,8 @@ fn state_ui(ui: &mut Ui, context: &Context<'_>) {
 }
 
 /// Draws the switch and, if it is on, the constants of the asperities.
-fn mixed_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &mut Commands) {
-    let before = document.lubricant;
+fn mixed_ui(ui: &mut Ui, context: &Context<'_>, entries: &mut Entries, commands: &mut Commands) {
+    let before = context.document.lubricant;
     let mut on = before.roughness.is_some();
     let mixed = ui.add(Checkbox::new(&mut on, "Mixed lubrication"));
     let mixed = described(ui, named(ui, mixed, "Mixed lubrication"), MIXED_TIP);
@@ -235,7 +251,7 @@ fn mixed_ui(ui: &mut Ui, document: &Document, entries: &mut Entries, commands: &
     });
     let asperities = Roughness { asperities: law, ..roughness };
     let mut wanted = Lubricant { roughness: Some(asperities), ..before };
-    let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted);
+    let field = constants_ui(ui, entries, &CONSTANTS, &mut wanted, context.system);
     if wanted != before {
         commands.edit(Edit::Laws(Box::new(wanted)), field);
     }

@@ -1,8 +1,9 @@
-//! Colour bar of a map, with dimensionless and SI values.
+//! Colour bar of a map, with dimensionless values and units.
 
 use crate::app::theme::{Palette, rich};
-use crate::app::units::Units;
+use crate::app::units::{Scale, Units};
 use crate::app::{figure, numbers};
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Align2, Color32, FontId, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 /// Width of the bar with its numbers.
@@ -23,7 +24,7 @@ pub fn ticks((low, high): (f64, f64)) -> Vec<f64> {
     (0..=count).map(|k| low + unit * k as f64).collect()
 }
 
-/// Draws the bar: colours from the lower to the upper end, their values, and the values in SI units.
+/// Draws the bar: colours from the lower to the upper end, their values, and the values with units.
 pub fn ui(
     ui: &mut Ui,
     title: &str,
@@ -58,11 +59,18 @@ pub fn ui(
     }
 }
 
-/// Sets the colour scale for the figure of the map that was drawn last. In SI units it uses another title and a
-/// factor.
-pub fn on_paper(ui: &Ui, title: &str, (factor, in_si): (f64, &str), (colors, (low, high)): (&[Color32], (f64, f64))) {
-    let (title, factor) = if Units::of(ui.ctx()) == Units::Si { (in_si, factor) } else { (title, 1.0) };
-    figure::scale(ui.ctx(), title, (factor * low, factor * high), colors);
+/// Sets the colour scale for the figure of the map that was drawn last. With units it has another title and a scale.
+pub fn on_paper(
+    ui: &Ui,
+    title: &str,
+    (scale, dimensional): (Scale, &str),
+    (colors, (low, high)): (&[Color32], (f64, f64)),
+) {
+    let (title, factor) = match Units::of(ui.ctx()) {
+        Units::Dimensional => (format!("{dimensional} / {}", scale.unit), scale.factor),
+        Units::Dimensionless => (title.to_owned(), 1.0),
+    };
+    figure::scale(ui.ctx(), &title, (factor * low, factor * high), colors);
 }
 
 /// Returns the colours of a table for the strips of the bar.
@@ -72,19 +80,14 @@ pub fn strips(table: &[Color32]) -> Vec<Color32> {
     (0..STRIPS).filter_map(|k| table.get(place(k)).copied()).collect()
 }
 
-/// Returns a pressure in Pa as a short text.
-pub fn in_gigapascals(pascal: f64) -> String {
-    if pascal == 0.0 { "0".to_owned() } else { short(pascal * 1e-9, "GPa") }
-}
-
-/// Returns a film thickness in m as a short text.
-pub fn in_nanometres(metre: f64) -> String {
-    let nanometres = metre * 1e9;
-    if nanometres >= 1000.0 { short(nanometres * 1e-3, "µm") } else { short(nanometres, "nm") }
-}
-
-fn short(value: f64, unit: &str) -> String {
-    format!("{}{}{unit}", numbers::digits(value, 3), numbers::THIN)
+/// Returns a value in SI units as a short text.
+pub fn short(kind: QuantityKind, si: f64, system: UnitSystem) -> String {
+    let unit = kind.unit_of(system, si);
+    if si == 0.0 {
+        "0".to_owned()
+    } else {
+        format!("{}{}{}", numbers::digits(unit.number(si), 3), numbers::THIN, unit.name)
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use crate::app::answers::picture::{Cuts, Picture};
 use crate::app::numbers;
-use crate::app::units::Scales;
+use crate::app::units::{Scale, Scales};
+use crate::solver::physics::contact::Hertz;
 use egui_plot::PlotPoint;
 
 /// Direction of a profile.
@@ -37,9 +38,14 @@ impl Direction {
         self.either(&picture.asperities, &picture.across.asperities)
     }
 
-    /// Returns the scale of lengths along it \[mm\]: a, or b across a point contact.
-    pub fn length_mm(self, scales: Scales) -> f64 {
-        self.either(scales.length_mm, scales.across_mm)
+    /// Returns the scale of lengths along it: a, or b across a point contact.
+    pub fn length(self, scales: Scales) -> Scale {
+        self.either(scales.along, scales.across)
+    }
+
+    /// Returns the unit of its coordinate \[m\]: a, or b across a point contact.
+    pub fn length_m(self, hertz: &Hertz) -> f64 {
+        self.either(hertz.half_width_m, hertz.half_length_m)
     }
 
     /// Returns the length that scales its coordinate. Both semi-axes of a circular contact are a.
@@ -83,10 +89,10 @@ impl Direction {
         }
     }
 
-    /// Returns a title that is not empty in SI units.
-    pub fn si_title(self, title: &str) -> String {
+    /// Returns the title of its axis with units, without the unit.
+    pub fn dimensional_title(self, title: &str) -> String {
         let at = title.split_once(" at ").map_or_else(String::new, |(_, at)| format!(" at {at}"));
-        format!("{{{}}} / mm{at}", self.name().to_lowercase())
+        format!("{{{}}}{at}", self.name().to_lowercase())
     }
 
     /// Returns the position of the profile on the other axis.

@@ -4,7 +4,7 @@ use crate::app::controls::named;
 use crate::app::figure::{Axis, Canvas, Recording};
 use crate::app::plot::axes::{TITLE_SIZE, decade_label, few_decade_marks, log_label, log_marks, round_marks, tick};
 use crate::app::theme::rich;
-use crate::app::units::{Manner, Units};
+use crate::app::units::{Manner, Scale, Units};
 use egui::{Color32, Id, Ui, Vec2, Vec2b};
 use egui_plot::{GridInput, GridMark, HoverPosition, Plot, PlotBounds, PlotResponse};
 
@@ -153,15 +153,27 @@ impl<'a> PlotFrame<'a> {
         self
     }
 
-    /// Sets factor and title of the horizontal axis in SI units.
-    pub fn si_x(mut self, factor: f64, title: &str) -> Self {
-        in_si(&mut self.x, self.manner.units, factor, title);
+    /// Sets scale and title of the horizontal axis with units. The unit follows the title.
+    pub fn units_x(mut self, scale: impl Into<Option<Scale>>, title: &str) -> Self {
+        with_units(&mut self.x, self.manner.units, scale.into(), title);
         self
     }
 
-    /// Sets factor and title of the vertical axis in SI units.
-    pub fn si_y(mut self, factor: f64, title: &str) -> Self {
-        in_si(&mut self.y, self.manner.units, factor, title);
+    /// Sets scale and title of the vertical axis with units.
+    pub fn units_y(mut self, scale: impl Into<Option<Scale>>, title: &str) -> Self {
+        with_units(&mut self.y, self.manner.units, scale.into(), title);
+        self
+    }
+
+    /// Sets scale and title of the horizontal axis of plotted values that have a unit in any case.
+    pub fn always_x(mut self, scale: Scale, title: &str) -> Self {
+        with_units(&mut self.x, Units::Dimensional, Some(scale), title);
+        self
+    }
+
+    /// Sets scale and title of the vertical axis of plotted values that have a unit in any case.
+    pub fn always_y(mut self, scale: Scale, title: &str) -> Self {
+        with_units(&mut self.y, Units::Dimensional, Some(scale), title);
         self
     }
 
@@ -211,13 +223,14 @@ impl<'a> PlotFrame<'a> {
     }
 }
 
-fn in_si(axis: &mut Axis, units: Units, factor: f64, title: &str) {
-    if units == Units::Si && factor.is_finite() && factor > 0.0 {
+fn with_units(axis: &mut Axis, units: Units, scale: Option<Scale>, title: &str) {
+    let Some(Scale { factor, unit }) = scale.filter(|_| units == Units::Dimensional) else { return };
+    if factor.is_finite() && factor > 0.0 {
         axis.factor = factor;
         // A title that the screen shows elsewhere stays empty.
         for name in [&mut axis.title, &mut axis.on_paper] {
             if !name.is_empty() {
-                title.clone_into(name);
+                *name = format!("{title} / {unit}");
             }
         }
     }

@@ -5,6 +5,7 @@ use crate::app::desk::Desk;
 use crate::app::display::Display;
 use crate::app::figure::FigureSettings;
 use crate::app::presentation::Presentation;
+use crate::app::reports::ReportSettings;
 use crate::app::tab::Tab;
 use crate::app::tabs::all::Tabs;
 use serde::{Deserialize, Serialize};
@@ -19,6 +20,7 @@ pub struct Shown {
     #[serde(flatten)]
     display: Display,
     figures: FigureSettings,
+    reports: ReportSettings,
     /// Settings of the tabs as text.
     tabs: Vec<(Tab, String)>,
     /// Titles of the lessons that were finished.
@@ -33,6 +35,7 @@ impl Shown {
         Self {
             display: desk.display,
             figures: desk.figures.settings,
+            reports: desk.reports.settings.clone(),
             tabs: desk.tabs.kept(),
             finished: desk.finished.clone(),
             locked: desk.presentation.as_ref().map_or(&desk.locked, Presentation::locked_before).clone(),
@@ -43,6 +46,7 @@ impl Shown {
         desk.tabs.restore(&self.tabs);
         desk.display = self.display;
         desk.finished = self.finished;
+        desk.reports.settings = self.reports;
         (desk.figures.settings, desk.locked) = (self.figures, self.locked);
     }
 
@@ -55,6 +59,7 @@ impl Shown {
             && cuts.y.is_finite()
             && Tabs::default().restore(&self.tabs)
             && self.figures.is_sound()
+            && self.reports.is_sound()
             && self.finished.len() <= MOST_FINISHED
             && Tab::ALL.iter().all(|tab| self.locked.iter().filter(|locked| *locked == tab).count() <= 1)
     }

@@ -19,14 +19,15 @@ pub fn tab_ui(ui: &mut Ui, tab: Tab, desk: &mut Desk, commands: &mut Commands) {
     desk.tabs = tabs;
 }
 
-/// Draws the switch between dimensionless and SI units. It is disabled on a tab without such units.
+/// Draws the switch between dimensionless values and units. It is disabled on a tab without such units.
 fn units_ui(ui: &mut Ui, there: bool, units: Units, commands: &mut Commands) {
-    let switch = egui::Button::selectable(units == Units::Si && there, "SI");
+    let switch = egui::Button::selectable(units == Units::Dimensional && there, "Units");
     let switch = ui.add_enabled(there, switch);
-    let tip = "Axes and exports in SI units, or dimensionless (F7)";
-    let none = "Errors, ratios and counts have no unit, and all other quantities of this tab are always in SI units";
+    let tip = "Axes and exports with units, or dimensionless (F7). Settings chooses the system";
+    let none =
+        "Errors, ratios and counts have no unit, and all other quantities of this tab are always shown with units";
     if switch.on_hover_text(tip).on_disabled_hover_text(none).clicked() {
-        commands.push(Command::SiUnits);
+        commands.push(Command::SwitchUnits);
     }
 }
 

@@ -8,6 +8,7 @@ use crate::scene::study::StudyRow;
 use crate::scene::study::transient::{MarchedBy, Row};
 use crate::solver::full::transient::{Moment, State, Trajectory};
 use crate::solver::observer::Observer;
+use crate::solver::physics::engineering::UnitSystem;
 
 /// Largest number of frames.
 const FRAMES: usize = 120;
@@ -142,6 +143,6 @@ impl<'a> Scenery<'a> {
         let y = self.march.mesh.plane()?.ordinates(state.film.len() / x.len().max(1));
         let [h_c, _, h_min, _] = self.most;
         let range = (h_min.max(0.0), 1.5 * h_c);
-        Some(film_over_plane(&self.march.transient.point, (x, &y), &state.film, range))
+        Some(film_over_plane(&self.march.transient.point, (x, &y), &state.film, range, UnitSystem::default()))
     }
 }

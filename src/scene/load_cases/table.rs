@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// Largest accepted size of a table \[bytes\].
 const MAX_BYTES: u64 = 32 << 20;
 
-/// Location of a table of load cases.
+/// Location of a table of load cases or of measured values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CaseTable {
     /// CSV file.
@@ -57,6 +57,17 @@ impl CaseTable {
     /// Returns the accepted titles, in addition to those of the columns of names and measured film thicknesses.
     pub fn accepted() -> String {
         accepted()
+    }
+
+    /// Returns the text of the table. `resolve` returns the full path of a file of the scene.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn text(&self, resolve: &dyn Fn(&Path) -> PathBuf) -> Result<String, CasesError> {
+        match self {
+            Self::Text(text) => Ok(text.clone()),
+            Self::File(path) => text_of(&resolve(path)),
+        }
     }
 
     /// Returns the table of a file as a text that can be edited.

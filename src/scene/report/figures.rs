@@ -6,6 +6,7 @@ use crate::scene::drawing::{Pen, Pixels, viridis};
 use crate::solver::discrete::half_space::{Stress, StressMeasure};
 use crate::solver::full::{Solution, SubsurfaceStress};
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::{QuantityKind, Unit, UnitSystem};
 
 /// Abscissae X of the profiles.
 const ALONG: (f64, f64) = (-2.0, 1.5);
@@ -17,30 +18,46 @@ const BRIGHTEST: f64 = 2.0;
 const PIXELS: [usize; 2] = [280, 240];
 
 /// Returns the figures of a report. The first answer is the reference, to which the stress field belongs.
-pub fn of(solved: &[Answer], stress: Option<&SubsurfaceStress>) -> Vec<Chart> {
+pub fn of(solved: &[Answer], stress: Option<&SubsurfaceStress>, system: UnitSystem) -> Vec<Chart> {
     let Some(solution) = solved.first().and_then(Answer::fields) else { return Vec::new() };
-    let map = (solution.problem.point.kind == ContactKind::Point).then(|| film_map(solution));
-    profiles(solved).into_iter().chain(map).chain(stress.map(|field| stress_map(solution, field))).collect()
+    let map = (solution.problem.point.kind == ContactKind::Point).then(|| film_map(solution, system));
+    profiles(solved, system)
+        .into_iter()
+        .chain(map)
+        .chain(stress.map(|field| stress_map(solution, field, system)))
+        .collect()
 }
 
-/// Returns pressure and film thickness in the plane Y = 0, in SI units.
-pub fn profiles(solved: &[Answer]) -> [Chart; 2] {
-    let x = || ChartAxis::linear("{x} in mm");
-    let mut pressure = Chart::new("Pressure", x(), ChartAxis::linear("{p} in GPa"));
-    let mut film = Chart::new("Film thickness", x(), ChartAxis::linear("{h} in µm"));
+/// Returns an axis with a unit.
+fn axis(symbol: &str, unit: Unit) -> ChartAxis {
+    ChartAxis::linear(format!("{{{symbol}}} in {}", unit.name))
+}
+
+/// Returns pressure and film thickness in the plane Y = 0.
+pub fn profiles(solved: &[Answer], system: UnitSystem) -> [Chart; 2] {
+    let [length, pressures, films] =
+        [QuantityKind::Length, QuantityKind::Pressure, QuantityKind::FilmThickness].map(|kind| kind.unit(system));
+    let mut pressure = Chart::new("Pressure", axis("x", length), axis("p", pressures));
+    let mut film = Chart::new("Film thickness", axis("x", length), axis("h", films));
     (pressure.marked, film.marked) = (true, true);
     for (answer, solution) in solved.iter().filter_map(|answer| Some((answer, answer.fields()?))) {
         let result = &answer.result;
         let (hertz, scale) = (result.point.hertz(), result.point.film_scale_m());
         let near = || solution.profile().filter(|(x, ..)| (ALONG.0..=ALONG.1).contains(x));
-        let mm = 1e3 * hertz.half_width_m;
+        let a = length.number(hertz.half_width_m);
         let name = if solved.len() > 1 { result.method } else { "" };
-        pressure.add(name, Marks::Line, near().map(|(x, p, _)| [x * mm, p * hertz.pressure_pa * 1e-9]));
+        pressure.add(name, Marks::Line, near().map(|(x, p, _)| [x * a, pressures.number(p * hertz.pressure_pa)]));
         let most = HIGHEST * solution.scalars.h_c;
-        film.add(name, Marks::Line, near().filter(|(.., h)| *h <= most).map(|(x, _, h)| [x * mm, h * scale * 1e6]));
+        film.add(
+            name,
+            Marks::Line,
+            near().filter(|(.., h)| *h <= most).map(|(x, _, h)| [x * a, films.number(h * scale)]),
+        );
     }
-    film.y.ends =
-        Some((0.0, HIGHEST * solved.first().and_then(|answer| answer.result.value("h_c_m")).unwrap_or(0.0) * 1e6));
+    film.y.ends = Some((
+        0.0,
+        HIGHEST * films.number(solved.first().and_then(|answer| answer.result.value("h_c_m")).unwrap_or(0.0)),
+    ));
     [pressure, film]
 }
 
@@ -50,9 +67,9 @@ fn colors() -> Vec<[u8; 3]> {
 }
 
 /// Returns the film thickness of a point contact as a map over both halves.
-fn film_map(solution: &Solution) -> Chart {
+fn film_map(solution: &Solution, system: UnitSystem) -> Chart {
     let range = (solution.scalars.h_min.max(0.0), BRIGHTEST * solution.scalars.h_c);
-    film_over_plane(&solution.problem.point, (&solution.x, &solution.y), &solution.film, range)
+    film_over_plane(&solution.problem.point, (&solution.x, &solution.y), &solution.film, range, system)
 }
 
 /// Returns a film thickness at nodes X and Y ≤ 0 of a point contact as a map over both halves. The colours extend over
@@ -62,9 +79,11 @@ pub fn film_over_plane(
     (nodes_x, nodes_y): (&[f64], &[f64]),
     film: &[f64],
     (lowest, highest): (f64, f64),
+    system: UnitSystem,
 ) -> Chart {
+    let [length, films] = [QuantityKind::Length, QuantityKind::FilmThickness].map(|kind| kind.unit(system));
     let hertz = point.hertz();
-    let [a, b] = [hertz.half_width_m, hertz.half_length_m].map(|axis| 1e3 * axis);
+    let [a, b] = [hertz.half_width_m, hertz.half_length_m].map(|axis| length.number(axis));
     let (x, y) = ((-1.8, 1.4), (-1.4, 1.4));
     let [columns, rows] = PIXELS;
     let place = |(from, to): (f64, f64), k: usize, count: usize| from + (to - from) * (k as f64 + 0.5) / count as f64;
@@ -78,16 +97,15 @@ pub fn film_over_plane(
             rgb.extend(viridis(share));
         }
     }
-    let scale = point.film_scale_m() * 1e6;
-    let mut chart =
-        Chart::new("Film thickness of the contact", ChartAxis::linear("{x} in mm"), ChartAxis::linear("{y} in mm"));
+    let scale = films.number(point.film_scale_m());
+    let mut chart = Chart::new("Film thickness of the contact", axis("x", length), axis("y", length));
     (chart.equal, chart.marked) = (true, true);
     chart.map = Some(Map {
         x: (a * x.0, a * x.1),
         y: (b * y.0, b * y.1),
         pixels: Pixels { width: columns, rgb },
         scale: Some(ColorScale {
-            label: "{h} in µm".to_owned(),
+            label: format!("{{h}} in {}", films.name),
             ends: (scale * lowest, scale * highest),
             colors: colors(),
         }),
@@ -97,27 +115,27 @@ pub fn film_over_plane(
 }
 
 /// Returns the von Mises stress below the surface, with the position of its maximum.
-fn stress_map(solution: &Solution, field: &SubsurfaceStress) -> Chart {
-    let mm = 1e3 * solution.problem.point.hertz().half_width_m;
-    let ends = |nodes: &[f64]| (nodes.first().map_or(0.0, |x| mm * x), nodes.last().map_or(1.0, |x| mm * x));
+fn stress_map(solution: &Solution, field: &SubsurfaceStress, system: UnitSystem) -> Chart {
+    let [length, stresses] = [QuantityKind::Length, QuantityKind::Stress].map(|kind| kind.unit(system));
+    let a = length.number(solution.problem.point.hertz().half_width_m);
+    let ends = |nodes: &[f64]| (nodes.first().map_or(0.0, |x| a * x), nodes.last().map_or(1.0, |x| a * x));
     let ((left, right), (_, deepest)) = (ends(&field.x), ends(&field.z));
     let largest = field.maximum(StressMeasure::VonMises);
     let pixel = |stress: &Stress| viridis(stress.von_mises() / largest.stress_pa);
-    let mut chart =
-        Chart::new("Von Mises stress below body 1", ChartAxis::linear("{x} in mm"), ChartAxis::linear("{z} in mm"));
+    let mut chart = Chart::new("Von Mises stress below body 1", axis("x", length), axis("z", length));
     chart.marked = true;
     chart.map = Some(Map {
         x: (left, right),
         y: (-deepest, 0.0),
         pixels: Pixels { width: field.x.len(), rgb: field.stress.iter().flat_map(pixel).collect() },
         scale: Some(ColorScale {
-            label: "stress in MPa".to_owned(),
-            ends: (0.0, 1e-6 * largest.stress_pa),
+            label: format!("stress in {}", stresses.name),
+            ends: (0.0, stresses.number(largest.stress_pa)),
             colors: colors(),
         }),
     });
     (chart.x.ends, chart.y.ends) = (Some((left, right)), Some((-deepest, 0.0)));
-    chart.add("maximum", Marks::Crosses, [[mm * largest.x, -mm * largest.z]]);
+    chart.add("maximum", Marks::Crosses, [[a * largest.x, -a * largest.z]]);
     if let Some(series) = chart.series.last_mut() {
         series.name.clear();
         series.pen = Some(Pen { color: [0x22; 3], opacity: 1.0, width: 1.0, dashes: Vec::new() });

@@ -1,4 +1,4 @@
-//! Report of one contact on one page: inputs in engineering units, results, how they were checked, figures. Written as
+//! Report of one contact on one page: inputs, results, how they were checked, figures. Written as
 //! HTML or PDF, for A4 or Letter paper.
 
 mod figures;
@@ -17,11 +17,12 @@ use super::chart::Chart;
 use super::subsurface::Subsurface;
 use crate::host::clock::today;
 use rows::Section;
+use serde::{Deserialize, Serialize};
 use std::ffi::OsStr;
 use std::path::Path;
 
 /// Paper of a report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Paper {
     /// 210 mm by 297 mm.
     #[default]
@@ -31,6 +32,9 @@ pub enum Paper {
 }
 
 impl Paper {
+    /// All papers.
+    pub const ALL: [Self; 2] = [Self::A4, Self::Letter];
+
     /// Returns width and height \[mm\].
     pub const fn size_mm(self) -> [f64; 2] {
         match self {
@@ -43,7 +47,7 @@ impl Paper {
     pub const fn name(self) -> &'static str {
         match self {
             Self::A4 => "A4",
-            Self::Letter => "letter",
+            Self::Letter => "Letter",
         }
     }
 }
@@ -108,7 +112,7 @@ impl Report {
                 report.warnings.push(warning);
             }
         }
-        report.figures = figures::of(solved, field.as_ref());
+        report.figures = figures::of(solved, field.as_ref(), stated.system);
         report
     }
 

@@ -1,9 +1,7 @@
 //! Results of a contact, and how they were checked.
 
 use super::inputs::regime;
-use super::rows::{
-    FORCE, LENGTH, LINE_LOAD, POWER, POWER_PER_LENGTH, PRESSURE, Section, TORQUE, celsius, measured, number, percent,
-};
+use super::rows::{Section, measured, number, percent};
 use super::stated::Stated;
 use crate::scene::answer::Answer;
 use crate::scene::contact_result::ContactResult;
@@ -11,25 +9,26 @@ use crate::scene::subsurface::Subsurface;
 use crate::solver::full::Lubrication;
 use crate::solver::physics::bodies::film_regime;
 use crate::solver::physics::contact::ContactKind;
-use crate::solver::physics::engineering::{Extent, Losses};
+use crate::solver::physics::engineering::{Extent, Losses, QuantityKind as K, UnitSystem};
 
 /// Returns the sections of the results. The first answer is the reference.
 pub fn sections(stated: &Stated, solved: &[Answer], below: Option<&Subsurface>) -> Vec<Section> {
     let Some((first, others)) = solved.split_first() else { return Vec::new() };
-    let mut all = vec![film(stated, first), friction(&first.result)];
-    all.extend(temperatures(first));
-    all.extend(below.map(stresses));
-    all.push(trust(first, others));
+    let system = stated.system;
+    let mut all = vec![film(stated, first), friction(&first.result, system)];
+    all.extend(temperatures(first, system));
+    all.extend(below.map(|below| stresses(below, system)));
+    all.push(trust(first, others, system));
     all
 }
 
 fn film(stated: &Stated, solved: &Answer) -> Section {
     let result = &solved.result;
     let (point, hertz) = (&result.point, result.point.hertz());
-    let mut part = Section::new("Film and pressure");
-    part.measure("Central film thickness {h_c}", result.value("h_c_m"), LENGTH);
+    let mut part = Section::new("Film and pressure", stated.system);
+    part.measure("Central film thickness {h_c}", result.value("h_c_m"), K::FilmThickness);
     let least = result.value("h_min_m");
-    part.measure("Minimum film thickness {h_min}", least, LENGTH);
+    part.measure("Minimum film thickness {h_min}", least, K::FilmThickness);
     let own = result.value("mixed.film_ratio_min");
     let share = result.value("mixed.asperity_load_share");
     if let Some(ratio) = own.or_else(|| stated.pair?.film_ratio(least?).ok()) {
@@ -39,13 +38,14 @@ fn film(stated: &Stated, solved: &Answer) -> Section {
     if let Some(share) = share {
         part.row("Load on asperities", percent(share));
     }
-    part.measure("Hertzian pressure {p_H}", hertz.pressure_pa, PRESSURE);
-    part.measure("Maximum pressure", result.value("P_max").map(|p| p * hertz.pressure_pa), PRESSURE);
+    part.measure("Hertzian pressure {p_H}", hertz.pressure_pa, K::Pressure);
+    part.measure("Maximum pressure", result.value("P_max").map(|p| p * hertz.pressure_pa), K::Pressure);
     match (point.kind, point.is_elliptic()) {
-        (ContactKind::Line, _) => part.measure("Half width {a}", hertz.half_width_m, LENGTH),
-        (ContactKind::Point, false) => part.measure("Contact radius {a}", hertz.half_width_m, LENGTH),
+        (ContactKind::Line, _) => part.measure("Half width {a}", hertz.half_width_m, K::Length),
+        (ContactKind::Point, false) => part.measure("Contact radius {a}", hertz.half_width_m, K::Length),
         (ContactKind::Point, true) => {
-            let [along, across] = [hertz.half_width_m, hertz.half_length_m].map(|axis| measured(axis, LENGTH));
+            let [along, across] =
+                [hertz.half_width_m, hertz.half_length_m].map(|axis| measured(K::Length, axis, stated.system));
             part.row("Semi-axes {a}, {b}", format!("{along}, {across}"));
         }
     }
@@ -55,8 +55,8 @@ fn film(stated: &Stated, solved: &Answer) -> Section {
     part
 }
 
-fn friction(result: &ContactResult) -> Section {
-    let mut part = Section::new("Friction and power");
+fn friction(result: &ContactResult, system: UnitSystem) -> Section {
+    let mut part = Section::new("Friction and power", system);
     let (Some(traction), Some(rolling)) = (result.traction, result.rolling_resistance) else { return part };
     let sliding = result.point.sliding.slide_to_roll_ratio;
     part.row("Friction coefficient {µ}", if sliding == 0.0 { "0, pure rolling".to_owned() } else { number(traction) });
@@ -66,48 +66,49 @@ fn friction(result: &ContactResult) -> Section {
         part.row("of the film, of asperities", format!("{}, {}", number(fluid), number(boundary)));
     }
     if let Some(losses) = result.losses() {
-        part.measure("Friction force", losses.friction_n, FORCE);
-        part.measure("Rolling resistance of each body", losses.rolling_n, FORCE);
+        part.measure("Friction force", losses.friction_n, K::Force);
+        part.measure("Rolling resistance of each body", losses.rolling_n, K::Force);
         for (name, torque) in ["Torque of body 1", "Torque of body 2"].into_iter().zip(losses.torques_nm) {
-            part.measure(name, torque, TORQUE);
+            part.measure(name, torque, K::Torque);
         }
-        part.measure("Power loss", losses.power_w, POWER);
+        part.measure("Power loss", losses.power_w, K::Power);
     } else if let Some(losses) =
         Losses::of(&result.point, traction, rolling, &Extent { length_m: Some(1.0), ..result.extent })
     {
-        part.measure("Friction force", losses.friction_n, LINE_LOAD);
-        part.measure("Rolling resistance of each body", losses.rolling_n, LINE_LOAD);
-        part.measure("Power loss", losses.power_w, POWER_PER_LENGTH);
+        part.measure("Friction force", losses.friction_n, K::LineLoad);
+        part.measure("Rolling resistance of each body", losses.rolling_n, K::LineLoad);
+        part.measure("Power loss", losses.power_w, K::PowerPerLength);
     }
     part
 }
 
-fn temperatures(solved: &Answer) -> Option<Section> {
+fn temperatures(solved: &Answer, system: UnitSystem) -> Option<Section> {
     let heat = solved.result.heat.as_ref()?;
     let inlet = solved.request.lubricant.heat?.inlet_temperature;
-    let mut part = Section::new("Temperatures");
+    let mut part = Section::new("Temperatures", system);
     let [first, second] = heat.central.surfaces_k;
-    let at = |rise: f64| celsius(inlet + rise);
+    let at = |rise: f64| measured(K::Temperature, inlet + rise, system);
     part.row("Mid-film at {X} = 0", at(heat.central.mid_film_k));
     part.row("Surfaces 1, 2 at {X} = 0", format!("{}, {}", at(first), at(second)));
     part.row("Maximum in the film", at(heat.largest.mid_film_k));
     Some(part)
 }
 
-fn stresses(below: &Subsurface) -> Section {
-    let mut part = Section::new("Stress below the surface of body 1");
+fn stresses(below: &Subsurface, system: UnitSystem) -> Section {
+    let shown = |kind, si| measured(kind, si, system);
+    let mut part = Section::new("Stress below the surface of body 1", system);
     for (name, stress, depth) in [
         ("Maximum von Mises stress", below.von_mises_max_pa, below.von_mises_depth_m),
         ("Maximum shear stress", below.shear_max_pa, below.shear_depth_m),
         ("Orthogonal shear stress", below.orthogonal_shear_max_pa, below.orthogonal_shear_depth_m),
     ] {
-        part.row(name, format!("{}, {} deep", measured(stress, PRESSURE), measured(depth, LENGTH)));
+        part.row(name, format!("{}, {} deep", shown(K::Pressure, stress), shown(K::Length, depth)));
     }
     part
 }
 
-fn trust(first: &Answer, others: &[Answer]) -> Section {
-    let mut part = Section::new("Method and accuracy");
+fn trust(first: &Answer, others: &[Answer], system: UnitSystem) -> Section {
+    let mut part = Section::new("Method and accuracy", system);
     for result in std::iter::once(first).chain(others).map(|answer| &answer.result) {
         let nodes = match result.nodes {
             (nx, 1) => nx.to_string(),

@@ -1,36 +1,25 @@
-//! Rows of a report, and numbers in engineering units.
+//! Rows of a report, and numbers with their units.
 
 use crate::scene::table::significant;
+use crate::solver::physics::engineering::{Digits, QuantityKind, UnitSystem};
 
-/// Significant digits.
-const DIGITS: i32 = 4;
-
-/// Unit with its size in SI units.
-pub type Unit = (&'static str, f64);
-
-pub const LENGTH: &[Unit] = &[("nm", 1e-9), ("µm", 1e-6), ("mm", 1e-3), ("m", 1.0)];
-pub const PRESSURE: &[Unit] = &[("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
-pub const FORCE: &[Unit] = &[("mN", 1e-3), ("N", 1.0), ("kN", 1e3), ("MN", 1e6)];
-pub const LINE_LOAD: &[Unit] = &[("N/mm", 1e3)];
-pub const SPEED: &[Unit] = &[("m/s", 1.0)];
-pub const VISCOSITY: &[Unit] = &[("mPa·s", 1e-3), ("Pa·s", 1.0)];
-pub const PRESSURE_COEFFICIENT: &[Unit] = &[("1/GPa", 1e-9)];
-pub const TORQUE: &[Unit] = &[("N mm", 1e-3), ("N m", 1.0)];
-pub const POWER: &[Unit] = &[("mW", 1e-3), ("W", 1.0), ("kW", 1e3)];
-pub const POWER_PER_LENGTH: &[Unit] = &[("W/mm", 1e3)];
-
-/// Returns a value with the largest of these units in which it is at least 1, or with the first one.
-pub fn measured(value: f64, units: &[Unit]) -> String {
-    let fits = |(_, size): &&Unit| value.abs() >= 0.999_95 * size;
-    match units.iter().rev().find(fits).or(units.first()) {
-        Some((unit, size)) => format!("{} {unit}", number(value / size)),
-        None => number(value),
-    }
+/// Returns a value in SI units with the largest unit of the system that fits.
+pub fn measured(kind: QuantityKind, si: f64, system: UnitSystem) -> String {
+    let unit = kind.unit_of(system, si);
+    let text = match kind.digits() {
+        Digits::Significant(count) => trimmed(unit.number(si), count),
+        Digits::Decimals(count) => format!("{:.count$}", unit.number(si)).replace('-', "−"),
+    };
+    format!("{text} {}", unit.name)
 }
 
 /// Returns a dimensionless number, without zeros at the end of its decimals.
 pub fn number(value: f64) -> String {
-    let text = significant(value, DIGITS);
+    trimmed(value, 4)
+}
+
+fn trimmed(value: f64, digits: usize) -> String {
+    let text = significant(value, digits as i32);
     let short = match text.contains('.') && !text.contains('e') {
         true => text.trim_end_matches('0').trim_end_matches('.'),
         false => text.as_str(),
@@ -41,11 +30,6 @@ pub fn number(value: f64) -> String {
 /// Returns a ratio in percent.
 pub fn percent(value: f64) -> String {
     format!("{} %", significant(100.0 * value, 2).replace('-', "−"))
-}
-
-/// Returns a temperature in °C.
-pub fn celsius(kelvin: f64) -> String {
-    format!("{:.1} °C", kelvin - crate::solver::physics::engineering::KELVIN).replace('-', "−")
 }
 
 /// Row of a section: name and value, both with symbols in braces.
@@ -60,11 +44,12 @@ pub struct Row {
 pub struct Section {
     pub title: &'static str,
     pub rows: Vec<Row>,
+    system: UnitSystem,
 }
 
 impl Section {
-    pub fn new(title: &'static str) -> Self {
-        Self { title, rows: Vec::new() }
+    pub fn new(title: &'static str, system: UnitSystem) -> Self {
+        Self { title, rows: Vec::new(), system }
     }
 
     /// Adds a row. An empty value is left out.
@@ -76,9 +61,9 @@ impl Section {
     }
 
     /// Adds a number with its unit, if there is one.
-    pub fn measure(&mut self, name: &str, value: impl Into<Option<f64>>, units: &[Unit]) {
+    pub fn measure(&mut self, name: &str, value: impl Into<Option<f64>>, kind: QuantityKind) {
         if let Some(value) = value.into().filter(|value| value.is_finite()) {
-            self.row(name, measured(value, units));
+            self.row(name, measured(kind, value, self.system));
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Content and form of reports.
 
-use super::rows::{LENGTH, PRESSURE, measured};
+use super::rows::measured;
 use super::*;
 use crate::scene::contact_spec::{ContactSpec, Field};
+use crate::solver::physics::engineering::{QuantityKind as K, UnitSystem};
 
 fn spec(fields: &[(Field, &str)]) -> ContactSpec {
     let texts = fields.iter().map(|(field, text)| (*field, *text, ""));
@@ -11,9 +12,13 @@ fn spec(fields: &[(Field, &str)]) -> ContactSpec {
 
 #[test]
 fn numbers_have_units_that_engineers_write() {
-    let texts = [4.8387e-3, 2.54e-7, 0.012, 1.2e-9].map(|length| measured(length, LENGTH));
-    assert_eq!(texts, ["4.839 mm", "254 nm", "12 mm", "1.2 nm"]);
-    assert_eq!(measured(1.1469e9, PRESSURE), "1.147 GPa");
+    let texts = |system| {
+        let lengths = [4.8387e-3, 2.54e-7, 0.012, 1.2e-9].map(|length| measured(K::Length, length, system));
+        let others = [(K::Pressure, 1.1469e9), (K::Temperature, 343.15)];
+        lengths.into_iter().chain(others.map(|(kind, si)| measured(kind, si, system))).collect::<Vec<_>>().join("; ")
+    };
+    assert_eq!(texts(UnitSystem::Engineering), "4.839 mm; 0.254 µm; 12 mm; 1.2 nm; 1.147 GPa; 70.0 °C");
+    assert_eq!(texts(UnitSystem::Imperial), "0.1905 in; 10 µin; 0.4724 in; 0.04724 µin; 166.3 ksi; 158.0 °F");
 }
 
 #[test]
@@ -33,7 +38,7 @@ fn a_total_load_over_a_length_and_two_radii_give_the_contact() {
     assert!((request.point.load / 3.2e5 - 1.0).abs() < 1e-12);
     assert!((request.point.radius_m / (0.012 * 0.05 / 0.062) - 1.0).abs() < 1e-12);
     assert_eq!(request.extent.length_m, Some(0.01));
-    let stated = Stated::of_spec("Roller", &spec);
+    let stated = Stated::of_spec("Roller", &spec, UnitSystem::default());
     assert_eq!((stated.oil.as_str(), stated.bodies[0].as_str()), ("ISO VG 68, mineral, at 70.0 °C", "radius 12 mm"));
     let without: Vec<_> = roller.into_iter().filter(|(field, _)| *field != Field::Length).collect();
     let refused = self::spec(&without).request().unwrap_err().in_words(crate::scene::Words::Keywords);

@@ -31,6 +31,7 @@ pub mod dimensions;
 pub mod distance_measure;
 pub mod error_measures;
 pub mod error_split;
+pub mod fit;
 pub mod flow_curve;
 pub mod formula_comparison;
 pub mod grid_study;
@@ -185,6 +186,8 @@ studies! {
     FormulaComparison(formula_comparison::FormulaComparison),
     /// Film thickness along Y = 0 compared with published measurements or computations.
     MeasuredFilm(measured_film::MeasuredFilm),
+    /// Constants of the lubricant fitted to measured film thicknesses and friction coefficients.
+    Fit(fit::Fit),
     /// The contact with several inlet film thicknesses (starvation).
     Starvation(starvation::Starvation),
     /// Pressure and film thickness for increasing load number, from rigid bodies to the dry contact (Fig. 2.2).
@@ -217,13 +220,18 @@ impl Study {
     /// Names the field `heat`.
     pub fn check_heat(&self) -> Checked {
         match self {
-            Self::Point(_) | Self::Sweep(_) | Self::RandomTest(_) | Self::LoadCases(_) | Self::Training(_) => Ok(()),
+            Self::Point(_)
+            | Self::Sweep(_)
+            | Self::RandomTest(_)
+            | Self::LoadCases(_)
+            | Self::Fit(_)
+            | Self::Training(_) => Ok(()),
             // Its own check refuses heat, together with other unsupported settings.
             Self::Transient(_) => Ok(()),
             _ => Err(refuse(
                 "heat",
-                "is computed by the studies Point, Sweep, RandomTest, LoadCases and Training only; leave it out, or use \
-                 one of them",
+                "is computed by the studies Point, Sweep, RandomTest, LoadCases, Fit and Training only; leave it out, or \
+                 use one of them",
             )),
         }
     }

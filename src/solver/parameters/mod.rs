@@ -2,6 +2,7 @@
 
 mod axis;
 mod constants;
+mod estimation;
 mod metric;
 mod named;
 mod outside;
@@ -12,6 +13,7 @@ mod space;
 mod tables;
 
 pub use axis::Axis;
+pub use estimation::{Estimate, Estimated, EstimationError, estimate};
 pub use metric::{MOST_NUMBERS, Metric, Place, SHAPE_WEIGHT, apart, distance, separation};
 pub use outside::Outside;
 pub use quantity::Quantity;

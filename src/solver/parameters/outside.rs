@@ -3,6 +3,7 @@
 use super::quantity::Quantity;
 use crate::solver::limits::digits;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -45,13 +46,13 @@ impl fmt::Display for Outside {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Quantity { quantity, kind, value, ends: (low, high) } => {
-                let (unit, scale) = quantity.reading_unit(*kind);
-                let unit = match unit.strip_prefix('1') {
-                    _ if unit.is_empty() => String::new(),
+                let shown = quantity.kind(*kind).unit(UnitSystem::Engineering);
+                let unit = match shown.name.strip_prefix('1') {
+                    _ if shown.name.is_empty() => String::new(),
                     Some(per) => per.to_owned(),
-                    None => format!(" {unit}"),
+                    None => format!(" {}", shown.name),
                 };
-                let [found, least, most] = [*value, *low, *high].map(|number| digits(number / scale));
+                let [found, least, most] = [*value, *low, *high].map(|value| digits(shown.number(value)));
                 let (name, range) = (quantity.short(), quantity.range());
                 match (*low > range.0.max(0.0), *high < range.1) {
                     _ if low == high => {

@@ -3,7 +3,7 @@
 use super::scale::Scale;
 use crate::solver::physics::bodies::BodyHeat;
 use crate::solver::physics::contact::{ContactKind, Ellipse, OperatingPoint, expected_film, limits};
-use crate::solver::physics::engineering::Dimension;
+use crate::solver::physics::engineering::{Dimension, QuantityKind};
 use crate::solver::physics::lubricant::{LimitingStress, Lubricant, ShearLaw, roelands_exponent};
 use serde::{Deserialize, Serialize};
 
@@ -85,8 +85,8 @@ struct Facts {
     short: &'static str,
     /// SI unit behind a number, with a leading space, or empty.
     unit: &'static str,
-    /// Unit in which people read it, and that unit in SI units.
-    shown: (&'static str, f64),
+    /// Kind, which determines its unit on the screen. That of the load is the one of a point contact.
+    kind: QuantityKind,
     /// Smallest and largest accepted value.
     range: (f64, f64),
     /// Usual spread of values.
@@ -116,38 +116,39 @@ impl Quantity {
 
     #[rustfmt::skip]
     const fn facts(self) -> Facts {
-        let (name, label, field, symbol, short, unit, shown, range, scale) = match self {
-            Self::M => ("M", "Load number M", "Load number {M}", ("M", ""), "M", "", ("", 1.0), limits::M.range, Scale::Log),
-            Self::L => ("L", "Lubricant number L", "Lubricant {L}", ("L", ""), "L", "", ("", 1.0), limits::L.range, Scale::Linear),
-            Self::Radius => (limits::RADIUS.name, "Radius R [m]", "Radius {R}", ("R", ""), "R", limits::RADIUS.unit, ("mm", 1e-3), limits::RADIUS.range, Scale::Log),
-            Self::RadiusY => (limits::RADIUS_Y.name, "Radius across R_y [m]", "Radius across {R_y}", ("R", "y"), "R_y", limits::RADIUS_Y.unit, ("mm", 1e-3), limits::RADIUS_Y.range, Scale::Log),
-            Self::RadiusRatio => ("radius-ratio", "Ratio of radii R_y/R", "Ratio of radii {R_y}/{R}", ("R_y/R", ""), "the ratio of radii", "", ("", 1.0), Ellipse::RADIUS_RATIOS, Scale::Log),
-            Self::Speed => (limits::SPEED.name, "Entrainment speed u_m [m/s]", "Speed {u_m}", ("u", "m"), "u_m", limits::SPEED.unit, ("m/s", 1.0), limits::SPEED.range, Scale::Log),
-            Self::Load => (limits::LOAD.name, "Load w [N/m or N]", "Load {w}", ("w", ""), "w", limits::LOAD.unit, ("N", 1.0), limits::LOAD.range, Scale::Log),
-            Self::Modulus => (limits::MODULUS.name, "Reduced modulus E’ [Pa]", "Modulus {E'}", ("E'", ""), "E'", limits::MODULUS.unit, ("GPa", 1e9), limits::MODULUS.range, Scale::Log),
-            Self::Viscosity => (limits::VISCOSITY.name, "Viscosity η₀ [Pa s]", "Viscosity {η_0}", ("η", "0"), "η₀", limits::VISCOSITY.unit, ("mPa·s", 1e-3), limits::VISCOSITY.range, Scale::Log),
-            Self::Alpha => (limits::ALPHA.name, "Pressure–viscosity coefficient α [1/Pa]", "Coefficient {α}", ("α", ""), "α", limits::ALPHA.unit, ("1/GPa", 1e-9), limits::ALPHA.range, Scale::Log),
-            Self::SlideToRollRatio => ("srr", "Slide-to-roll ratio SRR", "Slide-to-roll ratio", ("SRR", ""), "SRR", "", ("", 1.0), (-10.0, 10.0), Scale::Linear),
-            Self::NewtonianPlateauRatio => ("npr", "Newtonian plateau ratio NPR", "Plateau ratio", ("NPR", ""), "NPR", "", ("", 1.0), (0.0, 1.0), Scale::Linear),
-            Self::HertzPressure => ("hertz-pressure", "Hertzian pressure p_H [Pa]", "Pressure {p_H}", ("p", "H"), "p_H", " Pa", ("GPa", 1e9), (0.0, 1e12), Scale::Log),
-            Self::RoelandsExponent => ("roelands-exponent", "Roelands’ exponent z", "Exponent {z}", ("z", ""), "Roelands’ z", "", ("", 1.0), (0.05, 2.0), Scale::Linear),
-            Self::FilmThickness => ("film-thickness", "Central film thickness H_c by Moes’ formula", "Film {H_c}", ("H", "c"), "H_c by Moes’ formula", "", ("", 1.0), (0.0, 1e6), Scale::Log),
-            Self::SlidingSpeed => ("sliding-speed", "Sliding speed SRR u_m [m/s]", "Sliding speed", ("Δu", ""), "the sliding speed SRR u_m", " m/s", ("m/s", 1.0), (0.0, 1e3), Scale::Linear),
-            Self::StressUnit => ("stress-unit", "Unit of shear stress κ₁ [Pa]", "Stress {κ_1}", ("κ", "1"), "κ₁ = p_H a/R", " Pa", ("MPa", 1e6), (0.0, 1e15), Scale::Log),
-            Self::GradientStress => ("gradient-stress", "Shear stress by the pressure gradient [Pa]", "Gradient stress", ("τ", "p"), "the shear stress by the pressure gradient", " Pa", ("MPa", 1e6), (0.0, 1e12), Scale::Log),
-            Self::EyringStress => ("eyring-stress", "Eyring stress τ₀ [Pa]", "Eyring stress {τ_0}", ("τ", "0"), "the Eyring stress τ₀", " Pa", ("MPa", 1e6), (1e3, 1e12), Scale::Log),
-            Self::InletTemperature => ("inlet-temperature", "Inlet temperature T₀ [K]", "Inlet", ("T", "0"), "the inlet temperature", " K", ("K", 1.0), (200.0, 600.0), Scale::Linear),
-            Self::ViscosityTemperature => ("viscosity-temperature", "Temperature coefficient of viscosity β [1/K]", "Coefficient {β}", ("β", ""), "β", " 1/K", ("1/K", 1.0), (0.0, 0.2), Scale::Linear),
-            Self::DensityTemperature => ("density-temperature", "Temperature coefficient of density β_ρ [1/K]", "Coefficient {β_ρ}", ("β", "ρ"), "β_ρ", " 1/K", ("‰/K", 1e-3), (0.0, 0.01), Scale::Linear),
-            Self::Conductivity => ("conductivity", "Thermal conductivity of the oil k [W/(m K)]", "Conductivity {k}", ("k", ""), "the thermal conductivity of the oil", " W/(m K)", ("W/(m K)", 1.0), (1e-3, 100.0), Scale::Linear),
-            Self::HeatCapacity => ("heat-capacity", "Heat capacity of the oil ρ₀c [J/(m³ K)]", "Heat capacity {ρc}", ("ρc", ""), "ρ₀c of the oil", " J/(m³ K)", ("MJ/(m³ K)", 1e6), (1e4, 1e8), Scale::Linear),
-            Self::Effusivity1 => ("effusivity-1", "Effusivity of body 1 √(kρc) [J/(m² K √s)]", "Effusivity 1", ("e", "1"), "√(kρc) of body 1", " J/(m² K √s)", ("J/(m² K √s)", 1.0), (10.0, 1e6), Scale::Log),
-            Self::Effusivity2 => ("effusivity-2", "Effusivity of body 2 √(kρc) [J/(m² K √s)]", "Effusivity 2", ("e", "2"), "√(kρc) of body 2", " J/(m² K √s)", ("J/(m² K √s)", 1.0), (10.0, 1e6), Scale::Log),
-            Self::LimitAmbient => ("limit-ambient", "Limiting stress at ambient pressure τ_L0 [Pa]", "Limit {τ_L0}", ("τ", "L0"), "τ_L0 of the limiting stress", " Pa", ("MPa", 1e6), (0.0, 1e9), Scale::Linear),
-            Self::LimitSlope => ("limit-slope", "Slope of the limiting stress Λ", "Slope {Λ}", ("Λ", ""), "Λ of the limiting stress", "", ("", 1.0), (1e-4, 1.0), Scale::Linear),
-            Self::LimitEyring => ("limit-eyring", "Eyring stress of the limiting stress τ_E [Pa]", "Limit {τ_E}", ("τ", "E"), "τ_E of the limiting stress", " Pa", ("MPa", 1e6), (1e4, 1e9), Scale::Linear),
+        use QuantityKind as K;
+        let (name, label, field, symbol, short, unit, kind, range, scale) = match self {
+            Self::M => ("M", "Load number M", "Load number {M}", ("M", ""), "M", "", K::Number, limits::M.range, Scale::Log),
+            Self::L => ("L", "Lubricant number L", "Lubricant {L}", ("L", ""), "L", "", K::Number, limits::L.range, Scale::Linear),
+            Self::Radius => (limits::RADIUS.name, "Radius R [m]", "Radius {R}", ("R", ""), "R", limits::RADIUS.unit, K::Length, limits::RADIUS.range, Scale::Log),
+            Self::RadiusY => (limits::RADIUS_Y.name, "Radius across R_y [m]", "Radius across {R_y}", ("R", "y"), "R_y", limits::RADIUS_Y.unit, K::Length, limits::RADIUS_Y.range, Scale::Log),
+            Self::RadiusRatio => ("radius-ratio", "Ratio of radii R_y/R", "Ratio of radii {R_y}/{R}", ("R_y/R", ""), "the ratio of radii", "", K::Number, Ellipse::RADIUS_RATIOS, Scale::Log),
+            Self::Speed => (limits::SPEED.name, "Entrainment speed u_m [m/s]", "Speed {u_m}", ("u", "m"), "u_m", limits::SPEED.unit, K::Speed, limits::SPEED.range, Scale::Log),
+            Self::Load => (limits::LOAD.name, "Load w [N/m or N]", "Load {w}", ("w", ""), "w", limits::LOAD.unit, K::Force, limits::LOAD.range, Scale::Log),
+            Self::Modulus => (limits::MODULUS.name, "Reduced modulus E’ [Pa]", "Modulus {E'}", ("E'", ""), "E'", limits::MODULUS.unit, K::Pressure, limits::MODULUS.range, Scale::Log),
+            Self::Viscosity => (limits::VISCOSITY.name, "Viscosity η₀ [Pa s]", "Viscosity {η_0}", ("η", "0"), "η₀", limits::VISCOSITY.unit, K::Viscosity, limits::VISCOSITY.range, Scale::Log),
+            Self::Alpha => (limits::ALPHA.name, "Pressure–viscosity coefficient α [1/Pa]", "Coefficient {α}", ("α", ""), "α", limits::ALPHA.unit, K::PressureCoefficient, limits::ALPHA.range, Scale::Log),
+            Self::SlideToRollRatio => ("srr", "Slide-to-roll ratio SRR", "Slide-to-roll ratio", ("SRR", ""), "SRR", "", K::Percent, (-10.0, 10.0), Scale::Linear),
+            Self::NewtonianPlateauRatio => ("npr", "Newtonian plateau ratio NPR", "Plateau ratio", ("NPR", ""), "NPR", "", K::Number, (0.0, 1.0), Scale::Linear),
+            Self::HertzPressure => ("hertz-pressure", "Hertzian pressure p_H [Pa]", "Pressure {p_H}", ("p", "H"), "p_H", " Pa", K::Pressure, (0.0, 1e12), Scale::Log),
+            Self::RoelandsExponent => ("roelands-exponent", "Roelands’ exponent z", "Exponent {z}", ("z", ""), "Roelands’ z", "", K::Number, (0.05, 2.0), Scale::Linear),
+            Self::FilmThickness => ("film-thickness", "Central film thickness H_c by Moes’ formula", "Film {H_c}", ("H", "c"), "H_c by Moes’ formula", "", K::Number, (0.0, 1e6), Scale::Log),
+            Self::SlidingSpeed => ("sliding-speed", "Sliding speed SRR u_m [m/s]", "Sliding speed", ("Δu", ""), "the sliding speed SRR u_m", " m/s", K::Speed, (0.0, 1e3), Scale::Linear),
+            Self::StressUnit => ("stress-unit", "Unit of shear stress κ₁ [Pa]", "Stress {κ_1}", ("κ", "1"), "κ₁ = p_H a/R", " Pa", K::Stress, (0.0, 1e15), Scale::Log),
+            Self::GradientStress => ("gradient-stress", "Shear stress by the pressure gradient [Pa]", "Gradient stress", ("τ", "p"), "the shear stress by the pressure gradient", " Pa", K::Stress, (0.0, 1e12), Scale::Log),
+            Self::EyringStress => ("eyring-stress", "Eyring stress τ₀ [Pa]", "Eyring stress {τ_0}", ("τ", "0"), "the Eyring stress τ₀", " Pa", K::Stress, (1e3, 1e12), Scale::Log),
+            Self::InletTemperature => ("inlet-temperature", "Inlet temperature T₀ [K]", "Inlet", ("T", "0"), "the inlet temperature", " K", K::Temperature, (200.0, 600.0), Scale::Linear),
+            Self::ViscosityTemperature => ("viscosity-temperature", "Temperature coefficient of viscosity β [1/K]", "Coefficient {β}", ("β", ""), "β", " 1/K", K::PerKelvin, (0.0, 0.2), Scale::Linear),
+            Self::DensityTemperature => ("density-temperature", "Temperature coefficient of density β_ρ [1/K]", "Coefficient {β_ρ}", ("β", "ρ"), "β_ρ", " 1/K", K::PerKelvin, (0.0, 0.01), Scale::Linear),
+            Self::Conductivity => ("conductivity", "Thermal conductivity of the oil k [W/(m K)]", "Conductivity {k}", ("k", ""), "the thermal conductivity of the oil", " W/(m K)", K::Conductivity, (1e-3, 100.0), Scale::Linear),
+            Self::HeatCapacity => ("heat-capacity", "Heat capacity of the oil ρ₀c [J/(m³ K)]", "Heat capacity {ρc}", ("ρc", ""), "ρ₀c of the oil", " J/(m³ K)", K::VolumetricHeatCapacity, (1e4, 1e8), Scale::Linear),
+            Self::Effusivity1 => ("effusivity-1", "Effusivity of body 1 √(kρc) [J/(m² K √s)]", "Effusivity 1", ("e", "1"), "√(kρc) of body 1", " J/(m² K √s)", K::Effusivity, (10.0, 1e6), Scale::Log),
+            Self::Effusivity2 => ("effusivity-2", "Effusivity of body 2 √(kρc) [J/(m² K √s)]", "Effusivity 2", ("e", "2"), "√(kρc) of body 2", " J/(m² K √s)", K::Effusivity, (10.0, 1e6), Scale::Log),
+            Self::LimitAmbient => ("limit-ambient", "Limiting stress at ambient pressure τ_L0 [Pa]", "Limit {τ_L0}", ("τ", "L0"), "τ_L0 of the limiting stress", " Pa", K::Stress, (0.0, 1e9), Scale::Linear),
+            Self::LimitSlope => ("limit-slope", "Slope of the limiting stress Λ", "Slope {Λ}", ("Λ", ""), "Λ of the limiting stress", "", K::Number, (1e-4, 1.0), Scale::Linear),
+            Self::LimitEyring => ("limit-eyring", "Eyring stress of the limiting stress τ_E [Pa]", "Limit {τ_E}", ("τ", "E"), "τ_E of the limiting stress", " Pa", K::Stress, (1e4, 1e9), Scale::Linear),
         };
-        Facts { name, label, field, symbol, short, unit, shown, range, scale }
+        Facts { name, label, field, symbol, short, unit, kind, range, scale }
     }
 
     /// Returns the word that stands for it in tables, options and messages.
@@ -201,23 +202,19 @@ impl Quantity {
         self.facts().unit
     }
 
-    /// Returns the unit in which people read it, and that unit in SI units.
-    pub fn reading_unit(self, kind: ContactKind) -> (&'static str, f64) {
-        if (self, kind) == (Self::Load, ContactKind::Line) { ("kN/m", 1e3) } else { self.facts().shown }
+    /// Returns the kind, which determines its unit on the screen.
+    pub const fn kind(self, contact: ContactKind) -> QuantityKind {
+        match (self, contact) {
+            (Self::Load, ContactKind::Line) => QuantityKind::LineLoad,
+            _ => self.facts().kind,
+        }
     }
 
-    /// Returns its dimension.
-    pub fn dimension(self, kind: ContactKind) -> Dimension {
-        match (self, kind) {
-            (Self::Radius | Self::RadiusY, _) => Dimension::Length,
-            (Self::Speed | Self::SlidingSpeed, _) => Dimension::Speed { radius_m: None },
-            (Self::Load, ContactKind::Line) => Dimension::LineLoad,
-            (Self::Load, ContactKind::Point) => Dimension::Force,
-            (Self::Modulus | Self::HertzPressure, _) => Dimension::Pressure,
-            (Self::Viscosity, _) => Dimension::Viscosity { density: None },
-            (Self::Alpha, _) => Dimension::PressureCoefficient,
-            (Self::InletTemperature, _) => Dimension::Temperature,
-            _ => Dimension::Ratio,
+    /// Returns the dimension of its entries.
+    pub const fn dimension(self, contact: ContactKind) -> Dimension {
+        match self.kind(contact).dimension() {
+            Some(dimension) => dimension,
+            None => Dimension::Ratio,
         }
     }
 

@@ -165,6 +165,7 @@ impl Desk {
                 .read_profile(k, &path)
                 .map(|()| self.files.notice = Some(Notice::Done(format!("Read {}", path.display())))),
             Purpose::Cases => self.load_cases.read(&path),
+            Purpose::Measured => self.measured.read(&path),
             Purpose::ComparedModel => self.tabs.training.work.add_beside(self.answers.store(), &path),
             Purpose::Write(what, bytes) => {
                 let done = if what == Written::Model { "Saved the model" } else { "Exported" };

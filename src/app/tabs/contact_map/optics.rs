@@ -4,6 +4,7 @@ use super::map_view::MapView;
 use crate::app::controls::{described, named};
 use crate::app::numbers;
 use crate::app::theme::{Palette, rich};
+use crate::app::units;
 use crate::solver::physics::optics::Interferometer;
 use egui::{DragValue, Ui};
 
@@ -80,7 +81,7 @@ pub fn ui(ui: &mut Ui, view: &mut MapView) {
         let text = if view.three_colors {
             format!("{formula} at 630, 532 and 460 nm")
         } else {
-            format!("{formula}; one fringe is {}", numbers::length(rig.fringe_spacing_m(rig.wavelength_m)))
+            format!("{formula}; one fringe is {}", numbers::length(rig.fringe_spacing_m(rig.wavelength_m), units::system(ui.ctx())))
         };
         ui.label(rich(&text, 12.5, Palette::of(ui).quiet)).on_hover_text(
             "Two-beam interference: Cameron & Gohar 1966, Proc. R. Soc. A 291; Wedeven, Evans & Cameron 1971, ASME J. Lubr. Technol. 93",

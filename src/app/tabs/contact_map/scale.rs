@@ -1,37 +1,39 @@
-//! Colour bar of the map, with dimensionless and SI values.
+//! Colour bar of the map, with dimensionless values and units.
 
 use super::images::{Images, table};
 use super::map_view::{MapView, Shown};
 use crate::app::answers::picture::Picture;
-use crate::app::plot::color_bar::{self, STRIPS, in_gigapascals, in_nanometres};
+use crate::app::plot::color_bar::{self, STRIPS};
 use crate::app::plot::raster;
-use crate::app::units::Scales;
+use crate::app::units::{self, Scale, Scales};
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Color32, Ui};
 
 /// Draws the bar.
 pub fn ui(ui: &mut Ui, images: &Images, picture: &Picture, view: &MapView, height: f32) {
-    let scales = Scales::of(&picture.key.point);
-    let (title, name, in_si) = match view.shown {
-        Shown::Pressure => ("{P}", "Pressure {P}", (scales.pressure_gpa, "Pressure {p} / GPa")),
-        Shown::Asperities => {
-            ("{P_a}", "Asperity pressure {P_a}", (scales.pressure_gpa, "Asperity pressure {p_a} / GPa"))
-        }
-        Shown::Temperature => ("K", "Rise at mid-film / K", (1.0, "Rise at mid-film / K")),
-        _ => ("{H}", "Film {H}", (scales.film_um, "Film {h} / µm")),
+    let system = units::system(ui.ctx());
+    let scales = Scales::of(&picture.key.point, system);
+    let rise = Scale::of(QuantityKind::TemperatureRise, system, 1.0);
+    let (title, name, dimensional) = match view.shown {
+        Shown::Pressure => ("{P}", "Pressure {P}", (scales.pressure, "Pressure {p}")),
+        Shown::Asperities => ("{P_a}", "Asperity pressure {P_a}", (scales.pressure, "Asperity pressure {p_a}")),
+        Shown::Temperature => ("K", "Rise at mid-film / K", (rise, "Rise at mid-film")),
+        _ => ("{H}", "Film {H}", (scales.film, "Film {h}")),
     };
     let colors = colors(picture, view, images.range());
-    color_bar::on_paper(ui, name, in_si, (&colors, images.range()));
-    color_bar::ui(ui, title, (&colors, images.range()), height, |value| si(picture, view, value));
+    color_bar::on_paper(ui, name, dimensional, (&colors, images.range()));
+    color_bar::ui(ui, title, (&colors, images.range()), height, |value| si(picture, view, value, system));
 }
 
 /// Returns a value of the scale with its unit.
-pub fn si(picture: &Picture, view: &MapView, value: f64) -> String {
+pub fn si(picture: &Picture, view: &MapView, value: f64, system: UnitSystem) -> String {
     let point = &picture.key.point;
     match view.shown {
-        Shown::Pressure | Shown::Asperities => in_gigapascals(value * point.hertz().pressure_pa),
-        // The numbers of the scale are in kelvin already.
-        Shown::Temperature => String::new(),
-        _ => in_nanometres(value * point.film_scale_m()),
+        Shown::Pressure | Shown::Asperities => {
+            color_bar::short(QuantityKind::Pressure, value * point.hertz().pressure_pa, system)
+        }
+        Shown::Temperature => color_bar::short(QuantityKind::TemperatureRise, value, system),
+        _ => color_bar::short(QuantityKind::FilmThickness, value * point.film_scale_m(), system),
     }
 }
 

@@ -19,10 +19,11 @@ use crate::app::purpose::{Purpose, Written};
 use crate::app::tabs::transient::{TransientCommand, shared, space_time};
 use crate::app::tabs::{About, Offer, View, view};
 use crate::app::theme::{Palette, faded};
-use crate::app::units::Scales;
+use crate::app::units::{self, Scales};
 use crate::app::{badge, caption, numbers};
 use crate::solver::full::heat::Rises;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Align, Color32, CursorIcon, Layout, Response, RichText, Ui, Vec2, vec2};
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotBounds, PlotPoint, PlotPoints, PlotTransform, Text, VLine};
 
@@ -173,11 +174,11 @@ impl View for ContactMap {
 
     fn caption(&self, context: &Context<'_>) -> Option<String> {
         if context.document.point.kind == ContactKind::Line {
-            return shared::caption(context.transient);
+            return shared::caption(context.transient, context.system);
         }
         let more = export::particulars(context.answers, &self.view)?;
         let key = context.answers.picture()?.key;
-        Some(format!("{}; {more}", caption::contact(&key.point, &key.lubricant)))
+        Some(format!("{}; {more}", caption::contact(&key.point, &key.lubricant, context.system)))
     }
 
     fn kept(&self) -> Option<String> {
@@ -240,20 +241,21 @@ impl Drawing<'_> {
         let palette = Palette::of(ui);
         let held = grips().iter().any(|grip| grip.is_held(ui));
         let Self { picture, images, view, cuts, fit, framed, stale } = *self;
-        let length_mm = Scales::of(&picture.key.point).length_mm;
+        let system = units::system(ui.ctx());
+        let along = Scales::of(&picture.key.point, system).along;
         // Both axes are in units of a, so that an elliptical contact has its true shape.
         let kappa = picture.kappa();
         let (from, to) = frame(kappa, vec2(ui.available_width(), height) - AXES);
         let y_title = if kappa == 1.0 { "{Y} = {y}/{a}" } else { "{y}/{a}" };
         let shown = axes::show(
             axes::plot(ui, "contact map", height, "{X} = {x}/{a}", y_title)
-                .si_x(length_mm, "{x} / mm")
-                .si_y(length_mm, "{y} / mm")
+                .units_x(along, "{x}")
+                .units_y(along, "{y}")
                 .data_aspect(1.0)
                 .default_x_bounds(from[0], to[0])
                 .default_y_bounds(from[1], to[1])
                 .allow_drag(!held)
-                .label_formatter(|at| hover(picture, &view, at)),
+                .label_formatter(|at| hover(picture, &view, at, system)),
             ui,
             NAME,
             |plot| {
@@ -276,7 +278,7 @@ impl Drawing<'_> {
             },
         );
         let response = shown.response;
-        (described(ui, response, &spoken(picture, &view)), shown.transform)
+        (described(ui, response, &spoken(picture, &view, system)), shown.transform)
     }
 }
 
@@ -308,7 +310,7 @@ fn image(plot: &mut Canvas<'_, '_>, images: &Images, stale: bool) {
     plot.field("field", texture, (from, to), (edge, -edge), drawn::tint(stale));
 }
 
-fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<String> {
+fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>, system: UnitSystem) -> Option<String> {
     let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
     let y = position.y / picture.kappa();
     let solution = &picture.solution;
@@ -321,7 +323,7 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
         Shown::Asperities => {
             let carried = solution.problem.asperity_pressure(h);
             let pascal = carried * hertz.pressure_pa;
-            format!("\nP_a = {}   ({})", numbers::significant(carried), numbers::pressure(pascal))
+            format!("\nP_a = {}   ({})", numbers::significant(carried), numbers::pressure(pascal, system))
         }
         Shown::Temperature => solution
             .heat
@@ -330,35 +332,40 @@ fn hover(picture: &Picture, view: &MapView, at: &HoverPosition<'_>) -> Option<St
                 let rise = |node: usize| Some(Rises::of(heat.rise_k.get(node)?).mid_film_k);
                 solution.value_at(rise, position.x, y)
             })
-            .map_or_else(String::new, |rise| format!("\nrise {}", numbers::quantity(rise, "K"))),
+            .map_or_else(String::new, |rise| {
+                format!("\nrise {}", numbers::shown(QuantityKind::TemperatureRise, rise, system))
+            }),
         _ => String::new(),
     };
     Some(format!(
         "X = {}   ({})\nY = {}   ({})\nP = {}   ({})\nH = {}   ({}){more}",
         numbers::digits(position.x, 3),
-        numbers::length(position.x * hertz.half_width_m),
+        numbers::length(position.x * hertz.half_width_m, system),
         numbers::digits(y, 3),
-        numbers::length(y * hertz.half_length_m),
+        numbers::length(y * hertz.half_length_m, system),
         numbers::significant(p),
-        numbers::pressure(p * hertz.pressure_pa),
+        numbers::pressure(p * hertz.pressure_pa, system),
         numbers::significant(h),
-        numbers::length(h * scale)
+        numbers::length(h * scale, system)
     ))
 }
 
 /// Returns the map as text for screen readers.
-fn spoken(picture: &Picture, view: &MapView) -> String {
+fn spoken(picture: &Picture, view: &MapView, system: UnitSystem) -> String {
     let (s, scale) = (picture.solution.scalars, picture.key.point.film_scale_m());
     let heat = picture.solution.heat.as_deref();
     let warms = heat.map_or_else(String::new, |heat| {
-        format!(", maximum temperature rise {}", numbers::quantity(heat.largest.mid_film_k, "K"))
+        format!(
+            ", maximum temperature rise {}",
+            numbers::shown(QuantityKind::TemperatureRise, heat.largest.mid_film_k, system)
+        )
     });
     format!(
         "{} of {}: central film thickness {}, minimum {} at X {}, Y ±{}{warms}",
         view.shown.name(),
         numbers::contact(&picture.key.point),
-        numbers::length(s.h_c * scale),
-        numbers::length(s.h_min * scale),
+        numbers::length(s.h_c * scale, system),
+        numbers::length(s.h_min * scale, system),
         numbers::digits(s.x_h_min, 3),
         numbers::digits(s.y_h_min.abs(), 3)
     )

@@ -11,7 +11,8 @@ use crate::app::plot::direction::Direction;
 use crate::app::plot::frame::PlotFrame;
 use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
-use crate::app::units::{Scales, Units};
+use crate::app::units::{self, Scale, Scales, Units};
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::physics::lubricant::Cavitation;
 use egui::{Align2, Color32, Id, Ui, Vec2b};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points, Span, Text};
@@ -62,14 +63,15 @@ impl<'a> Scene<'a> {
         of: impl Fn(&'a Picture) -> &'a [PlotPoint],
         unit: fn(Scales) -> f64,
     ) -> Color32 {
-        // In SI units a curve of another contact is converted with its own scales to the axes of this one.
-        let own = Scales::of(&self.picture.key.point);
-        let units = Units::of(plot.ctx());
+        // With units a curve of another contact is converted with its own scales to the axes of this one.
+        let (units, system) = (Units::of(plot.ctx()), units::system(plot.ctx()));
+        let own = Scales::of(&self.picture.key.point, system);
         let fitted = |picture: &'a Picture| {
-            let other = Scales::of(&picture.key.point);
+            let other = Scales::of(&picture.key.point, system);
             match units {
-                Units::Si if other != own => {
-                    let (x, y) = (direction.length_mm(other) / direction.length_mm(own), unit(other) / unit(own));
+                Units::Dimensional if other != own => {
+                    let (x, y) =
+                        (direction.length(other).factor / direction.length(own).factor, unit(other) / unit(own));
                     let points = of(picture).iter().map(|point| PlotPoint::new(x * point.x, y * point.y));
                     PlotPoints::Owned(points.collect())
                 }
@@ -141,7 +143,7 @@ pub fn key_ui(ui: &mut Ui, scene: &Scene<'_>) {
 /// Returns a plot of the stack, with shared X axis and cursor.
 pub fn stacked<'a>(
     ui: &Ui,
-    (direction, length_mm, kappa): (Direction, f64, f64),
+    (direction, length, kappa): (Direction, Scale, f64),
     (id, height): (&str, f32),
     (x_title, y_title): (&str, &str),
 ) -> PlotFrame<'a> {
@@ -151,7 +153,7 @@ pub fn stacked<'a>(
     axes::plot(ui, &direction.id(id), height, x_title, y_title)
         .marks_x(marks)
         .paper_x(direction.title(kappa))
-        .si_x(length_mm, &direction.si_title(x_title))
+        .units_x(length, &direction.dimensional_title(x_title))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .set_margin_fraction(egui::vec2(0.0, 0.0))
@@ -159,7 +161,11 @@ pub fn stacked<'a>(
 }
 
 /// Returns the text at the pointer.
-pub fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
+pub fn hover(
+    picture: &Picture,
+    direction: Direction,
+    system: UnitSystem,
+) -> impl Fn(&HoverPosition<'_>) -> Option<String> + '_ {
     move |at| {
         let x = match at {
             HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position } => position.x,
@@ -171,11 +177,11 @@ pub fn hover(picture: &Picture, direction: Direction) -> impl Fn(&HoverPosition<
             "{} = {}   ({})\nP = {}   ({})\nH = {}   ({})",
             direction.name(),
             numbers::digits(x, 4),
-            numbers::length(x * direction.length_mm(Scales::of(point)) * 1e-3),
+            numbers::length(x * direction.length_m(&hertz), system),
             numbers::significant(p),
-            numbers::pressure(p * hertz.pressure_pa),
+            numbers::pressure(p * hertz.pressure_pa, system),
             numbers::significant(h),
-            numbers::length(h * point.film_scale_m())
+            numbers::length(h * point.film_scale_m(), system)
         ))
     }
 }

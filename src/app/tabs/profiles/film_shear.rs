@@ -6,8 +6,10 @@ use crate::app::figure::Texture;
 use crate::app::plot::direction::Direction;
 use crate::app::plot::{axes, color_map};
 use crate::app::theme::Palette;
+use crate::app::units::{self, Scale};
 use crate::app::{drawn, numbers};
 use crate::solver::full::Solution;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{ColorImage, Context, Id, Sense, Ui, Vec2b, vec2};
 use egui_plot::{HoverPosition, PlotPoint};
 use serde::{Deserialize, Serialize};
@@ -134,19 +136,21 @@ fn share(value: f64, shown: FilmShear, (low, high): (f64, f64)) -> f64 {
 }
 
 /// Returns the value with its unit.
-fn quantity(value: f64, shown: FilmShear) -> String {
-    if shown == FilmShear::Rate { numbers::quantity(value, "1/s") } else { numbers::pressure(value) }
+fn quantity(value: f64, shown: FilmShear, system: UnitSystem) -> String {
+    let kind = if shown == FilmShear::Rate { QuantityKind::ShearRate } else { QuantityKind::Stress };
+    numbers::shown(kind, value, system)
 }
 
 /// Draws the scale, and the film between its surfaces on the axis of the profiles.
-pub fn ui(ui: &mut Ui, (image, length_mm): (&FilmShearImage, f64), shown: FilmShear, stale: bool, height: f32) {
+pub fn ui(ui: &mut Ui, (image, along): (&FilmShearImage, Scale), shown: FilmShear, stale: bool, height: f32) {
     let Some(texture) = image.texture.as_ref().map(|texture| texture.shown(ui.ctx())) else { return };
+    let system = units::system(ui.ctx());
     scale_ui(ui, image, shown);
     let (from, to) = Direction::Along.range();
     axes::show(
         axes::plot(ui, "film shear", (height - 26.0).max(70.0), "", "Height {Z} = {z}/{h}")
             .paper_x("{X} = {x}/{a}")
-            .si_x(length_mm, "{x} / mm")
+            .units_x(along, "{x}")
             .link_axis(Id::unique(Direction::Along.id("profiles")), Vec2b::new(true, false))
             .link_cursor(Id::unique(Direction::Along.id("profiles")), Vec2b::new(true, false))
             .marks_y(2.0)
@@ -157,7 +161,7 @@ pub fn ui(ui: &mut Ui, (image, length_mm): (&FilmShearImage, f64), shown: FilmSh
                 let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
                 let value = image.at(position.x, position.y)?;
                 let (x, z) = (numbers::digits(position.x, 3), numbers::digits(position.y, 2));
-                Some(format!("X = {x}   Z = {z}\n{} {}", shown.name(), quantity(value, shown)))
+                Some(format!("X = {x}   Z = {z}\n{} {}", shown.name(), quantity(value, shown, system)))
             }),
         ui,
         "Shear across the film",
@@ -169,11 +173,11 @@ pub fn ui(ui: &mut Ui, (image, length_mm): (&FilmShearImage, f64), shown: FilmSh
 
 fn scale_ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear) {
     let plane = image.made_of.as_ref().is_some_and(|(solution, _)| solution.y.len() > 1);
-    let (low, high) = image.range;
+    let ((low, high), system) = (image.range, units::system(ui.ctx()));
     let [low, high] = if shown == FilmShear::Rate { [low, high].map(|log| 10f64.powf(log)) } else { [low, high] };
     ui.horizontal(|ui| {
         ui.label(crate::app::controls::sentence(shown.name()).trim_end_matches('.')).on_hover_text(shown.tip());
-        ui.weak(quantity(low, shown));
+        ui.weak(quantity(low, shown, system));
         let (area, _) = ui.allocate_exact_size(vec2(120.0, 10.0), Sense::hover());
         let colors = color_map::table(false);
         let strips = 60;
@@ -186,7 +190,7 @@ fn scale_ui(ui: &mut Ui, image: &FilmShearImage, shown: FilmShear) {
             ui.painter().rect_filled(strip, 0.0, colors[k * (colors.len() - 1) / (strips - 1)]);
         }
         ui.painter().rect_stroke(area, 0.0, egui::Stroke::new(1.0, Palette::of(ui).quiet), egui::StrokeKind::Outside);
-        ui.weak(quantity(high, shown));
+        ui.weak(quantity(high, shown, system));
         ui.weak(if plane { "in the plane Y = 0, between the surfaces" } else { "between the surfaces" });
     });
 }

@@ -6,7 +6,7 @@ use crate::app::numbers;
 use crate::app::plot::axes;
 use crate::app::plot::direction::Direction;
 use crate::app::theme::{Palette, THIN_WIDTH, rich};
-use crate::app::units::Scales;
+use crate::app::units::{self, Scale, Scales};
 use egui::{Align2, Ui};
 use egui_plot::{Line, LineStyle, PlotPoint, PlotPoints, Text};
 
@@ -16,8 +16,8 @@ const SPIKE_ROOM: f32 = 48.0;
 /// Draws the pressure. Returns the position to which the user drags the line of the other cut.
 pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
-    let picture = scene.picture;
-    let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point));
+    let (picture, system) = (scene.picture, units::system(ui.ctx()));
+    let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point, system));
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.p_max).fold(scalars.p_max.max(1.0), f64::max);
     let (from, to) = direction.range();
     let elsewhere = direction.elsewhere(scene.cuts);
@@ -25,13 +25,13 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
     let y_title = if direction == Direction::Along { "Pressure {P} = {p}/{p_H}" } else { "" };
     let cut = scene.cut_line(direction, "pressure");
     let shown = axes::show(
-        stacked(ui, (direction, direction.length_mm(scales), picture.kappa()), ("pressure", height), ("", y_title))
+        stacked(ui, (direction, direction.length(scales), picture.kappa()), ("pressure", height), ("", y_title))
             .paper_y("Pressure {P} = {p}/{p_H}")
-            .si_y(scales.pressure_gpa, "Pressure {p} / GPa")
+            .units_y(scales.pressure, "Pressure {p}")
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
             .default_x_bounds(from, to)
             .default_y_bounds(-0.04 * top, numbers::round_up(1.12 * top))
-            .label_formatter(hover(picture, direction)),
+            .label_formatter(hover(picture, direction, system)),
         ui,
         &direction.profile_name("Pressure"),
         |plot| {
@@ -50,7 +50,7 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
                 (&palette, palette.pressure),
                 direction,
                 move |picture| direction.pressure(picture),
-                |of| of.pressure_gpa,
+                |of| of.pressure.factor,
             );
             if on_axis {
                 rupture(plot, scene, &palette);
@@ -72,8 +72,8 @@ pub fn pressure_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, heigh
 /// Draws the film thickness. Returns the position to which the user drags the line of the other cut.
 pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f32) -> Option<f64> {
     let palette = Palette::of(ui);
-    let picture = scene.picture;
-    let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point));
+    let (picture, system) = (scene.picture, units::system(ui.ctx()));
+    let (scalars, scales) = (picture.solution.scalars, Scales::of(&picture.key.point, system));
     // The mean planes of rough surfaces may touch.
     let sigma = picture.solution.problem.rough.map_or(0.0, |rough| rough.sigma);
     let top = scene.pins.iter().map(|p| p.picture.solution.scalars.h_c).fold(scalars.h_c.max(sigma), f64::max);
@@ -84,13 +84,13 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
     let y_title = if direction == Direction::Along { "Film {H} = {h}{R}/{a}²" } else { "" };
     let cut = scene.cut_line(direction, "film");
     let shown = axes::show(
-        stacked(ui, (direction, direction.length_mm(scales), picture.kappa()), ("film", height), (&x_title, y_title))
+        stacked(ui, (direction, direction.length(scales), picture.kappa()), ("film", height), (&x_title, y_title))
             .paper_y("Film {H} = {h}{R}/{a}²")
-            .si_y(scales.film_um, "Film {h} / µm")
+            .units_y(scales.film, "Film {h}")
             .allow_drag(cut.as_ref().is_none_or(|cut| !cut.is_held(ui)))
             .default_x_bounds(from, to)
             .default_y_bounds(bottom, numbers::round_up(4.0 * top))
-            .label_formatter(hover(picture, direction)),
+            .label_formatter(hover(picture, direction, system)),
         ui,
         &direction.profile_name("Film"),
         |plot| {
@@ -99,8 +99,13 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
                 cavitated(plot, picture, &palette);
             }
             roughness(plot, scene, direction, &palette);
-            let live =
-                scene.curves(plot, (&palette, palette.film), direction, move |of| direction.film(of), |of| of.film_um);
+            let live = scene.curves(
+                plot,
+                (&palette, palette.film),
+                direction,
+                move |of| direction.film(of),
+                |of| of.film.factor,
+            );
             if elsewhere == 0.0 {
                 mark(plot, (0.0, scalars.h_c), "{H_c}", live, Align2::LEFT_BOTTOM);
             }
@@ -126,13 +131,13 @@ pub fn film_plot(ui: &mut Ui, scene: &Scene<'_>, direction: Direction, height: f
 /// Draws the difference between reduced and full solution.
 pub fn difference_plot(
     ui: &mut Ui,
-    (comparison, length_mm): (&Comparison, f64),
+    (comparison, along): (&Comparison, Scale),
     (wanted, stale): (bool, bool),
     height: f32,
 ) {
     let palette = Palette::of(ui);
     let (from, to) = Direction::Along.range();
-    let plot = stacked(ui, (Direction::Along, length_mm, 1.0), ("difference", height), ("", "Reduced − full"));
+    let plot = stacked(ui, (Direction::Along, along, 1.0), ("difference", height), ("", "Reduced − full"));
     axes::show(
         plot.default_x_bounds(from, to).set_margin_fraction(egui::vec2(0.0, 0.08)),
         ui,

@@ -8,13 +8,14 @@ use crate::app::plot::color_bar;
 use crate::app::plot::direction::Direction;
 use crate::app::plot::{axes, color_map};
 use crate::app::theme::Palette;
-use crate::app::units::Scales;
+use crate::app::units::{self, Scale, Scales};
 use crate::app::wake::wake;
-use crate::app::{drawn, numbers};
+use crate::app::{drawn, figure, numbers};
 use crate::engine::Store;
 use crate::engine::job::{Background, Ending, Job, JobError, Reporter, Standing, Task};
 use crate::solver::discrete::half_space::StressMeasure;
 use crate::solver::full::{Solution, SubsurfaceStress};
+use crate::solver::physics::engineering::QuantityKind;
 use egui::{Color32, ColorImage, Id, Ui, Vec2b};
 use egui_plot::{HoverPosition, MarkerShape, Points};
 use serde::{Deserialize, Serialize};
@@ -126,14 +127,15 @@ pub fn ui(ui: &mut Ui, image: &StressImage, (picture, shown): (&Picture, StressM
     };
     let texture = texture.shown(ui.ctx());
     let point = &solution.problem.point;
-    let scales = Scales::of(point);
+    let system = units::system(ui.ctx());
+    let scales = Scales::of(point, system);
     let half_width_m = point.hertz().half_width_m;
     let largest = field.maximum(shown);
     let stale = stale || !Arc::ptr_eq(solution, &picture.solution);
     ui.horizontal(|ui| {
         ui.label(crate::app::controls::sentence(shown.name()).trim_end_matches('.'));
-        let depth = numbers::length(largest.z * half_width_m);
-        let text = format!("largest {} at a depth of {depth}", numbers::pressure(largest.stress_pa));
+        let depth = numbers::length(largest.z * half_width_m, system);
+        let text = format!("largest {} at a depth of {depth}", numbers::pressure(largest.stress_pa, system));
         let tip = format!(
             "At X = {}, Z = {} below the surface of body 1 with ν = {}, from pressure and shear stress",
             numbers::digits(largest.x, 3),
@@ -149,8 +151,8 @@ pub fn ui(ui: &mut Ui, image: &StressImage, (picture, shown): (&Picture, StressM
     let palette = Palette::of(ui);
     let plot = axes::plot(ui, "subsurface stress", (height - 26.0).max(90.0), "", "Height {z}/{a}")
         .paper_x("{X} = {x}/{a}")
-        .si_x(scales.length_mm, "{x} / mm")
-        .si_y(scales.length_mm, "Height {z} / mm")
+        .units_x(scales.along, "{x}")
+        .units_y(scales.along, "Height {z}")
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .marks_y(3.0)
@@ -163,7 +165,7 @@ pub fn ui(ui: &mut Ui, image: &StressImage, (picture, shown): (&Picture, StressM
             let inside = (*left..=*right).contains(&x) && (0.0..=*deepest).contains(&z);
             let value = field.at(nearest(&field.x, x), nearest(&field.z, z)).measure(shown);
             let place = format!("X = {}   depth {} a", numbers::digits(x, 3), numbers::digits(z, 3));
-            inside.then(|| format!("{place}\n{} {}", shown.name(), numbers::pressure(value)))
+            inside.then(|| format!("{place}\n{} {}", shown.name(), numbers::pressure(value, system)))
         });
     axes::show(plot, ui, "Stress below the surface", |plot| {
         plot.field("stress field", texture, (*left, *right), (-deepest, 0.0), drawn::tint(stale));
@@ -171,7 +173,8 @@ pub fn ui(ui: &mut Ui, image: &StressImage, (picture, shown): (&Picture, StressM
         plot.points(place.radius(6.0).color(if stale { palette.reference } else { MARK }).allow_hover(false));
     });
     let (low, high) = image.range;
-    let label = format!("{} in MPa", crate::app::controls::sentence(shown.name()).trim_end_matches('.'));
+    let Scale { factor, unit } = Scale::of(QuantityKind::Stress, system, 1.0);
+    let label = format!("{} in {unit}", crate::app::controls::sentence(shown.name()).trim_end_matches('.'));
     let colors = color_bar::strips(&color_map::table(false));
-    color_bar::on_paper(ui, &label, (1.0, &label), (&colors, (1e-6 * low, 1e-6 * high)));
+    figure::scale(ui.ctx(), &label, (factor * low, factor * high), &colors);
 }

@@ -129,7 +129,7 @@ impl View for Profiles {
             }
         });
         let unit = (ui.available_height() - 6.0) / parts;
-        let length_mm = Scales::of(&picture.key.point).length_mm;
+        let along = Scales::of(&picture.key.point, context.system).along;
         let mut moved = None;
         let mut stack = |ui: &mut Ui, direction: Direction| {
             let by_pressure = pressure_plot(ui, &scene, direction, unit);
@@ -138,7 +138,7 @@ impl View for Profiles {
         };
         if warm {
             self.warm.follow(ui.ctx(), &picture.solution);
-            let scales = Scales::of(&picture.key.point);
+            let scales = Scales::of(&picture.key.point, context.system);
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = gap;
                 ui.vertical(|ui| {
@@ -168,10 +168,10 @@ impl View for Profiles {
             });
         }
         if let Some(comparison) = comparison {
-            difference_plot(ui, (comparison, length_mm), (context.fit, stale), 0.6 * unit);
+            difference_plot(ui, (comparison, along), (context.fit, stale), 0.6 * unit);
         }
         if shear != FilmShear::Off {
-            film_shear::ui(ui, (&self.image, length_mm), shear, stale, 0.6 * unit);
+            film_shear::ui(ui, (&self.image, along), shear, stale, 0.6 * unit);
         }
         if let Some(measure) = stress {
             stress::ui(ui, &self.stress, (picture, measure), stale, 0.9 * unit);
@@ -209,7 +209,11 @@ impl View for Profiles {
 
     fn caption(&self, context: &Context<'_>) -> Option<String> {
         let key = context.answers.picture()?.key;
-        Some(format!("{}; {}", caption::contact(&key.point, &key.lubricant), caption::means(context.answers)?))
+        Some(format!(
+            "{}; {}",
+            caption::contact(&key.point, &key.lubricant, context.system),
+            caption::means(context.answers)?
+        ))
     }
 
     fn receive(&mut self) {
@@ -253,8 +257,8 @@ pub fn with_difference(ui: &mut Ui, context: &Context<'_>) {
             ui.set_width(half);
             match answers.comparison() {
                 Some(comparison) => {
-                    let length_mm = Scales::of(&context.document.point).length_mm;
-                    difference_plot(ui, (comparison, length_mm), (context.fit, stale), height);
+                    let along = Scales::of(&context.document.point, context.system).along;
+                    difference_plot(ui, (comparison, along), (context.fit, stale), height);
                 }
                 None => {
                     _ = ui.weak("The difference appears when the sliders are idle and the full solution is available")

@@ -10,11 +10,12 @@ use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::plot::{axes, color_bar, color_map};
 use crate::app::tabs::profiles::curves;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH};
-use crate::app::units::Scales;
-use crate::app::{drawn, numbers};
+use crate::app::units::{self, Scale, Scales};
+use crate::app::{drawn, figure, numbers};
 use crate::solver::discrete::heat::{HeatBalance, interpolated_across};
 use crate::solver::full::Solution;
 use crate::solver::full::heat::{Rises, Temperatures};
+use crate::solver::physics::engineering::QuantityKind;
 use egui::{Color32, ColorImage, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 use egui_plot::{HoverPosition, PlotPoint, PlotPoints};
 use std::sync::Arc;
@@ -119,7 +120,8 @@ pub fn ui(ui: &mut Ui, image: &TemperatureImage, context: &Context<'_>, (scales,
     rises_plot(ui, image, (hues, scales), context.fit, height);
     let texture = texture.shown(ui.ctx());
     let (from, to) = Direction::Along.range();
-    let top = image.top;
+    let (top, system) = (image.top, context.system);
+    let rise_text = move |kelvin: f64| numbers::shown(QuantityKind::TemperatureRise, kelvin, system);
     let plot = linked(
         ui,
         ("temperatures", height - BAR_HEIGHT),
@@ -127,12 +129,12 @@ pub fn ui(ui: &mut Ui, image: &TemperatureImage, context: &Context<'_>, (scales,
         scales,
     )
     .paper_y("Height {Z} = {z}{R}/{a}²")
-    .si_y(scales.film_um, "Height {z} / µm")
+    .units_y(scales.film, "Height {z}")
     .default_y_bounds(0.0, top)
     .label_formatter(move |at| {
         let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
         let rise = rise_at(heat, position.x, position.y)?;
-        Some(format!("X = {}   {} above the inlet", numbers::digits(position.x, 3), numbers::quantity(rise, "K")))
+        Some(format!("X = {}   {} above the inlet", numbers::digits(position.x, 3), rise_text(rise)))
     });
     axes::show(plot, ui, "Temperatures of the film", |plot| {
         axes::fit(plot, context.fit);
@@ -140,17 +142,14 @@ pub fn ui(ui: &mut Ui, image: &TemperatureImage, context: &Context<'_>, (scales,
         let film = PlotPoints::Borrowed(&image.film);
         plot.line(curves::curve("upper surface".to_owned(), film, palette.quiet, THIN_WIDTH));
     });
-    color_bar::on_paper(
-        ui,
-        "Rise in K",
-        (1.0, "Rise in K"),
-        (&color_bar::strips(&color_map::table(false)), (0.0, image.largest_k)),
-    );
+    let Scale { factor, unit } = Scale::of(QuantityKind::TemperatureRise, system, 1.0);
+    let colors = color_bar::strips(&color_map::table(false));
+    figure::scale(ui.ctx(), &format!("Rise in {unit}"), (0.0, factor * image.largest_k), &colors);
     balance_ui(ui, &heat.balance, hues);
     match heat.too_hot() {
         Some(warning) => warning_ui(ui, &warning.to_string()),
         None => {
-            let above = numbers::quantity(image.largest_k, "K");
+            let above = rise_text(image.largest_k);
             ui.weak(format!("Colours: from the inlet’s temperature to {above} above it"));
         }
     }
@@ -159,11 +158,14 @@ pub fn ui(ui: &mut Ui, image: &TemperatureImage, context: &Context<'_>, (scales,
 fn rises_plot(ui: &mut Ui, image: &TemperatureImage, (hues, scales): ([Color32; 3], Scales), fit: bool, height: f32) {
     let most = image.rises.iter().flatten().fold(1e-3, |most: f64, point| most.max(point.y));
     let least = image.rises.iter().flatten().fold(0.0, |least: f64, point| least.min(point.y));
-    let plot = linked(ui, ("rises", height), ("", "Rise in K"), scales)
+    let system = units::system(ui.ctx());
+    let plot = linked(ui, ("rises", height), ("", "Rise"), scales)
+        .always_y(Scale::of(QuantityKind::TemperatureRise, system, 1.0), "Rise")
         .default_y_bounds(1.08 * least.max(-0.3 * most), numbers::round_up(1.08 * most))
-        .label_formatter(|at| match at {
+        .label_formatter(move |at| match at {
             HoverPosition::NearDataPoint { plot_name, position, .. } => {
-                let (x, rise) = (numbers::digits(position.x, 3), numbers::quantity(position.y, "K"));
+                let x = numbers::digits(position.x, 3);
+                let rise = numbers::shown(QuantityKind::TemperatureRise, position.y, system);
                 Some(format!("X = {x}\n{plot_name} {rise} above the inlet"))
             }
             HoverPosition::Elsewhere { .. } => None,
@@ -179,7 +181,7 @@ fn rises_plot(ui: &mut Ui, image: &TemperatureImage, (hues, scales): ([Color32; 
 /// Returns a plot on the axis of the profiles.
 fn linked<'a>(ui: &Ui, (id, height): (&str, f32), titles: (&str, &str), scales: Scales) -> PlotFrame<'a> {
     let (from, to) = Direction::Along.range();
-    let direction = (Direction::Along, Direction::Along.length_mm(scales), 1.0);
+    let direction = (Direction::Along, Direction::Along.length(scales), 1.0);
     curves::stacked(ui, direction, (id, height), titles).default_x_bounds(from, to)
 }
 

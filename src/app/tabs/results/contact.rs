@@ -8,7 +8,7 @@ use crate::app::export::describe;
 use crate::app::theme::{Palette, rich};
 use crate::app::{badge, formulas, numbers};
 use crate::scene::Table;
-use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Grid, ScrollArea, Ui};
 
 /// Width from which the formulas are placed next to the table.
@@ -17,7 +17,7 @@ const BESIDE: f32 = 860.0;
 /// Values below this limit are rounding errors.
 const NOTHING: f64 = 1e-9;
 
-/// Quantity of a picture: name with symbol, name in files, tooltip, value, and value in SI units.
+/// Quantity of a picture: name with symbol, name in files, tooltip, value, and value with its unit.
 struct Quantity {
     name: &'static str,
     symbol: &'static str,
@@ -27,12 +27,12 @@ struct Quantity {
 }
 
 /// Returns the displayed quantities from top to bottom.
-fn quantities(picture: &Picture) -> Vec<Quantity> {
+fn quantities(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
     let (s, point) = (picture.solution.scalars, &picture.key.point);
     let hertz = point.hertz();
-    let film = |h: f64| numbers::length(h * point.film_scale_m());
-    let place = |x: f64| numbers::length(x * hertz.half_width_m);
-    let pressure = |p: f64| numbers::pressure(p * hertz.pressure_pa);
+    let film = |h: f64| numbers::length(h * point.film_scale_m(), system);
+    let place = |x: f64| numbers::length(x * hertz.half_width_m, system);
+    let pressure = |p: f64| numbers::pressure(p * hertz.pressure_pa, system);
     let rolling = picture.solution.rolling_resistance();
     let one = |name, symbol, tip, value, si| Quantity { name, symbol, tip, value, si };
     vec![
@@ -61,13 +61,13 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
             s.h_0,
             String::new(),
         ),
-        one("Traction coefficient {µ}", "traction", TRACTION, picture.traction, friction(picture)),
+        one("Traction coefficient {µ}", "traction", TRACTION, picture.traction, friction(picture, system)),
         one(
             "Rolling resistance",
             "rolling_resistance_over_load",
             ROLLING,
             rolling / point.load,
-            force(rolling, point.kind),
+            numbers::load(rolling, point.kind, system),
         ),
         one(
             "Load residual",
@@ -78,16 +78,19 @@ fn quantities(picture: &Picture) -> Vec<Quantity> {
         ),
     ]
     .into_iter()
-    .chain(temperatures(picture))
+    .chain(temperatures(picture, system))
     .collect()
 }
 
 /// Returns temperature rises and heat flows. Empty for an isothermal contact.
-fn temperatures(picture: &Picture) -> Vec<Quantity> {
+fn temperatures(picture: &Picture, system: UnitSystem) -> Vec<Quantity> {
     let Some(heat) = picture.solution.heat.as_deref() else { return Vec::new() };
     let balance = &heat.balance;
     let made = balance.sheared + balance.compressed;
-    let rise = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::quantity(value, "K") };
+    let rise = |name, symbol, tip, value: f64| {
+        let si = numbers::shown(QuantityKind::TemperatureRise, value, system);
+        Quantity { name, symbol, tip, value, si }
+    };
     let share = |name, symbol, tip, value: f64| Quantity { name, symbol, tip, value, si: numbers::percent(value) };
     vec![
         rise("Rise at mid-film", "mid_film_rise_k", "Above the inlet temperature, at X = 0", heat.central.mid_film_k),
@@ -133,17 +136,11 @@ const ROLLING: &str = "½∫h dp of each body, over the load; it is present in p
 const TRACTION: &str = "Shear stress at mid-film over the whole domain, over the load (3.41); zero in pure rolling";
 
 /// Returns the friction force as text.
-fn friction(picture: &Picture) -> String {
+fn friction(picture: &Picture, system: UnitSystem) -> String {
     let force = picture.traction * picture.key.point.load;
-    picture.unphysical.map_or_else(|| self::force(force, picture.key.point.kind), |doubt| doubt.mark().to_owned())
-}
-
-/// Returns a force as text, per length for a line contact.
-fn force(newtons: f64, kind: ContactKind) -> String {
-    match kind {
-        ContactKind::Line => numbers::quantity(1e-3 * newtons, "N/mm"),
-        ContactKind::Point => numbers::quantity(newtons, "N"),
-    }
+    picture
+        .unphysical
+        .map_or_else(|| numbers::load(force, picture.key.point.kind, system), |doubt| doubt.mark().to_owned())
 }
 
 /// Returns the picture, and the full solution of the same contact if it is another one.
@@ -172,23 +169,23 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>) {
         }
         if ui.available_width() > BESIDE {
             ui.horizontal_top(|ui| {
-                ui.vertical(|ui| table_ui(ui, picture, full));
+                ui.vertical(|ui| table_ui(ui, picture, full, context.system));
                 ui.add_space(18.0);
                 ui.vertical(|ui| formulas::table(ui, context));
             });
         } else {
-            table_ui(ui, picture, full);
+            table_ui(ui, picture, full, context.system);
             ui.add_space(8.0);
             formulas::table(ui, context);
         }
     });
 }
 
-fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>) {
+fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>, system: UnitSystem) {
     let palette = Palette::of(ui);
     let text = ui.visuals().text_color();
     Grid::new("results of the contact").striped(true).spacing([16.0, 5.0]).show(ui, |ui| {
-        let mut titles = vec!["", name(picture), "in SI units"];
+        let mut titles = vec!["", name(picture), "with units"];
         if full.is_some() {
             titles.extend(["Full solution", "Deviation"]);
         }
@@ -196,8 +193,8 @@ fn table_ui(ui: &mut Ui, picture: &Picture, full: Option<&Picture>) {
             ui.label(rich(title, 12.5, palette.quiet));
         }
         ui.end_row();
-        let truths = full.map(quantities).unwrap_or_default();
-        for (k, Quantity { name, tip, value, si, .. }) in quantities(picture).into_iter().enumerate() {
+        let truths = full.map(|full| quantities(full, system)).unwrap_or_default();
+        for (k, Quantity { name, tip, value, si, .. }) in quantities(picture, system).into_iter().enumerate() {
             ui.label(rich(name, 13.5, text)).on_hover_text(tip);
             ui.strong(numbers::significant(value)).on_hover_text(tip);
             ui.label(si);
@@ -219,8 +216,9 @@ pub fn csv(context: &Context<'_>) -> Option<String> {
     let mut titles = vec![if picture.origin == Origin::Full { "full" } else { "reduced" }];
     titles.extend(full.map(|_| "full"));
     let mut table = Table::new("contact", &titles);
-    let columns: Vec<Vec<Quantity>> = [Some(picture), full].into_iter().flatten().map(quantities).collect();
-    for (k, Quantity { symbol, .. }) in quantities(picture).into_iter().enumerate() {
+    let of = |picture| quantities(picture, context.system);
+    let columns: Vec<Vec<Quantity>> = [Some(picture), full].into_iter().flatten().map(of).collect();
+    for (k, Quantity { symbol, .. }) in of(picture).into_iter().enumerate() {
         table.labels.push(symbol.to_owned());
         table.rows.push(columns.iter().filter_map(|column| Some(column.get(k)?.value)).collect());
     }

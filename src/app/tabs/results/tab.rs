@@ -1,6 +1,7 @@
 //! Results tab: results of any scene. Its study runs in the engine as from the command line, and charts, tables and
 //! verdicts are updated while it runs.
 
+use super::columns::ShownColumn;
 use super::run::{Campaign, Look, Run};
 use super::{chart, contact, table};
 use crate::app::command::Command;
@@ -13,7 +14,8 @@ use crate::app::tabs::{About, Offer, View};
 use crate::app::theme::{Palette, rich};
 use crate::engine::Workbench;
 use crate::engine::job::{Standing, Wake};
-use crate::scene::{Method, Scene, Study, Table, Verdict};
+use crate::scene::{Chart, ChartAxis, Marks, Method, Scene, Study, Table, Verdict};
+use crate::solver::physics::engineering::UnitSystem;
 use egui::{ComboBox, Grid, Label, RichText, ScrollArea, Ui};
 use std::path::PathBuf;
 
@@ -29,6 +31,8 @@ enum ResultsChoice {
     Charts,
     /// A table, by its name.
     Table(String),
+    /// A column of a table along its lines, by the name of the table and the number of the column.
+    Column(String, usize),
 }
 
 /// Results tab: its run and the displayed part.
@@ -36,13 +40,15 @@ pub struct Results {
     run: Option<Run>,
     /// Document of the last frame with its scene.
     seen: Option<(Document, Scene)>,
+    /// True if the study is not that of the document, but a table of load cases.
+    of_cases: bool,
     shown: ResultsChoice,
     fresh: bool,
 }
 
 impl Default for Results {
     fn default() -> Self {
-        Self { run: None, seen: None, shown: ResultsChoice::Charts, fresh: true }
+        Self { run: None, seen: None, of_cases: false, shown: ResultsChoice::Charts, fresh: true }
     }
 }
 
@@ -55,6 +61,12 @@ impl Results {
             _ => ResultsChoice::Charts,
         };
         *self = Self { run: Some(Run::start(scene, bench, wake)), shown, ..Self::default() };
+    }
+
+    /// Solves a table of load cases. The document keeps its study.
+    pub fn solve_cases(&mut self, scene: Scene, bench: Workbench, wake: Wake) {
+        self.start(scene, bench, wake);
+        self.of_cases = true;
     }
 
     /// Watches a campaign of a scene. Charts and tables are updated as its shards arrive.
@@ -96,7 +108,7 @@ impl Results {
                 ui.weak(&scene.source);
             }
         });
-        self.toolbar(ui, commands);
+        self.toolbar(ui, context.system, commands);
         if let Some(why) = context.document.lost_question() {
             let title = &context.document.title;
             warning_ui(ui, &format!("The study of “{title}” is replaced by the contact itself: {why}"));
@@ -112,8 +124,9 @@ impl Results {
         if let Some(message) = run.message() {
             message_ui(ui, message);
         }
-        let changed = !drawn::asks_the_same(&run.scene, scene);
-        drawn::note(ui.ctx(), "results of a study", Owner::Question(Box::new(run.scene.clone())), changed);
+        let owner = Box::new(run.scene.clone());
+        let owner = if self.of_cases { Owner::Cases(owner) } else { Owner::Question(owner) };
+        let changed = drawn::is_grey(ui.ctx(), "results of a study", owner, context);
         if changed {
             warning_ui(ui, "These results belong to a previous state of the scene, which has changed since");
         }
@@ -134,19 +147,21 @@ impl Results {
                 ui.vertical(|ui| {
                     ui.set_min_height(whole.y);
                     ui.set_max_width(width);
-                    shown_ui(ui, look, &self.shown, fresh);
+                    shown_ui(ui, look, (&self.shown, context.system), fresh);
                 });
                 ui.separator();
                 ui.vertical(|ui| verdicts_ui(ui, look));
             });
         } else {
-            ui.allocate_ui(egui::vec2(whole.x, 0.6 * whole.y), |ui| shown_ui(ui, look, &self.shown, fresh));
+            ui.allocate_ui(egui::vec2(whole.x, 0.6 * whole.y), |ui| {
+                shown_ui(ui, look, (&self.shown, context.system), fresh);
+            });
             ui.separator();
             verdicts_ui(ui, look);
         }
     }
 
-    fn toolbar(&mut self, ui: &mut Ui, commands: &mut Commands) {
+    fn toolbar(&mut self, ui: &mut Ui, system: UnitSystem, commands: &mut Commands) {
         ui.horizontal_wrapped(|ui| {
             let standing = self.standing();
             let runs = standing.is_some();
@@ -169,6 +184,7 @@ impl Results {
             let text = match &self.shown {
                 ResultsChoice::Charts => "Charts".to_owned(),
                 ResultsChoice::Table(name) => format!("Table {name}"),
+                ResultsChoice::Column(..) => "Column along the lines".to_owned(),
             };
             let mut chosen = self.shown.clone();
             let combo = ComboBox::from_id_salt("shown of results").selected_text(text).width(180.0).show_ui(ui, |ui| {
@@ -179,6 +195,12 @@ impl Results {
                 }
             });
             named(ui, combo.response, "Shown of the results");
+            if let ResultsChoice::Table(name) | ResultsChoice::Column(name, _) = &chosen
+                && let Some(of) = tables.iter().find(|table| table.name == *name)
+                && let Some(column) = column_ui(ui, of, &chosen, system)
+            {
+                (chosen, self.fresh) = (ResultsChoice::Column(name.clone(), column), true);
+            }
             self.shown = chosen;
             standing_ui(ui, standing, "Progress of the study");
         });
@@ -219,7 +241,7 @@ impl View for Results {
         }
         let look = self.run.as_ref().and_then(|run| run.look.as_ref());
         let table = match &self.shown {
-            ResultsChoice::Table(name) => look.and_then(|look| look.table(name)),
+            ResultsChoice::Table(name) | ResultsChoice::Column(name, _) => look.and_then(|look| look.table(name)),
             ResultsChoice::Charts => look.and_then(|look| look.outcome.tables.first()),
         };
         vec![Offer::table("Table as CSV…", "The table that is chosen, or the first one", table, |table| {
@@ -277,17 +299,26 @@ fn campaign_ui(ui: &mut Ui, campaign: &Campaign) {
 /// Maximum number of failed shards listed on hover.
 const NAMED_FAILURES: usize = 12;
 
-fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {
+fn shown_ui(ui: &mut Ui, look: &Look, (shown, system): (&ResultsChoice, UnitSystem), fresh: bool) {
     match shown {
         ResultsChoice::Table(name) => match look.table(name) {
-            Some(of) => table::ui(ui, of),
+            Some(of) => table::ui(ui, of, system),
             None => _ = ui.weak("There is no such table yet"),
         },
+        ResultsChoice::Column(name, column) => {
+            match look.table(name).and_then(|of| column_chart(of, *column, system)) {
+                Some(of) => {
+                    let height = ui.available_height() - 4.0;
+                    chart::ui(ui, &format!("column {column} of {name} {system:?}"), &of, height, fresh);
+                }
+                None => _ = ui.weak("There is no such column yet"),
+            }
+        }
         ResultsChoice::Charts => {
             let charts: Vec<_> = look.charts.iter().filter(|chart| !chart.series.is_empty()).collect();
             if charts.is_empty() {
                 match look.outcome.tables.first() {
-                    Some(first) => table::ui(ui, first),
+                    Some(first) => table::ui(ui, first, system),
                     None => _ = ui.weak("There is no chart yet"),
                 }
                 return;
@@ -302,6 +333,39 @@ fn shown_ui(ui: &mut Ui, look: &Look, shown: &ResultsChoice, fresh: bool) {
             });
         }
     }
+}
+
+/// Draws the choice of a column to plot. Returns the column that was chosen.
+fn column_ui(ui: &mut Ui, table: &Table, shown: &ResultsChoice, system: UnitSystem) -> Option<usize> {
+    let title = |column: usize| {
+        let name = table.columns.get(column).map_or("", String::as_str);
+        ShownColumn::of(name, system).title.replace(['{', '}'], "")
+    };
+    let present = if let ResultsChoice::Column(_, column) = shown { Some(*column) } else { None };
+    let text = present.map_or_else(|| "Plot a column".to_owned(), title);
+    let mut chosen = None;
+    let combo = ComboBox::from_id_salt("plotted column").selected_text(text).width(170.0).show_ui(ui, |ui| {
+        for column in 0..table.columns.len() {
+            if ui.selectable_label(present == Some(column), title(column)).clicked() {
+                chosen = Some(column);
+            }
+        }
+    });
+    named(ui, combo.response, "Plotted column").on_hover_text("Plots a column along the lines of the table");
+    chosen
+}
+
+/// Returns a chart of a column along the lines of a table. `None` if there is no such column.
+fn column_chart(table: &Table, column: usize, system: UnitSystem) -> Option<Chart> {
+    let shown = ShownColumn::of(table.columns.get(column)?, system);
+    let title = shown.title.replace(['{', '}'], "");
+    let mut chart = Chart::new(&title, ChartAxis::linear("Line"), ChartAxis::linear(&title));
+    let value = |row: &Vec<f64>| row.get(column).map(|value| shown.number(*value)).filter(|value| value.is_finite());
+    let points = |k: usize, row: &Vec<f64>| Some([(k + 1) as f64, value(row)?]);
+    let points: Vec<[f64; 2]> = table.rows.iter().enumerate().filter_map(|(k, row)| points(k, row)).collect();
+    chart.add("", Marks::Line, points.iter().copied());
+    chart.add(title, Marks::Dots, points);
+    Some(chart)
 }
 
 fn verdicts_ui(ui: &mut Ui, look: &Look) {

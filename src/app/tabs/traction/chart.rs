@@ -10,14 +10,14 @@ use crate::app::plot::axes;
 use crate::app::plot::frame::PlotFrame;
 use crate::app::tabs::traction::{Against, Companion, Curve, Sample, Sweep};
 use crate::app::theme::{FULL_WIDTH, LIVE_WIDTH, Palette, THIN_WIDTH, faded, rich};
+use crate::scene::MeasuredPoint;
 use crate::solver::full::{Lubrication, Mixed, PLAUSIBLE_TRACTION, TractionDoubt};
+use crate::solver::physics::engineering::{QuantityKind, Unit, UnitSystem};
 use egui::{Align2, Color32, CursorIcon, Id, PointerButton, Ui, Vec2b};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, Points, Span, Text, VLine};
 
 /// Minimum height of a readable plot.
 const LEAST_HEIGHT: f32 = 110.0;
-/// Metres per micrometre, the unit of the film thickness axis.
-const MICRO: f64 = 1e-6;
 
 /// Height of the plot of the load share relative to the others.
 const SHARE_HEIGHT: f32 = 0.7;
@@ -49,13 +49,17 @@ struct Axes<'a> {
     logarithmic: (bool, bool),
     /// Range of the displayed axis along the quantity.
     ends: (f64, f64),
+    /// Unit of the horizontal axis.
+    unit: Unit,
 }
 
 impl<'a> Axes<'a> {
-    fn new(choices: &Choices, sweep: &'a Sweep) -> Self {
+    fn new(choices: &Choices, sweep: &'a Sweep, system: UnitSystem) -> Self {
         let (against, lubricant) = (choices.against, sweep.base.lubricant);
         let logarithmic = (choices.logarithmic_along(), choices.logarithmic.1);
-        let at = |value: f64| against.of(&Key { point: sweep.varied.at(&sweep.base.point, value), lubricant });
+        let unit = against.unit(system);
+        let of = |value: f64| against.of(&Key { point: sweep.varied.at(&sweep.base.point, value), lubricant });
+        let at = |value: f64| unit.number(of(value));
         let (first, last) = (at(sweep.ends.0), at(sweep.ends.1));
         let (from, to) = match (against, choices.slide) {
             (Against::SlideToRoll, SlideView::Near) => (first, last.min(NEAR_SRR)),
@@ -63,17 +67,17 @@ impl<'a> Axes<'a> {
             _ => (first.min(last), first.max(last)),
         };
         let ends = if logarithmic.0 { (from.log10(), to.log10()) } else { (from, to) };
-        Self { against, sweep, logarithmic, ends }
+        Self { against, sweep, logarithmic, ends, unit }
     }
 
     /// Returns the position on the axis as drawn. `None` if the value has no logarithm.
     fn along(&self, value: f64) -> Option<f64> {
-        drawn(value, self.logarithmic.0)
+        drawn(self.unit.number(value), self.logarithmic.0)
     }
 
     /// Returns the value at a position on the axis.
     fn value(&self, place: f64) -> f64 {
-        if self.logarithmic.0 { 10f64.powf(place) } else { place }
+        self.unit.si(if self.logarithmic.0 { 10f64.powf(place) } else { place })
     }
 
     fn shows(&self, place: f64) -> bool {
@@ -85,13 +89,10 @@ impl<'a> Axes<'a> {
         self.along(self.against.of(&Key { point: sample.point, lubricant: self.sweep.base.lubricant }))
     }
 
-    fn point(&self, sample: &Sample, of: Quantity) -> Option<[f64; 2]> {
-        Some([self.place(sample)?, drawn(of(sample)?, self.logarithmic.1)?])
-    }
-
-    /// Returns the points of a quantity of samples.
-    fn points<'s>(&self, samples: impl IntoIterator<Item = &'s Sample>, of: Quantity) -> Points2 {
-        samples.into_iter().filter_map(|sample| self.point(sample, of)).collect()
+    /// Returns the points of a quantity of samples in a unit.
+    fn points<'s>(&self, samples: impl IntoIterator<Item = &'s Sample>, (of, unit): (Quantity, Unit)) -> Points2 {
+        let up = |sample| drawn(unit.number(of(sample)?), self.logarithmic.1);
+        samples.into_iter().filter_map(|sample| Some([self.place(sample)?, up(sample)?])).collect()
     }
 
     /// Returns the ends of the vertical axis for the displayed values: from zero, or from the smallest value if the
@@ -134,22 +135,22 @@ fn drawn(value: f64, logarithmic: bool) -> Option<f64> {
     if !logarithmic { Some(value) } else { (value > 0.0).then(|| value.log10()) }
 }
 
-/// Traction, traction of the companion, and central and minimum film thickness in µm.
+/// Traction, traction of the companion, and central and minimum film thickness in SI units.
 const TRACTION: Quantity = |sample| Some(sample.traction);
 const OF_COMPANION: Quantity = |sample| sample.companion;
-const CENTRAL: Quantity = |sample| Some(sample.h_c_m / MICRO);
-const SMALLEST: Quantity = |sample| Some(sample.h_min_m / MICRO);
-/// Mean gap of rough surfaces at the centre in µm.
-const GAP: Quantity = |sample| gap_um(&sample.mixed?, sample.h_c_m);
-/// Parts of the traction of rough surfaces, and the share of the load that asperities carry in percent.
+const CENTRAL: Quantity = |sample| Some(sample.h_c_m);
+const SMALLEST: Quantity = |sample| Some(sample.h_min_m);
+/// Mean gap of rough surfaces at the centre \[m\].
+const GAP: Quantity = |sample| gap_m(&sample.mixed?, sample.h_c_m);
+/// Parts of the traction of rough surfaces, and the share of the load that asperities carry.
 const BOUNDARY: Quantity = |sample| Some(sample.mixed?.boundary_traction.abs());
 const FLUID: Quantity = |sample| Some(sample.mixed?.fluid_traction.abs());
-const CARRIED: Quantity = |sample| Some(100.0 * sample.mixed?.asperity_load_share);
+const CARRIED: Quantity = |sample| Some(sample.mixed?.asperity_load_share);
 
-/// Returns the mean gap at the centre \[µm\] of a contact with a central film thickness \[m\].
-fn gap_um(mixed: &Mixed, h_c_m: f64) -> Option<f64> {
+/// Returns the mean gap at the centre \[m\] of a contact with a central film thickness \[m\].
+fn gap_m(mixed: &Mixed, h_c_m: f64) -> Option<f64> {
     let sigma_m = h_c_m / mixed.film_ratio_c;
-    sigma_m.is_finite().then_some(mixed.mean_gap_c * sigma_m / MICRO)
+    sigma_m.is_finite().then_some(mixed.mean_gap_c * sigma_m)
 }
 
 /// Returns the maximum differences between full solutions and their curve: of the traction coefficient, and of H_c
@@ -179,13 +180,16 @@ pub fn differences(curve: &Curve, markers: Option<&Markers>) -> Option<(f64, f64
 /// Draws the plots. Returns the clicked position on the axis.
 pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, shown: &ShownSweep<'_>) -> Option<f64> {
     let palette = Palette::of(ui);
-    let axes = Axes::new(choices, sweep);
+    let axes = Axes::new(choices, sweep, context.system);
     let rough = sweep.base.lubricant.is_rough();
     let parts = if rough { 2.0 + SHARE_HEIGHT } else { 2.0 };
     let unit = ((ui.available_height() - 6.0) / parts).max(LEAST_HEIGHT);
     let here = context.answers.current_picture();
-    let below = axes.against.axis(sweep.base.point.kind);
+    let below = axes.against.axis(sweep.base.point.kind, context.system);
     let drawn = |name, of, color, width| Drawn { name, of, color, width, named_at_start: false };
+    let [number, films, percent] = [QuantityKind::Number, QuantityKind::FilmThickness, QuantityKind::Percent]
+        .map(|kind| kind.unit(context.system));
+    let film_title = format!("Film in {}", films.name);
     let total = drawn("traction", TRACTION, palette.traction, LIVE_WIDTH);
     let parts = [
         drawn("of the film", FLUID, palette.film, 1.6),
@@ -193,18 +197,21 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
     ];
     let curves: Vec<Drawn> = std::iter::once(total).chain(parts.into_iter().filter(|_| rough)).collect();
     let traction = LinkedPlot {
-        below,
+        below: &below,
         name: "Traction along the quantity",
         id: "traction",
         titles: ("", "Traction coefficient µ"),
+        unit: number,
         curves: &curves,
         here: here.map(|picture| (picture.traction.abs(), picture.unphysical.is_some())),
+        measured: Points2::new(),
     };
     let film = LinkedPlot {
-        below,
+        below: &below,
         name: "Film along the quantity",
         id: "film",
-        titles: (if rough { "" } else { below }, "Film in µm"),
+        titles: (if rough { "" } else { &below }, &film_title),
+        unit: films,
         curves: &[
             match rough {
                 true => drawn("mean gap at the centre", GAP, palette.film, LIVE_WIDTH),
@@ -213,18 +220,23 @@ pub fn ui(ui: &mut Ui, choices: &Choices, context: &Context<'_>, sweep: &Sweep, 
             drawn("minimum film thickness", SMALLEST, palette.film, 1.6),
         ],
         here: here.and_then(|picture| match &picture.mixed {
-            Some(mixed) => Some((gap_um(mixed, picture.central_film_m())?, false)),
-            None => Some((picture.central_film_m() / MICRO, false)),
+            Some(mixed) => Some((gap_m(mixed, picture.central_film_m())?, false)),
+            None => Some((picture.central_film_m(), false)),
         }),
+        measured: Points2::new(),
     };
     let share = LinkedPlot {
-        below,
+        below: &below,
         name: "Load share of asperities along the quantity",
         id: "share",
-        titles: (below, "On asperities, %"),
+        titles: (&below, "On asperities, %"),
+        unit: percent,
         curves: &[drawn("load share of asperities", CARRIED, palette.pressure, LIVE_WIDTH)],
-        here: here.and_then(|picture| Some((100.0 * picture.mixed?.asperity_load_share, false))),
+        here: here.and_then(|picture| Some((picture.mixed?.asperity_load_share, false))),
+        measured: Points2::new(),
     };
+    let (traction, film) =
+        (traction.with(&axes, context, |point| point.friction), film.with(&axes, context, |p| p.film_m));
     let mut pressed = traction.show(ui, context, &axes, shown, unit);
     pressed = film.show(ui, context, &axes, shown, unit).or(pressed);
     if rough {
@@ -249,14 +261,29 @@ struct LinkedPlot<'a> {
     name: &'static str,
     id: &'static str,
     titles: (&'a str, &'a str),
+    /// Unit of the vertical axis.
+    unit: Unit,
     /// Quantity of the horizontal axis, also if its title is below the other plot.
     below: &'a str,
     curves: &'a [Drawn],
-    /// Value of the contact on the screen, and whether it is unphysical.
+    /// Value of the contact on the screen in SI units, and whether it is unphysical.
     here: Option<(f64, bool)>,
+    /// Measured values over the quantity of the horizontal axis, in SI units.
+    measured: Points2,
 }
 
 impl LinkedPlot<'_> {
+    /// Returns the plot with the measured values of a quantity.
+    fn with(self, axes: &Axes<'_>, context: &Context<'_>, of: fn(&MeasuredPoint) -> Option<f64>) -> Self {
+        let along = |point: &MeasuredPoint| match axes.against {
+            Against::SlideToRoll => point.srr.map(f64::abs),
+            Against::Speed => point.speed_m_per_s,
+            _ => None,
+        };
+        let measured = context.measured.iter().filter_map(|point| Some([along(point)?, of(point)?])).collect();
+        Self { measured, ..self }
+    }
+
     fn show(
         &self,
         ui: &mut Ui,
@@ -285,11 +312,17 @@ impl LinkedPlot<'_> {
                 self.curve(plot, axes, shown, (k, curve), (&palette, up));
                 if let Some(markers) = shown.markers {
                     let color = if shown.markers_stale { palette.reference } else { palette.over(curve.color) };
-                    rings(plot, axes.points(&markers.samples, curve.of), color, k);
+                    rings(plot, axes.points(&markers.samples, (curve.of, self.unit)), color, k);
                 }
             }
+            let place = |[x, y]: &[f64; 2]| Some([axes.along(*x)?, drawn(self.unit.number(*y), axes.logarithmic.1)?]);
+            let measured: Points2 = self.measured.iter().filter_map(place).collect();
+            if !measured.is_empty() {
+                let measured = Points::new("measured", measured).color(palette.text).radius(4.0);
+                plot.points(measured.shape(MarkerShape::Diamond).id((self.id, "measured")));
+            }
             if let (Some(place), Some((value, unphysical))) = (current, self.here)
-                && let Some(value) = drawn(value, axes.logarithmic.1)
+                && let Some(value) = drawn(self.unit.number(value), axes.logarithmic.1)
             {
                 let color = if unphysical { palette.reference } else { palette.accent };
                 let dot = Points::new("", vec![[place, value]]).id("here").color(color).radius(5.0);
@@ -315,7 +348,9 @@ impl LinkedPlot<'_> {
         let samples = samples.filter(seen).filter(|sample| !traction || sample.unphysical.is_none());
         let of_curves = samples.flat_map(|sample| self.curves.iter().filter_map(|curve| (curve.of)(sample)));
         let here = self.here.filter(|(_, unphysical)| here && !unphysical).map(|(value, _)| value);
-        let (from, to) = axes.up(of_curves.chain(here));
+        let measured = self.measured.iter().filter(|[x, _]| axes.along(*x).is_some_and(|place| axes.shows(place)));
+        let measured = measured.map(|[_, y]| *y);
+        let (from, to) = axes.up(of_curves.chain(here).chain(measured).map(|value| self.unit.number(value)));
         (from, if self.id == "share" { to.min(100.0) } else { to })
     }
 
@@ -350,11 +385,11 @@ impl LinkedPlot<'_> {
                 Some(mark) => (format!("traction, {mark}"), palette.reference, LineStyle::dotted_loose(), THIN_WIDTH),
                 None => (curve.name.to_owned(), color, style, width),
             };
-            let points = near(axes.points(run.iter().chain(next), curve.of), up);
+            let points = near(axes.points(run.iter().chain(next), (curve.of, self.unit)), up);
             let line = Line::new(name, points).color(color).width(width);
             plot.line(line.style(style).id((self.id, k, part)).allow_band(false));
         }
-        let points = axes.points(samples.iter().filter(|sample| mark(sample).is_none()), curve.of);
+        let points = axes.points(samples.iter().filter(|sample| mark(sample).is_none()), (curve.of, self.unit));
         let mut seen = points.into_iter().filter(|point| axes.shows(point[0]));
         if let Some([x, y]) = if curve.named_at_start { seen.next() } else { seen.next_back() } {
             let name = if sketch {
@@ -377,7 +412,8 @@ impl LinkedPlot<'_> {
         let group = Id::unique("traction sweep");
         let (along, logarithmic) = axes.logarithmic;
         let margin = 0.02 * (axes.ends.1 - axes.ends.0);
-        let unit = if axes.against == Against::SlideToRoll { "\u{2009}%" } else { "" };
+        let unit = axes.unit.name;
+        let unit = if unit.is_empty() { String::new() } else { format!("\u{2009}{unit}") };
         let plot = axes::plot(ui, self.id, height, self.titles.0, self.titles.1)
             .paper_x(self.below)
             .link_axis(group, Vec2b::new(true, false))
@@ -439,7 +475,7 @@ fn regimes(
 
 /// Draws the companion curve. It does not change the axis. Its label is at its end or where it leaves the plot.
 fn companion(plot: &mut Canvas<'_, '_>, axes: &Axes<'_>, samples: &[Sample], color: Color32, up: (f64, f64)) {
-    let points = axes.points(samples, OF_COMPANION);
+    let points = axes.points(samples, (OF_COMPANION, QuantityKind::Number.unit(UnitSystem::Si)));
     let Some(name) = axes.sweep.companion().map(Companion::name).filter(|_| !points.is_empty()) else { return };
     let level = up.0 + COMPANION_LABEL * (up.1 - up.0);
     let crossing = points.windows(2).find(|pair| pair[0][1] < level && pair[1][1] >= level).map(|pair| {

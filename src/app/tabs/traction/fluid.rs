@@ -6,7 +6,9 @@ use crate::app::numbers;
 use crate::app::plot::axes;
 use crate::app::plot::frame::PlotFrame;
 use crate::app::theme::{LIVE_WIDTH, Palette, THIN_WIDTH, rich};
+use crate::app::units::{self, Scale};
 use crate::solver::full::{Problem, Solution};
+use crate::solver::physics::engineering::QuantityKind;
 use egui::{Align2, Ui};
 use egui_plot::{HoverPosition, Line, LineStyle, PlotPoint, Span, Text, VLine};
 use std::sync::Arc;
@@ -46,9 +48,9 @@ pub fn ui(ui: &mut Ui, stress_met: &mut Option<(Arc<Solution>, f64)>, context: &
     let picture = context.answers.picture().filter(|picture| picture.key == key);
     let pressure_pa = picture.map_or(key.point.hertz().pressure_pa, |picture| picture.largest_pressure_pa());
     let met = Met { problem, pressure_pa, stress_pa };
-    let mut text = format!("Pressures in this contact reach {}", numbers::pressure(pressure_pa));
+    let mut text = format!("Pressures in this contact reach {}", numbers::pressure(pressure_pa, context.system));
     if let Some(stress) = stress_pa {
-        text.push_str(&format!(", shear stresses on its surfaces {}", numbers::pressure(stress)));
+        text.push_str(&format!(", shear stresses on its surfaces {}", numbers::pressure(stress, context.system)));
     }
     ui.weak(text);
     let fit = context.fit;
@@ -88,33 +90,42 @@ fn pressure_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     let palette = Palette::of(ui);
     let (problem, hertz_pa) = (&met.problem, met.problem.point.hertz().pressure_pa);
     let end = (1.3 * met.pressure_pa.max(hertz_pa)).min(0.999 * problem.fluid.largest_pressure() * hertz_pa);
-    let viscosity = |p: f64| problem.point.viscosity_pa_s * problem.fluid.at(p / hertz_pa).viscosity;
+    let system = units::system(ui.ctx());
+    let unit = QuantityKind::Viscosity.unit(system);
+    let viscosity = |p: f64| unit.number(problem.point.viscosity_pa_s * problem.fluid.at(p / hertz_pa).viscosity);
     let curve: Vec<[f64; 2]> =
-        (0..SAMPLES).map(|k| end * k as f64 / (SAMPLES - 1) as f64).map(|p| [1e-9 * p, viscosity(p).log10()]).collect();
+        (0..SAMPLES).map(|k| end * k as f64 / (SAMPLES - 1) as f64).map(|p| [p, viscosity(p).log10()]).collect();
     let marks = f64::from((ui.available_width() / 90.0).clamp(3.0, 8.0));
     axes::show(
-        logarithmic(ui, "viscosity and pressure", height, "Pressure {p} in GPa", "Low-shear viscosity µ in Pa·s")
-            .marks_x(marks)
-            .label_formatter(|at| {
-                Some(format!(
-                    "p = {} GPa\nµ = {} Pa·s",
-                    numbers::significant(place(at)[0]),
-                    numbers::significant(10f64.powf(place(at)[1]))
-                ))
-            }),
+        logarithmic(
+            ui,
+            "viscosity and pressure",
+            height,
+            "Pressure {p}",
+            &format!("Low-shear viscosity µ in {}", unit.name),
+        )
+        .marks_x(marks)
+        .always_x(Scale::of(QuantityKind::Pressure, system, 1.0), "Pressure {p}")
+        .label_formatter(|at| {
+            Some(format!(
+                "p = {}\nµ = {}",
+                numbers::pressure(place(at)[0], system),
+                numbers::quantity(10f64.powf(place(at)[1]), unit.name)
+            ))
+        }),
         ui,
         "Viscosity against pressure",
         |plot| {
             axes::fit(plot, fit);
             plot.span(
-                Span::new("met here", 0.0..=1e-9 * met.pressure_pa)
+                Span::new("met here", 0.0..=met.pressure_pa)
                     .fill(palette.accent.gamma_multiply(0.14))
                     .border_width(0.0),
             );
             plot.line(Line::new("µ(p)", curve).color(palette.pressure).width(LIVE_WIDTH).allow_band(false));
-            let line = VLine::new("p_H", 1e-9 * hertz_pa).color(palette.reference).width(THIN_WIDTH);
+            let line = VLine::new("p_H", hertz_pa).color(palette.reference).width(THIN_WIDTH);
             plot.vline(line.style(LineStyle::dashed_dense()).allow_hover(false));
-            let at = PlotPoint::new(1e-9 * hertz_pa, viscosity(0.0).log10());
+            let at = PlotPoint::new(hertz_pa, viscosity(0.0).log10());
             let name = Text::new("", at, rich(" {p_H}", 12.5, palette.quiet));
             plot.text(name.anchor(Align2::LEFT_BOTTOM).id("Hertz").allow_hover(false));
         },
@@ -134,31 +145,37 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
     let palette = Palette::of(ui);
     let problem = &met.problem;
     let critical = problem.shear.map_or(NEWTONIAN_STRESS, |shear| shear.stress_scale_pa);
-    let from = critical.log10() - BELOW;
-    let to = met.stress_pa.map_or(f64::NEG_INFINITY, f64::log10).max(critical.log10() + ABOVE) + 0.5;
+    let system = units::system(ui.ctx());
+    let [unit, viscosity_unit] = [QuantityKind::Stress, QuantityKind::Viscosity].map(|kind| kind.unit(system));
+    let y_title = format!("Viscosity η in {}", viscosity_unit.name);
+    let log_of = |stress_pa: f64| unit.number(stress_pa).log10();
+    let from = log_of(critical) - BELOW;
+    let to = met.stress_pa.map_or(f64::NEG_INFINITY, log_of).max(log_of(critical) + ABOVE) + 0.5;
     let curve = |p: f64| -> Vec<[f64; 2]> {
-        let at_rest = problem.point.viscosity_pa_s * problem.fluid.at(p).viscosity;
+        let at_rest = viscosity_unit.number(problem.point.viscosity_pa_s * problem.fluid.at(p).viscosity);
         let log = |k: usize| from + (to - from) * k as f64 / (SAMPLES - 1) as f64;
-        let fluidity =
-            |log: f64| problem.shear.map_or(1.0, |law| law.fluidity.at(10f64.powf(log) / law.stress_scale_pa).0);
+        let fluidity = |log: f64| {
+            problem.shear.map_or(1.0, |law| law.fluidity.at(unit.si(10f64.powf(log)) / law.stress_scale_pa).0)
+        };
         (0..SAMPLES).map(log).map(|log| [log, (at_rest / fluidity(log)).log10()]).collect()
     };
     let hertz_pa = problem.point.hertz().pressure_pa;
     let limit = problem.lubricant.limiting_stress;
     axes::show(
-        logarithmic(ui, "flow curve", height, "Shear stress τ in Pa", "Viscosity η in Pa·s")
+        logarithmic(ui, "flow curve", height, &format!("Shear stress τ in {}", unit.name), &y_title)
             .decades_x(6.0)
             .label_formatter(|at| {
-                let [stress, viscosity] = place(at).map(|log| numbers::significant(10f64.powf(log)));
-                Some(format!("τ = {stress} Pa\nη = {viscosity} Pa·s"))
+                let [stress, viscosity] = place(at).map(|log| 10f64.powf(log));
+                let viscosity = numbers::quantity(viscosity, viscosity_unit.name);
+                Some(format!("τ = {}\nη = {viscosity}", numbers::quantity(stress, unit.name)))
             }),
         ui,
         "Viscosity against shear stress",
         |plot| {
             axes::fit(plot, fit);
-            if let Some(stress) = met.stress_pa.filter(|stress| stress.log10() > from) {
+            if let Some(stress) = met.stress_pa.filter(|stress| log_of(*stress) > from) {
                 plot.span(
-                    Span::new("met here", from..=stress.log10())
+                    Span::new("met here", from..=log_of(stress))
                         .fill(palette.accent.gamma_multiply(0.14))
                         .border_width(0.0),
                 );
@@ -182,10 +199,10 @@ fn flow_plot(ui: &mut Ui, met: &Met, height: f32, fit: bool) {
                 [("τ_L at p = 0", "{τ_L} at {p} = 0 ", 0.0), ("τ_L at p_H", "{τ_L} at {p_H} ", hertz_pa)]
             {
                 if let Some(stress) = limit.map(|limit| limit.at(p)).filter(|stress| *stress > 0.0) {
-                    let line = VLine::new(name, stress.log10()).color(palette.warning).width(THIN_WIDTH);
+                    let line = VLine::new(name, log_of(stress)).color(palette.warning).width(THIN_WIDTH);
                     plot.vline(line.style(LineStyle::dashed_dense()));
                     let anchor = if p == 0.0 { Align2::RIGHT_BOTTOM } else { Align2::RIGHT_TOP };
-                    plot.text(place(name, [stress.log10(), foot], label, palette.warning, anchor));
+                    plot.text(place(name, [log_of(stress), foot], label, palette.warning, anchor));
                 }
             }
         },

@@ -7,14 +7,13 @@ use crate::scene::{Axis, Grid, Method, Scene, Steps, Study, StudyRow};
 use crate::solver::full::{Mixed, Problem, TractionDoubt};
 use crate::solver::parameters::Quantity;
 use crate::solver::physics::contact::{ContactKind, OperatingPoint};
+use crate::solver::physics::engineering::{QuantityKind, Unit, UnitSystem};
 use crate::solver::physics::lubricant::{Lubricant, ShearLaw};
 use crate::solver::reduced::Domain;
 use serde::{Deserialize, Serialize};
 
 /// Half of the contacts of a curve are within this |SRR| of its first one, where the traction rises.
 const RISES: f64 = 0.05;
-/// SRR is drawn in percent.
-const PERCENT: f64 = 100.0;
 
 /// Ends of SRR and NPR if no model sets them.
 const SRR: (f64, f64) = (0.0, 2.0);
@@ -253,34 +252,43 @@ impl Against {
     }
 
     /// Returns the title of its axis, with symbols in braces.
-    pub fn axis(self, kind: ContactKind) -> &'static str {
-        match (self, kind) {
-            (Self::SlideToRoll, _) => "Slide-to-roll ratio {SRR} in %",
+    pub fn axis(self, kind: ContactKind, system: UnitSystem) -> String {
+        let title = match (self, kind) {
+            (Self::SlideToRoll, _) => "Slide-to-roll ratio {SRR} in ",
             (Self::Plateau, _) => "Newtonian plateau ratio {NPR}",
-            (Self::Speed, _) => "Speed {u_m} in m/s",
+            (Self::Speed, _) => "Speed {u_m} in ",
             (Self::Stribeck, ContactKind::Line) => "Stribeck number η₀{u_m}/{w}",
             (Self::Stribeck, ContactKind::Point) => "Stribeck number η₀{u_m}/{w} in 1/m",
             (Self::LoadNumber, _) => "Load number {M}",
             (Self::RadiusRatio, _) => "Ratio of radii {R_y}/{R}",
-        }
+        };
+        format!("{title}{}", self.unit(system).name)
     }
 
-    /// Returns the position of a contact on the axis.
+    /// Returns the unit of its axis.
+    pub fn unit(self, system: UnitSystem) -> Unit {
+        let kind = match self {
+            Self::SlideToRoll => QuantityKind::Percent,
+            Self::Speed => QuantityKind::Speed,
+            Self::Plateau | Self::Stribeck | Self::LoadNumber | Self::RadiusRatio => QuantityKind::Number,
+        };
+        kind.unit(system)
+    }
+
+    /// Returns the value of a contact in SI units.
     pub fn of(self, key: &Key) -> f64 {
         let point = &key.point;
         match self {
-            Self::SlideToRoll => PERCENT * self.varied().of(key),
-            Self::Plateau | Self::Speed | Self::RadiusRatio => self.varied().of(key),
+            Self::SlideToRoll | Self::Plateau | Self::Speed | Self::RadiusRatio => self.varied().of(key),
             Self::Stribeck => point.viscosity_pa_s * point.speed_m_per_s / point.load,
             Self::LoadNumber => point.moes().m,
         }
     }
 
-    /// Returns the value of the varied quantity at a position on the axis.
+    /// Returns the value of the varied quantity for a value of this one.
     pub fn value(self, point: &OperatingPoint, place: f64) -> f64 {
         match self {
-            Self::SlideToRoll => place / PERCENT,
-            Self::Plateau | Self::Speed | Self::RadiusRatio => place,
+            Self::SlideToRoll | Self::Plateau | Self::Speed | Self::RadiusRatio => place,
             Self::Stribeck => place * point.load / point.viscosity_pa_s,
             Self::LoadNumber => {
                 let exponent = if point.kind == ContactKind::Line { 0.5f64 } else { 0.75 };

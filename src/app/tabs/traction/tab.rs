@@ -109,9 +109,9 @@ impl View for Traction {
         vec![Offer::table("Curve as CSV…", tip, there.then_some(view), text)]
     }
 
-    fn caption(&self, _: &Context<'_>) -> Option<String> {
+    fn caption(&self, context: &Context<'_>) -> Option<String> {
         let (key, notes) = export::parameters(&self.sweeps)?;
-        let contact = caption::contact(&key.point, &key.lubricant);
+        let contact = caption::contact(&key.point, &key.lubricant, context.system);
         Some(std::iter::once(contact).chain(notes).collect::<Vec<_>>().join("; "))
     }
 
@@ -331,8 +331,8 @@ fn said(
         },
     );
     let place = choices.against.of(&context.document.key());
-    if choices.against == Against::SlideToRoll && choices.slide == SlideView::Near && place > NEAR_SRR {
-        let place = numbers::quantity(place, "%");
+    if choices.against == Against::SlideToRoll && choices.slide == SlideView::Near && 100.0 * place > NEAR_SRR {
+        let place = numbers::slide_to_roll(place);
         ui.weak(format!("The contact on the screen slides at {place}, outside this view"));
     }
     standing_ui(ui, view.full.standing(), "Progress of the full solutions");

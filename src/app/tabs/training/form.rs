@@ -9,6 +9,7 @@ use crate::app::tabs::training::presets;
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::parameters::{Axis, ParameterSpace, Quantity};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use crate::solver::reduced::{Sampling, Scheme};
 use crate::solver::training::{Indicator, Plan, TrainingSpec, Windows};
 use egui::{TextEdit, Ui};
@@ -60,8 +61,8 @@ fn title_ui(ui: &mut Ui, typed: &mut Option<String>, spec: &mut TrainingSpec) {
     });
 }
 
-/// Units with their size in SI units.
-const PLAIN: (&str, f64) = ("", 1.0);
+/// Kind of a dimensionless number.
+const PLAIN: QuantityKind = QuantityKind::Number;
 
 fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     heading(ui, "Range");
@@ -89,7 +90,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
     }
     for (quantity, value) in fixed {
         let tip = format!("{}, the same for the whole range", quantity.meaning(kind));
-        form.row(ui, quantity.field(), quantity.reading_unit(kind), value, &tip);
+        form.row(ui, quantity.field(), quantity.kind(kind), value, &tip);
     }
     for axis in constants {
         quantity_ui(ui, form, (axis.quantity, kind), &mut axis.ends);
@@ -99,7 +100,7 @@ fn range_ui(ui: &mut Ui, form: &mut Form<'_>, spec: &mut TrainingSpec) {
 
 /// Draws the interval of a quantity for a kind of contact.
 fn quantity_ui(ui: &mut Ui, form: &mut Form<'_>, (quantity, kind): (Quantity, ContactKind), ends: &mut (f64, f64)) {
-    form.interval(ui, quantity.field(), quantity.reading_unit(kind), ends, quantity.meaning(kind));
+    form.interval(ui, quantity.field(), quantity.kind(kind), ends, quantity.meaning(kind));
 }
 
 /// Returns the local models and the grid in one line.
@@ -302,7 +303,14 @@ fn ladder_ui(ui: &mut Ui, form: &mut Form<'_>, tolerances: &mut Vec<f64>) {
     row(ui, "Tolerances", tip, |ui| {
         ui.vertical(|ui| {
             for (k, tolerance) in tolerances.iter_mut().enumerate() {
-                form.number(ui, "Tolerances", &format!("Tolerance {}", k + 1), tolerance, 1.0, tip);
+                form.number(
+                    ui,
+                    "Tolerances",
+                    &format!("Tolerance {}", k + 1),
+                    tolerance,
+                    PLAIN.unit(UnitSystem::Si),
+                    tip,
+                );
             }
             ui.horizontal(|ui| {
                 let more = ui.small_button("+");

@@ -12,6 +12,7 @@ use crate::app::plot::axes;
 use crate::app::plot::key::{self, Entry, Sample};
 use crate::app::tabs::Offer;
 use crate::app::theme::{Palette, THIN_WIDTH, rich};
+use crate::app::units;
 use crate::app::wake::wake;
 use crate::engine::job::{Background, Standing};
 use crate::engine::{Store, Workbench};
@@ -21,6 +22,7 @@ use crate::solver::discrete::grid::PointGridSpec;
 use crate::solver::full::response::{check_lubricant, published_reduction, reduction_parameter};
 use crate::solver::full::transient::MovingSurface;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 use egui::{Align, Layout, Ui};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
@@ -201,9 +203,10 @@ impl AmplitudeCurve {
     }
 
     /// Returns the contact of the curve for the caption of a figure.
-    pub fn caption(&self) -> Option<String> {
+    pub fn caption(&self, system: UnitSystem) -> Option<String> {
         let (of, _) = self.computed.as_ref()?;
-        Some(format!("{}; wavy surface on body {}", caption::contact(&of.key.point, &of.key.lubricant), of.body))
+        let contact = caption::contact(&of.key.point, &of.key.lubricant, system);
+        Some(format!("{contact}; wavy surface on body {}", of.body))
     }
 }
 
@@ -212,6 +215,7 @@ fn plot(ui: &mut Ui, of: &Wanted, rows: &[Row], (fit, height): (bool, f32)) {
     let palette = Palette::of(ui);
     let place = |row: &Row| Some(PlotPoint::new(row.nabla.log10(), row.responses.first()?.ratio()));
     let half_width_m = of.key.point.hertz().half_width_m;
+    let system = units::system(ui.ctx());
     let hover = |at: &HoverPosition<'_>| {
         let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
         let apart = |row: &&Row| (row.nabla.log10() - position.x).abs();
@@ -219,7 +223,7 @@ fn plot(ui: &mut Ui, of: &Wanted, rows: &[Row], (fit, height): (bool, f32)) {
         let nabla = format!("∇ = {}", numbers::significant(row.nabla));
         Some(format!(
             "λ = {} ({} a)\n{nabla}\n|A_d/A_i| = {}\npublished {}",
-            numbers::length(row.wavelength * half_width_m),
+            numbers::length(row.wavelength * half_width_m, system),
             numbers::digits(row.wavelength, 3),
             numbers::significant(row.responses.first()?.ratio()),
             numbers::significant(row.published)

@@ -7,6 +7,7 @@ use crate::app::{export, numbers};
 use crate::solver::discrete::grid::GridSpec;
 use crate::solver::full::transient::{Inputs, Signal};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 
 /// Block of columns: its name and its rows.
 type Block = (String, Vec<Vec<Option<f64>>>);
@@ -142,11 +143,12 @@ pub fn describe(setup: &Setup) -> Vec<String> {
 /// Returns a description of each feature of the surfaces.
 fn features(setup: &Setup) -> impl Iterator<Item = String> {
     let srr = setup.point.sliding.slide_to_roll_ratio;
+    let length_of = |metre: f64| numbers::length(metre, UnitSystem::default());
     setup.study.surfaces.iter().map(move |feature| {
         let kind = FeatureKind::of(&feature.shape).words().0.to_lowercase();
         let (mut shape, mut sizes) = (feature.shape.clone(), String::new());
         if let Some((height, length)) = sizes_of(&mut shape) {
-            sizes = format!(" of {} over {}", numbers::length(*height), numbers::length(*length));
+            sizes = format!(" of {} over {}", length_of(*height), length_of(*length));
         }
         let from = place_of(&mut shape).map_or(String::new(), |at| format!(" from X {}", numbers::digits(*at, 3)));
         format!("{kind}{sizes}{from} on body {}, speed {} u_m", feature.body, numbers::digits(feature.speed(srr), 3))

@@ -7,8 +7,10 @@ use crate::app::document::Edit;
 use crate::app::document::features::{FeatureKind, place_of, sizes_of};
 use crate::app::numbers;
 use crate::app::theme::rich;
+use crate::app::units;
 use crate::scene::study::transient::SurfaceShape;
 use crate::solver::physics::contact::OperatingPoint;
+use crate::solver::physics::engineering::QuantityKind;
 use egui::Ui;
 
 /// Range of the height in central film thicknesses of the formula, and of lengths in half-widths.
@@ -56,7 +58,7 @@ pub fn ui(ui: &mut Ui, context: &Context<'_>, commands: &mut Commands) {
         ui.label(rich(&format!("{{X}} = {}", numbers::digits(*at, 3)), 13.0, ui.visuals().weak_text_color()));
     }
     let ratio = feature.speed(point.sliding.slide_to_roll_ratio);
-    let speed = numbers::quantity(ratio * point.speed_m_per_s, "m/s");
+    let speed = numbers::shown(QuantityKind::Speed, ratio * point.speed_m_per_s, units::system(ui.ctx()));
     let text = format!("{} at {speed}", if feature.body == 1 { "body 1" } else { "body 2" });
     ui.weak(text).on_hover_text("The slide-to-roll ratio sets the speed of the body that carries the feature");
     if study != before {
@@ -71,13 +73,13 @@ fn sizes_ui(
     (length_word, length): (&str, &mut f64),
 ) {
     let film = point.formula_film_m();
-    let quiet = ui.visuals().weak_text_color();
+    let (quiet, system) = (ui.visuals().weak_text_color(), units::system(ui.ctx()));
     let mut slide = |name: &str, word: &str, tip: &str, (low, high): (f64, f64), value: f64| {
         ui.label(word).on_hover_text(tip);
         let home = (low * high).sqrt();
         let slider = RangeSlider { name, range: low..=high, marked: None, home, tooltip: tip, logarithmic: true };
         let moved = slider.show(ui, value, WIDTH).map(|moved| numbers::rounded(moved.clamp(low, high), 3));
-        ui.label(rich(&numbers::length(moved.unwrap_or(value)), 13.0, quiet));
+        ui.label(rich(&numbers::length(moved.unwrap_or(value), system), 13.0, quiet));
         moved
     };
     let heights = (HEIGHTS.0 * film, HEIGHTS.1 * film);

@@ -10,17 +10,16 @@ use crate::app::numbers;
 use crate::app::purpose::Purpose;
 use crate::app::tabs::transient::shared;
 use crate::app::theme::rich;
+use crate::app::units;
 use crate::scene::study::transient::{SurfaceFeature, SurfaceShape};
 use crate::scene::{Grid, TransientStudy};
 use crate::solver::full::transient::{Scheme, TimeStep};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::QuantityKind;
 use egui::Ui;
 
 /// Name under which refusals are stored.
 pub const NAME: &str = "features";
-/// Units of heights and lengths.
-const NANOMETRES: (&str, f64) = ("nm", 1e-9);
-const MICROMETRES: (&str, f64) = ("µm", 1e-6);
 
 /// Form with the chosen feature.
 #[derive(Default)]
@@ -128,10 +127,10 @@ fn feature_ui(
     speed_ui(ui, document, feature);
     form.message(ui, "Body");
     wanted = wanted.or(shape_ui(ui, form, feature).then_some(k));
-    let place = (document.point.hertz().half_width_m / 1e-6, "Position at T = 0 in units of a; the inlet is negative");
+    let place = (document.point.hertz().half_width_m, "Position at T = 0 in units of a; the inlet is negative");
     if let Some(at) = place_of(&mut feature.shape) {
-        form.row(ui, "Start {X}", ("", 1.0), at, place.1);
-        ui.weak(format!("{} from the centre", numbers::length(*at * 1e-6 * place.0)));
+        form.row(ui, "Start {X}", QuantityKind::Number, at, place.1);
+        ui.weak(format!("{} from the centre", numbers::length(*at * place.0, units::system(ui.ctx()))));
     }
     if ui.button("Remove").on_hover_text("Removes this feature").clicked() {
         study.surfaces.remove(k);
@@ -167,8 +166,8 @@ fn shape_ui(ui: &mut Ui, form: &mut Form<'_>, feature: &mut SurfaceFeature) -> b
         }
     };
     if let Some((height, length)) = sizes_of(&mut feature.shape) {
-        form.row(ui, names[0].0, NANOMETRES, height, names[0].1);
-        form.row(ui, names[1].0, MICROMETRES, length, names[1].1);
+        form.row(ui, names[0].0, QuantityKind::FilmThickness, height, names[0].1);
+        form.row(ui, names[1].0, QuantityKind::FilmThickness, length, names[1].1);
     }
     false
 }
@@ -176,7 +175,7 @@ fn shape_ui(ui: &mut Ui, form: &mut Form<'_>, feature: &mut SurfaceFeature) -> b
 /// Draws the speed of a feature, which follows from the sliding of the contact.
 fn speed_ui(ui: &mut Ui, document: &Document, feature: &SurfaceFeature) {
     let ratio = feature.speed(document.point.sliding.slide_to_roll_ratio);
-    let speed = numbers::quantity(ratio * document.point.speed_m_per_s, "m/s");
+    let speed = numbers::shown(QuantityKind::Speed, ratio * document.point.speed_m_per_s, units::system(ui.ctx()));
     let text = format!("Speed {speed} = {} {{u_m}}, from {{SRR}}", numbers::digits(ratio, 3));
     ui.label(rich(&text, 13.0, ui.visuals().weak_text_color()));
 }
@@ -184,7 +183,7 @@ fn speed_ui(ui: &mut Ui, document: &Document, feature: &SurfaceFeature) {
 /// Draws duration, step and time scheme.
 fn steps_ui(ui: &mut Ui, form: &mut Form<'_>, document: &Document, study: &mut TransientStudy) {
     heading(ui, "Run");
-    form.row(ui, "Duration {T}", ("", 1.0), &mut study.duration, "The last T, in units of a/u_m");
+    form.row(ui, "Duration {T}", QuantityKind::Number, &mut study.duration, "The last T, in units of a/u_m");
     let spacing = match (document.point.kind, document.transient_grid()) {
         (ContactKind::Line, Grid::Uniform { dx, .. }) => Some(dx),
         _ => None,
@@ -206,6 +205,12 @@ fn steps_ui(ui: &mut Ui, form: &mut Form<'_>, document: &Document, study: &mut T
         form.message(ui, "Scheme");
     }
     if let TimeStep::Fixed(step) = &mut study.time_step {
-        form.row(ui, "Step {ΔT}", ("", 1.0), step, "A step moves a feature by at most a quarter of its length");
+        form.row(
+            ui,
+            "Step {ΔT}",
+            QuantityKind::Number,
+            step,
+            "A step moves a feature by at most a quarter of its length",
+        );
     }
 }

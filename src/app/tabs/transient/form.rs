@@ -16,6 +16,7 @@ use crate::app::theme::Palette;
 use crate::scene::TransientStudy;
 use crate::solver::full::transient::{Frame, Inputs, Signal, TimeStep, Unsupported};
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::QuantityKind;
 use egui::{Checkbox, Ui};
 use egui_plot::{Line, LineStyle, PlotPoints};
 
@@ -186,7 +187,7 @@ fn signal_ui(ui: &mut Ui, form: &mut Form<'_>, (names, point): (&Names, bool), s
     form.message(ui, names.kind);
     const AMPLITUDE: &str = "Relative to the reference";
     const PERIOD: &str = "In units of a/u_m of the reference contact";
-    let plain = ("", 1.0);
+    let plain = QuantityKind::Number;
     match signal {
         Signal::Constant => {}
         Signal::Harmonic { amplitude, period } | Signal::Reversing { amplitude, period } => {
@@ -254,7 +255,7 @@ fn preview(ui: &mut Ui, inputs: &Inputs, duration: f64) {
 
 fn time_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
     heading(ui, "Time");
-    let plain = ("", 1.0);
+    let plain = QuantityKind::Number;
     form.row(ui, "Duration {T}", plain, &mut study.duration, "The last T, in units of a/u_m of the reference contact");
     study.window = study.window.filter(|window| window.1 <= study.duration);
     let mut rule = StepRule::of(study.time_step);

@@ -3,8 +3,12 @@
 
 use crate::app::controls::heading;
 use crate::app::form::{Form, choose};
+use crate::app::numbers;
 use crate::app::tabs::transient::method::{RULES, WEIGHTINGS, rule_name, weighting_name};
+use crate::app::units;
 use crate::scene::{Drive, LinearisedTransient, ModelSource, ReducedTransient, TransientStudy};
+use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Checkbox, Ui};
 
@@ -28,7 +32,7 @@ pub fn ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy) {
         })
         .on_hover_text(tip);
     } else if let Some(reduced) = &mut study.reduced {
-        let plain = ("", 1.0);
+        let plain = QuantityKind::Number;
         form.row(ui, "Loss", plain, &mut reduced.loss, "Loss of information of the bases (2.90)");
         form.row(ui, "Rows per mode", plain, &mut reduced.rows_per_mode, "Sampled equations per pressure mode");
     }
@@ -80,7 +84,7 @@ pub fn linearised_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStud
             form.row(
                 ui,
                 "Tolerance β",
-                ("", 1.0),
+                QuantityKind::Number,
                 &mut tolerance,
                 "Tolerance of the rule; half the value gives about twice the points",
             );
@@ -126,7 +130,8 @@ pub fn trainings_ui(ui: &mut Ui, form: &mut Form<'_>, study: &mut TransientStudy
         count => format!("Trained on {count} other inputs."),
     });
     if !study.training_loads.is_empty() {
-        let loads = study.training_loads.iter().map(|load| format!("{} kN/m", load / 1e3));
+        let loads =
+            study.training_loads.iter().map(|load| numbers::load(*load, ContactKind::Line, units::system(ui.ctx())));
         ui.weak(format!("At reference loads of {}.", loads.collect::<Vec<_>>().join(", ")));
     }
     if !study.training_contacts.is_empty() {

@@ -12,8 +12,9 @@ use crate::app::plot::raster::{self, Raster};
 use crate::app::plot::{axes, color_map};
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::theme::faded;
-use crate::app::units::Scales;
+use crate::app::units::{self, Scales};
 use crate::solver::full::transient::{Moment, State};
+use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::physics::optics::Interferometer;
 use egui::{Color32, ColorImage, Ui};
 use egui_plot::{HoverPosition, Line, LineStyle, PlotPoint, PlotPoints};
@@ -195,7 +196,8 @@ impl PlaneMap {
 
     fn plot(&self, ui: &mut Ui, (setup, run): (&Arc<Setup>, &Run), plane: &Plane<'_>, (fit, height): (bool, f32)) {
         let Some(texture) = self.texture.as_ref().map(|texture| texture.shown(ui.ctx())) else { return };
-        let length_mm = Scales::of(&setup.point).length_mm;
+        let system = units::system(ui.ctx());
+        let scales = Scales::of(&setup.point, system);
         let (hertz, scale) = (setup.point.hertz(), setup.point.film_scale_m());
         let hover = |at: &HoverPosition<'_>| {
             let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
@@ -204,18 +206,18 @@ impl PlaneMap {
             Some(format!(
                 "X = {}   ({})\nY = {}   ({})\nP = {}   ({})\nH = {}   ({})",
                 numbers::digits(position.x, 3),
-                numbers::length(position.x * hertz.half_width_m),
+                numbers::length(position.x * hertz.half_width_m, system),
                 numbers::digits(position.y / plane.kappa, 3),
-                numbers::length(position.y * hertz.half_width_m),
+                numbers::length(position.y * hertz.half_width_m, system),
                 numbers::significant(p),
-                numbers::pressure(p * hertz.pressure_pa),
+                numbers::pressure(p * hertz.pressure_pa, system),
                 numbers::significant(h),
-                numbers::length(h * scale)
+                numbers::length(h * scale, system)
             ))
         };
         let plot = axes::plot(ui, "plane in time", height, "{X} = {x}/{a}", "{y}/{a}")
-            .si_x(length_mm, "{x} / mm")
-            .si_y(length_mm, "{y} / mm")
+            .units_x(scales.along, "{x}")
+            .units_y(scales.along, "{y}")
             .data_aspect(1.0)
             .default_x_bounds(X_RANGE.0, X_RANGE.1)
             .default_y_bounds(-Y_RANGE * plane.kappa, Y_RANGE * plane.kappa)
@@ -240,10 +242,11 @@ impl PlaneMap {
     }
 
     fn scale(&self, ui: &mut Ui, setup: &Setup, (low, high): (f64, f64), height: f32) {
-        let scales = Scales::of(&setup.point);
+        let system = units::system(ui.ctx());
+        let scales = Scales::of(&setup.point, system);
         let (title, name, in_si) = match self.shown {
-            Shown::Pressure => ("{P}", "Pressure {P}", (scales.pressure_gpa, "Pressure {p} / GPa")),
-            _ => ("{H}", "Film {H}", (scales.film_um, "Film {h} / µm")),
+            Shown::Pressure => ("{P}", "Pressure {P}", (scales.pressure, "Pressure {p}")),
+            _ => ("{H}", "Film {H}", (scales.film, "Film {h}")),
         };
         let film_m = setup.point.film_scale_m();
         let colors: Vec<Color32> = if self.shown == Shown::Interferogram {
@@ -253,8 +256,10 @@ impl PlaneMap {
             color_bar::strips(&color_map::table(self.shown == Shown::Film))
         };
         let si = |value: f64| match self.shown {
-            Shown::Pressure => color_bar::in_gigapascals(value * setup.point.hertz().pressure_pa),
-            _ => color_bar::in_nanometres(value * film_m),
+            Shown::Pressure => {
+                color_bar::short(QuantityKind::Pressure, value * setup.point.hertz().pressure_pa, system)
+            }
+            _ => color_bar::short(QuantityKind::FilmThickness, value * film_m, system),
         };
         color_bar::on_paper(ui, name, in_si, (&colors, (low, high)));
         color_bar::ui(ui, title, (&colors, (low, high)), height, si);

@@ -8,7 +8,7 @@ use crate::app::plot::frame::PlotFrame;
 use crate::app::tabs::transient::Run;
 use crate::app::tabs::transient::series::{drawn, marks, rows, style};
 use crate::app::theme::{Palette, THIN_WIDTH};
-use crate::app::units::Scales;
+use crate::app::units::{self, Scale, Scales};
 use crate::solver::full::transient::{Moment, Quantity};
 use crate::solver::physics::contact::ContactKind;
 use egui::{Color32, Id, Ui, Vec2b};
@@ -41,13 +41,13 @@ pub fn ui(ui: &mut Ui, view: &TransientRuns, fit: bool, height: f32) {
             .default_x_bounds(X_RANGE.0, X_RANGE.1)
             .default_y_bounds(low, top)
     };
-    let scales = view.setup.as_ref().map(|setup| Scales::of(&setup.point));
+    let scales = view.setup.as_ref().map(|setup| Scales::of(&setup.point, units::system(ui.ctx())));
     let pressure = stacked("profile of pressure", ("", "Pressure {P}"), (0.0, most(Quantity::MaximumPressure)));
-    let pressure = in_si(pressure, scales, |of| of.pressure_gpa, "Pressure {p} / GPa");
+    let pressure = with_units(pressure, scales, |of| of.pressure, "Pressure {p}");
     let depth = view.runs.first().map_or(0.0, deepest);
     let range = (-2.0 * BELOW * depth, 3.0 * most(Quantity::CentralFilm));
     let film = stacked("profile of film", ("{X}", "Film {H}"), range);
-    let film = in_si(film, scales, |of| of.film_um, "Film {h} / µm");
+    let film = with_units(film, scales, |of| of.film, "Film {h}");
     axes::show(pressure, ui, "Pressure at this moment", |plot| {
         axes::fit(plot, fit);
         if let Some((run, moment)) = view.runs.first().and_then(|run| Some((run, moment_at(run, time)?))) {
@@ -90,9 +90,14 @@ fn undeformed(plot: &mut Canvas<'_, '_>, run: &Run, time: f64, (depth, palette):
     plot.line(line.allow_band(false));
 }
 
-fn in_si<'a>(plot: PlotFrame<'a>, scales: Option<Scales>, unit: fn(Scales) -> f64, title: &str) -> PlotFrame<'a> {
+fn with_units<'a>(
+    plot: PlotFrame<'a>,
+    scales: Option<Scales>,
+    unit: fn(Scales) -> Scale,
+    title: &str,
+) -> PlotFrame<'a> {
     match scales {
-        Some(scales) => plot.si_x(scales.length_mm, "{x} / mm").si_y(unit(scales), title),
+        Some(scales) => plot.units_x(scales.along, "{x}").units_y(unit(scales), title),
         None => plot,
     }
 }

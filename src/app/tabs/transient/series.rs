@@ -7,9 +7,10 @@ use crate::app::plot::axes;
 use crate::app::plot::frame::PlotFrame;
 use crate::app::tabs::transient::Run;
 use crate::app::theme::{Palette, THIN_WIDTH, faded};
-use crate::app::units::Scales;
+use crate::app::units::{self, Scale, Scales};
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::{Frame, Interpolation, Moment, Quantity};
+use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::reduced::tpwl::Weighting;
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotPoints, VLine};
@@ -188,13 +189,15 @@ fn linked<'a>(ui: &Ui, view: &TransientRuns, name: &str, height: f32, titles: (&
     let duration = view.setup.as_ref().map_or(0.0, |setup| setup.study.duration);
     let group = Id::unique(("transient", view.generation));
     let columns = marks(ui.available_width());
+    let system = units::system(ui.ctx());
+    let time = view.setup.as_ref().map(|setup| Scale::of(QuantityKind::TransitTime, system, setup.time_scale_s()));
     axes::plot(ui, &format!("transient {name} {}", view.generation), height, titles.0, titles.1)
         .marks_x(columns)
         .marks_y(rows(height))
         .link_axis(group, Vec2b::new(true, false))
         .link_cursor(group, Vec2b::new(true, false))
         .paper_x("{T}")
-        .si_x(view.setup.as_ref().map_or(0.0, |setup| 1e6 * setup.time_scale_s()), "{t} / µs")
+        .units_x(time, "{t}")
         .include_x(0.0)
         .include_x(duration)
         .set_margin_fraction(egui::vec2(0.0, 0.08))
@@ -228,10 +231,11 @@ impl LinkedPlot {
         let palette = Palette::of(ui);
         let first = view.runs.first()?;
         let mut plot = linked(ui, view, self.name, height, titles);
-        if let Some(scales) = view.setup.as_ref().map(|setup| Scales::of(&setup.point)).filter(|_| !deviation) {
+        let system = units::system(ui.ctx());
+        if let Some(scales) = view.setup.as_ref().map(|setup| Scales::of(&setup.point, system)).filter(|_| !deviation) {
             plot = match self.quantity {
-                Quantity::CentralPressure => plot.si_y(scales.pressure_gpa, "Pressure {p_c} / GPa"),
-                _ => plot.si_y(scales.film_um, "Film {h_c} / µm"),
+                Quantity::CentralPressure => plot.units_y(scales.pressure, "Pressure {p_c}"),
+                _ => plot.units_y(scales.film, "Film {h_c}"),
             };
         }
         if deviation {

@@ -16,6 +16,7 @@ use crate::scene::TransientStudy;
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Ended;
 use crate::solver::physics::contact::ContactKind;
+use crate::solver::physics::engineering::UnitSystem;
 use crate::solver::reduced::tpwl::{TpwlRecord, Weighting};
 use crate::solver::warning::Warning;
 use egui::text::{LayoutJob, TextFormat};
@@ -263,7 +264,7 @@ pub fn faster(times: f64) -> String {
 }
 
 /// Returns the contact and the inputs of the runs on the screen, for the caption of a figure.
-pub fn caption(view: &TransientRuns) -> Option<String> {
+pub fn caption(view: &TransientRuns, system: UnitSystem) -> Option<String> {
     let setup = view.setup.as_ref()?;
-    Some(format!("{}; {}", caption::contact(&setup.point, &setup.lubricant), export::inputs(setup)))
+    Some(format!("{}; {}", caption::contact(&setup.point, &setup.lubricant, system), export::inputs(setup)))
 }

@@ -10,10 +10,11 @@ use crate::app::tabs::Offer;
 use crate::app::tabs::transient::export::describe;
 use crate::app::tabs::transient::{Run, Setup};
 use crate::app::theme::faded;
-use crate::app::units::Scales;
+use crate::app::units::{self, Scale, Scales};
 use crate::app::{export, numbers};
 use crate::scene::study::transient::MarchedBy;
 use crate::solver::full::transient::Frame;
+use crate::solver::physics::engineering::{QuantityKind, UnitSystem};
 use egui::{Color32, ColorImage, Ui, Vec2};
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, PlotPoint, PlotPoints};
 use std::sync::Arc;
@@ -61,10 +62,10 @@ impl Field {
         }
     }
 
-    fn si(self, setup: &Setup, value: f64) -> String {
+    fn si(self, setup: &Setup, value: f64, system: UnitSystem) -> String {
         match self {
-            Self::Film => color_bar::in_nanometres(value * setup.point.film_scale_m()),
-            Self::Pressure => color_bar::in_gigapascals(value * setup.point.hertz().pressure_pa),
+            Self::Film => color_bar::short(QuantityKind::FilmThickness, value * setup.point.film_scale_m(), system),
+            Self::Pressure => color_bar::short(QuantityKind::Pressure, value * setup.point.hertz().pressure_pa, system),
         }
     }
 }
@@ -223,14 +224,15 @@ impl SpaceTime {
             });
             let colors = color_bar::strips(&color_map::table(self.field == Field::Film));
             let field = self.field;
-            let scales = Scales::of(&setup.point);
-            let (name, in_si) = match field {
-                Field::Film => ("Film {H}", (scales.film_um, "Film {h} / µm")),
-                Field::Pressure => ("Pressure {P}", (scales.pressure_gpa, "Pressure {p} / GPa")),
+            let system = units::system(ui.ctx());
+            let scales = Scales::of(&setup.point, system);
+            let (name, dimensional) = match field {
+                Field::Film => ("Film {H}", (scales.film, "Film {h}")),
+                Field::Pressure => ("Pressure {P}", (scales.pressure, "Pressure {p}")),
             };
-            color_bar::on_paper(ui, name, in_si, (&colors, self.samples.range));
+            color_bar::on_paper(ui, name, dimensional, (&colors, self.samples.range));
             if scale {
-                let si = |value| field.si(setup, value);
+                let si = |value| field.si(setup, value, system);
                 color_bar::ui(ui, field.symbol(), (&colors, self.samples.range), height, si);
             }
             clicked.inner
@@ -255,6 +257,7 @@ impl SpaceTime {
         let texture = self.texture.as_ref()?.shown(ui.ctx());
         let (end, duration) = (self.samples.end(), setup.study.duration);
         let symbol = self.field.symbol().trim_matches(['{', '}']);
+        let system = units::system(ui.ctx());
         let hover = |at: &HoverPosition<'_>| {
             let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
             let value = self.samples.value(position.x, position.y)?;
@@ -265,12 +268,12 @@ impl SpaceTime {
                 numbers::digits(position.y, 3),
                 numbers::duration(seconds),
                 numbers::significant(value),
-                self.field.si(setup, value)
+                self.field.si(setup, value, system)
             ))
         };
         let plot = axes::plot(ui, &format!("space and time {}", view.generation), height, "{X}", "{T}")
-            .si_x(Scales::of(&setup.point).length_mm, "{x} / mm")
-            .si_y(1e6 * setup.time_scale_s(), "{t} / µs")
+            .units_x(Scales::of(&setup.point, system).along, "{x}")
+            .units_y(Scale::of(QuantityKind::TransitTime, system, setup.time_scale_s()), "{t}")
             .y_axis_min_width(40.0)
             .allow_drag(false)
             .allow_zoom(false)

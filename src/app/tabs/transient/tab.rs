@@ -114,8 +114,8 @@ impl View for Transient {
 
     fn caption(&self, context: &Context<'_>) -> Option<String> {
         match self.page {
-            Page::Runs => shared::caption(context.transient),
-            Page::Amplitude => self.amplitude.caption(),
+            Page::Runs => shared::caption(context.transient, context.system),
+            Page::Amplitude => self.amplitude.caption(context.system),
         }
     }
 

@@ -52,6 +52,10 @@ pub enum Dimension {
     Stiffness,
     /// Mass in kg.
     Mass,
+    /// Thermal conductivity in W/(m K).
+    Conductivity,
+    /// Specific heat capacity in J/(kg K).
+    HeatCapacity,
     /// Dimensionless number.
     Ratio,
 }
@@ -104,9 +108,14 @@ pub enum UnitError {
 type Units = &'static [(&'static str, f64)];
 
 /// Pound-force \[N\], from the avoirdupois pound and standard gravity.
-const LBF: f64 = 4.448_221_615_260_5;
-const INCH: f64 = 0.0254;
-const PSI: f64 = LBF / (INCH * INCH);
+pub(super) const LBF: f64 = 4.448_221_615_260_5;
+pub(super) const INCH: f64 = 0.0254;
+pub(super) const PSI: f64 = LBF / (INCH * INCH);
+/// Avoirdupois pound \[kg\].
+pub(super) const POUND: f64 = LBF / 9.806_65;
+const CUBIC_FOOT: f64 = 12.0 * INCH * 12.0 * INCH * 12.0 * INCH;
+/// International table Btu \[J\].
+pub(super) const BTU: f64 = 1_055.055_852_62;
 
 const ROTATION: Units =
     &[("rpm", PI / 30.0), ("1/min", PI / 30.0), ("U/min", PI / 30.0), ("rad/s", 1.0), ("1/s", 2.0 * PI)];
@@ -134,6 +143,8 @@ impl Dimension {
             Self::Torque { .. } => "a torque",
             Self::Stiffness => "a spring rate",
             Self::Mass => "a mass",
+            Self::Conductivity => "a thermal conductivity",
+            Self::HeatCapacity => "a heat capacity",
             Self::Ratio => "a ratio",
         }
     }
@@ -158,6 +169,8 @@ impl Dimension {
             Self::Torque { .. } => "N m",
             Self::Stiffness => "N/m",
             Self::Mass => "kg",
+            Self::Conductivity => "W/(m K)",
+            Self::HeatCapacity => "J/(kg K)",
             Self::Ratio => "",
         }
     }
@@ -206,10 +219,11 @@ impl Dimension {
                 ("1/MPa", 1e-6),
                 ("mm²/N", 1e-6),
                 ("1/psi", 1.0 / PSI),
+                ("1/ksi", 1e-3 / PSI),
             ],
             Self::Temperature => &[("°C", 1.0), ("C", 1.0), ("K", 1.0), ("°F", 5.0 / 9.0), ("F", 5.0 / 9.0)],
             Self::PerKelvin => &[("1/K", 1.0), ("K-1", 1.0), ("1/°F", 1.8)],
-            Self::Density => &[("kg/m³", 1.0), ("g/cm³", 1e3), ("kg/l", 1e3)],
+            Self::Density => &[("kg/m³", 1.0), ("g/cm³", 1e3), ("kg/l", 1e3), ("lb/ft³", POUND / CUBIC_FOOT)],
             Self::Time => &[("ms", 1e-3), ("µs", 1e-6), ("s", 1.0)],
             Self::Rotation => ROTATION,
             Self::Angle => &[("°", PI / 180.0), ("deg", PI / 180.0), ("rad", 1.0), ("mrad", 1e-3)],
@@ -217,7 +231,9 @@ impl Dimension {
                 &[("N m", 1.0), ("N mm", 1e-3), ("kN m", 1e3), ("lbf in", LBF * INCH), ("lbf ft", 12.0 * LBF * INCH)]
             }
             Self::Stiffness => &[("N/mm", 1e3), ("N/m", 1.0), ("kN/m", 1e3), ("kN/mm", 1e6), ("lbf/in", LBF / INCH)],
-            Self::Mass => &[("kg", 1.0), ("g", 1e-3), ("lb", LBF / 9.806_65)],
+            Self::Mass => &[("kg", 1.0), ("g", 1e-3), ("lb", POUND)],
+            Self::Conductivity => &[("W/(m K)", 1.0), ("Btu/(h ft °F)", BTU * 1.8 / (3600.0 * 12.0 * INCH))],
+            Self::HeatCapacity => &[("J/(kg K)", 1.0), ("kJ/(kg K)", 1e3), ("Btu/(lb °F)", BTU * 1.8 / POUND)],
             Self::Ratio => &[("%", 1e-2), ("‰", 1e-3)],
         }
     }
@@ -415,6 +431,8 @@ mod tests {
             Dimension::Torque { turning: None },
             Dimension::Stiffness,
             Dimension::Mass,
+            Dimension::Conductivity,
+            Dimension::HeatCapacity,
             Dimension::Length,
             ROLLER,
             Dimension::Force,

@@ -218,7 +218,7 @@ impl View for Tpwl {
     }
 
     fn caption(&self, context: &Context<'_>) -> Option<String> {
-        shared::caption(context.transient)
+        shared::caption(context.transient, context.system)
     }
 
     fn jobs(&self, context: &Context<'_>) -> Vec<Standing> {

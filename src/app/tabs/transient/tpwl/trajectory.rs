@@ -8,8 +8,9 @@ use crate::app::tabs::transient::linearised::PointNow;
 use crate::app::tabs::transient::method::rule_name;
 use crate::app::tabs::transient::{Run, series};
 use crate::app::theme::{THIN_WIDTH, faded};
-use crate::app::units::Scales;
+use crate::app::units::{self, Scale, Scales};
 use crate::solver::full::transient::Quantity;
+use crate::solver::physics::engineering::QuantityKind;
 use crate::solver::reduced::tpwl::Selection;
 use egui::{Color32, Id, Ui, Vec2b};
 use egui_plot::{Line, MarkerShape, PlotPoint, PlotPoints, Points, VLine};
@@ -29,10 +30,12 @@ fn plot<'a>(ui: &Ui, shown: &ShownModel<'_>, id: &str, titles: (&str, &str), hei
     let plot = axes::plot(ui, &format!("{id} {generation} {quantity:?} {trajectory}"), height, titles.0, titles.1);
     let plot = match &shown.view.setup {
         Some(setup) => {
-            let (scales, plot) = (Scales::of(&setup.point), plot.si_x(1e6 * setup.time_scale_s(), "{t} / µs"));
+            let system = units::system(ui.ctx());
+            let time = Scale::of(QuantityKind::TransitTime, system, setup.time_scale_s());
+            let (scales, plot) = (Scales::of(&setup.point, system), plot.units_x(time, "{t}"));
             match quantity {
-                Quantity::CentralPressure => plot.si_y(scales.pressure_gpa, "{p_c} / GPa"),
-                _ => plot.si_y(scales.film_um, "{h_c} / µm"),
+                Quantity::CentralPressure => plot.units_y(scales.pressure, "{p_c}"),
+                _ => plot.units_y(scales.film, "{h_c}"),
             }
         }
         None => plot,
