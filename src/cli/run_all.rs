@@ -144,6 +144,7 @@ mod tests {
             resume: false,
             since: None,
             out: None,
+            animate: None,
             json: false,
         }
     }

@@ -131,7 +131,7 @@ fn the_amplitude_curve_follows_the_contact() {
     harness.run_steps(3);
     there(&mut harness);
     let second = curve(&mut harness, "second.csv");
-    assert!(second.column("wavelength")[0] < lambda[0], "the same ∇ is a shorter wave");
+    assert!(second.column("wavelength")[0] < lambda[0], "the same Ψ is a shorter wave");
     click(&mut harness, "Body 2");
     there(&mut harness);
     assert!(shows(&harness, "moves with 1.100"));

@@ -3,7 +3,7 @@
 use super::*;
 use crate::app::document::{History, Shape};
 use crate::scene::named_lubricant::by_name;
-use crate::solver::full::transient::{Frame, Unsupported};
+use crate::solver::full::transient::{Frame, Inputs, Signal, Unsupported};
 use crate::solver::physics::lubricant::ShearLaw;
 use crate::solver::training::Windows;
 

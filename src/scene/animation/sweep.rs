@@ -47,7 +47,7 @@ pub fn of_sweep(
     let label = (axis.vary.label(), matches!(axis.values, Steps::Log { .. }));
     let solved: Vec<(f64, &Solution)> =
         places.iter().filter_map(|(value, answer)| Some((*value, answer.fields()?))).collect();
-    let film = encoded(solved.len(), observer, |k| frame(&solved, k, (&label.0, label.1), dark));
+    let film = encoded(solved.len(), observer, |k| frame(&solved, k, label, dark));
     film.map_err(|why| RunError::Study(why.to_string()))
 }
 

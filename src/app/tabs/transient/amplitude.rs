@@ -23,12 +23,13 @@ use crate::solver::full::response::{check_lubricant, published_reduction, reduct
 use crate::solver::full::transient::MovingSurface;
 use crate::solver::physics::contact::ContactKind;
 use crate::solver::physics::engineering::UnitSystem;
+use crate::solver::warning::Warning;
 use egui::{Align, Layout, Ui};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, PlotPoint, PlotPoints, Points};
 
 /// Number of wavelengths.
 const WAVELENGTHS: usize = 10;
-/// Range of ∇.
+/// Range of Ψ.
 const NABLA: (f64, f64) = (1.0, 50.0);
 /// Longest wavelength in units of a, and the shortest in spacings of the grid.
 const LONGEST: f64 = 4.0;
@@ -69,12 +70,12 @@ impl Wanted {
         }
     }
 
-    /// Returns ∇ of the wavelength a.
+    /// Returns Ψ of the wavelength a.
     fn unit(&self) -> f64 {
         reduction_parameter(self.key.point.kind, self.key.point.moes(), 1.0)
     }
 
-    /// Returns wavelengths λ/a with equal ratios within the range of ∇ that the grid resolves.
+    /// Returns wavelengths λ/a with equal ratios within the range of Ψ that the grid resolves.
     fn wavelengths(&self) -> Vec<f64> {
         let (unit, shortest) = (self.unit(), SPACINGS * self.grid().1);
         let low = (NABLA.0 / unit).max(shortest).min(0.5 * LONGEST);
@@ -186,9 +187,12 @@ impl AmplitudeCurve {
         ui.horizontal(|ui| {
             ui.set_min_height(ui.spacing().interact_size.y);
             let warnings = self.computed.iter().flat_map(|(_, rows)| rows.iter().flat_map(|row| &row.warnings));
+            // The curve has no traction.
+            let of_traction = |warning: &&Warning| matches!(warning, Warning::UnphysicalExponent { .. });
+            let mut warnings = warnings.filter(|warning| !of_traction(warning));
             if let Some(message) = &self.work.message {
                 message_ui(ui, message);
-            } else if let Some(warning) = warnings.take(1).next() {
+            } else if let Some(warning) = warnings.next() {
                 warning_ui(ui, &warning.to_string());
             } else if wanted.key.point.sliding.slide_to_roll_ratio != 0.0 {
                 ui.weak("The published curve holds for pure rolling; with sliding, a second wave moves with u_m.");
@@ -210,7 +214,7 @@ impl AmplitudeCurve {
     }
 }
 
-/// Draws computed points and the published curve over ∇.
+/// Draws computed points and the published curve over Ψ.
 fn plot(ui: &mut Ui, of: &Wanted, rows: &[Row], (fit, height): (bool, f32)) {
     let palette = Palette::of(ui);
     let place = |row: &Row| Some(PlotPoint::new(row.nabla.log10(), row.responses.first()?.ratio()));
@@ -220,7 +224,7 @@ fn plot(ui: &mut Ui, of: &Wanted, rows: &[Row], (fit, height): (bool, f32)) {
         let (HoverPosition::NearDataPoint { position, .. } | HoverPosition::Elsewhere { position }) = at;
         let apart = |row: &&Row| (row.nabla.log10() - position.x).abs();
         let row = rows.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
-        let nabla = format!("∇ = {}", numbers::significant(row.nabla));
+        let nabla = format!("Ψ = {}", numbers::significant(row.nabla));
         Some(format!(
             "λ = {} ({} a)\n{nabla}\n|A_d/A_i| = {}\npublished {}",
             numbers::length(row.wavelength * half_width_m, system),
@@ -231,8 +235,8 @@ fn plot(ui: &mut Ui, of: &Wanted, rows: &[Row], (fit, height): (bool, f32)) {
     };
     let (low, high) = (NABLA.0.log10() - 0.05, NABLA.1.log10() + 0.05);
     let title = match of.key.point.kind {
-        ContactKind::Line => "∇ = (λ/{a}) {M}^(3/4)/{L}^(1/2)",
-        ContactKind::Point => "∇ = (λ/{a}) ({M}/{L})^(1/2)",
+        ContactKind::Line => "Ψ = (λ/{a}) {M}^(3/4)/{L}^(1/2)",
+        ContactKind::Point => "Ψ = (λ/{a}) ({M}/{L})^(1/2)",
     };
     let frame = axes::plot(ui, "amplitude curve", height, title, "|{A_d}/{A_i}|")
         .log_x()
@@ -261,8 +265,8 @@ const PUBLISHED: &str = "published, pure rolling";
 fn legend(ui: &mut Ui, kind: ContactKind) {
     let palette = Palette::of(ui);
     let source = match kind {
-        ContactKind::Line => "published: 1/(1 + 0.17∇ + 0.03∇²), Venner and others 1997",
-        ContactKind::Point => "published: 1/(1 + 0.15∇ + 0.015∇²), Venner and Lubrecht 2000",
+        ContactKind::Line => "published: 1/(1 + 0.17Ψ + 0.03Ψ²), Venner and others 1997",
+        ContactKind::Point => "published: 1/(1 + 0.15Ψ + 0.015Ψ²), Venner and Lubrecht 2000",
     };
     key::ui(
         ui,

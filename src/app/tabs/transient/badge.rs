@@ -43,8 +43,11 @@ fn verdict(view: &TransientRuns, thresholds: Thresholds) -> Verdict {
     let standing = view.work.standing();
     let done = standing.as_ref().map_or_else(String::new, |standing| {
         let percent = (100 * standing.done).checked_div(standing.total).unwrap_or(0);
-        let full = standing.stage.ends_with("full");
-        if full { format!("full system {percent}{}%", numbers::THIN) } else { "models are being trained".to_owned() }
+        match standing.stage.as_str() {
+            stage if stage.starts_with("full system") => format!("full system {percent}{}%", numbers::THIN),
+            "error of the time step" => format!("error of the time step {percent}{}%", numbers::THIN),
+            _ => "models are being trained".to_owned(),
+        }
     });
     if live && view.is_current() {
         let why =

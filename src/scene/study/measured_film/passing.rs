@@ -29,6 +29,9 @@ pub struct Passing {
     pub reading: f64,
 }
 
+/// Film as positions and thicknesses \[m\].
+type Film = Vec<[f64; 2]>;
+
 /// Slowest first feature in units of u_m.
 const SLOWEST: f64 = 1e-3;
 /// Number of tried positions to both sides of a film that was read off.
@@ -72,7 +75,7 @@ impl Passing {
         &self,
         study: &MeasuredFilm,
         setting: &mut Setting<'_>,
-    ) -> Result<(Vec<Vec<[f64; 2]>>, Trajectory), RunError> {
+    ) -> Result<(Vec<Film>, Trajectory), RunError> {
         let request = setting.experiment.request()?;
         let grid = setting.bench.grid(&request, setting.observer)?;
         let read = |path: &Path| read_profile(&setting.bench.resolve(path));
@@ -110,7 +113,7 @@ fn moment(film: &GivenFilm, feature: &MovingSurface, point: &OperatingPoint) -> 
 
 /// Returns position and film thickness \[m\] along Y = 0 at a time, interpolated between the steps. Empty if the march
 /// did not come so far.
-fn film_at(trajectory: &Trajectory, time: f64) -> Vec<[f64; 2]> {
+fn film_at(trajectory: &Trajectory, time: f64) -> Film {
     let next = trajectory.states.partition_point(|state| state.time < time);
     let before = trajectory.states.get(next.saturating_sub(1));
     let (Some(before), Some(after)) = (before, trajectory.states.get(next)) else { return Vec::new() };
