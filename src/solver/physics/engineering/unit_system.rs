@@ -129,6 +129,8 @@ pub enum QuantityKind {
     Length,
     /// Length of the size of a film thickness or a roughness.
     FilmThickness,
+    /// Length of the size of an oil layer in front of a starved contact.
+    OilLayer,
     Speed,
     Force,
     /// Load per length.
@@ -180,6 +182,7 @@ impl QuantityKind {
         match self {
             Self::Length => const { [METRES, &[from("mm", 1e-3, 1.0), unit("µm", 1e-6), unit("nm", 1e-9)], &[from("in", INCH, 0.001), unit("µin", 1e-6 * INCH)]] },
             Self::FilmThickness => const { [METRES, &[unit("µm", 1e-6), from("mm", 1e-3, 1.0), unit("nm", 1e-9)], &[unit("µin", 1e-6 * INCH), from("in", INCH, 0.001)]] },
+            Self::OilLayer => const { [METRES, &[unit("nm", 1e-9), unit("µm", 1e-6), from("mm", 1e-3, 1.0)], &[unit("µin", 1e-6 * INCH), from("in", INCH, 0.001)]] },
             Self::Speed => const { [METRES_PER_SECOND, METRES_PER_SECOND, &[unit("in/s", INCH)]] },
             Self::Force => const { [NEWTONS, &[unit("N", 1.0), from("kN", 1e3, 1.0), unit("mN", 1e-3)], &[unit("lbf", LBF)]] },
             Self::LineLoad => const { [&[unit("N/m", 1.0)], &[unit("N/mm", 1e3)], &[unit("lbf/in", LBF / INCH)]] },
@@ -253,7 +256,7 @@ impl QuantityKind {
     /// Returns the dimension of entries; `None` for kinds that are never entered.
     pub const fn dimension(self) -> Option<Dimension> {
         Some(match self {
-            Self::Length | Self::FilmThickness => Dimension::Length,
+            Self::Length | Self::FilmThickness | Self::OilLayer => Dimension::Length,
             Self::Speed => Dimension::Speed { radius_m: None },
             Self::Force => Dimension::Force,
             Self::LineLoad => Dimension::LineLoad,
